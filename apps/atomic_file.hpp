@@ -1,0 +1,22 @@
+// Replacing a file as a whole: whoever reads it, at any time, sees all of the old content or all of the new.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace ashlar {
+
+/// What the new content outlives. Waiting for the disk costs milliseconds for each file.
+enum class Durability {
+  process,  ///< a crashed or killed process; for the many frames of a run
+  power,    ///< a power failure too; for a checkpoint
+};
+
+/// Writes `content` to `path` + ".tmp" and renames that onto `path`. A failure leaves `path` untouched and no
+/// temporary file behind.
+/// @param path its folder must exist.
+/// @throws std::system_error (a std::runtime_error) with the path and the system's reason.
+void write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                           Durability durability);
+
+}  // namespace ashlar

@@ -1,0 +1,47 @@
+// What a user is told about bad input: every fault with its place, all of them in one run.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ashlar {
+
+/// Where a fault stands: in a file, or in an argument of the command line.
+struct Place {
+  std::string origin;  ///< the file as the user named it, or the whole argument, e.g. "--set block.B.order=0"
+  int line = 0;        ///< 1-based; 0 if the origin has no lines (an argument)
+  int column = 0;      ///< 1-based, in characters; 0 with line 0
+
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+/// "FILE:LINE:COLUMN", or only the origin if it has no lines.
+[[nodiscard]] std::string to_string(const Place& place);
+
+/// One fault. The message reads "what is wrong (value), what is allowed", without a full stop.
+struct Diagnostic {
+  Place place;
+  std::string message;
+};
+
+/// "PLACE: error: MESSAGE".
+[[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
+
+/// All faults found so far.
+class Diagnostics {
+ public:
+  void error(Place place, std::string message) { all_.push_back({std::move(place), std::move(message)}); }
+  [[nodiscard]] bool empty() const { return all_.empty(); }
+  /// In file order; faults of arguments come after those of files. Faults at one place keep the order in
+  /// which they were found, and a fault found twice is listed once.
+  [[nodiscard]] std::vector<Diagnostic> sorted() const;
+  /// One line each, sorted.
+  void print(std::ostream& stream) const;
+
+ private:
+  std::vector<Diagnostic> all_;
+};
+
+}  // namespace ashlar

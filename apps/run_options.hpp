@@ -1,0 +1,20 @@
+// What `ashlar run` is told on its command line.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ashlar {
+
+struct RunOptions {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> out;  ///< result folder; empty: the scene's name + ".out"
+  std::vector<std::string> overrides;        ///< "key.path=value" each, in order
+  bool resume = false;                       ///< go on from the checkpoint in the result folder
+  int threads = 0;                           ///< >= 1; 0: not given
+  bool quiet = false;                        ///< no progress on stderr
+};
+
+}  // namespace ashlar

@@ -1,0 +1,223 @@
+// A scene as the user wrote it, with defaults filled in: one plain struct per TOML table, one member per key
+// of the same name. SI units; angles in degrees. Nothing here knows how a block moves; the builders of the
+// model read this. "auto" is an empty optional: whoever needs the number chooses it.
+//
+// A scene that came out of load_scene (scene_loading.hpp) satisfies every range and cross-reference stated
+// here.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/scene_places.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// [analysis]
+struct SceneAnalysis {
+  enum class Type {
+    dynamic,  ///< "dynamic": motion in time
+    statics,  ///< "static": equilibrium
+  };
+  enum class Integrator {
+    dda,                   ///< "dda": Newmark beta 1/2, gamma 1
+    average_acceleration,  ///< "average-acceleration": Newmark beta 1/4, gamma 1/2
+    generalized_alpha,     ///< "generalized-alpha": spectral radius at infinity is spectral_radius
+  };
+  enum class Formulation { total, incremental };
+  enum class InitialState {
+    as_placed,    ///< "as-placed": undeformed
+    equilibrium,  ///< "equilibrium": each supported block first settles under gravity, contacts off
+  };
+  enum class Solver { automatic, cholmod, cg, dual };
+
+  Type type = Type::dynamic;
+  double end_time = 0.0;   ///< s, > 0; required
+  double time_step = 0.0;  ///< s, the largest step; > 0, <= end_time; required
+  Integrator integrator = Integrator::dda;
+  double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
+  Formulation formulation = Formulation::total;
+  InitialState initial_state = InitialState::as_placed;
+  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2
+  Solver solver = Solver::automatic;           ///< "auto"
+  double mass_damping = 0.0;                   ///< 1/s, >= 0
+};
+
+/// The law between the faces of two blocks. Strengths default to none: a joint's strength has to be stated.
+struct SceneJointLaw {
+  std::optional<double> normal_stiffness;  ///< Pa/m (area springs) or N/m (point springs), > 0; empty: auto
+  std::optional<double> shear_stiffness;   ///< as normal_stiffness
+  double friction_angle = 0.0;             ///< deg, 0 to less than 90
+  double cohesion = 0.0;                   ///< Pa, >= 0
+  double tensile_strength = 0.0;           ///< Pa, >= 0
+  bool tied = false;                       ///< bonded over the common face; a key of [[joint]] only
+};
+
+/// [contact]
+struct SceneContact {
+  enum class Springs { area, point };
+  enum class Surface { curved, flat };
+
+  Springs springs = Springs::area;
+  Surface surface = Surface::curved;
+  SceneJointLaw law;                      ///< keys of the same names, for every pair without a [[joint]]
+  std::optional<double> distance;         ///< m, > 0; empty: auto
+  std::optional<double> angle;            ///< deg, 0 to 45; empty: auto
+  std::optional<double> chord_tolerance;  ///< m, > 0; empty: auto, or subdivisions
+  std::optional<int> subdivisions;        ///< uniform levels, 0 to 8; excludes chord_tolerance
+  bool augmented = false;                 ///< Uzawa updates down to penetration_tolerance
+  std::optional<double> penetration_tolerance;  ///< m, > 0; empty: auto
+};
+
+/// [[joint]]: what differs from [contact] between two blocks; the last entry that matches a pair wins, key by
+/// key.
+struct SceneJoint {
+  std::array<std::string, 2> blocks;  ///< names or globs (* ? [...]), in any order; match at least one pair
+  /// An outer empty optional: not given here. An inner empty one: given as "auto".
+  std::optional<std::optional<double>> normal_stiffness;
+  std::optional<std::optional<double>> shear_stiffness;
+  std::optional<double> friction_angle;
+  std::optional<double> cohesion;
+  std::optional<double> tensile_strength;
+  std::optional<bool> tied;
+};
+
+/// [[material]]
+struct SceneMaterial {
+  enum class Elasticity { linear, st_venant_kirchhoff };
+
+  std::string name;            ///< unique; required
+  double density = 0.0;        ///< kg/m^3, > 0; required
+  double young_modulus = 0.0;  ///< Pa, > 0; required
+  double poisson_ratio = 0.0;  ///< 0 to less than 0.5; required
+  Elasticity elasticity = Elasticity::linear;
+};
+
+/// box = { min, max }
+struct SceneBox {
+  Vector3 min;  ///< m, less than max in every component
+  Vector3 max;  ///< m
+};
+
+/// mesh = { file, scale }
+struct SceneMesh {
+  std::filesystem::path file;  ///< as written; relative paths are relative to the scene file's folder
+  double scale = 1.0;          ///< > 0
+};
+
+/// hull = { points }
+struct SceneHull {
+  std::vector<Vector3> points;  ///< m, at least 4, not coplanar
+};
+
+/// sphere = { center, radius, subdivisions }
+struct SceneSphere {
+  Vector3 center = Vector3::Zero();  ///< m
+  double radius = 0.0;               ///< m, > 0; required
+  int subdivisions = 3;              ///< 0 to 7
+};
+
+using SceneShape = std::variant<SceneBox, SceneMesh, SceneHull, SceneSphere>;
+
+/// rotate = { axis, angle, about }
+struct SceneRotation {
+  Vector3 axis = Vector3::UnitZ();  ///< not zero, any length
+  double angle = 0.0;               ///< deg, right-handed about axis
+  Vector3 about = Vector3::Zero();  ///< m
+};
+
+/// A plane in placed coordinates. It names the faces of the block that lie in it, whichever side they face.
+struct ScenePlane {
+  Vector3 point;   ///< m
+  Vector3 normal;  ///< not zero, any length
+};
+
+/// [[block.fix]]: clamped faces or a fixed point.
+struct SceneFix {
+  struct Motion {
+    double time;           ///< s
+    Vector3 displacement;  ///< m
+  };
+  std::variant<ScenePlane, Vector3>
+      where;  ///< a plane with at least one face, or a point, m, placed coordinates
+  std::array<bool, 3> components = {true, true, true};  ///< x, y, z held
+  std::vector<Motion> displacement_history;             ///< times increase; empty: the support stands still
+};
+
+/// [[block.load]]: traction on faces, or a force on faces or at a point.
+struct SceneLoad {
+  struct Factor {
+    double time;  ///< s
+    double factor;
+  };
+  enum class Kind {
+    traction,  ///< Pa, on the plane's faces
+    force,     ///< N, spread evenly over the plane's faces, or at the point
+  };
+  std::variant<ScenePlane, Vector3> where;  ///< as SceneFix::where; a traction needs a plane
+  Kind kind = Kind::traction;
+  Vector3 vector = Vector3::Zero();  ///< Pa or N
+  std::vector<Factor> history;       ///< times increase; empty: factor 1 always
+};
+
+/// [[block]]
+struct SceneBlock {
+  std::string name;      ///< unique; required
+  std::string material;  ///< name of a [[material]]; only a fixed block may leave it out (empty)
+  int order = 1;         ///< 1 to 12
+  SceneShape shape;      ///< exactly one of box, mesh, hull, sphere
+  std::optional<SceneRotation> rotate;
+  Vector3 translate = Vector3::Zero();         ///< m, after rotate
+  Vector3 velocity = Vector3::Zero();          ///< m/s
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
+  bool fixed = false;                          ///< the whole block never moves; then no fix, load or velocity
+  std::vector<SceneFix> fix;
+  std::vector<SceneLoad> load;
+};
+
+/// [[measure]]: a material point whose motion is written to the history.
+struct SceneMeasure {
+  std::string name;   ///< unique; required; a column name: no comma, quote or line break
+  std::string block;  ///< name of a [[block]]
+  Vector3 point;      ///< m, in the placed, undeformed block
+};
+
+/// [output]
+struct SceneOutput {
+  struct Fields {
+    bool displacement = true;
+    bool velocity = true;
+    bool stress = true;
+  };
+  std::optional<int> every;        ///< steps between frames, >= 1; exactly one of every and interval is set
+  std::optional<double> interval;  ///< s between frames, > 0
+  Fields fields;                   ///< by name in the array `fields`
+};
+
+/// The whole scene.
+struct Scene {
+  std::filesystem::path file;  ///< as the user named it; paths in the scene are relative to its folder
+  std::string title;
+  SceneAnalysis analysis;
+  SceneContact contact;
+  std::vector<SceneJoint> joint;        ///< in file order
+  std::vector<SceneMaterial> material;  ///< in file order
+  std::vector<SceneBlock> block;        ///< in file order; at least one
+  std::vector<SceneMeasure> measure;    ///< in file order
+  SceneOutput output;
+  ScenePlaces places;  ///< of every key that was given
+};
+
+/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair.
+[[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
+                                              const std::string& block_b);
+
+/// The material called so, or null.
+[[nodiscard]] const SceneMaterial* find_material(const Scene& scene, const std::string& name);
+
+}  // namespace ashlar

@@ -1,0 +1,27 @@
+// From a scene file and its overrides to a checked scene with its solids: what `run` and `check` start from.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/diagnostics.hpp"
+#include "apps/scene.hpp"
+#include "geometry/polyhedron.hpp"
+
+namespace ashlar {
+
+struct LoadedScene {
+  Scene scene;
+  std::vector<Polyhedron> solids;  ///< one per scene.block, placed
+};
+
+/// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp.
+/// @param overrides "key.path=value" each, as given to --set, applied in order.
+/// @return nothing if the scene has any fault; all of them are then in diagnostics. Writes no file.
+[[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
+                                                    const std::vector<std::string>& overrides,
+                                                    Diagnostics& diagnostics);
+
+}  // namespace ashlar

@@ -1,0 +1,54 @@
+// Frames for ParaView: an unstructured grid with data on its points and cells as a VTK XML file (.vtu),
+// little-endian, zlib-compressed, binary data appended raw as ParaView itself writes it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Cells with VTK's numbers for them.
+enum class VtkCellType : std::uint8_t {
+  vertex = 1,    ///< one point
+  line = 3,      ///< two points
+  triangle = 5,  ///< three points
+  polygon = 7,   ///< three or more points, planar, in order around the boundary
+};
+
+/// One field. ParaView shows 3 components as a vector and 9 (row by row) as a tensor; it takes 6 as a
+/// symmetric tensor in the order xx, yy, zz, xy, yz, xz.
+struct DataArray {
+  std::string name;
+  int components = 1;                        ///< values of each point or cell, at least 1
+  std::vector<std::string> component_names;  ///< none, or one for each component
+  std::variant<std::vector<double>, std::vector<std::int32_t>>
+      values;  ///< (#points or #cells x components), point after point
+};
+
+/// What one file holds. Empty grids are valid: a frame without contacts has no points.
+struct UnstructuredGrid {
+  std::vector<Vector3> points;     ///< (#points), m
+  std::vector<int> connectivity;   ///< point indices, cell after cell
+  std::vector<int> offsets;        ///< (#cells), where in `connectivity` each cell ends
+  std::vector<VtkCellType> types;  ///< (#cells)
+  std::vector<DataArray> point_data;
+  std::vector<DataArray> cell_data;
+
+  void add_cell(VtkCellType type, std::span<const int> cell_points);
+};
+
+/// @return the bytes of the .vtu file.
+/// @throws std::invalid_argument if a size, an offset or an index does not fit, or two arrays of the points
+/// (or of the cells) share a name.
+[[nodiscard]] std::string to_vtu(const UnstructuredGrid& grid);
+
+/// Writes to_vtu(grid) atomically. @throws as to_vtu, or std::runtime_error with path and reason.
+void write_vtu(const std::filesystem::path& path, const UnstructuredGrid& grid);
+
+}  // namespace ashlar
