@@ -1,0 +1,77 @@
+// The polynomial basis of a block (theory.md section 2): complete of order n, orthonormal on the block's own
+// volume and graded, so that the first 4, 10, 20, ... functions span the orders 1, 2, 3, ...
+//
+//   seed_k(X) = L_a(xi) L_b(eta) L_c(zeta)  Legendre polynomials, (xi, eta, zeta) = (X - center) / half_size,
+//   G = integral of seed seed' dV = L L'    exact moments, Cholesky factor in 50-digit arithmetic,
+//   phi = inverse(L) seed                   so that  integral of phi phi' dV = I.
+//
+// Derivatives of phi are polynomials of the same space, so they are matrices: d phi / dX_i = D_i phi, and
+// every integral of products of phi and its derivatives is a product of those matrices.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+
+#include "geometry/polyhedron.hpp"
+#include "mechanics/multi_index.hpp"
+
+namespace ashlar {
+
+/// Constant after construction.
+class PolynomialBasis {
+ public:
+  static constexpr int max_order = 12;
+
+  /// @param solid reference shape, m
+  /// @param order 0 to max_order
+  /// @throws std::invalid_argument if the order is out of range
+  /// @throws std::domain_error if the shape is too thin for this order in 50-digit arithmetic
+  PolynomialBasis(const Polyhedron& solid, int order);
+
+  [[nodiscard]] int order() const { return order_; }
+  /// p, the number of functions.
+  [[nodiscard]] int size() const { return polynomial_count(order_); }
+  [[nodiscard]] double volume() const { return volume_; }
+  /// Centroid of the block, m.
+  [[nodiscard]] const Vector3& centroid() const { return centroid_; }
+  /// Integral of (X - centroid)(X - centroid)' dV, m^5.
+  [[nodiscard]] const Eigen::Matrix3d& second_moment() const { return second_moment_; }
+
+  /// phi at a material point. @param point reference coordinates, m (any point, not only inside). @return
+  /// (p), m^-3/2
+  [[nodiscard]] Eigen::VectorXd values(const Vector3& point) const;
+
+  /// phi at many points. @return (#points, p), m^-3/2
+  [[nodiscard]] Eigen::MatrixXd values(const std::vector<Vector3>& points) const;
+
+  /// Gradients of phi at a material point. @return (p, 3), m^-5/2
+  [[nodiscard]] Eigen::MatrixX3d gradients(const Vector3& point) const;
+
+  /// D_i with d phi / dX_i = D_i phi. @param axis 0 to 2. @return (p, p), strictly block lower triangular,
+  /// 1/m
+  [[nodiscard]] const Eigen::MatrixXd& derivative(int axis) const {
+    return derivatives_[static_cast<std::size_t>(axis)];
+  }
+
+  /// Coefficients of the map X -> X (the undeformed block). @return (p, 3), m^5/2; zero beyond order 1
+  [[nodiscard]] const Eigen::MatrixX3d& identity_map() const { return identity_map_; }
+
+  /// Coefficients c of the field  X -> value + gradient (X - centroid).
+  /// @param value (3), @param gradient (3, 3). @return (p, 3). An order 0 basis keeps the mean only.
+  [[nodiscard]] Eigen::MatrixX3d linear_field(const Vector3& value, const Eigen::Matrix3d& gradient) const;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd seeds(const Vector3& point) const;
+
+  int order_;
+  double volume_ = 0.0;
+  Vector3 centroid_;
+  Eigen::Matrix3d second_moment_;
+  Vector3 center_;              ///< of the bounding box, m
+  Vector3 half_size_;           ///< of the bounding box, m
+  Eigen::MatrixXd from_seeds_;  ///< inverse(L), (p, p) lower triangular
+  std::array<Eigen::MatrixXd, 3> derivatives_;
+  Eigen::MatrixX3d identity_map_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,20 @@
+// What a block is made of.
+#pragma once
+
+namespace ashlar {
+
+/// Isotropic elastic rock. Valid: density > 0, young_modulus > 0, 0 <= poisson_ratio < 0.5.
+struct Material {
+  double density = 0.0;        ///< kg/m^3
+  double young_modulus = 0.0;  ///< Pa
+  double poisson_ratio = 0.0;  ///< 1
+
+  /// First Lame constant, Pa.
+  [[nodiscard]] double lame_lambda() const {
+    return young_modulus * poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio));
+  }
+  /// Second Lame constant (shear modulus), Pa.
+  [[nodiscard]] double lame_mu() const { return young_modulus / (2.0 * (1.0 + poisson_ratio)); }
+};
+
+}  // namespace ashlar

@@ -1,0 +1,50 @@
+// Quadrature on segments, triangles and convex polygons.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Points in [0, 1] with positive weights.
+struct SegmentRule {
+  std::vector<double> points;
+  std::vector<double> weights;
+};
+
+/// Gauss-Legendre on [0, 1], weights of sum 1, exact to degree 2 count - 1. @param count 1 to 64
+[[nodiscard]] SegmentRule gauss_legendre(int count);
+
+/// Gauss-Lobatto on [0, 1] (both ends included), weights of sum 1, exact to degree 2 count - 3. @param count
+/// 2 to 64
+[[nodiscard]] SegmentRule gauss_lobatto(int count);
+
+/// Integrates f(u) (1 - u) over [0, 1] with u = 0 included (Gauss-Radau for the Jacobi weight), weights of
+/// sum 1/2, exact to degree 2 count - 2. @param count 1 to 64
+[[nodiscard]] SegmentRule radau_for_triangles(int count);
+
+/// Points of a convex polygon in the plane with weights that sum to its area.
+struct PolygonRule {
+  std::vector<Eigen::Vector2d> points;
+  std::vector<double> weights;  ///< positive
+};
+
+/// A rule for a convex polygon that has points on the outline, its corners among them: a contact that tilts
+/// onto one edge or corner is felt at once. The polygon is cut into triangles from its centroid; each is
+/// mapped from a square with Lobatto points along the outline and Radau points towards the centroid; points
+/// on shared cuts are joined.
+/// @param polygon (#corners >= 3, 2), counter-clockwise, convex; area 0 gives an empty rule
+/// @param degree polynomials integrated exactly, 1 to 60
+[[nodiscard]] PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree);
+
+/// Barycentric points of a triangle with weights of sum 1, exact to a degree (collapsed Gauss-Legendre,
+/// interior).
+struct TriangleRule {
+  std::vector<Vector3> barycentric;
+  std::vector<double> weights;
+};
+[[nodiscard]] TriangleRule triangle_rule(int degree);
+
+}  // namespace ashlar

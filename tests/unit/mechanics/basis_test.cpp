@@ -1,0 +1,84 @@
+#include "mechanics/basis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/shapes.hpp"
+#include "mechanics/moments.hpp"
+#include "support/sample_solids.hpp"
+
+namespace ashlar {
+namespace {
+
+// Every integral of phi phi' is a combination of moments; the exact moments give it without any quadrature.
+double orthonormality_error(const Polyhedron& solid, int order) {
+  const PolynomialBasis basis(solid, order);
+  const auto rule = test_support::volume_rule(solid, 2 * order);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(basis.size(), basis.size());
+  for (const auto& [point, weight] : rule) {
+    const Eigen::VectorXd phi = basis.values(point);
+    gram += weight * phi * phi.transpose();
+  }
+  return (gram - Eigen::MatrixXd::Identity(basis.size(), basis.size())).norm();
+}
+
+TEST(Basis, IsOrthonormalOnConvexAndNonConvexSolids) {
+  for (const auto& [name, solid] : test_support::sample_solids()) {
+    for (const int order : {1, 2, 3, 5, 8})
+      EXPECT_LT(orthonormality_error(solid, order), 1e-11) << name << order;
+  }
+}
+
+TEST(Basis, IsGraded) {
+  const Polyhedron solid = test_support::l_shaped_prism();
+  const PolynomialBasis low(solid, 2);
+  const PolynomialBasis high(solid, 5);
+  const Vector3 point(0.3, 0.7, 0.2);
+  EXPECT_LT((high.values(point).head(low.size()) - low.values(point)).norm(),
+            1e-13 * low.values(point).norm());
+}
+
+TEST(Basis, ReproducesPositionsAndLinearFields) {
+  for (const auto& [name, solid] : test_support::sample_solids()) {
+    const PolynomialBasis basis(solid, 4);
+    const Vector3 point = solid.mesh().points[2];
+    const double size = point.norm() + 1.0;
+    EXPECT_LT((basis.identity_map().transpose() * basis.values(point) - point).norm(), 1e-13 * size) << name;
+    const Eigen::Matrix3d gradient = (Eigen::Matrix3d() << 1, 2, 3, -4, 5, 6, 7, -8, 9).finished();
+    const Vector3 value(0.5, -0.25, 2.0);
+    const Vector3 expected = value + gradient * (point - basis.centroid());
+    EXPECT_LT((basis.linear_field(value, gradient).transpose() * basis.values(point) - expected).norm(),
+              1e-12 * (expected.norm() + gradient.norm() * size))
+        << name;
+  }
+}
+
+TEST(Basis, GradientsAreDerivativesOfValues) {
+  const PolynomialBasis basis(test_support::l_shaped_prism(), 6);
+  const Vector3 point(0.4, 0.2, 0.6);
+  const Eigen::MatrixX3d gradient = basis.gradients(point);
+  const double h = 1e-5;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 step = h * Vector3::Unit(axis);
+    const Eigen::VectorXd difference = (basis.values(point + step) - basis.values(point - step)) / (2 * h);
+    EXPECT_LT((difference - gradient.col(axis)).norm(), 1e-6 * gradient.norm());
+  }
+}
+
+TEST(Basis, VolumeCentroidAndSecondMomentOfABoxFarAway) {
+  const PolynomialBasis basis(Polyhedron(make_box({100, 200, 300}, {102, 206, 301})), 1);
+  EXPECT_NEAR(basis.volume(), 12.0, 1e-13);
+  EXPECT_LT((basis.centroid() - Vector3(101, 203, 300.5)).norm(), 1e-12);
+  // V a^2 / 12 for sides 2, 6, 1.
+  EXPECT_LT((basis.second_moment() - Eigen::Matrix3d(Vector3(4.0, 36.0, 1.0).asDiagonal())).norm(), 1e-12);
+}
+
+TEST(Basis, RefusesOrdersOutOfRange) {
+  const Polyhedron cube(make_box({0, 0, 0}, {1, 1, 1}));
+  EXPECT_THROW(PolynomialBasis(cube, -1), std::invalid_argument);
+  EXPECT_THROW(PolynomialBasis(cube, 13), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ashlar

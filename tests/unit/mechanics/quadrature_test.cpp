@@ -1,0 +1,93 @@
+#include "mechanics/quadrature.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ashlar {
+namespace {
+
+double integrate(const SegmentRule& rule, int power) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rule.points.size(); ++k)
+    sum += rule.weights[k] * std::pow(rule.points[k], power);
+  return sum;
+}
+
+TEST(Quadrature, SegmentRulesAreExactToTheirDegree) {
+  for (int count = 1; count <= 10; ++count) {
+    for (int k = 0; k <= 2 * count - 1; ++k)
+      EXPECT_NEAR(integrate(gauss_legendre(count), k), 1.0 / (k + 1), 1e-14);
+    for (int k = 0; k <= 2 * count - 2; ++k) {
+      EXPECT_NEAR(integrate(radau_for_triangles(count), k), 1.0 / ((k + 1) * (k + 2)), 1e-14)
+          << count << ' ' << k;
+    }
+    EXPECT_EQ(radau_for_triangles(count).points.front(), 0.0);
+    if (count < 2) continue;
+    const SegmentRule lobatto = gauss_lobatto(count);
+    for (int k = 0; k <= 2 * count - 3; ++k) EXPECT_NEAR(integrate(lobatto, k), 1.0 / (k + 1), 1e-14);
+    EXPECT_EQ(lobatto.points.front(), 0.0);
+    EXPECT_EQ(lobatto.points.back(), 1.0);
+  }
+}
+
+TEST(Quadrature, SimpsonIsTheThreePointLobattoRule) {
+  const SegmentRule rule = gauss_lobatto(3);
+  EXPECT_NEAR(rule.weights[0], 1.0 / 6.0, 1e-15);
+  EXPECT_NEAR(rule.weights[1], 4.0 / 6.0, 1e-15);
+  EXPECT_NEAR(rule.points[1], 0.5, 1e-15);
+}
+
+// Over [0,2]x[0,1] with the corner (2,1) cut off from (2,0.5) to (1,1): the square's integral less the
+// triangle's.
+double pentagon_integral(int a, int b) {
+  double triangle = 0.0;  // (1,1) + s (1,0) over 0 <= s <= 1, below it from 1 - s/2 to 1
+  const SegmentRule line = gauss_legendre(20);
+  for (std::size_t k = 0; k < line.points.size(); ++k) {
+    const double s = line.points[k];
+    triangle += line.weights[k] * std::pow(1 + s, a) * (1.0 - std::pow(1.0 - 0.5 * s, b + 1)) / (b + 1);
+  }
+  return std::pow(2.0, a + 1) / (a + 1) / (b + 1) - triangle;
+}
+
+TEST(Quadrature, PolygonRuleIsExactPositiveAndHoldsTheCorners) {
+  const std::vector<Eigen::Vector2d> pentagon = {{0, 0}, {2, 0}, {2, 0.5}, {1, 1}, {0, 1}};
+  for (int degree = 1; degree <= 9; ++degree) {
+    const PolygonRule rule = polygon_rule(pentagon, degree);
+    for (int a = 0; a <= degree; ++a) {
+      for (int b = 0; a + b <= degree; ++b) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < rule.points.size(); ++k) {
+          sum += rule.weights[k] * std::pow(rule.points[k].x(), a) * std::pow(rule.points[k].y(), b);
+        }
+        EXPECT_NEAR(sum, pentagon_integral(a, b), 1e-12 * std::pow(2.0, a)) << degree << a << b;
+      }
+    }
+    for (const double weight : rule.weights) EXPECT_GT(weight, 0.0);
+    for (const auto& corner : pentagon) {
+      const bool found = std::any_of(rule.points.begin(), rule.points.end(),
+                                     [&](const Eigen::Vector2d& p) { return (p - corner).norm() < 1e-15; });
+      EXPECT_TRUE(found);
+    }
+  }
+  EXPECT_TRUE(polygon_rule({{0, 0}, {1, 0}, {2, 0}}, 2).points.empty());
+}
+
+TEST(Quadrature, TriangleRuleIsExact) {
+  const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
+  for (int degree = 0; degree <= 12; ++degree) {
+    const TriangleRule rule = triangle_rule(degree);
+    for (int a = 0; a <= degree; ++a) {
+      for (int b = 0; a + b <= degree; ++b) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < rule.weights.size(); ++k) {
+          sum += rule.weights[k] * std::pow(rule.barycentric[k][0], a) * std::pow(rule.barycentric[k][1], b);
+        }
+        EXPECT_NEAR(sum, 2.0 * factorial(a) * factorial(b) / factorial(a + b + 2), 1e-14);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ashlar
