@@ -5,19 +5,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "apps/output_file.hpp"
 
 namespace ashlar {
-
-/// Shortest decimal text that reads back as the same double; whole numbers below 1e15 without exponent,
-/// "nan" and "inf" for what is not finite.
-void append_number(std::string& text, double value);
-
-/// RFC 4180: a field with a comma, a quote or a line break is quoted.
-[[nodiscard]] std::string quote_csv(std::string_view field);
 
 /// Writes a comma-separated table whose first column is the step, increasing from row to row. Every row is
 /// handed to the system as a whole before append() returns, so an interrupted, failed or killed run keeps all

@@ -1,0 +1,47 @@
+#include "apps/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "apps/output_file.hpp"
+
+namespace ashlar {
+namespace {
+
+// The new name is an entry of the folder, and the folder reaches the disk on its own schedule.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  // Some file systems cannot sync a folder and say so with EINVAL; there is nothing more to do on them.
+  if (!synced && reason != EINVAL) {
+    throw std::system_error(reason, std::generic_category(), "cannot write folder " + folder.string());
+  }
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                           Durability durability) {
+  std::filesystem::path temporary = path;
+  temporary += ".tmp";
+  try {
+    OutputFile file(temporary, OutputFile::Start::empty);
+    file.write(content);
+    if (durability == Durability::power) file.sync();
+    file.close();
+    std::filesystem::rename(temporary, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+  if (durability == Durability::power) sync_folder(path.parent_path());
+}
+
+}  // namespace ashlar

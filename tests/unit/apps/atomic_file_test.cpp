@@ -1,0 +1,58 @@
+#include "apps/atomic_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace ashlar {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class AtomicFile : public testing::TestWithParam<Durability> {};
+
+TEST_P(AtomicFile, ReplacesTheContentAndLeavesNothingElse) {
+  const TemporaryFolder folder;
+  const std::string binary("a\0b\r\n", 5);
+  write_file_atomically(folder / "a", "first, longer than the second", GetParam());
+  write_file_atomically(folder / "a", binary, GetParam());
+  EXPECT_EQ(read_text(folder / "a"), binary);
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+TEST_P(AtomicFile, ReplacesTheRemainsOfAKilledRun) {
+  const TemporaryFolder folder;
+  write_text(folder / "a.tmp", "half of the conte");
+  write_file_atomically(folder / "a", "new", GetParam());
+  EXPECT_EQ(read_text(folder / "a"), "new");
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+// Readers that opened the old file go on reading it: the new one is another file, not the same overwritten.
+TEST_P(AtomicFile, DoesNotTouchTheOldFile) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a", "old content", GetParam());
+  std::filesystem::create_hard_link(folder / "a", folder / "reader");
+  write_file_atomically(folder / "a", "new", GetParam());
+  EXPECT_EQ(read_text(folder / "reader"), "old content");
+}
+
+TEST_P(AtomicFile, FailsWithoutATrace) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "taken");
+  EXPECT_THAT([&] { write_file_atomically(folder / "taken", "x", GetParam()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr((folder / "taken").string())));
+  EXPECT_EQ(folder.entry_count(), 1U);
+  EXPECT_THAT([&] { write_file_atomically(folder / "none/a", "x", GetParam()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("No such file or directory")));
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AtomicFile, testing::Values(Durability::process, Durability::power));
+
+}  // namespace
+}  // namespace ashlar

@@ -1,0 +1,89 @@
+// Writes the files that read_samples.py reads back; the numbers follow from formulas that both know.
+// Use: write_samples FOLDER
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <vector>
+
+#include "apps/pvd_writer.hpp"
+#include "apps/vtu_writer.hpp"
+
+namespace ashlar {
+namespace {
+
+// Two triangles, a pentagon and a lone point on eight points; every kind of array.
+UnstructuredGrid mixed_grid() {
+  UnstructuredGrid grid;
+  for (int i = 0; i < 8; ++i) grid.points.emplace_back(i + 0.1, -2.0 * i, i / 3.0);
+  grid.add_cell(VtkCellType::triangle, std::array{0, 1, 2});
+  grid.add_cell(VtkCellType::triangle, std::array{2, 1, 3});
+  grid.add_cell(VtkCellType::polygon, std::array{1, 3, 4, 5, 6});
+  grid.add_cell(VtkCellType::vertex, std::array{7});
+
+  std::vector<double> vectors;
+  std::vector<double> tensors;
+  std::vector<double> full_tensors;
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 3; ++k) vectors.push_back(std::sqrt(i + 10.0 * k));
+    for (int k = 0; k < 6; ++k) tensors.push_back(1e6 * i - k / 7.0);
+    for (int k = 0; k < 9; ++k) full_tensors.push_back(100.0 * i + k);
+  }
+  grid.point_data.push_back({"displacement", 3, {"x", "y", "z"}, vectors});
+  grid.point_data.push_back({"stress", 6, {"xx", "yy", "zz", "xy", "yz", "xz"}, tensors});
+  grid.point_data.push_back({"gradient", 9, {}, full_tensors});
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  grid.cell_data.push_back({"a < b & \"c\"", 1, {}, std::vector<double>{-0.0, tiny, infinity, 0.1 + 0.2}});
+  grid.cell_data.push_back({"block", 1, {}, std::vector<std::int32_t>{-1, 0, 2147483647, -2147483647 - 1}});
+  return grid;
+}
+
+// Arrays of several compressed blocks (32768 bytes each): 4096 tuples fill blocks exactly, one more does not.
+UnstructuredGrid many_points(int count) {
+  UnstructuredGrid grid;
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) {
+    grid.points.emplace_back(i, std::sin(i), 1.0 / (i + 1));
+    grid.add_cell(VtkCellType::vertex, std::array{i});
+    values.push_back(std::sqrt(i));
+  }
+  grid.point_data.push_back({"value", 1, {}, values});
+  return grid;
+}
+
+UnstructuredGrid empty_grid() {
+  UnstructuredGrid grid;
+  grid.point_data.push_back({"force", 3, {}, std::vector<double>{}});
+  grid.cell_data.push_back({"state", 1, {}, std::vector<std::int32_t>{}});
+  return grid;
+}
+
+void write_samples(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "frames");
+  write_vtu(folder / "frames/mixed.vtu", mixed_grid());
+  write_vtu(folder / "frames/empty.vtu", empty_grid());
+  write_vtu(folder / "frames/points_4096.vtu", many_points(4096));
+  write_vtu(folder / "frames/points_4097.vtu", many_points(4097));
+  PvdWriter series(folder / "samples.pvd");
+  series.add_frame(0.0, "frames/empty.vtu");
+  series.add_frame(0.1 + 0.2, "frames/mixed.vtu");
+}
+
+}  // namespace
+}  // namespace ashlar
+
+int main(int argument_count, char** arguments) {
+  if (argument_count != 2) {
+    std::cerr << "use: write_samples FOLDER\n";
+    return 2;
+  }
+  try {
+    ashlar::write_samples(arguments[1]);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
