@@ -1,0 +1,86 @@
+#include "geometry/exact_surface.hpp"
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Mpzf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ashlar {
+namespace {
+
+// Integer times a power of two: sums and products of doubles without rounding and without overflow.
+using Exact = CGAL::Mpzf;
+using ExactVector = std::array<Exact, 3>;
+
+ExactVector exact(const Vector3& p) {
+  return {Exact(p.x()), Exact(p.y()), Exact(p.z())};
+}
+
+ExactVector operator-(const ExactVector& a, const ExactVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+ExactVector cross(const ExactVector& a, const ExactVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// GMP truncates, so the exact value lies between the truncated double and its neighbour away from zero.
+double round_to_nearest(const CGAL::Gmpq& value) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double inner = mpq_get_d(value.mpq());
+  if (!std::isfinite(inner)) return value > 0 ? infinity : -infinity;
+  const CGAL::Gmpq twice_remainder = 2 * (value - CGAL::Gmpq(inner));
+  if (twice_remainder == 0) return inner;
+  const double outer = std::nextafter(inner, value > 0 ? infinity : -infinity);
+  if (!std::isfinite(outer)) return outer;
+  const CGAL::Gmpq gap = CGAL::Gmpq(outer) - CGAL::Gmpq(inner);
+  const int order = CGAL::compare(CGAL::abs(twice_remainder), CGAL::abs(gap));
+  if (order != 0) return order < 0 ? inner : outer;
+  const bool inner_is_even = std::fmod(std::abs(inner) / std::abs(outer - inner), 2.0) == 0.0;
+  return inner_is_even ? inner : outer;
+}
+
+// Squaring stays in range for components between these bounds.
+Vector3 round_direction(ExactVector v) {
+  constexpr int half_range = std::numeric_limits<double>::max_exponent / 2 - 1;
+  const double upper = std::ldexp(1.0, half_range);
+  const double lower = std::ldexp(1.0, -half_range);
+  for (;;) {
+    const Vector3 rounded(v[0].to_double(), v[1].to_double(), v[2].to_double());
+    const double largest = rounded.cwiseAbs().maxCoeff();
+    if (largest >= lower && largest <= upper) {
+      // One component of exactly 1 keeps axis-parallel normals exact; adding zero turns -0 into 0.
+      return (rounded / largest).normalized() + Vector3::Zero();
+    }
+    if (std::all_of(v.begin(), v.end(), [](const Exact& x) { return x.sign() == 0; })) return Vector3::Zero();
+    const Exact factor(largest > upper ? lower : upper);
+    for (Exact& x : v) x = x * factor;
+  }
+}
+
+}  // namespace
+
+double signed_volume(const TriangleMesh& mesh) {
+  Exact sum(0);
+  for (const auto& t : mesh.triangles) {
+    const ExactVector a = exact(mesh.points[t[0]]);
+    const ExactVector n = cross(exact(mesh.points[t[1]]), exact(mesh.points[t[2]]));
+    sum = sum + (a[0] * n[0] + a[1] * n[1] + a[2] * n[2]);
+  }
+  return round_to_nearest(CGAL::Gmpq(sum) / 6);
+}
+
+Vector3 area_direction(const TriangleMesh& mesh, std::span<const int> triangles) {
+  ExactVector sum{Exact(0), Exact(0), Exact(0)};
+  for (const int t : triangles) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const ExactVector a = exact(mesh.points[i]);
+    const ExactVector n = cross(exact(mesh.points[j]) - a, exact(mesh.points[k]) - a);
+    for (int d = 0; d < 3; ++d) sum[d] = sum[d] + n[d];
+  }
+  return round_direction(std::move(sum));
+}
+
+}  // namespace ashlar

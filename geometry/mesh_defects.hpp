@@ -1,0 +1,69 @@
+// What is wrong with a triangle mesh that should bound a solid. Everything is decided exactly on the given
+// doubles; no tolerance exists, so a mesh is either sound or refused with the elements that spoil it.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Why a mesh does not bound a solid.
+enum class MeshDefectKind {
+  empty,                ///< no points or no triangles
+  non_finite_point,     ///< a coordinate is NaN or infinite
+  index_out_of_range,   ///< a triangle names a point that does not exist
+  degenerate_triangle,  ///< zero area: repeated index, repeated point or collinear points
+  open_edge,            ///< an edge has one triangle only
+  non_manifold_edge,    ///< an edge has more than two triangles
+  inconsistent_edge,    ///< two neighbours run along their edge in the same direction (one is flipped)
+  non_manifold_vertex,  ///< the triangles around a point form more than one fan
+  fused_vertices,       ///< two different points have equal coordinates
+  unused_vertex,        ///< a point belongs to no triangle
+  self_intersection,    ///< two triangles meet elsewhere than in their common edge or point
+  several_components,   ///< more than one closed surface, inner shells included
+  inside_out,           ///< closed and consistent, but the volume is negative
+  zero_volume,          ///< closed and consistent, but the volume is zero (or rounds to it)
+  volume_overflow,      ///< closed and consistent, but the volume exceeds the largest double
+};
+
+/// The field's word for a defect, as printed to users ("open edge", ...).
+[[nodiscard]] std::string to_string(MeshDefectKind kind);
+
+/// One defect with the element it was found at.
+struct MeshDefect {
+  MeshDefectKind kind;
+  std::string element;  ///< e.g. "edge 3-7 of triangle 12", in the numbering of the given mesh, from 0
+};
+
+/// Thrown when a mesh does not bound a solid; what() names the first defect and the number of others.
+class MeshError : public std::runtime_error {
+ public:
+  explicit MeshError(std::vector<MeshDefect> defects);
+  [[nodiscard]] const std::vector<MeshDefect>& defects() const { return defects_; }
+
+ private:
+  std::vector<MeshDefect> defects_;
+};
+
+/// All defects of a mesh, and what the search found out about a sound one.
+///
+/// The search goes from the plain to the costly: a bad coordinate or index ends it (nothing else can be
+/// decided); zero area, connection and self-intersections are all searched, whatever else was found; the
+/// volume is asked of closed and consistent surfaces only. Points with equal coordinates count as one in the
+/// search for self-intersections, so fused vertices are not reported again as touching triangles.
+struct MeshCheck {
+  std::vector<MeshDefect>
+      defects;             ///< at most `limit` of each kind, in the order of the enumeration's checks
+  std::vector<int> twins;  ///< twins[3 t + k]: the half-edge opposite to the one from corner k of triangle t
+                           ///< to the next corner; complete for a sound mesh only
+  double volume = 0.0;  ///< m^3, correctly rounded; for a sound mesh only
+};
+
+/// @param limit most defects listed of each kind, at least 1.
+[[nodiscard]] MeshCheck check_mesh(const TriangleMesh& mesh, std::size_t limit);
+
+}  // namespace ashlar

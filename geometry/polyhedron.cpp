@@ -1,0 +1,233 @@
+#include "geometry/polyhedron.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/exact_surface.hpp"
+#include "geometry/mesh_edges.hpp"
+
+namespace ashlar {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+// Merges the triangles of a sound mesh. An edge of the mesh is sharp unless its two triangles are coplanar;
+// the faces are the connected sets of triangles between sharp edges. The flat fans at a point with two sharp
+// edges lie in two planes whose common line carries both edges: such a point is inside a straight side. One
+// sharp edge alone cannot end at a point, so corners are the points with three or more.
+class FaceBuilder {
+ public:
+  FaceBuilder(const TriangleMesh& mesh, const std::vector<int>& twins) : mesh_(mesh), twins_(twins) {}
+
+  void build() {
+    find_sharp_edges();
+    collect_faces();
+    collect_edges();
+    for (PolyhedronFace& face : faces) finish_face(face);
+  }
+
+  std::vector<PolyhedronFace> faces;
+  std::vector<PolyhedronEdge> edges;
+  std::vector<int> face_of_triangle;
+  std::vector<int> corners;
+  bool convex = true;
+
+ private:
+  [[nodiscard]] int start(int h) const { return origin(mesh_.triangles, h); }
+  [[nodiscard]] bool is_sharp(int h) const { return bend_[h] != CGAL::ZERO; }
+  [[nodiscard]] bool is_corner(int v) const { return sharp_degree_[v] > 2; }
+
+  void find_sharp_edges() {
+    bend_.assign(twins_.size(), CGAL::ZERO);
+    sharp_degree_.assign(mesh_.points.size(), 0);
+    for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
+      const int twin = twins_[h];
+      if (twin < h) continue;
+      bend_[h] = bend_[twin] = bend_over(h, twin);
+      if (!is_sharp(h)) continue;
+      convex = convex && bend_[h] == CGAL::NEGATIVE;
+      ++sharp_degree_[start(h)];
+      ++sharp_degree_[start(twin)];
+    }
+    for (int v = 0; v < static_cast<int>(mesh_.points.size()); ++v) {
+      if (is_corner(v)) corners.push_back(v);
+    }
+  }
+
+  // Negative if the neighbour's third corner lies below the triangle, inside: a convex edge.
+  [[nodiscard]] CGAL::Sign bend_over(int h, int twin) const {
+    const auto point = [this](int v) {
+      const Vector3& p = mesh_.points[v];
+      return Kernel::Point_3(p.x(), p.y(), p.z());
+    };
+    const auto& [a, b, c] = mesh_.triangles[h / 3];
+    const int apex = start(next_halfedge(next_halfedge(twin)));
+    return CGAL::orientation(point(a), point(b), point(c), point(apex));
+  }
+
+  void collect_faces() {
+    face_of_triangle.assign(mesh_.triangles.size(), -1);
+    for (int seed = 0; seed < static_cast<int>(mesh_.triangles.size()); ++seed) {
+      if (face_of_triangle[seed] >= 0) continue;
+      const int number = static_cast<int>(faces.size());
+      PolyhedronFace& face = faces.emplace_back();
+      face.triangles = {seed};
+      face_of_triangle[seed] = number;
+      for (std::size_t i = 0; i < face.triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+          const int h = 3 * face.triangles[i] + k;
+          const int neighbour = twins_[h] / 3;
+          if (is_sharp(h) || face_of_triangle[neighbour] >= 0) continue;
+          face_of_triangle[neighbour] = number;
+          face.triangles.push_back(neighbour);
+        }
+      }
+      std::sort(face.triangles.begin(), face.triangles.end());
+    }
+  }
+
+  // The sharp half-edge that follows a sharp one on the boundary of its face, turning inside the face.
+  [[nodiscard]] int next_on_boundary(int h) const {
+    int next = next_halfedge(h);
+    while (!is_sharp(next)) next = next_halfedge(twins_[next]);
+    return next;
+  }
+
+  void collect_edges() {
+    for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
+      if (!is_sharp(h) || !is_corner(start(h))) continue;
+      int last = h;
+      while (!is_corner(start(twins_[last]))) last = next_on_boundary(last);
+      // The other side starts from the far corner with the twin of the last piece.
+      if (twins_[last] < h) continue;
+      edges.push_back({{start(h), start(twins_[last])},
+                       {face_of_triangle[h / 3], face_of_triangle[twins_[h] / 3]},
+                       bend_[h] == CGAL::NEGATIVE});
+    }
+  }
+
+  void finish_face(PolyhedronFace& face) {
+    face.normal = area_direction(mesh_, face.triangles);
+    for (const int t : face.triangles) {
+      for (int h = 3 * t; h < 3 * t + 3; ++h) {
+        if (is_sharp(h) && is_corner(start(h)) && !visited(h)) trace_loop(h, face.loops);
+      }
+    }
+    if (face.loops.size() > 1) move_outer_loop_to_front(face.loops);
+    face.convex = face.loops.size() == 1 && is_convex(face.loops[0], face.normal);
+  }
+
+  [[nodiscard]] bool visited(int h) {
+    visited_.resize(twins_.size(), 0);
+    return visited_[h] != 0;
+  }
+
+  // Collects the corners of one boundary; a corner met again closes a loop of its own.
+  void trace_loop(int first, std::vector<std::vector<int>>& loops) {
+    std::vector<int> open;
+    int h = first;
+    do {
+      visited_[h] = 1;
+      if (is_corner(start(h))) {
+        const auto again = std::find(open.begin(), open.end(), start(h));
+        if (again != open.end()) {
+          loops.emplace_back(again, open.end());
+          open.erase(again, open.end());
+        }
+        open.push_back(start(h));
+      }
+      h = next_on_boundary(h);
+    } while (h != first);
+    loops.push_back(std::move(open));
+  }
+
+  // The outer loop reaches both extreme points of the face. A hole may touch it in one of them, not in both:
+  // that would cut the face in two.
+  void move_outer_loop_to_front(std::vector<std::vector<int>>& loops) const {
+    const auto less = [this](int u, int v) {
+      const Vector3& p = mesh_.points[u];
+      const Vector3& q = mesh_.points[v];
+      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    };
+    std::pair<int, int> extremes(loops[0][0], loops[0][0]);
+    for (const auto& loop : loops) {
+      for (const int v : loop) {
+        if (less(v, extremes.first)) extremes.first = v;
+        if (less(extremes.second, v)) extremes.second = v;
+      }
+    }
+    const auto outer = std::find_if(loops.begin(), loops.end(), [&extremes](const std::vector<int>& loop) {
+      return std::find(loop.begin(), loop.end(), extremes.first) != loop.end() &&
+             std::find(loop.begin(), loop.end(), extremes.second) != loop.end();
+    });
+    std::rotate(loops.begin(), outer, outer + 1);
+  }
+
+  // The turn at a corner is the orientation of its projection along the axis nearest to the normal.
+  [[nodiscard]] bool is_convex(const std::vector<int>& loop, const Vector3& normal) const {
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const auto point = [&](std::size_t i) {
+      const Vector3& p = mesh_.points[loop[i % loop.size()]];
+      return Kernel::Point_2(p[u], p[v]);
+    };
+    const CGAL::Orientation reflex = normal[axis] > 0.0 ? CGAL::CLOCKWISE : CGAL::COUNTERCLOCKWISE;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      if (CGAL::orientation(point(i), point(i + 1), point(i + 2)) == reflex) return false;
+    }
+    return true;
+  }
+
+  const TriangleMesh& mesh_;
+  const std::vector<int>& twins_;
+  std::vector<CGAL::Sign> bend_;   // by half-edge
+  std::vector<int> sharp_degree_;  // by point
+  std::vector<char> visited_;      // by half-edge
+};
+
+}  // namespace
+
+std::vector<MeshDefect> Polyhedron::find_defects(const TriangleMesh& mesh, std::size_t limit) {
+  return check_mesh(mesh, limit).defects;
+}
+
+Polyhedron::Polyhedron(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+  constexpr std::size_t listed_defects = 10;
+  MeshCheck check = check_mesh(mesh_, listed_defects);
+  if (!check.defects.empty()) throw MeshError(std::move(check.defects));
+  volume_ = check.volume;
+  FaceBuilder builder(mesh_, check.twins);
+  builder.build();
+  faces_ = std::move(builder.faces);
+  edges_ = std::move(builder.edges);
+  face_of_triangle_ = std::move(builder.face_of_triangle);
+  corners_ = std::move(builder.corners);
+  convex_ = builder.convex;
+}
+
+Polyhedron Polyhedron::with_points(std::vector<Vector3> points) const {
+  if (points.size() != mesh_.points.size()) {
+    throw std::invalid_argument("number of points (" + std::to_string(points.size()) + "), must be " +
+                                std::to_string(mesh_.points.size()));
+  }
+  const bool finite =
+      std::all_of(points.begin(), points.end(), [](const Vector3& p) { return p.allFinite(); });
+  if (!finite) throw std::invalid_argument("moved points must be finite");
+  Polyhedron moved = *this;
+  moved.mesh_.points = std::move(points);
+  moved.volume_ = signed_volume(moved.mesh_);
+  if (!(moved.volume_ > 0.0) || !std::isfinite(moved.volume_)) {
+    throw std::invalid_argument("volume of the moved solid (" + std::to_string(moved.volume_) +
+                                "), must be positive and finite");
+  }
+  for (PolyhedronFace& face : moved.faces_) face.normal = area_direction(moved.mesh_, face.triangles);
+  return moved;
+}
+
+}  // namespace ashlar
