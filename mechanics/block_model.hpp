@@ -1,0 +1,98 @@
+// A block: what never changes (BlockModel) and what a step changes (BlockState). A step is a function of
+// both.
+//
+//   x(X, t) = sum_a phi_a(X) q_a(t)      total formulation, theory.md section 1
+// Coefficient arrays are (p, 3), see elasticity.hpp.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mechanics/basis.hpp"
+#include "mechanics/elasticity.hpp"
+#include "mechanics/loads.hpp"
+#include "mechanics/material.hpp"
+#include "mechanics/supports.hpp"
+
+namespace ashlar {
+
+/// Everything a user says about a block.
+struct BlockDefinition {
+  std::string name;
+  std::shared_ptr<const Polyhedron> solid;  ///< placed reference shape, m
+  Material material;
+  int order = 1;
+  bool fixed = false;  ///< never moves, has no unknowns; material is not used
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+};
+
+/// Coefficients of position, velocity and acceleration.
+struct BlockState {
+  Eigen::MatrixX3d position;      ///< q, m^5/2
+  Eigen::MatrixX3d velocity;      ///< dq/dt
+  Eigen::MatrixX3d acceleration;  ///< d2q/dt2
+};
+
+/// Constant after construction.
+class BlockModel {
+ public:
+  /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace and
+  /// load_coefficients do
+  explicit BlockModel(BlockDefinition definition);
+
+  [[nodiscard]] const std::string& name() const { return definition_.name; }
+  [[nodiscard]] const Polyhedron& solid() const { return *definition_.solid; }
+  [[nodiscard]] const Material& material() const { return definition_.material; }
+  [[nodiscard]] bool fixed() const { return definition_.fixed; }
+  [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
+  [[nodiscard]] int order() const { return basis_.order(); }
+  [[nodiscard]] const PolynomialBasis& basis() const { return basis_; }
+  [[nodiscard]] const AdmissibleSpace& space() const { return space_; }
+  /// 0 for fixed blocks.
+  [[nodiscard]] int unknowns() const { return fixed() ? 0 : space_.unknowns(); }
+  /// True if the elastic frame turns with the block (theory.md section 4).
+  [[nodiscard]] bool corotational() const { return space_.can_turn(); }
+  [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
+
+  /// Undeformed and at rest.
+  [[nodiscard]] BlockState initial_state() const;
+  /// Coefficients of the velocity field  velocity + angular_velocity x (X - centroid), restricted to what
+  /// supports allow.
+  [[nodiscard]] Eigen::MatrixX3d rigid_velocity(const Vector3& velocity,
+                                                const Vector3& angular_velocity) const;
+  /// Equilibrium of a block whose supports leave no rigid motion under gravity and its loads at a time,
+  /// contacts off. Empty if the supports leave a rigid motion.
+  [[nodiscard]] std::optional<Eigen::MatrixX3d> equilibrium(const Vector3& gravity, double time) const;
+
+  /// Gravity and loads at a time. @return (p, 3), N m^-3/2
+  [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
+  /// Loads without gravity. @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
+  /// Energy, force and frame of a configuration.
+  [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
+  /// Tangent Z' R K R' Z of the internal force in the unknowns. @return (unknowns, unknowns)
+  [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::Matrix3d& rotation) const;
+
+  /// Momentum and angular momentum about the origin, kg m/s and kg m^2/s.
+  [[nodiscard]] Vector3 momentum(const BlockState& state) const;
+  [[nodiscard]] Vector3 angular_momentum(const BlockState& state) const;
+  /// 1/2 rho |v|^2, J.
+  [[nodiscard]] double kinetic_energy(const BlockState& state) const;
+  /// -m g . x_centroid, J.
+  [[nodiscard]] double gravity_energy(const BlockState& state, const Vector3& gravity) const;
+  /// Cauchy stress at a material point, Pa, tension positive.
+  [[nodiscard]] Eigen::Matrix3d stress(const BlockState& state, const Vector3& point) const;
+
+ private:
+  BlockDefinition definition_;
+  PolynomialBasis basis_;
+  AdmissibleSpace space_;
+  Eigen::MatrixX3d mean_gradients_;
+  Eigen::MatrixXd stiffness_;            ///< K, (3p, 3p); empty for fixed blocks
+  Eigen::MatrixXd reduced_stiffness_;    ///< Z' K Z of a block that cannot turn
+  std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
+};
+
+}  // namespace ashlar

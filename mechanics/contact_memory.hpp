@@ -1,0 +1,49 @@
+// What contact points remember from step to step: elastic slip, state and whether the joint is still intact.
+// Memory belongs to material points, not to the step's polygons: a new point takes over from the nearest old
+// one between the same faces.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/contact_points.hpp"
+#include "mechanics/joint_law.hpp"
+
+namespace ashlar {
+
+/// Memory of one point after an accepted step.
+struct PointMemory {
+  Vector3 slip = Vector3::Zero();  ///< elastic slip of a relative to b, in the tangent plane, m
+  ContactState state = ContactState::open;
+  bool intact = false;  ///< joint strength not yet lost
+};
+
+/// Memory of a pair of blocks.
+class ContactMemory {
+ public:
+  /// Memory for each of the new points: that of the nearest old point of the same faces, with the slip turned
+  /// into the new tangent plane and zero if the point was open; points without one start open with
+  /// `fresh_intact`.
+  [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
+                                                bool fresh_intact) const;
+
+  /// Replaces what is remembered. @param deepest largest penetration of the step, m
+  void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest);
+
+  /// Largest penetration of the last step, m, >= 0.
+  [[nodiscard]] double deepest() const { return deepest_; }
+  /// Material points of block a and the faces they are between; with `entries` the whole state, for
+  /// checkpoints.
+  struct Entry {
+    Vector3 material_a;
+    int face_a;
+    int face_b;
+    PointMemory memory;
+  };
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  std::vector<Entry> entries_;
+  double deepest_ = 0.0;
+};
+
+}  // namespace ashlar

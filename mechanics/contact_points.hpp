@@ -1,0 +1,65 @@
+// From contacts to contact points: every contact becomes point-to-face contacts, a material point of block a
+// and one of block b with the outward unit normal of b's surface between them (theory.md sections 6.4, 6.5
+// and 7).
+//
+// Per area, the points of a face-face contact are a quadrature rule on each overlap polygon; per point (the
+// paper's springs) they are the corners of the polygon. Isolated vertices and edge crossings carry a
+// tributary area. With curved surfaces, the point on the master block is the closest one on its true
+// polynomial surface, so that x_a - x_b is along the normal; with flat surfaces both points stay on their
+// sub-face planes.
+#pragma once
+
+#include <vector>
+
+#include "geometry/contact_search.hpp"
+#include "mechanics/block_model.hpp"
+#include "mechanics/joint_law.hpp"
+
+namespace ashlar {
+
+/// How a contact point came about.
+enum class ContactPointType { face_face, vertex_face, edge_edge };
+
+/// A block with its surface and its present state.
+struct ContactBody {
+  const BlockModel* model;
+  const BlockState* state;
+  const PlacedSurface* placed;
+};
+
+/// One point-to-face contact between blocks a and b.
+struct ContactPoint {
+  ContactPointType type;
+  int face_a;  ///< faces of the polyhedra that meet here
+  int face_b;
+  Vector3 material_a;  ///< reference coordinates, m
+  Vector3 material_b;
+  Vector3 place_a;  ///< current coordinates, m
+  Vector3 place_b;
+  Vector3 normal;     ///< unit, out of b
+  Vector3 tangent_1;  ///< with normal and tangent_2 a right-handed orthonormal frame
+  Vector3 tangent_2;
+  double gap;   ///< n . (x_a - x_b), m
+  double area;  ///< m^2
+};
+
+/// How contact points are made.
+struct ContactPointSettings {
+  bool area_springs = true;
+  bool curved = true;
+  int max_quadrature_degree = 4;  ///< of the cells of divided faces, which are small against the polynomials
+};
+
+/// Current positions of a surface's points. @return (#surface.points), m
+[[nodiscard]] std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state);
+
+/// Whether block a is the master, on whose surface feet and normals are taken: fixed blocks before others,
+/// then undivided surfaces, then larger volume; ties go to b.
+[[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
+
+/// All contact points of a pair, in a fixed order.
+[[nodiscard]] std::vector<ContactPoint> contact_points(const ContactBody& a, const ContactBody& b,
+                                                       const PairContacts& contacts,
+                                                       const ContactPointSettings& settings);
+
+}  // namespace ashlar

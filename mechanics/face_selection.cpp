@@ -1,0 +1,56 @@
+#include "mechanics/face_selection.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "mechanics/quadrature.hpp"
+
+namespace ashlar {
+
+std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane) {
+  const double length = plane.normal.norm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw std::invalid_argument("a plane needs a finite, non-zero normal");
+  const Vector3 normal = plane.normal / length;
+  Vector3 low = solid.mesh().points.front();
+  Vector3 high = low;
+  for (const Vector3& point : solid.mesh().points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const double tolerance = plane_match_tolerance * (high - low).norm();
+  std::vector<int> result;
+  for (std::size_t f = 0; f < solid.faces().size(); ++f) {
+    bool inside = true;
+    for (const auto& loop : solid.faces()[f].loops) {
+      for (const int vertex : loop) {
+        const Vector3& point = solid.mesh().points[static_cast<std::size_t>(vertex)];
+        inside = inside && std::abs(normal.dot(point - plane.point)) <= tolerance;
+      }
+    }
+    if (inside) result.push_back(static_cast<int>(f));
+  }
+  return result;
+}
+
+SurfaceRule surface_rule(const Polyhedron& solid, const std::vector<int>& faces, int degree) {
+  const TriangleRule rule = triangle_rule(degree);
+  SurfaceRule result;
+  for (const int face : faces) {
+    for (const int t : solid.faces()[static_cast<std::size_t>(face)].triangles) {
+      const auto& triangle = solid.mesh().triangles[static_cast<std::size_t>(t)];
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k)
+        corners.col(k) = solid.mesh().points[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])];
+      const double area =
+          0.5 * (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
+      for (std::size_t q = 0; q < rule.weights.size(); ++q) {
+        result.points.emplace_back(corners * rule.barycentric[q]);
+        result.weights.push_back(area * rule.weights[q]);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace ashlar

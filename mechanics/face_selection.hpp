@@ -1,0 +1,31 @@
+// Faces that a user names by a plane, and quadrature over them.
+#pragma once
+
+#include <vector>
+
+#include "geometry/polyhedron.hpp"
+
+namespace ashlar {
+
+/// A plane as the user wrote it; the length and side of its normal do not matter.
+struct Plane {
+  Vector3 point = Vector3::Zero();    ///< m
+  Vector3 normal = Vector3::UnitZ();  ///< not zero
+};
+
+/// How far a corner may be from the plane, in parts of the block's size: users write planes in decimals, and
+/// a rotated block's corners are rounded.
+inline constexpr double plane_match_tolerance = 1e-6;
+
+/// Indices of the faces all of whose corners lie in the plane. Empty if there is none.
+/// @throws std::invalid_argument if the normal is zero or not finite
+[[nodiscard]] std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane);
+
+/// Points (m) with weights (m^2) that integrate polynomials of a degree exactly over some faces.
+struct SurfaceRule {
+  std::vector<Vector3> points;
+  std::vector<double> weights;
+};
+[[nodiscard]] SurfaceRule surface_rule(const Polyhedron& solid, const std::vector<int>& faces, int degree);
+
+}  // namespace ashlar

@@ -1,0 +1,52 @@
+#include "mechanics/joint_law.hpp"
+
+#include <algorithm>
+
+namespace ashlar {
+
+PointLaw point_law(const JointLaw& law, double area, bool intact) {
+  const double scale = law.area_springs ? area : 1.0;
+  return {law.normal_stiffness * scale, law.shear_stiffness * scale, law.friction,
+          intact ? law.cohesion * area : 0.0, intact ? law.tensile_strength * area : 0.0};
+}
+
+PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
+  PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0};
+  const double normal = -law.normal_stiffness * gap;
+  if (normal < -law.tension || (gap > 0.0 && law.tension == 0.0)) return response;
+  response.force[0] = normal;
+  response.tangent(0, 0) = law.normal_stiffness;
+  response.energy = 0.5 * law.normal_stiffness * gap * gap;
+
+  const double limit = std::max(normal, 0.0) * law.friction + law.cohesion;
+  const double length = slip.norm();
+  if (law.shear_stiffness * length <= limit) {
+    response.state = ContactState::locked;
+    response.force.tail<2>() = -law.shear_stiffness * slip;
+    response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(law.shear_stiffness);
+    response.energy += 0.5 * law.shear_stiffness * length * length;
+    return response;
+  }
+  response.state = ContactState::sliding;
+  const Eigen::Vector2d direction = slip / length;
+  response.force.tail<2>() = -limit * direction;
+  response.tangent.bottomRightCorner<2, 2>() =
+      limit / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+  if (law.shear_stiffness > 0.0) response.energy += 0.5 * limit * limit / law.shear_stiffness;
+  return response;
+}
+
+Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
+                             const Eigen::Vector2d& slip) {
+  switch (response.state) {
+    case ContactState::open:
+      return Eigen::Vector2d::Zero();
+    case ContactState::locked:
+      return slip;
+    case ContactState::sliding:
+      return -response.force.tail<2>() / law.shear_stiffness;
+  }
+  return slip;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,63 @@
+// The law of one contact point (theory.md sections 7 and 8): a normal spring, a shear spring, Coulomb
+// friction, cohesion and tension that are lost once the joint has failed.
+//
+// With g the gap along the outward normal of block b, s the slip of a relative to b since the point locked
+// (elastic part), A the area of the point, kn and ks the stiffnesses of the point (N/m):
+//     N = -kn g                       normal force on a along n; compression positive
+//     open     g > 0, or N < -T A while the joint is intact
+//     locked   |ks s| <= max(N, 0) tan(phi) + c A     shear force on a: -ks s
+//     sliding  otherwise                              shear force on a: -(max(N, 0) tan(phi) + c A) s/|s|
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace ashlar {
+
+/// What a contact point does.
+enum class ContactState {
+  open,     ///< no force
+  locked,   ///< normal and shear spring
+  sliding,  ///< normal spring and friction force
+};
+
+/// Parameters of a pair of blocks.
+struct JointLaw {
+  double normal_stiffness = 0.0;  ///< Pa/m for area springs, N/m for point springs
+  double shear_stiffness = 0.0;   ///< likewise
+  double friction = 0.0;          ///< tan(phi)
+  double cohesion = 0.0;          ///< Pa
+  double tensile_strength = 0.0;  ///< Pa
+  bool area_springs = true;
+};
+
+/// One point's constants within a step.
+struct PointLaw {
+  double normal_stiffness;  ///< kn, N/m
+  double shear_stiffness;   ///< ks, N/m
+  double friction;          ///< tan(phi)
+  double cohesion;          ///< c A of an intact joint, else 0, N
+  double tension;           ///< T A of an intact joint, else 0, N
+};
+
+/// @param area tributary area of the point, m^2. @param intact false once the joint has failed
+[[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact);
+
+/// Force of a point and how it changes, in the frame (n, t1, t2) of the point; the force acts on a, its
+/// opposite on b.
+struct PointResponse {
+  ContactState state;
+  Eigen::Vector3d force;  ///< N
+  Eigen::Matrix3d
+      tangent;    ///< -d force / d (g, s1, s2) with the dependence of friction on N left out; symmetric
+  double energy;  ///< of the springs, J
+};
+
+/// @param gap m; @param slip trial slip (2), m, as if locked
+[[nodiscard]] PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip);
+
+/// The elastic slip that is left after a step with this trial slip: the spring of a sliding point stays at
+/// the limit.
+[[nodiscard]] Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
+                                           const Eigen::Vector2d& slip);
+
+}  // namespace ashlar

@@ -1,0 +1,35 @@
+// External loads of one block: gravity, tractions and forces with their histories in time.
+#pragma once
+
+#include <Eigen/Dense>
+#include <variant>
+#include <vector>
+
+#include "mechanics/basis.hpp"
+#include "mechanics/face_selection.hpp"
+
+namespace ashlar {
+
+/// A factor over time: linear between the points, constant before the first and after the last; 1 if there
+/// are none.
+struct History {
+  std::vector<double> times;   ///< s, increasing
+  std::vector<double> values;  ///< same number
+  [[nodiscard]] double at(double time) const;
+};
+
+/// A load that keeps its direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N)
+/// spread evenly over them, or a force (N) at a material point.
+struct Load {
+  std::variant<Plane, Vector3> where;  ///< reference coordinates, m
+  bool traction = true;                ///< of a plane: Pa; false: N in all
+  Vector3 vector = Vector3::Zero();
+  History history;
+};
+
+/// Work-conjugate coefficients: integral of C' f. @return (p, 3) at factor 1
+/// @throws std::invalid_argument if a plane holds no face of the solid, or a traction is given for a point
+[[nodiscard]] Eigen::MatrixX3d load_coefficients(const Polyhedron& solid, const PolynomialBasis& basis,
+                                                 const Load& load);
+
+}  // namespace ashlar

@@ -1,0 +1,130 @@
+#include "mechanics/supports.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace ashlar {
+namespace {
+
+/// Singular values below this part of the largest are conditions that repeat others.
+constexpr double rank_tolerance = 1e-10;
+
+/// Values of phi on the supports of one component, scaled to comparable sizes. @return (#conditions, p)
+Eigen::MatrixXd conditions(const Polyhedron& solid, const PolynomialBasis& basis,
+                           const std::vector<Support>& supports, std::size_t axis) {
+  std::vector<Vector3> points;
+  for (const Support& support : supports) {
+    if (!support.components[axis]) continue;
+    if (const auto* point = std::get_if<Vector3>(&support.where)) {
+      points.push_back(*point);
+      continue;
+    }
+    const auto faces = faces_in_plane(solid, std::get<Plane>(support.where));
+    if (faces.empty()) throw std::invalid_argument("no face of the block lies in the support's plane");
+    // A polynomial of order n that vanishes at the points of a rule of degree 2n vanishes on the face.
+    const SurfaceRule rule = surface_rule(solid, faces, 2 * basis.order());
+    points.insert(points.end(), rule.points.begin(), rule.points.end());
+  }
+  return basis.values(points) * std::sqrt(basis.volume());
+}
+
+/// Orthonormal basis of the null space of the conditions. @return (p, p - rank)
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& conditions, Eigen::Index functions) {
+  if (conditions.rows() == 0) return Eigen::MatrixXd::Identity(functions, functions);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(conditions.transpose());
+  qr.setThreshold(rank_tolerance);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(functions, functions);
+  return q.rightCols(functions - qr.rank());
+}
+
+}  // namespace
+
+AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis& basis,
+                                 const std::vector<Support>& supports)
+    : functions_(basis.size()), free_(supports.empty()) {
+  if (free_) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    null_space_[axis] = null_space(conditions(solid, basis, supports, axis), functions_);
+  }
+  // Rigid motions (three translations, three rotations, of unit norm) that are admissible leave nothing when
+  // projected off the admissible space.
+  Eigen::MatrixXd outside(3 * functions_, 6);
+  for (int mode = 0; mode < 6; ++mode) {
+    const Vector3 axis = Vector3::Unit(mode % 3);
+    Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
+    if (mode >= 3) {
+      for (int k = 0; k < 3; ++k) spin.col(k) = axis.cross(Vector3::Unit(k));
+    }
+    Eigen::MatrixX3d motion = basis.linear_field(mode < 3 ? axis : Vector3::Zero(), spin);
+    motion /= motion.norm();
+    const Eigen::MatrixX3d rest = motion - expand(restrict(motion));
+    outside.col(mode) = Eigen::Map<const Eigen::VectorXd>(rest.data(), rest.size());
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(outside, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  can_turn_ = false;
+  for (int k = 0; k < 6; ++k) {
+    const bool admissible = svd.singularValues()[k] < std::sqrt(rank_tolerance);
+    if (admissible && svd.matrixV().col(k).tail(3).norm() > std::sqrt(rank_tolerance)) can_turn_ = true;
+  }
+}
+
+int AdmissibleSpace::unknowns() const {
+  return static_cast<int>(columns(0) + columns(1) + columns(2));
+}
+
+Eigen::MatrixX3d AdmissibleSpace::expand(const Eigen::VectorXd& y) const {
+  if (free_) return Eigen::Map<const Eigen::MatrixX3d>(y.data(), functions_, 3);
+  Eigen::MatrixX3d q(functions_, 3);
+  Eigen::Index start = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    q.col(static_cast<Eigen::Index>(axis)).noalias() = null_space_[axis] * y.segment(start, columns(axis));
+    start += columns(axis);
+  }
+  return q;
+}
+
+Eigen::VectorXd AdmissibleSpace::restrict(const Eigen::MatrixX3d& f) const {
+  if (free_) return Eigen::Map<const Eigen::VectorXd>(f.data(), f.size());
+  Eigen::VectorXd y(unknowns());
+  Eigen::Index start = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    y.segment(start, columns(axis)).noalias() =
+        null_space_[axis].transpose() * f.col(static_cast<Eigen::Index>(axis));
+    start += columns(axis);
+  }
+  return y;
+}
+
+Eigen::MatrixXd AdmissibleSpace::restrict(const Eigen::MatrixXd& matrix) const {
+  if (free_) return matrix;
+  Eigen::MatrixXd result(unknowns(), unknowns());
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Eigen::Index column = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto block = matrix.block(static_cast<Eigen::Index>(i) * functions_,
+                                      static_cast<Eigen::Index>(j) * functions_, functions_, functions_);
+      result.block(row, column, columns(i), columns(j)) = null_space_[i].transpose() * block * null_space_[j];
+      column += columns(j);
+    }
+    row += columns(i);
+  }
+  return result;
+}
+
+Eigen::MatrixXd AdmissibleSpace::rows(const Eigen::MatrixXd& phi, const Eigen::MatrixX3d& directions) const {
+  Eigen::MatrixXd result(phi.rows(), unknowns());
+  Eigen::Index start = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto direction = directions.col(static_cast<Eigen::Index>(axis));
+    if (free_) {
+      result.middleCols(start, columns(axis)) = direction.asDiagonal() * phi;
+    } else {
+      result.middleCols(start, columns(axis)).noalias() = direction.asDiagonal() * (phi * null_space_[axis]);
+    }
+    start += columns(axis);
+  }
+  return result;
+}
+
+}  // namespace ashlar
