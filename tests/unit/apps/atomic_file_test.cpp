@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "tests/support/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ashlar {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tests/support/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ashlar {
 namespace {

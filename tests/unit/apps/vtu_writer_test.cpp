@@ -6,9 +6,10 @@
 
 #include <array>
 #include <functional>
+#include <ostream>
 #include <stdexcept>
 
-#include "tests/support/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -35,6 +36,10 @@ struct BadGrid {
   const char* message;
   std::function<void(UnstructuredGrid&)> spoil;
 };
+
+void PrintTo(const BadGrid& bad, std::ostream* out) {
+  *out << bad.message;
+}
 
 class VtuRefuses : public testing::TestWithParam<BadGrid> {};
 

@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# Builds ashlar with warnings as errors and runs all its tests.
+usage='use: tests/run.sh [--format] [--lint] [--clang] [--sanitizers] [--all]
+  (nothing)      the release build and its tests
+  --format       also check that all sources are formatted
+  --lint         also --format and clang-tidy on all sources
+  --clang        also build and test with clang
+  --sanitizers   also build and test with the address, undefined and thread sanitizers
+  --asan         also build and test with the address and undefined sanitizers
+  --all          all of these'
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+
+presets=(release)
+format=no
+lint=no
+for option in "$@"; do
+  case $option in
+    --format) format=yes ;;
+    --lint) format=yes lint=yes ;;
+    --clang) presets+=(clang) ;;
+    --asan) presets+=(asan) ;;
+    --sanitizers) presets+=(asan tsan) ;;
+    --all) format=yes lint=yes presets+=(clang asan tsan) ;;
+    --help) echo "$usage"; exit 0 ;;
+    *) printf 'error: unknown option %s\n%s\n' "$option" "$usage" >&2; exit 2 ;;
+  esac
+done
+
+say() { printf '\n=== %s\n' "$*"; }
+
+sources() { find geometry mechanics solver apps tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z; }
+
+check_format() {
+  say 'format'
+  sources | xargs -0 clang-format --dry-run -Werror
+}
+
+# clang-tidy understands the command lines of the clang build; they need no compiled files.
+run_clang_tidy() {
+  say 'clang-tidy'
+  cmake --preset clang
+  sources | grep -z '\.cpp$' | grep -zv '^tests/package/' |
+    xargs -0 -n 1 -P "$jobs" clang-tidy --quiet -p build/clang
+}
+
+build_and_test() {
+  say "$1: build"
+  cmake --preset "$1"
+  cmake --build --preset "$1" -j"$jobs"
+  say "$1: tests"
+  ctest --preset "$1" -j"$(nproc)"
+}
+
+bash apps/install_packages.sh
+jobs=$(bash apps/build_jobs.sh)
+if command -v ccache >/dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$root
+fi
+
+[[ $format == no ]] || check_format
+for preset in "${presets[@]}"; do
+  build_and_test "$preset"
+done
+[[ $lint == no ]] || run_clang_tidy
+say "passed: ${presets[*]}$([[ $format == no ]] || echo ' format')$([[ $lint == no ]] || echo ' clang-tidy')"
