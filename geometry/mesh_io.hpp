@@ -1,0 +1,35 @@
+// Reading surface meshes (OFF, OBJ, STL, PLY; text and binary where the format has both). See
+// mesh_formats.hpp for what is accepted of each.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// A file that cannot be read as a mesh; what() is "reason (value), allowed", without the file's name.
+class MeshFileError : public std::runtime_error {
+ public:
+  MeshFileError(const std::string& what, int line, int column)
+      : runtime_error(what), line_(line), column_(column) {}
+  /// 1-based place in the file, 0 where it is not known.
+  [[nodiscard]] int line() const { return line_; }
+  [[nodiscard]] int column() const { return column_; }
+
+ private:
+  int line_;
+  int column_;
+};
+
+/// Reads a mesh; the format is taken from the file's ending (any case). Faces with more than three corners
+/// are triangulated without new points. STL repeats its points: equal ones (bit for bit) become one. Nothing
+/// else is changed or repaired, non-finite coordinates included; see Polyhedron::find_defects for what is
+/// then refused.
+/// @return points in m as written.
+/// @throws MeshFileError: missing, unreadable, unknown ending, malformed, truncated, index out of range, no
+/// faces.
+[[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace ashlar

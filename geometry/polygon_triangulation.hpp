@@ -1,0 +1,19 @@
+// Flat polygons of mesh files as triangles.
+#pragma once
+
+#include <span>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Appends the #corners - 2 triangles of a polygon, with its orientation and without new points: a fan from
+/// the first corner if it is strictly convex, otherwise ears cut off one after the other. Ears are decided
+/// exactly in the projection along the axis nearest to the polygon's normal; corners in straight sides give
+/// no triangle without area. A polygon that is not simple gets some triangles, for the check of the mesh to
+/// refuse.
+/// @param corners at least 3 indices into points.
+void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int> corners,
+                         std::vector<std::array<int, 3>>& triangles);
+
+}  // namespace ashlar
