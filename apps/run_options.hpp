@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/command_line.hpp"
+
 namespace ashlar {
 
 struct RunOptions {
@@ -16,5 +18,11 @@ struct RunOptions {
   int threads = 0;                           ///< >= 1; 0: not given
   bool quiet = false;                        ///< no progress on stderr
 };
+
+/// Declares `ashlar run`; it calls run_command (run_command.hpp).
+void declare_run_command(CLI::App& program, CommandContext& context);
+
+/// Declares the repeatable option --set on a sub-command.
+void declare_overrides(CLI::App& command, std::vector<std::string>& overrides);
 
 }  // namespace ashlar

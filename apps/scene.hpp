@@ -100,8 +100,8 @@ struct SceneMaterial {
 
 /// box = { min, max }
 struct SceneBox {
-  Vector3 min;  ///< m, less than max in every component
-  Vector3 max;  ///< m
+  Vector3 min = Vector3::Zero();  ///< m, less than max in every component
+  Vector3 max = Vector3::Zero();  ///< m
 };
 
 /// mesh = { file, scale }
@@ -122,7 +122,8 @@ struct SceneSphere {
   int subdivisions = 3;              ///< 0 to 7
 };
 
-using SceneShape = std::variant<SceneBox, SceneMesh, SceneHull, SceneSphere>;
+/// Empty (monostate) only if the scene has a fault there.
+using SceneShape = std::variant<std::monostate, SceneBox, SceneMesh, SceneHull, SceneSphere>;
 
 /// rotate = { axis, angle, about }
 struct SceneRotation {
@@ -133,15 +134,15 @@ struct SceneRotation {
 
 /// A plane in placed coordinates. It names the faces of the block that lie in it, whichever side they face.
 struct ScenePlane {
-  Vector3 point;   ///< m
-  Vector3 normal;  ///< not zero, any length
+  Vector3 point = Vector3::Zero();   ///< m
+  Vector3 normal = Vector3::Zero();  ///< not zero, any length
 };
 
 /// [[block.fix]]: clamped faces or a fixed point.
 struct SceneFix {
   struct Motion {
-    double time;           ///< s
-    Vector3 displacement;  ///< m
+    double time = 0.0;                       ///< s
+    Vector3 displacement = Vector3::Zero();  ///< m
   };
   std::variant<ScenePlane, Vector3>
       where;  ///< a plane with at least one face, or a point, m, placed coordinates
@@ -152,8 +153,8 @@ struct SceneFix {
 /// [[block.load]]: traction on faces, or a force on faces or at a point.
 struct SceneLoad {
   struct Factor {
-    double time;  ///< s
-    double factor;
+    double time = 0.0;  ///< s
+    double factor = 1.0;
   };
   enum class Kind {
     traction,  ///< Pa, on the plane's faces
@@ -182,10 +183,13 @@ struct SceneBlock {
 
 /// [[measure]]: a material point whose motion is written to the history.
 struct SceneMeasure {
-  std::string name;   ///< unique; required; a column name: no comma, quote or line break
-  std::string block;  ///< name of a [[block]]
-  Vector3 point;      ///< m, in the placed, undeformed block
+  std::string name;                 ///< unique; required; a column name: no comma, quote or line break
+  std::string block;                ///< name of a [[block]]
+  Vector3 point = Vector3::Zero();  ///< m, in the placed, undeformed block
 };
+
+/// Steps between frames where a scene tells neither every nor interval.
+inline constexpr int default_frame_distance = 10;
 
 /// [output]
 struct SceneOutput {

@@ -1,0 +1,201 @@
+#include "apps/block_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace ashlar {
+namespace {
+
+// Of a vector that has to be given: not finite until read, so that no later check is made on one that is not
+// there.
+Vector3 required_vector(TomlTableReader& table, const char* key) {
+  Vector3 result = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  table.require(key);
+  table.read_vector(key, result);
+  return result;
+}
+
+// A direction of any length but zero.
+Vector3 required_direction(TomlTableReader& table, const char* key) {
+  Vector3 result = required_vector(table, key);
+  // The length may underflow although the direction is good; the largest component does not.
+  if (result.allFinite() && result.cwiseAbs().maxCoeff() == 0.0) {
+    table.error_at_value(
+        key, fmt::format("{} has no direction ([0, 0, 0]), a vector other than zero is needed", key));
+    result.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return result;
+}
+
+SceneShape read_box(TomlTableReader table) {
+  const SceneBox box{required_vector(table, "min"), required_vector(table, "max")};
+  if (!box.min.allFinite() || !box.max.allFinite()) return {};
+  for (int axis = 0; axis < 3; ++axis)
+    if (box.min[axis] >= box.max[axis]) {
+      table.error_at_value("min",
+                           fmt::format("min is not below max in {} ({} and {}), min < max is needed in "
+                                       "x, y and z",
+                                       "xyz"[axis], box.min[axis], box.max[axis]));
+      return {};
+    }
+  return box;
+}
+
+SceneShape read_mesh_shape(TomlTableReader table) {
+  SceneMesh mesh;
+  std::string file;
+  table.require("file");
+  const bool file_good = table.read_text("file", file);
+  const bool scale_good = table.read_number("scale", mesh.scale, range::positive) || !table.given("scale");
+  mesh.file = file;
+  if (!file_good || !scale_good) return {};
+  return mesh;
+}
+
+SceneShape read_hull(TomlTableReader table) {
+  SceneHull hull;
+  std::vector<std::vector<double>> rows;
+  table.require("points");
+  if (!table.read_rows("points", rows, 3, 4, "[x, y, z]")) return {};
+  for (const auto& row : rows) hull.points.emplace_back(row[0], row[1], row[2]);
+  return hull;
+}
+
+SceneShape read_sphere(TomlTableReader table) {
+  SceneSphere sphere;
+  table.require("radius");
+  const bool center_good = table.read_vector("center", sphere.center) || !table.given("center");
+  const bool radius_good = table.read_number("radius", sphere.radius, range::positive);
+  const bool fineness_good =
+      table.read_integer("subdivisions", sphere.subdivisions, 0, 7) || !table.given("subdivisions");
+  if (!center_good || !radius_good || !fineness_good) return {};
+  return sphere;
+}
+
+SceneShape read_shape(TomlTableReader& table) {
+  struct Kind {
+    const char* key;
+    SceneShape (*read)(TomlTableReader);
+  };
+  constexpr std::array<Kind, 4> kinds = {
+      {{"box", read_box}, {"mesh", read_mesh_shape}, {"hull", read_hull}, {"sphere", read_sphere}}};
+  std::vector<std::string> given;
+  SceneShape shape;
+  for (const Kind& kind : kinds)
+    if (table.given(kind.key)) {
+      given.emplace_back(kind.key);
+      if (auto content = table.table(kind.key)) shape = kind.read(*content);
+    }
+  if (given.size() == 1) return shape;
+  table.error_at_table(
+      fmt::format("block has {} shapes ({}), exactly one of box, mesh, hull, sphere is needed", given.size(),
+                  fmt::join(given, ", ")));
+  return {};
+}
+
+SceneRotation read_rotation(TomlTableReader table) {
+  SceneRotation rotation;
+  rotation.axis = required_direction(table, "axis");
+  table.require("angle");
+  table.read_number("angle", rotation.angle, range::any_number);
+  table.read_vector("about", rotation.about);
+  return rotation;
+}
+
+// Where a support or load acts: exactly one of plane and point.
+std::variant<ScenePlane, Vector3> read_where(TomlTableReader& table) {
+  const bool plane_given = table.given("plane"), point_given = table.given("point");
+  if (plane_given == point_given)
+    table.error_at_table(fmt::format("{} has {} (plane, point), exactly one of both is needed", table.name(),
+                                     plane_given ? "two places" : "no place"));
+  if (plane_given) {
+    TomlTableReader plane = table.table_or_empty("plane");
+    return ScenePlane{required_vector(plane, "point"), required_direction(plane, "normal")};
+  }
+  Vector3 point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  table.read_vector("point", point);
+  return point;
+}
+
+void read_components(TomlTableReader& table, std::array<bool, 3>& components) {
+  constexpr std::array<std::pair<const char*, int>, 3> names = {{{"x", 0}, {"y", 1}, {"z", 2}}};
+  std::vector<std::string> words;
+  if (!table.read_words("components", words, names)) return;
+  if (words.empty())
+    table.error_at_value("components",
+                         "components is empty ([]), at least one of \"x\", \"y\", \"z\" is needed");
+  for (const auto& [name, axis] : names)
+    components[static_cast<std::size_t>(axis)] = std::find(words.begin(), words.end(), name) != words.end();
+}
+
+SceneFix read_fix(TomlTableReader table) {
+  SceneFix fix;
+  fix.where = read_where(table);
+  read_components(table, fix.components);
+  std::vector<std::vector<double>> rows;
+  table.read_history("displacement_history", rows, 4, "[t, ux, uy, uz]");
+  for (const auto& row : rows) fix.displacement_history.push_back({row[0], {row[1], row[2], row[3]}});
+  return fix;
+}
+
+SceneLoad read_load(TomlTableReader table) {
+  SceneLoad load;
+  load.where = read_where(table);
+  const bool traction_given = table.given("traction"), force_given = table.given("force");
+  if (traction_given == force_given)
+    table.error_at_table(fmt::format("load has {} (traction, force), exactly one of both is needed",
+                                     traction_given ? "two sizes" : "no size"));
+  load.kind = traction_given ? SceneLoad::Kind::traction : SceneLoad::Kind::force;
+  table.read_vector("traction", load.vector);
+  table.read_vector("force", load.vector);
+  if (traction_given && table.given("point"))
+    table.error_at_key("traction",
+                       "traction at a point (point), a traction needs a plane, a point takes a force");
+  std::vector<std::vector<double>> rows;
+  table.read_history("history", rows, 2, "[t, factor]");
+  for (const auto& row : rows) load.history.push_back({row[0], row[1]});
+  return load;
+}
+
+// A block that never moves has nothing to support, load or set in motion: whoever asks for both means one.
+void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block) {
+  if (!block.fixed) return;
+  for (const char* key : {"fix", "load"})
+    if (table.given(key))
+      table.error_at_key(
+          std::string(key) + ".0",
+          fmt::format("{} on a fixed block ({}), a block with fixed = true takes none", key, block.name));
+  for (const auto& [key, value] :
+       {std::pair("velocity", block.velocity), std::pair("angular_velocity", block.angular_velocity)})
+    if (!value.isZero(0.0))
+      table.error_at_value(
+          key, fmt::format("{} of a fixed block ([{}, {}, {}]), a block with fixed = true has none", key,
+                           value.x(), value.y(), value.z()));
+}
+
+}  // namespace
+
+SceneBlock read_block(TomlTableReader& table) {
+  SceneBlock block;
+  table.require("name");
+  table.read_text("name", block.name);
+  table.read_bool("fixed", block.fixed);
+  if (!block.fixed) table.require("material");
+  table.read_text("material", block.material);
+  table.read_integer("order", block.order, 1, 12);
+  block.shape = read_shape(table);
+  if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);
+  if (table.given("rotate") && !(block.rotate && block.rotate->axis.allFinite())) block.shape = {};
+  if (!table.read_vector("translate", block.translate) && table.given("translate")) block.shape = {};
+  table.read_vector("velocity", block.velocity);
+  table.read_vector("angular_velocity", block.angular_velocity);
+  for (TomlTableReader& fix : table.tables("fix")) block.fix.push_back(read_fix(fix));
+  for (TomlTableReader& load : table.tables("load")) block.load.push_back(read_load(load));
+  refuse_motion_if_fixed(table, block);
+  return block;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,58 @@
+#include "apps/command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+#include "apps/check_command.hpp"
+#include "apps/nearest_name.hpp"
+#include "apps/program_version.hpp"
+#include "apps/run_options.hpp"
+
+namespace ashlar {
+namespace {
+
+// In the order in which --help lists them.
+constexpr std::array<CommandDeclaration, 2> commands = {declare_run_command, declare_check_command};
+
+// CLI11 only says that a sub-command is required.
+void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front().starts_with('-')) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), arguments.front()) != names.end()) return;
+  throw CLI::ParseError(
+      fmt::format("unknown command ({}), did you mean {}? one of {} is needed", arguments.front(),
+                  nearest_name(arguments.front(), names), fmt::join(names, ", ")),
+      CLI::ExitCodes::InvalidError);
+}
+
+}  // namespace
+
+int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
+  CLI::App program("Ashlar: high-order 3-D discontinuous deformation analysis", "ashlar");
+  CommandContext context{out, err};
+  program.require_subcommand(1);
+  program.set_version_flag("--version", version_text, "Version of the program, its compiler and libraries");
+  program.footer("Exit status: 0 done; 1 the run failed; 2 bad input or usage; 130 interrupted.");
+  for (const CommandDeclaration declare : commands) declare(program, context);
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return fmt::format("ashlar: error: {}\nRun with --help for more information.\n", error.what());
+  });
+  try {
+    refuse_unknown_command(program, arguments);
+    // CLI11 takes arguments last first.
+    std::reverse(arguments.begin(), arguments.end());
+    program.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    // Also how --help and --version end the parsing; those are no faults.
+    return program.exit(error, out, err) == 0 ? exit_status::done : exit_status::bad_input;
+  }
+  return context.status;
+}
+
+}  // namespace ashlar

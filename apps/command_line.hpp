@@ -1,0 +1,38 @@
+// The command line of `ashlar`: one sub-command per task.
+//
+// A command is one file, x_command.{hpp,cpp}, with a function that declares its sub-command, and one line in
+// the list of command_line.cpp.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace ashlar {
+
+/// Exit status of the program.
+namespace exit_status {
+inline constexpr int done = 0;
+inline constexpr int failed = 1;         ///< the run failed; the last accepted state is saved
+inline constexpr int bad_input = 2;      ///< faults in files, arguments or usage; nothing was written
+inline constexpr int interrupted = 130;  ///< stopped by the user; state saved
+}  // namespace exit_status
+
+/// What every command is given, and what it leaves behind.
+struct CommandContext {
+  std::ostream& out;  ///< results
+  std::ostream& err;  ///< faults and progress
+  int status = exit_status::done;
+};
+
+/// Declares a sub-command on the program. Its callback runs the command and sets the context's status.
+using CommandDeclaration = void (*)(CLI::App& program, CommandContext& context);
+
+/// Parses and runs. @param arguments without the program's name. @return exit status.
+[[nodiscard]] int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err);
+
+}  // namespace ashlar

@@ -1,0 +1,40 @@
+#include "apps/diagnostics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+#include <tuple>
+
+namespace ashlar {
+
+std::string to_string(const Place& place) {
+  if (place.line == 0) return place.origin;
+  return fmt::format("{}:{}:{}", place.origin, place.line, place.column);
+}
+
+std::string to_string(const Diagnostic& diagnostic) {
+  return fmt::format("{}: error: {}", to_string(diagnostic.place), diagnostic.message);
+}
+
+std::vector<Diagnostic> Diagnostics::sorted() const {
+  const auto order = [](const Diagnostic& d) {
+    return std::tuple(d.place.line == 0, d.place.line, d.place.column);
+  };
+  std::vector<Diagnostic> result;
+  for (const Diagnostic& diagnostic : all_) {
+    const auto same = [&](const Diagnostic& d) {
+      return d.place == diagnostic.place && d.message == diagnostic.message;
+    };
+    if (std::none_of(result.begin(), result.end(), same)) result.push_back(diagnostic);
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const Diagnostic& a, const Diagnostic& b) { return order(a) < order(b); });
+  return result;
+}
+
+void Diagnostics::print(std::ostream& stream) const {
+  for (const Diagnostic& diagnostic : sorted()) stream << to_string(diagnostic) << '\n';
+}
+
+}  // namespace ashlar

@@ -1,0 +1,41 @@
+#include "apps/nearest_name.hpp"
+
+#include <algorithm>
+
+namespace ashlar {
+
+namespace {
+
+char to_small(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Row i holds the distances of the first i letters of a to every beginning of b; swaps look two rows back.
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const char letter_a = to_small(a[i - 1]), letter_b = to_small(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (letter_a == letter_b ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && letter_a == to_small(b[j - 2]) && to_small(a[i - 2]) == letter_b;
+      if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  const auto nearest =
+      std::min_element(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
+        return edit_distance(name, a) < edit_distance(name, b);
+      });
+  return nearest == candidates.end() ? std::string() : *nearest;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,19 @@
+// What this program was built from and with, for --version and for the records of a run.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ashlar {
+
+/// "0.1.0".
+[[nodiscard]] std::string program_version();
+
+/// Name and version: the compiler first, then the libraries.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> tool_versions();
+
+/// "ashlar 0.1.0" and a line for each of tool_versions.
+[[nodiscard]] std::string version_text();
+
+}  // namespace ashlar

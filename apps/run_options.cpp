@@ -1,0 +1,38 @@
+#include "apps/run_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <memory>
+
+#include "apps/run_command.hpp"
+
+namespace ashlar {
+
+void declare_overrides(CLI::App& command, std::vector<std::string>& overrides) {
+  // One value per --set: without this limit CLI11 would take the arguments after it as further values.
+  command
+      .add_option("--set", overrides,
+                  "Override a key of the scene: analysis.time_step=1e-4, block.B.order=5, block.0.order=5 "
+                  "(repeatable)")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->take_all();
+}
+
+void declare_run_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command = program.add_subcommand("run", "Simulate a scene and write its result folder");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<RunOptions>();
+  command->add_option("SCENE", options->scene, "Scene file (TOML)")->required()->type_name("");
+  command->add_option("--out", options->out, "Result folder (default: scene name + .out)")->type_name("DIR");
+  declare_overrides(*command, options->overrides);
+  command->add_flag("--resume", options->resume, "Go on from the checkpoint in the result folder");
+  command->add_option("--threads", options->threads, "Number of threads")
+      ->type_name("N")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max(), ">= 1"));
+  command->add_flag("--quiet", options->quiet, "No progress on stderr");
+  command->callback([options, &context] { context.status = run_command(*options); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,29 @@
+#include "apps/scene.hpp"
+
+#include <algorithm>
+
+#include "apps/name_pattern.hpp"
+
+namespace ashlar {
+
+SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, const std::string& block_b) {
+  SceneJointLaw law = scene.contact.law;
+  for (const SceneJoint& joint : scene.joint) {
+    if (!pattern_matches_pair(joint.blocks, block_a, block_b)) continue;
+    law.normal_stiffness = joint.normal_stiffness.value_or(law.normal_stiffness);
+    law.shear_stiffness = joint.shear_stiffness.value_or(law.shear_stiffness);
+    law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
+    law.cohesion = joint.cohesion.value_or(law.cohesion);
+    law.tensile_strength = joint.tensile_strength.value_or(law.tensile_strength);
+    law.tied = joint.tied.value_or(law.tied);
+  }
+  return law;
+}
+
+const SceneMaterial* find_material(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.material.begin(), scene.material.end(),
+                                  [&](const SceneMaterial& material) { return material.name == name; });
+  return found == scene.material.end() ? nullptr : &*found;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,206 @@
+#include "apps/scene_checks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "apps/name_pattern.hpp"
+#include "apps/nearest_name.hpp"
+#include "apps/scene_solids.hpp"
+
+namespace ashlar {
+namespace {
+
+std::string entry_key(const char* table, std::size_t index, const char* key) {
+  return fmt::format("{}.{}.{}", table, index, key);
+}
+
+// Reports empty and repeated names. A name that was not read has been reported already.
+template <typename Entry>
+void check_names(const Scene& scene, const std::vector<Entry>& entries, const char* table,
+                 Diagnostics& diagnostics) {
+  std::map<std::string, Place> first_places;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const std::string key = entry_key(table, i, "name");
+    const std::string& name = entries[i].name;
+    if (!scene.places.contains(key)) continue;
+    const Place place = scene.places.value(key);
+    if (name.empty()) {
+      diagnostics.error(
+          place, fmt::format("{} has no usable name (\"\"), a text of at least one letter is needed", table));
+      continue;
+    }
+    const auto [first, is_new] = first_places.emplace(name, place);
+    if (!is_new)
+      diagnostics.error(
+          place, fmt::format("{} named twice (\"{}\", first at {}), every {} needs its own name", table, name,
+                             to_string(first->second), table));
+  }
+}
+
+template <typename Entry>
+std::vector<std::string> names_of(const std::vector<Entry>& entries) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries)
+    if (!entry.name.empty()) names.push_back(entry.name);
+  return names;
+}
+
+// Reports a name that refers to nothing.
+void check_known(const Scene& scene, const std::string& key, const char* what, const std::string& name,
+                 const std::vector<std::string>& known, Diagnostics& diagnostics) {
+  if (!scene.places.contains(key) || std::find(known.begin(), known.end(), name) != known.end()) return;
+  const std::string allowed = known.empty()
+                                  ? fmt::format("there is no [[{}]]", what)
+                                  : fmt::format("did you mean \"{}\"? the name of a [[{}]] is needed",
+                                                nearest_name(name, known), what);
+  diagnostics.error(scene.places.value(key), fmt::format("unknown {} (\"{}\"), {}", what, name, allowed));
+}
+
+bool matches_a_pair(const SceneJoint& joint, const std::vector<std::string>& blocks) {
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    for (std::size_t j = 0; j < blocks.size(); ++j)
+      if (i != j && pattern_matches(joint.blocks[0], blocks[i]) &&
+          pattern_matches(joint.blocks[1], blocks[j]))
+        return true;
+  return false;
+}
+
+void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.joint.size(); ++i) {
+    const SceneJoint& joint = scene.joint[i];
+    if (joint.blocks[0].empty() && joint.blocks[1].empty()) continue;  // not read
+    const Place place = scene.places.value(entry_key("joint", i, "blocks"));
+    bool all_match = true;
+    for (const std::string& pattern : joint.blocks) {
+      if (std::any_of(blocks.begin(), blocks.end(),
+                      [&](const auto& name) { return pattern_matches(pattern, name); }))
+        continue;
+      all_match = false;
+      const std::string nearest = nearest_name(pattern, blocks);
+      diagnostics.error(place,
+                        fmt::format("joint names no block (\"{}\"), {}the name of a [[block]] or a glob that "
+                                    "matches one is needed",
+                                    pattern, nearest.empty() ? "" : "did you mean \"" + nearest + "\"? "));
+    }
+    if (all_match && !matches_a_pair(joint, blocks))
+      diagnostics.error(place,
+                        fmt::format("joint between a block and itself (\"{}\", \"{}\"), two different blocks "
+                                    "are needed",
+                                    joint.blocks[0], joint.blocks[1]));
+  }
+}
+
+// A measure's name heads columns of history.csv beside those of the totals.
+void check_measure_names(const Scene& scene, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.measure.size(); ++i) {
+    const std::string& name = scene.measure[i].name;
+    const Place place = scene.places.value(entry_key("measure", i, "name"));
+    const bool printable = std::none_of(name.begin(), name.end(), [](char letter) {
+      return letter == ',' || letter == '"' || static_cast<unsigned char>(letter) < ' ';
+    });
+    if (!printable)
+      diagnostics.error(place,
+                        "measure name cannot head a column (contains a comma, quote or control character), "
+                        "a plain text is needed");
+    if (name == "momentum" || name == "angular_momentum")
+      diagnostics.error(
+          place, fmt::format("measure name is taken (\"{}\"), history.csv has columns of that name for "
+                             "the whole scene",
+                             name));
+  }
+}
+
+class PlacementCheck {
+ public:
+  PlacementCheck(const Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
+
+  void check_point(const std::string& key, const SceneBlock& block, const Polyhedron& solid,
+                   const Vector3& point) {
+    if (!point.allFinite()) return;
+    Vector3 low = solid.mesh().points.front(), high = low;
+    for (const Vector3& corner : solid.mesh().points) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    const Vector3 outside = (low - point).cwiseMax(point - high).cwiseMax(0.0);
+    if (outside.norm() <= allowed_offset(solid)) return;
+    error(key,
+          fmt::format(
+              "point is not in block \"{}\" ([{}, {}, {}]), a point of the placed block is needed: x {} to "
+              "{}, y {} to {}, z {} to {}",
+              block.name, point.x(), point.y(), point.z(), low.x(), high.x(), low.y(), high.y(), low.z(),
+              high.z()));
+  }
+
+  void check_where(const std::string& key, const SceneBlock& block, const Polyhedron& solid,
+                   const std::variant<ScenePlane, Vector3>& where) {
+    if (const Vector3* point = std::get_if<Vector3>(&where)) {
+      check_point(key + ".point", block, solid, *point);
+      return;
+    }
+    const ScenePlane& plane = std::get<ScenePlane>(where);
+    if (!plane.point.allFinite() || !plane.normal.allFinite()) return;
+    if (!find_faces_in_plane(solid, plane).empty()) return;
+    error(
+        key + ".plane",
+        fmt::format(
+            "no face of block \"{}\" lies in the plane (point [{}, {}, {}], normal [{}, {}, {}]), the plane "
+            "of a face of the placed block is needed",
+            block.name, plane.point.x(), plane.point.y(), plane.point.z(), plane.normal.x(), plane.normal.y(),
+            plane.normal.z()));
+  }
+
+ private:
+  void error(const std::string& key, std::string message) {
+    diagnostics_.error(scene_.places.value(key), std::move(message));
+  }
+
+  const Scene& scene_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void check_references(const Scene& scene, Diagnostics& diagnostics) {
+  const SceneAnalysis& analysis = scene.analysis;
+  // Zero: not read.
+  if (analysis.end_time > 0.0 && analysis.time_step > analysis.end_time)
+    diagnostics.error(
+        scene.places.value("analysis.time_step"),
+        fmt::format("time_step is longer than the analysis ({}), at most end_time ({}) is needed",
+                    analysis.time_step, analysis.end_time));
+  check_names(scene, scene.material, "material", diagnostics);
+  check_names(scene, scene.block, "block", diagnostics);
+  check_names(scene, scene.measure, "measure", diagnostics);
+  check_measure_names(scene, diagnostics);
+  const std::vector<std::string> materials = names_of(scene.material), blocks = names_of(scene.block);
+  for (std::size_t i = 0; i < scene.block.size(); ++i)
+    check_known(scene, entry_key("block", i, "material"), "material", scene.block[i].material, materials,
+                diagnostics);
+  for (std::size_t i = 0; i < scene.measure.size(); ++i)
+    check_known(scene, entry_key("measure", i, "block"), "block", scene.measure[i].block, blocks,
+                diagnostics);
+  check_joints(scene, blocks, diagnostics);
+}
+
+void check_placement(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+                     Diagnostics& diagnostics) {
+  PlacementCheck check(scene, diagnostics);
+  for (std::size_t i = 0; i < scene.block.size(); ++i) {
+    const SceneBlock& block = scene.block[i];
+    if (!solids[i]) continue;
+    for (std::size_t j = 0; j < block.fix.size(); ++j)
+      check.check_where(fmt::format("block.{}.fix.{}", i, j), block, *solids[i], block.fix[j].where);
+    for (std::size_t j = 0; j < block.load.size(); ++j)
+      check.check_where(fmt::format("block.{}.load.{}", i, j), block, *solids[i], block.load[j].where);
+    for (std::size_t j = 0; j < scene.measure.size(); ++j)
+      if (scene.measure[j].block == block.name)
+        check.check_point(entry_key("measure", j, "point"), block, *solids[i], scene.measure[j].point);
+  }
+}
+
+}  // namespace ashlar

@@ -1,0 +1,22 @@
+#include "apps/scene_loading.hpp"
+
+#include "apps/available_features.hpp"
+#include "apps/scene_checks.hpp"
+#include "apps/scene_reader.hpp"
+#include "apps/scene_solids.hpp"
+
+namespace ashlar {
+
+std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
+                                      const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
+  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}};
+  check_references(loaded.scene, diagnostics);
+  check_availability(loaded.scene, diagnostics);
+  std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics);
+  check_placement(loaded.scene, solids, diagnostics);
+  if (!diagnostics.empty()) return std::nullopt;
+  for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
+  return loaded;
+}
+
+}  // namespace ashlar

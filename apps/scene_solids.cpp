@@ -1,0 +1,178 @@
+#include "apps/scene_solids.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "geometry/mesh_io.hpp"
+#include "geometry/shapes.hpp"
+
+namespace ashlar {
+namespace {
+
+// Sine and cosine of an angle in degrees, exact at multiples of 90.
+struct Turn {
+  double sine;
+  double cosine;
+};
+
+Turn turn_of(double degrees) {
+  int quarters = 0;
+  const double rest = std::remquo(degrees, 90.0, &quarters) * std::numbers::pi / 180.0;
+  const double sine = std::sin(rest), cosine = std::cos(rest);
+  // remquo gives at least the three low bits of the quotient, with its sign.
+  switch (quarters & 3) {
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
+}
+
+// Rodrigues' rotation matrix: c I + (1 - c) a a' + s [a]x, a the unit axis.
+Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
+  const Vector3 axis = rotation.axis.stableNormalized();
+  const auto [sine, cosine] = turn_of(rotation.angle);
+  Eigen::Matrix3d cross;
+  cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
+  return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;
+}
+
+// Scale, rotate, translate, in this order. A step that is not given leaves the points bit for bit.
+std::vector<Vector3> place_points(std::vector<Vector3> points, double scale, const SceneBlock& block) {
+  if (scale != 1.0)
+    for (Vector3& point : points) point *= scale;
+  if (block.rotate) {
+    const Eigen::Matrix3d matrix = rotation_matrix(*block.rotate);
+    for (Vector3& point : points) point = matrix * (point - block.rotate->about) + block.rotate->about;
+  }
+  for (Vector3& point : points) point += block.translate;
+  return points;
+}
+
+// A shape that bounds no solid, with the whole message.
+struct ShapeError : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+// All defects by kind, each with the first elements that have it.
+std::string describe_defects(const MeshError& error) {
+  constexpr std::size_t elements_shown = 3;
+  std::map<MeshDefectKind, std::vector<std::string>> elements;
+  for (const MeshDefect& defect : error.defects()) elements[defect.kind].push_back(defect.element);
+  std::vector<std::string> kinds;
+  for (auto& [kind, names] : elements) {
+    const std::size_t hidden = names.size() - std::min(names.size(), elements_shown);
+    names.resize(names.size() - hidden);
+    const std::string more = hidden > 0 ? ", and more" : "";
+    kinds.push_back(fmt::format("{}: {}{}", to_string(kind), fmt::join(names, ", "), more));
+  }
+  return fmt::format("{}", fmt::join(kinds, "; "));
+}
+
+Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
+  const std::filesystem::path file = scene.file.parent_path() / shape.file;
+  try {
+    return Polyhedron(read_mesh(file));
+  } catch (const MeshFileError& error) {
+    const std::string place = to_string(Place{file.string(), error.line(), error.column()});
+    throw ShapeError(fmt::format("mesh file cannot be used ({}: {})", place, error.what()));
+  } catch (const MeshError& error) {
+    throw ShapeError(
+        fmt::format("mesh bounds no solid ({}: {}), one closed surface without self-intersections, "
+                    "triangles counter-clockwise from outside, is needed",
+                    file.string(), describe_defects(error)));
+  }
+}
+
+struct SolidBuilder {
+  const Scene& scene;
+
+  Polyhedron operator()(std::monostate) const { throw std::logic_error("block without a shape"); }
+  Polyhedron operator()(const SceneBox& box) const { return Polyhedron(make_box(box.min, box.max)); }
+  Polyhedron operator()(const SceneMesh& mesh) const { return build_mesh_solid(scene, mesh); }
+  Polyhedron operator()(const SceneHull& hull) const { return Polyhedron(make_convex_hull(hull.points)); }
+  Polyhedron operator()(const SceneSphere& sphere) const {
+    return Polyhedron(make_sphere(sphere.center, sphere.radius, sphere.subdivisions));
+  }
+};
+
+Polyhedron build_solid(const Scene& scene, const SceneBlock& block) {
+  const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
+  try {
+    const Polyhedron own = std::visit(SolidBuilder{scene}, block.shape);
+    return own.with_points(place_points(own.mesh().points, mesh ? mesh->scale : 1.0, block));
+  } catch (const MeshError& error) {
+    throw ShapeError(fmt::format("shape bounds no solid ({}), a larger or rounder one is needed",
+                                 describe_defects(error)));
+  } catch (const std::invalid_argument& error) {
+    throw ShapeError(
+        fmt::format("shape cannot be built ({}), a solid of finite size is needed", error.what()));
+  }
+}
+
+const char* shape_key(const SceneShape& shape) {
+  constexpr std::array<const char*, 5> keys = {"", "box", "mesh", "hull", "sphere"};
+  return keys[shape.index()];
+}
+
+// At the key of the shape, unless an argument has changed the mesh's file.
+Place shape_place(const Scene& scene, std::size_t index) {
+  const std::string key = fmt::format("block.{}.{}", index, shape_key(scene.block[index].shape));
+  const std::string file_key = key + ".file";
+  if (scene.places.contains(file_key) && scene.places.value(file_key).line == 0)
+    return scene.places.value(file_key);
+  return scene.places.key(key);
+}
+
+}  // namespace
+
+std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics) {
+  std::vector<std::optional<Polyhedron>> solids(scene.block.size());
+  for (std::size_t i = 0; i < scene.block.size(); ++i) {
+    const SceneBlock& block = scene.block[i];
+    if (std::holds_alternative<std::monostate>(block.shape)) continue;
+    try {
+      solids[i].emplace(build_solid(scene, block));
+    } catch (const ShapeError& error) {
+      diagnostics.error(shape_place(scene, i), error.what());
+    }
+  }
+  return solids;
+}
+
+double allowed_offset(const Polyhedron& solid, const PlacementTolerance& tolerance) {
+  Vector3 low = solid.mesh().points.front(), high = low;
+  for (const Vector3& point : solid.mesh().points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return tolerance.relative * (high - low).norm();
+}
+
+std::vector<int> find_faces_in_plane(const Polyhedron& solid, const ScenePlane& plane,
+                                     const PlacementTolerance& tolerance) {
+  const Vector3 normal = plane.normal.stableNormalized();
+  const double offset = allowed_offset(solid, tolerance);
+  const auto in_plane = [&](int corner) {
+    const Vector3& point = solid.mesh().points[static_cast<std::size_t>(corner)];
+    return std::abs(normal.dot(point - plane.point)) <= offset;
+  };
+  std::vector<int> found;
+  for (std::size_t face = 0; face < solid.faces().size(); ++face) {
+    const std::vector<int>& outer = solid.faces()[face].loops.front();
+    if (std::all_of(outer.begin(), outer.end(), in_plane)) found.push_back(static_cast<int>(face));
+  }
+  return found;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,143 @@
+// Reading one TOML table key by key. Every key that is asked for becomes a known one, every fault goes to the
+// diagnostics with its place, and a value is only ever handed out after its type, range and finiteness are
+// checked. Keys that nobody asked for are reported at the end, with the nearest known one.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <list>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/diagnostics.hpp"
+#include "apps/number_ranges.hpp"
+#include "apps/scene_places.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Shared by the readers of all tables of one document.
+class TomlReading {
+ public:
+  /// What is known of one table: its content, its path, and the keys asked for so far.
+  struct KnownTable {
+    const toml::table* table;
+    std::string path;  ///< as in ScenePlaces
+    std::string name;  ///< path without indices, as in a header: "block.fix"; "" is the top
+    std::set<std::string> keys;
+  };
+
+  /// @param file name under which the document was parsed; nodes of any other source are taken as arguments.
+  TomlReading(std::string file, Diagnostics& diagnostics, ScenePlaces& places)
+      : file_(std::move(file)), diagnostics_(diagnostics), places_(places) {}
+
+  [[nodiscard]] Place place(const toml::source_region& region) const;
+  /// Registers a table; places of its keys are recorded.
+  KnownTable& add_table(const toml::table& table, std::string path, std::string name);
+  void record_place(const std::string& path, const toml::node& node);
+  void error(const toml::node& node, std::string message);
+  void error(Place place, std::string message) { diagnostics_.error(std::move(place), std::move(message)); }
+  [[nodiscard]] const ScenePlaces& places() const { return places_; }
+
+  /// One error for each key of a registered table that was never asked for. A key known in another table only
+  /// is said to belong there: TOML makes it easy to write a key below the wrong header.
+  void report_unknown_keys();
+
+ private:
+  [[nodiscard]] std::string suggestion(const KnownTable& table, const std::string& key) const;
+
+  std::string file_;
+  Diagnostics& diagnostics_;
+  ScenePlaces& places_;
+  std::list<KnownTable> tables_;  // readers keep references
+};
+
+/// One table. Each read_... leaves its result untouched if the key is absent or faulty, and returns whether a
+/// good value was read.
+class TomlTableReader {
+ public:
+  /// @param path,name see TomlReading::KnownTable. @param table outlives the reader.
+  TomlTableReader(TomlReading& reading, const toml::table& table, std::string path, std::string name)
+      : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {}
+
+  [[nodiscard]] const std::string& path() const { return known_.path; }
+  [[nodiscard]] const std::string& name() const { return known_.name; }
+  [[nodiscard]] std::string path(std::string_view key) const;
+  /// Whether the key is there, good or not. Makes it a known one.
+  [[nodiscard]] bool given(std::string_view key) { return find(key) != nullptr; }
+  /// Reports a missing key at the table's place.
+  void require(std::string_view key);
+  void error_at_table(std::string message);
+  void error_at_key(std::string_view key, std::string message);
+  void error_at_value(std::string_view key, std::string message);
+
+  bool read_bool(std::string_view key, bool& result);
+  bool read_text(std::string_view key, std::string& result);
+  bool read_number(std::string_view key, double& result, const NumberRange& range);
+  bool read_number(std::string_view key, std::optional<double>& result, const NumberRange& range);
+  /// "auto" makes the result empty.
+  bool read_number_or_auto(std::string_view key, std::optional<double>& result, const NumberRange& range);
+  bool read_integer(std::string_view key, int& result, int low, int high);
+  bool read_integer(std::string_view key, std::optional<int>& result, int low, int high);
+  bool read_vector(std::string_view key, Vector3& result);
+  bool read_texts(std::string_view key, std::vector<std::string>& result);
+  /// An array of rows of `width` finite numbers each, at least `minimum` of them. @param words for a row.
+  bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
+                 std::size_t minimum, const char* words);
+  /// Rows whose first number is a time, which must increase from row to row.
+  bool read_history(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
+                    const char* words);
+
+  /// One of several words.
+  template <typename Names, typename Choice>
+  bool read_choice(std::string_view key, Choice& result, const Names& names) {
+    std::vector<std::string> words;
+    for (const auto& [word, choice] : names) words.emplace_back(word);
+    const std::optional<std::size_t> index = read_word(key, words);
+    if (index) result = names[*index].second;
+    return index.has_value();
+  }
+
+  /// An array of some of several words, each at most once.
+  template <typename Names>
+  bool read_words(std::string_view key, std::vector<std::string>& result, const Names& names) {
+    std::vector<std::string> words;
+    for (const auto& [word, choice] : names) words.emplace_back(word);
+    return read_words_among(key, result, words);
+  }
+
+  /// A table; an absent or faulty one is none.
+  [[nodiscard]] std::optional<TomlTableReader> table(std::string_view key);
+  /// A table; an absent or faulty one reads as empty, so that its keys are known all the same.
+  [[nodiscard]] TomlTableReader table_or_empty(std::string_view key);
+  /// The entries of an array of tables; none if absent or faulty.
+  [[nodiscard]] std::vector<TomlTableReader> tables(std::string_view key);
+
+ private:
+  [[nodiscard]] const toml::node* find(std::string_view key);
+  [[nodiscard]] std::optional<std::size_t> read_word(std::string_view key,
+                                                     const std::vector<std::string>& words);
+  bool read_words_among(std::string_view key, std::vector<std::string>& result,
+                        const std::vector<std::string>& words);
+  [[nodiscard]] std::optional<std::size_t> find_word(const toml::node& node, std::string_view key,
+                                                     const std::vector<std::string>& words);
+  [[nodiscard]] const toml::array* find_array(std::string_view key, const std::string& words);
+  [[nodiscard]] std::optional<double> finite_number(const toml::node& node, std::string_view key,
+                                                    std::string_view words);
+  [[nodiscard]] std::optional<std::vector<double>> read_row(const toml::node& node, std::string_view key,
+                                                            std::size_t width, std::string_view words);
+  [[nodiscard]] std::string child_name(std::string_view key) const;
+  void wrong_type(const toml::node& node, std::string_view key, std::string_view words);
+
+  TomlReading& reading_;
+  TomlReading::KnownTable& known_;
+};
+
+/// A value as shown in a message: short ones as TOML, long ones by their kind.
+[[nodiscard]] std::string describe(const toml::node& node);
+
+}  // namespace ashlar
