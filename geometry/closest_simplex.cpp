@@ -1,0 +1,293 @@
+#include "geometry/closest_simplex.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace ashlar {
+
+namespace {
+
+class ExactSimplexSearch {
+ public:
+  ExactSimplexSearch(const ConvexShape& a, const ConvexShape& b, PredicateLadder& ladder)
+      : a_(a.corners()), b_(b.corners()), ladder_(ladder) {}
+
+  ClosestSimplex run(CornerSimplex simplex) {
+    while (true) {
+      reduce(simplex);
+      if (result_.contains_origin) break;
+      const CornerPair next = farther_pair();
+      const CornerPair first = result_.simplex.pairs[0];
+      if (next.a == first.a && next.b == first.b) break;
+      simplex = result_.simplex;
+      simplex.add(next);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] Difference corner(const CornerPair& p) const { return {&a_[p.a], &b_[p.b]}; }
+  // q - p as corners of D, without the half that cancels.
+  [[nodiscard]] Difference between(const CornerPair& p, const CornerPair& q) const {
+    if (p.b == q.b) return {&a_[q.a], &a_[p.a]};
+    if (p.a == q.a) return {&b_[p.b], &b_[q.b]};
+    return {&a_[q.a], &a_[p.a], &b_[p.b], &b_[q.b]};
+  }
+
+  // Finds the subset of the simplex that has the nearest point of its hull in its relative interior, the full
+  // set first.
+  void reduce(const CornerSimplex& simplex) {
+    const int all = (1 << simplex.size) - 1;
+    for (int mask = all; mask > 0; --mask) {
+      result_.simplex.size = 0;
+      for (int k = 0; k < simplex.size; ++k)
+        if ((mask >> k & 1) != 0) result_.simplex.add(simplex.pairs[k]);
+      if (!nearest_is_inside()) continue;
+      if (result_.contains_origin) return;
+      bool optimal = true;
+      for (int k = 0; optimal && k < simplex.size; ++k)
+        optimal = (mask >> k & 1) != 0 ||
+                  sign_along(result_.w, between(result_.simplex.pairs[0], simplex.pairs[k]), ladder_) >= 0;
+      if (optimal) return;
+    }
+  }
+
+  // Sets w; false if the nearest point of the affine hull of the simplex is not inside its hull.
+  bool nearest_is_inside() {
+    switch (result_.simplex.size) {
+      case 1:
+        return point_case();
+      case 2:
+        return segment_case();
+      case 3:
+        return triangle_case();
+      default:
+        return tetrahedron_case();
+    }
+  }
+  bool point_case() {
+    result_.w = ContactDirection::along(corner(result_.simplex.pairs[0]));
+    result_.contains_origin = is_zero(result_.w, ladder_);
+    return true;
+  }
+  bool segment_case() {
+    const auto& p = result_.simplex.pairs;
+    const Difference e = between(p[0], p[1]);
+    const ContactDirection along = ContactDirection::along(e);
+    if (sign_along(along, corner(p[0]), ladder_) >= 0 || sign_along(along, corner(p[1]), ladder_) <= 0)
+      return false;
+    result_.w = ContactDirection::rejection(corner(p[0]), e);
+    result_.contains_origin = is_zero(result_.w, ladder_);
+    return true;
+  }
+  bool triangle_case() {
+    const auto& p = result_.simplex.pairs;
+    result_.w = ContactDirection::cross(between(p[0], p[1]), between(p[0], p[2]));
+    for (int k = 0; k < 3; ++k)
+      if (sign_triple(result_.w, corner(p[k]), between(p[k], p[(k + 1) % 3]), ladder_) <= 0) return false;
+    const int side = sign_along(result_.w, corner(p[0]), ladder_);
+    result_.contains_origin = side == 0;
+    if (side < 0) result_.w.reverse();
+    return true;
+  }
+  // Inside if the origin lies on the same side of each face as the fourth corner.
+  bool tetrahedron_case() {
+    const auto& p = result_.simplex.pairs;
+    for (int k = 0; k < 4; ++k) {
+      const CornerPair &x = p[(k + 1) % 4], &y = p[(k + 2) % 4], &z = p[(k + 3) % 4];
+      const ContactDirection normal = ContactDirection::cross(between(x, y), between(x, z));
+      const int origin_side = -sign_along(normal, corner(x), ladder_);
+      if (origin_side == 0 || origin_side != sign_along(normal, between(x, p[k]), ladder_)) return false;
+    }
+    result_.contains_origin = result_.interior = true;
+    return true;
+  }
+
+  // A corner pair of D strictly beyond the simplex along -w, or its first pair if there is none; the latter
+  // case leaves the support corners in the result.
+  CornerPair farther_pair() {
+    const CornerPair first = result_.simplex.pairs[0];
+    return {farthest(a_, first.a, 1, result_.support_a), farthest(b_, first.b, -1, result_.support_b)};
+  }
+  int farthest(const std::vector<Vector3>& points, int first, int orientation, std::vector<int>& support) {
+    const auto& w = result_.w.tracked();
+    int best = first;
+    double best_value = 0.0;
+    support.clear();
+    for (int v = 0; v < static_cast<int>(points.size()); ++v) {
+      const int sign =
+          v == first ? 0 : orientation * sign_along(result_.w, points[v], points[first], ladder_);
+      if (sign == 0) support.push_back(v);
+      if (sign >= 0) continue;
+      const Vector3 step = points[v] - points[first];
+      const double value = orientation * (w.x.value * step[0] + w.y.value * step[1] + w.z.value * step[2]);
+      if (best == first || value < best_value) {
+        best = v;
+        best_value = value;
+      }
+    }
+    return best;
+  }
+
+  const std::vector<Vector3>& a_;
+  const std::vector<Vector3>& b_;
+  PredicateLadder& ladder_;
+  ClosestSimplex result_;
+};
+
+// Floating GJK: the nearest point of a simplex of up to four corners of D by Voronoi regions (Ericson 2005).
+class FloatingSearch {
+ public:
+  FloatingSearch(const ConvexShape& a, const ConvexShape& b) : a_(a.corners()), b_(b.corners()) {}
+
+  CornerSimplex run() {
+    simplex_.add({0, 0});
+    points_[0] = nearest_ = a_[0] - b_[0];
+    double squared_norm = nearest_.squaredNorm();
+    while (simplex_.size < 4 && squared_norm > 0.0) {
+      const CornerPair next{lowest(a_, nearest_), lowest(b_, -nearest_)};
+      const Vector3 point = a_[next.a] - b_[next.b];
+      if (!(nearest_.dot(point) < squared_norm) || has(next)) break;
+      const CornerSimplex before = simplex_;
+      const std::array<Vector3, 4> points_before = points_;
+      points_[simplex_.size] = point;
+      simplex_.add(next);
+      shrink();
+      if (simplex_.size == 4) break;
+      const double shorter = nearest_.squaredNorm();
+      if (!(shorter < squared_norm)) {
+        simplex_ = before;
+        points_ = points_before;
+        break;
+      }
+      squared_norm = shorter;
+    }
+    return simplex_;
+  }
+
+ private:
+  static int lowest(const std::vector<Vector3>& points, const Vector3& w) {
+    int best = 0;
+    double value = w.dot(points[0]);
+    for (int v = 1; v < static_cast<int>(points.size()); ++v) {
+      const double candidate = w.dot(points[v]);
+      if (candidate < value) {
+        value = candidate;
+        best = v;
+      }
+    }
+    return best;
+  }
+  [[nodiscard]] bool has(const CornerPair& p) const {
+    for (int k = 0; k < simplex_.size; ++k)
+      if (simplex_.pairs[k].a == p.a && simplex_.pairs[k].b == p.b) return true;
+    return false;
+  }
+  void keep(std::initializer_list<int> which) {
+    int n = 0;
+    for (const int k : which) {
+      simplex_.pairs[n] = simplex_.pairs[k];
+      points_[n++] = points_[k];
+    }
+    simplex_.size = n;
+  }
+  void shrink() {
+    if (simplex_.size == 2) shrink_segment();
+    if (simplex_.size == 3) shrink_triangle();
+    if (simplex_.size == 4) shrink_tetrahedron();
+  }
+  void shrink_segment() {
+    const Vector3 e = points_[1] - points_[0];
+    const double t = -points_[0].dot(e);
+    if (t <= 0.0) {
+      keep({0});
+      nearest_ = points_[0];
+    } else if (t >= e.squaredNorm()) {
+      keep({1});
+      nearest_ = points_[0];
+    } else {
+      nearest_ = points_[0] + e * (t / e.squaredNorm());
+    }
+  }
+  void shrink_to_side(int i, int j) {
+    keep({i, j});
+    shrink_segment();
+  }
+  void shrink_triangle() {
+    const Vector3 &a = points_[0], &b = points_[1], &c = points_[2];
+    const Vector3 ab = b - a, ac = c - a;
+    const double d1 = -ab.dot(a), d2 = -ac.dot(a), d3 = -ab.dot(b), d4 = -ac.dot(b), d5 = -ab.dot(c),
+                 d6 = -ac.dot(c);
+    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+    if (d1 <= 0.0 && d2 <= 0.0) return keep_point(0);
+    if (d3 >= 0.0 && d4 <= d3) return keep_point(1);
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return shrink_to_side(0, 1);
+    if (d6 >= 0.0 && d5 <= d6) return keep_point(2);
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return shrink_to_side(0, 2);
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return shrink_to_side(1, 2);
+    const Vector3 normal = ab.cross(ac);
+    nearest_ = normal * (normal.dot(a) / normal.squaredNorm());
+  }
+  void keep_point(int k) {
+    keep({k});
+    nearest_ = points_[0];
+  }
+  void shrink_tetrahedron() {
+    const CornerSimplex full = simplex_;
+    const std::array<Vector3, 4> points = points_;
+    CornerSimplex best;
+    std::array<Vector3, 4> best_points;
+    Vector3 best_nearest = Vector3::Zero();
+    constexpr std::array<std::array<int, 4>, 4> faces{
+        {{0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}}};
+    for (const auto& [i, j, k, opposite] : faces) {
+      const Vector3 normal = (points[j] - points[i]).cross(points[k] - points[i]);
+      const double origin_side = -normal.dot(points[i]);
+      const double inner_side = normal.dot(points[opposite] - points[i]);
+      if (origin_side * inner_side > 0.0) continue;
+      simplex_ = full;
+      points_ = points;
+      keep({i, j, k});
+      shrink_triangle();
+      if (best.size == 0 || nearest_.squaredNorm() < best_nearest.squaredNorm()) {
+        best = simplex_;
+        best_points = points_;
+        best_nearest = nearest_;
+      }
+    }
+    simplex_ = best.size == 0 ? full : best;
+    points_ = best.size == 0 ? points : best_points;
+    nearest_ = best_nearest;
+  }
+
+  const std::vector<Vector3>& a_;
+  const std::vector<Vector3>& b_;
+  CornerSimplex simplex_;
+  std::array<Vector3, 4> points_;
+  Vector3 nearest_;
+};
+
+}  // namespace
+
+CornerSimplex guess_closest_simplex(const ConvexShape& a, const ConvexShape& b) {
+  return FloatingSearch(a, b).run();
+}
+
+ClosestSimplex find_closest_simplex(const ConvexShape& a, const ConvexShape& b, const CornerSimplex& guess,
+                                    PredicateLadder& ladder) {
+  return ExactSimplexSearch(a, b, ladder).run(guess);
+}
+
+std::vector<int> support_corners(const ConvexShape& shape, const ContactDirection& w,
+                                 PredicateLadder& ladder) {
+  const std::vector<Vector3>& points = shape.corners();
+  std::vector<int> support{0};
+  for (int v = 1; v < static_cast<int>(points.size()); ++v) {
+    const int sign = sign_along(w, points[v], points[support[0]], ladder);
+    if (sign < 0) support.clear();
+    if (sign <= 0) support.push_back(v);
+  }
+  return support;
+}
+
+}  // namespace ashlar

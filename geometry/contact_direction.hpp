@@ -1,0 +1,160 @@
+// The exact direction of a contact and every question that is asked along it.
+//
+// A contact direction w is a polynomial in the given coordinates (symbols: d = a - b a difference of two
+// points, e an edge vector):
+//   difference   w = d                        vertex-vertex                       degree 1
+//   cross        w = +-(e1 x e2)              facet normal, edge-edge             degree 2
+//   rejection    w = e x (d x e)              the part of d across e: vertex-edge degree 3
+// Its length is irrelevant; all questions are about signs of w.d, of w.(d1 x d2) and about ratios that do not
+// change when w is scaled by a positive number. w is never rounded before a decision: each rung of the ladder
+// evaluates the whole polynomial anew in its own numbers:
+//   filter   TrackedNumber, then DoubleDouble (double_double.hpp): floating point with proved error bounds
+//   exact    multiple precision, only when both are in doubt
+// A construction (the ratio behind a reported coordinate) is rounded once, to the double nearest to the exact
+// value: in DoubleDouble when its bound leaves one candidate, else in rational numbers.
+#pragma once
+
+#include <Eigen/Core>
+#include <initializer_list>
+#include <memory>
+#include <span>
+
+#include "geometry/double_double.hpp"
+#include "geometry/number_vector.hpp"
+#include "geometry/tracked_number.hpp"
+
+namespace ashlar {
+
+using Vector3 = Eigen::Vector3d;
+
+/// Who decided how often. Deterministic: the same input gives the same counts.
+struct DecisionCounts {
+  long filter = 0;  ///< signs and roundings settled by floating point with a proved bound
+  long exact = 0;   ///< those that needed multiple precision
+};
+
+/// Exponents of the coordinates of a shape: all are multiples of 2^lowest_bit and below 2^highest_bit in
+/// magnitude (lowest_bit > highest_bit: all zero). Decides whether floating point can under- or overflow.
+struct NumericRange {
+  int lowest_bit = 2000;
+  int highest_bit = -2000;
+
+  void include(double coordinate);
+  void include(const NumericRange& other);
+  /// A polynomial of degree 10 stays within 2^+-960 at every step (its smallest non-zero value, and that of
+  /// every intermediate result, is a multiple of 2^(10 lowest_bit)).
+  [[nodiscard]] bool safe() const {
+    return highest_bit < lowest_bit || (lowest_bit >= -96 && highest_bit <= 90);
+  }
+};
+
+/// The ladder's state for one query: whether its floating rungs may be used, and the counts.
+struct PredicateLadder {
+  bool floating = true;
+  DecisionCounts counts;
+};
+
+/// (plus - minus) + (plus2 - minus2) of points that outlive it; a null pair is left out, a null minus is the
+/// origin.
+struct Difference {
+  const Vector3* plus = nullptr;
+  const Vector3* minus = nullptr;
+  const Vector3* plus2 = nullptr;
+  const Vector3* minus2 = nullptr;
+};
+
+/// See the head of the file. The points it was made from must outlive it.
+class ContactDirection {
+ public:
+  [[nodiscard]] static ContactDirection along(const Difference& d);
+  [[nodiscard]] static ContactDirection cross(const Difference& e1, const Difference& e2);
+  [[nodiscard]] static ContactDirection rejection(const Difference& d, const Difference& e);
+  ContactDirection();
+  ~ContactDirection();
+  ContactDirection(ContactDirection&&) noexcept;
+  ContactDirection& operator=(ContactDirection&&) noexcept;
+  [[nodiscard]] ContactDirection copy() const;
+  /// -w.
+  [[nodiscard]] ContactDirection reversed() const;
+  /// Turns w into -w.
+  void reverse();
+
+  /// w in the numbers of the two floating rungs; the second one is computed on first use.
+  [[nodiscard]] const NumberVector<TrackedNumber>& tracked() const { return tracked_; }
+  [[nodiscard]] const NumberVector<DoubleDouble>& double_double() const;
+  struct ExactVector;
+  [[nodiscard]] const ExactVector& exact() const;
+
+ private:
+  enum class Kind { difference, cross, rejection };
+  ContactDirection(Kind kind, const Difference& first, const Difference& second);
+  template <class N>
+  [[nodiscard]] NumberVector<N> evaluate() const;
+
+  Kind kind_ = Kind::difference;
+  bool reversed_ = false;
+  mutable bool has_double_double_ = false;
+  Difference first_, second_;
+  NumberVector<TrackedNumber> tracked_;
+  mutable NumberVector<DoubleDouble> double_double_;
+  mutable std::unique_ptr<ExactVector> exact_;
+};
+
+/// Value of a difference in the numbers of a rung.
+template <class N>
+[[nodiscard]] NumberVector<N> evaluate(const Difference& d);
+
+/// Sign of w . d.
+[[nodiscard]] int sign_along(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
+/// Sign of w . (x - y).
+[[nodiscard]] inline int sign_along(const ContactDirection& w, const Vector3& x, const Vector3& y,
+                                    PredicateLadder& ladder) {
+  return sign_along(w, Difference{&x, &y}, ladder);
+}
+/// Sign of w . (d1 x d2).
+[[nodiscard]] int sign_triple(const ContactDirection& w, const Difference& d1, const Difference& d2,
+                              PredicateLadder& ladder);
+/// Sign of w . ((b - a) x (c - a)): 1 if a, b, c turn left when w points at the viewer.
+[[nodiscard]] inline int sign_turn(const ContactDirection& w, const Vector3& a, const Vector3& b,
+                                   const Vector3& c, PredicateLadder& ladder) {
+  return sign_triple(w, Difference{&b, &a}, Difference{&c, &a}, ladder);
+}
+/// Sign of (w x d1) . (w x d2): the scalar product of the two in the projection along w.
+[[nodiscard]] int sign_projected_dot(const ContactDirection& w, const Difference& d1, const Difference& d2,
+                                     PredicateLadder& ladder);
+/// True if w x d = 0: the difference vanishes in the projection along w.
+[[nodiscard]] bool is_parallel(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
+/// True if w = 0 (parallel edge vectors, or a point on an edge's line).
+[[nodiscard]] bool is_zero(const ContactDirection& w, PredicateLadder& ladder);
+/// True if (w.d)^2 <= bound^2 |w|^2, or with_length, <= bound^2 |w|^2 |d|^2: d reaches at most the given
+/// height along w, or is inclined to the plane across w by at most the angle of the given sine.
+[[nodiscard]] bool is_within(const ContactDirection& w, const Difference& d, double bound, bool with_length,
+                             PredicateLadder& ladder);
+/// Sign of |w1.d1| / |w1| - |w2.d2| / |w2|.
+[[nodiscard]] int compare_heights(const ContactDirection& w1, const Difference& d1,
+                                  const ContactDirection& w2, const Difference& d2, PredicateLadder& ladder);
+/// Sign of the cosine of (w1, c) minus that of (w2, c), c the mean of points a minus the mean of points b.
+[[nodiscard]] int compare_alignment(const ContactDirection& w1, const ContactDirection& w2,
+                                    std::span<const Vector3> a, std::span<const Vector3> b,
+                                    PredicateLadder& ladder);
+/// True if v = s w with s > 0.
+[[nodiscard]] bool same_direction(const ContactDirection& v, const ContactDirection& w,
+                                  PredicateLadder& ladder);
+
+// Constructions, each correctly rounded.
+
+/// (w.d)^2 / |w|^2.
+[[nodiscard]] double squared_height(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
+/// x + w (w.d) / |w|^2; x may be null for the origin.
+[[nodiscard]] Vector3 shifted(const Vector3* x, const ContactDirection& w, const Difference& d,
+                              PredicateLadder& ladder);
+/// w / |w|.
+[[nodiscard]] Vector3 unit_vector(const ContactDirection& w, PredicateLadder& ladder);
+/// The point of the segment (a, b) that lies over the line (c, d) in the projection along w.
+[[nodiscard]] Vector3 crossing_point(const ContactDirection& w, const Vector3& a, const Vector3& b,
+                                     const Vector3& c, const Vector3& d, PredicateLadder& ladder);
+/// The point of the segment (a, b) in the plane through c across w.
+[[nodiscard]] Vector3 plane_point(const ContactDirection& w, const Vector3& a, const Vector3& b,
+                                  const Vector3& c, PredicateLadder& ladder);
+
+}  // namespace ashlar

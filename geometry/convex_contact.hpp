@@ -1,0 +1,70 @@
+// The exact contact of two convex solids or triangles: relation, type, region, distance, depth.
+//
+//   d = min |p - q|,  w = p - q at a closest pair,  K = P n (Q + w)
+// P and Q intersect: d = 0; with common inner points they cross, otherwise they touch in K = P n Q. The type
+// is the pair of dimensions of the faces that carry K on P and K - w on Q (contact_type.hpp). Nothing is
+// decided on a rounded number and there is no tolerance: every sign comes from the ladder of
+// contact_direction.hpp. Answers do not depend on the rounding mode of the caller.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/contact_region.hpp"
+#include "geometry/contact_type.hpp"
+#include "geometry/convex_shape.hpp"
+#include "geometry/separating_direction.hpp"
+
+namespace ashlar {
+
+/// What decided the direction of a contact.
+enum class DirectionRule {
+  closest_points,     ///< apart: w
+  unique,             ///< touching in a face or in crossing edges: the only normal
+  history,            ///< the facet of D = P - Q the caller saw last with a positive gap
+  least_penetration,  ///< no history: the facet of D nearest to the origin
+  /// Several facets of D are equally near; chosen: one with a facet of A or B before two edges, then the
+  /// direction that is nearest to the difference of the means of the corners, then the lowest index (A
+  /// first).
+  least_penetration_tie,
+};
+
+/// A way to end a crossing: a translation of A of least length, and the contact it leads to.
+struct MinimalTranslation {
+  Entrance entrance;
+  Vector3 translation;   ///< of A, m, correctly rounded
+  ContactRegion region;  ///< points on A before, on B after the translation (B does not move)
+};
+
+/// The whole report.
+struct ConvexContact {
+  Relation relation = Relation::apart;
+  ContactRegion region;           ///< with type and carriers; crossing: the common solid
+  double squared_distance = 0.0;  ///< m^2, correctly rounded
+  Vector3 displacement;           ///< w, m, correctly rounded; zero unless apart
+  /// Unit normal from B to A, correctly rounded: w / |w|, the contact normal, or the direction the rule
+  /// chose; zero for two triangles that cross.
+  Vector3 normal;
+  DirectionRule rule = DirectionRule::closest_points;
+  /// The facet of D the normal belongs to; none where the normal is that of closest points.
+  std::optional<Entrance> entrance;
+  double squared_depth = 0.0;                            ///< crossing solids: m^2, correctly rounded
+  std::vector<MinimalTranslation> minimal_translations;  ///< crossing solids: all of least length
+  DecisionCounts decided_by;
+
+  [[nodiscard]] ContactType type() const { return region.type; }
+};
+
+/// What of a crossing is wanted beyond its depth; nothing of it costs anything for other pairs.
+struct CrossingDetail {
+  bool region = true;               ///< the vertices of the common solid
+  bool translation_regions = true;  ///< the contacts the minimal translations lead to
+};
+
+/// Exact type and report. @param history a facet of D the pair was last seen apart across, used where the
+/// contact does not fix its own normal (V-V, V-E, collinear E-E at distance zero, crossing).
+[[nodiscard]] ConvexContact classify(const ConvexShape& a, const ConvexShape& b,
+                                     const std::optional<Entrance>& history = std::nullopt,
+                                     const CrossingDetail& detail = {});
+
+}  // namespace ashlar

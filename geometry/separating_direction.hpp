@@ -1,0 +1,66 @@
+// Separation and depth of two convex shapes that are not apart, over the facets of D = P - Q.
+//
+// Every facet of D comes from a facet of P and a corner, edge or facet of Q, the reverse, or two edges that
+// are not parallel. Seen from inside, its direction w (towards P) has the height min_P w.x - max_Q w.y. If
+// some height is zero the plane across w separates the two; if all are negative the origin is inside D and
+// the least |height| / |w| is the depth.
+#pragma once
+
+#include <vector>
+
+#include "geometry/contact_direction.hpp"
+#include "geometry/convex_shape.hpp"
+
+namespace ashlar {
+
+/// The kinds of facets of D.
+enum class EntranceKind {
+  face_of_a,  ///< facet of A, support of B
+  face_of_b,  ///< facet of B, support of A
+  edge_edge,  ///< an edge of each
+};
+
+/// A facet of D by the features it is made of.
+struct Entrance {
+  EntranceKind kind = EntranceKind::face_of_a;
+  int a = -1;             ///< facet or edge of A; -1 for face_of_b
+  int b = -1;             ///< facet or edge of B; -1 for face_of_a
+  bool reversed = false;  ///< w = -N(a), N(b), u(a) x v(b) as computed, or its opposite
+
+  friend bool operator==(const Entrance&, const Entrance&) = default;
+};
+
+/// Its exact direction from B to A.
+[[nodiscard]] ContactDirection direction_of(const Entrance& entrance, const ConvexShape& a,
+                                            const ConvexShape& b);
+
+/// A direction of D's boundary with exact support of both shapes.
+struct Support {
+  Entrance entrance;
+  ContactDirection w;
+  std::vector<int> a, b;  ///< corners of A with the least, of B with the greatest w.x
+};
+
+/// Exact support of both shapes along w.
+[[nodiscard]] Support support_along(const ConvexShape& a, const ConvexShape& b, ContactDirection w,
+                                    PredicateLadder& ladder);
+/// Sign of min_A w.x - max_B w.y.
+[[nodiscard]] int height_sign(const Support& s, const ConvexShape& a, const ConvexShape& b,
+                              PredicateLadder& ladder);
+
+struct SeparationResult {
+  bool separated = false;
+  /// Separated: every entrance of height zero. Crossing solids: every entrance of least |height| / |w|, one
+  /// for each direction. Crossing triangles: empty, a triangle in space has no inside.
+  std::vector<Support> supports;
+};
+
+/// @param a,b shapes that intersect (the origin is in D).
+[[nodiscard]] SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b,
+                                               PredicateLadder& ladder);
+
+/// Of several equally near entrances the one whose direction a contact takes (DirectionRule).
+[[nodiscard]] const Support& preferred_support(const std::vector<Support>& supports, const ConvexShape& a,
+                                               const ConvexShape& b, PredicateLadder& ladder);
+
+}  // namespace ashlar
