@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/exact_rounding.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -24,22 +26,6 @@ ExactVector operator-(const ExactVector& a, const ExactVector& b) {
 
 ExactVector cross(const ExactVector& a, const ExactVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// GMP truncates, so the exact value lies between the truncated double and its neighbour away from zero.
-double round_to_nearest(const CGAL::Gmpq& value) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double inner = mpq_get_d(value.mpq());
-  if (!std::isfinite(inner)) return value > 0 ? infinity : -infinity;
-  const CGAL::Gmpq twice_remainder = 2 * (value - CGAL::Gmpq(inner));
-  if (twice_remainder == 0) return inner;
-  const double outer = std::nextafter(inner, value > 0 ? infinity : -infinity);
-  if (!std::isfinite(outer)) return outer;
-  const CGAL::Gmpq gap = CGAL::Gmpq(outer) - CGAL::Gmpq(inner);
-  const int order = CGAL::compare(CGAL::abs(twice_remainder), CGAL::abs(gap));
-  if (order != 0) return order < 0 ? inner : outer;
-  const bool inner_is_even = std::fmod(std::abs(inner) / std::abs(outer - inner), 2.0) == 0.0;
-  return inner_is_even ? inner : outer;
 }
 
 // Squaring stays in range for components between these bounds.
@@ -69,7 +55,8 @@ double signed_volume(const TriangleMesh& mesh) {
     const ExactVector n = cross(exact(mesh.points[t[1]]), exact(mesh.points[t[2]]));
     sum = sum + (a[0] * n[0] + a[1] * n[1] + a[2] * n[2]);
   }
-  return round_to_nearest(CGAL::Gmpq(sum) / 6);
+  const CGAL::Gmpq volume = CGAL::Gmpq(sum) / 6;
+  return round_to_nearest(volume.mpq());
 }
 
 Vector3 area_direction(const TriangleMesh& mesh, std::span<const int> triangles) {

@@ -259,7 +259,7 @@ TEST_F(MeshIo, refused_files_tell_place_value_and_what_is_allowed) {
             "8:1: text after the last face (3), the header announces 1 faces");
   EXPECT_EQ(refusal("a.off", "OFF\n99999999999 4 6\n"),
             "2:1: number of points (99999999999), allowed 1 to 2147483647");
-  EXPECT_EQ(refusal("a.off", "OFF\n4 2000000000 6\n"),
+  EXPECT_EQ(refusal("a.off", "OFF\n4 2000000000 6\n" + tetrahedron_points),
             "2:3: number of faces (2000000000), the file is too short for them");
   EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n"),
             "4:7: point index (-4), allowed -3 to 2147483647");
