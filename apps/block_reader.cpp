@@ -181,10 +181,10 @@ void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block) {
 SceneBlock read_block(TomlTableReader& table) {
   SceneBlock block;
   table.require("name");
-  table.read_text("name", block.name);
+  table.read_name("name", block.name);
   table.read_bool("fixed", block.fixed);
   if (!block.fixed) table.require("material");
-  table.read_text("material", block.material);
+  table.read_name("material", block.material);
   table.read_integer("order", block.order, 1, 12);
   block.shape = read_shape(table);
   if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);

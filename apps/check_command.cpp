@@ -6,7 +6,7 @@
 #include <memory>
 #include <ostream>
 
-#include "apps/run_options.hpp"
+#include "apps/override_option.hpp"
 #include "apps/scene_loading.hpp"
 
 namespace ashlar {

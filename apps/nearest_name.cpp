@@ -10,9 +10,8 @@ char to_small(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
-}  // namespace
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+// Edit distances of a text to every beginning of another, the empty one first.
+std::vector<std::size_t> prefix_distances(std::string_view a, std::string_view b) {
   // Row i holds the distances of the first i letters of a to every beginning of b; swaps look two rows back.
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -27,13 +26,24 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
       if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
   }
-  return row[b.size()];
+  return row;
+}
+
+std::size_t distance_or_short_form(std::string_view name, std::string_view candidate) {
+  const std::vector<std::size_t> distances = prefix_distances(name, candidate);
+  return std::min(distances.back(), *std::min_element(distances.begin(), distances.end()) + 1);
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  return prefix_distances(a, b).back();
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   const auto nearest =
       std::min_element(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
-        return edit_distance(name, a) < edit_distance(name, b);
+        return distance_or_short_form(name, a) < distance_or_short_form(name, b);
       });
   return nearest == candidates.end() ? std::string() : *nearest;
 }

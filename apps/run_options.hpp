@@ -22,7 +22,4 @@ struct RunOptions {
 /// Declares `ashlar run`; it calls run_command (run_command.hpp).
 void declare_run_command(CLI::App& program, CommandContext& context);
 
-/// Declares the repeatable option --set on a sub-command.
-void declare_overrides(CLI::App& command, std::vector<std::string>& overrides);
-
 }  // namespace ashlar

@@ -183,7 +183,7 @@ struct SceneBlock {
 
 /// [[measure]]: a material point whose motion is written to the history.
 struct SceneMeasure {
-  std::string name;                 ///< unique; required; a column name: no comma, quote or line break
+  std::string name;                 ///< unique; required; heads columns of the history
   std::string block;                ///< name of a [[block]]
   Vector3 point = Vector3::Zero();  ///< m, in the placed, undeformed block
 };

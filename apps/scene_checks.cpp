@@ -18,7 +18,7 @@ std::string entry_key(const char* table, std::size_t index, const char* key) {
   return fmt::format("{}.{}.{}", table, index, key);
 }
 
-// Reports empty and repeated names. A name that was not read has been reported already.
+// Reports repeated names. One that was not read is empty and has been reported already.
 template <typename Entry>
 void check_names(const Scene& scene, const std::vector<Entry>& entries, const char* table,
                  Diagnostics& diagnostics) {
@@ -26,13 +26,8 @@ void check_names(const Scene& scene, const std::vector<Entry>& entries, const ch
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::string key = entry_key(table, i, "name");
     const std::string& name = entries[i].name;
-    if (!scene.places.contains(key)) continue;
+    if (name.empty()) continue;
     const Place place = scene.places.value(key);
-    if (name.empty()) {
-      diagnostics.error(
-          place, fmt::format("{} has no usable name (\"\"), a text of at least one letter is needed", table));
-      continue;
-    }
     const auto [first, is_new] = first_places.emplace(name, place);
     if (!is_new)
       diagnostics.error(
@@ -49,10 +44,10 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
   return names;
 }
 
-// Reports a name that refers to nothing.
+// Reports a name that refers to nothing; an empty one was not read.
 void check_known(const Scene& scene, const std::string& key, const char* what, const std::string& name,
                  const std::vector<std::string>& known, Diagnostics& diagnostics) {
-  if (!scene.places.contains(key) || std::find(known.begin(), known.end(), name) != known.end()) return;
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string allowed = known.empty()
                                   ? fmt::format("there is no [[{}]]", what)
                                   : fmt::format("did you mean \"{}\"? the name of a [[{}]] is needed",
@@ -99,13 +94,6 @@ void check_measure_names(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.measure.size(); ++i) {
     const std::string& name = scene.measure[i].name;
     const Place place = scene.places.value(entry_key("measure", i, "name"));
-    const bool printable = std::none_of(name.begin(), name.end(), [](char letter) {
-      return letter == ',' || letter == '"' || static_cast<unsigned char>(letter) < ' ';
-    });
-    if (!printable)
-      diagnostics.error(place,
-                        "measure name cannot head a column (contains a comma, quote or control character), "
-                        "a plain text is needed");
     if (name == "momentum" || name == "angular_momentum")
       diagnostics.error(
           place, fmt::format("measure name is taken (\"{}\"), history.csv has columns of that name for "

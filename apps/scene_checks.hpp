@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// Names are unique, not empty and, where something refers to them, known; every [[joint]] matches a pair;
+/// Names are unique and, where something refers to them, known; every [[joint]] matches a pair;
 /// the step fits the time. A value that the reader has already refused is not complained about again.
 void check_references(const Scene& scene, Diagnostics& diagnostics);
 

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include "apps/nearest_name.hpp"
-#include "apps/toml_table_reader.hpp"
+#include "apps/toml_reading.hpp"
 
 namespace ashlar {
 namespace {

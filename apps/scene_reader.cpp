@@ -84,7 +84,7 @@ SceneJoint read_joint(TomlTableReader table) {
 SceneMaterial read_material(TomlTableReader table) {
   SceneMaterial material;
   for (const char* key : {"name", "density", "young_modulus", "poisson_ratio"}) table.require(key);
-  table.read_text("name", material.name);
+  table.read_name("name", material.name);
   table.read_number("density", material.density, range::positive);
   table.read_number("young_modulus", material.young_modulus, range::positive);
   table.read_number("poisson_ratio", material.poisson_ratio, range::zero_to_below_half);
@@ -97,8 +97,8 @@ SceneMeasure read_measure(TomlTableReader table) {
   // Not finite until read, so that no later check is made on a point that is not there.
   measure.point.setConstant(std::numeric_limits<double>::quiet_NaN());
   for (const char* key : {"name", "block", "point"}) table.require(key);
-  table.read_text("name", measure.name);
-  table.read_text("block", measure.block);
+  table.read_name("name", measure.name);
+  table.read_name("block", measure.block);
   table.read_vector("point", measure.point);
   return measure;
 }
@@ -125,7 +125,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
   for (TomlTableReader& table : top.tables("block")) scene.block.push_back(read_block(table));
   for (TomlTableReader& table : top.tables("measure")) scene.measure.push_back(read_measure(table));
   read_output(top.table_or_empty("output"), scene.output);
-  if (!top.given("block")) top.error_at_table("no block (0), at least one [[block]] is needed");
+  if (scene.block.empty()) top.error_at_table("no block (0), at least one [[block]] is needed");
 }
 
 }  // namespace

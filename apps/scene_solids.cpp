@@ -85,7 +85,10 @@ Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
     return Polyhedron(read_mesh(file));
   } catch (const MeshFileError& error) {
     const std::string place = to_string(Place{file.string(), error.line(), error.column()});
-    throw ShapeError(fmt::format("mesh file cannot be used ({}: {})", place, error.what()));
+    throw ShapeError(
+        fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL or PLY file is "
+                    "needed",
+                    place, error.what()));
   } catch (const MeshError& error) {
     throw ShapeError(
         fmt::format("mesh bounds no solid ({}: {}), one closed surface without self-intersections, "

@@ -6,65 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "apps/nearest_name.hpp"
 
 namespace ashlar {
-
-std::string describe(const toml::node& node) {
-  constexpr std::size_t longest_shown = 60;
-  if (node.is_table()) return "a table";
-  std::ostringstream text;
-  node.visit([&](const auto& value) { text << value; });
-  if (text.str().size() <= longest_shown) return text.str();
-  if (const toml::array* array = node.as_array()) return fmt::format("an array of {} entries", array->size());
-  return text.str().substr(0, longest_shown) + "...";
-}
-
-Place TomlReading::place(const toml::source_region& region) const {
-  if (!region.path || *region.path == file_)
-    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-  return {*region.path, 0, 0};
-}
-
-TomlReading::KnownTable& TomlReading::add_table(const toml::table& table, std::string path,
-                                                std::string name) {
-  for (const auto& [key, node] : table) {
-    const std::string key_path =
-        path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str());
-    places_.record(key_path, {place(key.source()), place(node.source())});
-  }
-  return tables_.emplace_back(KnownTable{&table, std::move(path), std::move(name), {}});
-}
-
-void TomlReading::record_place(const std::string& path, const toml::node& node) {
-  places_.record(path, {place(node.source()), place(node.source())});
-}
-
-void TomlReading::error(const toml::node& node, std::string message) {
-  error(place(node.source()), std::move(message));
-}
-
-std::string TomlReading::suggestion(const KnownTable& table, const std::string& key) const {
-  std::set<std::string> homes;
-  for (const KnownTable& other : tables_)
-    if (other.keys.contains(key)) homes.insert(other.name.empty() ? "the top of the file" : other.name);
-  if (!homes.empty()) return fmt::format("{} belongs to {}", key, fmt::join(homes, " or "));
-  const std::vector<std::string> known(table.keys.begin(), table.keys.end());
-  return fmt::format("did you mean {}? known here: {}", nearest_name(key, known), fmt::join(known, ", "));
-}
-
-void TomlReading::report_unknown_keys() {
-  for (const KnownTable& table : tables_)
-    for (const auto& [key_node, value] : *table.table) {
-      const std::string key(key_node.str());
-      if (table.keys.contains(key)) continue;
-      const std::string where = table.name.empty() ? "" : fmt::format(" in {}", table.name);
-      error(place(key_node.source()),
-            fmt::format("unknown key{} ({}), {}", where, key, suggestion(table, key)));
-    }
-}
 
 std::string TomlTableReader::path(std::string_view key) const {
   return known_.path.empty() ? std::string(key) : fmt::format("{}.{}", known_.path, key);
@@ -133,6 +78,20 @@ bool TomlTableReader::read_text(std::string_view key, std::string& result) {
     return false;
   }
   result = **node->as_string();
+  return true;
+}
+
+bool TomlTableReader::read_name(std::string_view key, std::string& result) {
+  std::string name;
+  if (!read_text(key, name)) return false;
+  const auto control = [](unsigned char letter) { return letter < ' '; };
+  if (name.empty() || std::any_of(name.begin(), name.end(), control)) {
+    error_at_value(
+        key, fmt::format("{} cannot be used as a name ({}), a text of one line, not empty, is needed", key,
+                         describe(*known_.table->get(key))));
+    return false;
+  }
+  result = std::move(name);
   return true;
 }
 
@@ -214,8 +173,8 @@ std::optional<std::size_t> TomlTableReader::find_word(const toml::node& node, st
   }
   const auto found = std::find(words.begin(), words.end(), **text);
   if (found != words.end()) return found - words.begin();
-  reading_.error(node, fmt::format("unknown {} (\"{}\"), did you mean \"{}\"? one of {} is needed", key,
-                                   **text, nearest_name(**text, words), all));
+  reading_.error(node, fmt::format("unknown {} ({}), did you mean \"{}\"? one of {} is needed", key,
+                                   describe(node), nearest_name(**text, words), all));
   return std::nullopt;
 }
 

@@ -1,60 +1,20 @@
-// Reading one TOML table key by key. Every key that is asked for becomes a known one, every fault goes to the
-// diagnostics with its place, and a value is only ever handed out after its type, range and finiteness are
-// checked. Keys that nobody asked for are reported at the end, with the nearest known one.
+// Reading one TOML table key by key. Every fault goes to the diagnostics with its place, and a value is only
+// ever handed out after its type, range and finiteness are checked.
 #pragma once
 
 #include <toml++/toml.h>
 
-#include <list>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "apps/diagnostics.hpp"
 #include "apps/number_ranges.hpp"
-#include "apps/scene_places.hpp"
+#include "apps/toml_reading.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
-
-/// Shared by the readers of all tables of one document.
-class TomlReading {
- public:
-  /// What is known of one table: its content, its path, and the keys asked for so far.
-  struct KnownTable {
-    const toml::table* table;
-    std::string path;  ///< as in ScenePlaces
-    std::string name;  ///< path without indices, as in a header: "block.fix"; "" is the top
-    std::set<std::string> keys;
-  };
-
-  /// @param file name under which the document was parsed; nodes of any other source are taken as arguments.
-  TomlReading(std::string file, Diagnostics& diagnostics, ScenePlaces& places)
-      : file_(std::move(file)), diagnostics_(diagnostics), places_(places) {}
-
-  [[nodiscard]] Place place(const toml::source_region& region) const;
-  /// Registers a table; places of its keys are recorded.
-  KnownTable& add_table(const toml::table& table, std::string path, std::string name);
-  void record_place(const std::string& path, const toml::node& node);
-  void error(const toml::node& node, std::string message);
-  void error(Place place, std::string message) { diagnostics_.error(std::move(place), std::move(message)); }
-  [[nodiscard]] const ScenePlaces& places() const { return places_; }
-
-  /// One error for each key of a registered table that was never asked for. A key known in another table only
-  /// is said to belong there: TOML makes it easy to write a key below the wrong header.
-  void report_unknown_keys();
-
- private:
-  [[nodiscard]] std::string suggestion(const KnownTable& table, const std::string& key) const;
-
-  std::string file_;
-  Diagnostics& diagnostics_;
-  ScenePlaces& places_;
-  std::list<KnownTable> tables_;  // readers keep references
-};
 
 /// One table. Each read_... leaves its result untouched if the key is absent or faulty, and returns whether a
 /// good value was read.
@@ -77,6 +37,8 @@ class TomlTableReader {
 
   bool read_bool(std::string_view key, bool& result);
   bool read_text(std::string_view key, std::string& result);
+  /// A text of at least one character and no control characters (tabs, line breaks).
+  bool read_name(std::string_view key, std::string& result);
   bool read_number(std::string_view key, double& result, const NumberRange& range);
   bool read_number(std::string_view key, std::optional<double>& result, const NumberRange& range);
   /// "auto" makes the result empty.
@@ -136,8 +98,5 @@ class TomlTableReader {
   TomlReading& reading_;
   TomlReading::KnownTable& known_;
 };
-
-/// A value as shown in a message: short ones as TOML, long ones by their kind.
-[[nodiscard]] std::string describe(const toml::node& node);
 
 }  // namespace ashlar

@@ -1,0 +1,87 @@
+#include "apps/toml_reading.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+#include "apps/nearest_name.hpp"
+
+namespace ashlar {
+
+namespace {
+
+// Numbers keep the shortest form that reads back the same, and the point that makes them no whole number.
+std::string as_text(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (const auto* number = node.as_floating_point()) return fmt::format("{:#}", **number);
+  if (const auto* string = node.as_string()) return fmt::format("\"{}\"", **string);
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> entries;
+    for (const toml::node& entry : *array) entries.push_back(as_text(entry));
+    return fmt::format("[{}]", fmt::join(entries, ", "));
+  }
+  std::ostringstream stream;
+  node.visit([&](const auto& value) { stream << value; });
+  return stream.str();
+}
+
+}  // namespace
+
+std::string describe(const toml::node& node) {
+  constexpr std::size_t longest_shown = 60;
+  std::string text = as_text(node);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
+  if (text.size() <= longest_shown) return text;
+  if (const toml::array* array = node.as_array()) return fmt::format("an array of {} entries", array->size());
+  return fmt::format("a text of {} letters", text.size() - 2);  // without its quotes
+}
+
+Place TomlReading::place(const toml::source_region& region) const {
+  if (!region.path || *region.path == file_)
+    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+  return {*region.path, 0, 0};
+}
+
+TomlReading::KnownTable& TomlReading::add_table(const toml::table& table, std::string path,
+                                                std::string name) {
+  for (const auto& [key, node] : table) {
+    const std::string key_path =
+        path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str());
+    places_.record(key_path, {place(key.source()), place(node.source())});
+  }
+  return tables_.emplace_back(KnownTable{&table, std::move(path), std::move(name), {}});
+}
+
+void TomlReading::record_place(const std::string& path, const toml::node& node) {
+  places_.record(path, {place(node.source()), place(node.source())});
+}
+
+void TomlReading::error(const toml::node& node, std::string message) {
+  error(place(node.source()), std::move(message));
+}
+
+std::string TomlReading::suggestion(const KnownTable& table, const std::string& key) const {
+  std::set<std::string> homes;
+  for (const KnownTable& other : tables_)
+    if (other.keys.contains(key)) homes.insert(other.name.empty() ? "the top of the file" : other.name);
+  if (!homes.empty()) return fmt::format("{} belongs to {}", key, fmt::join(homes, " or "));
+  const std::vector<std::string> known(table.keys.begin(), table.keys.end());
+  return fmt::format("did you mean {}? known here: {}", nearest_name(key, known), fmt::join(known, ", "));
+}
+
+void TomlReading::report_unknown_keys() {
+  for (const KnownTable& table : tables_)
+    for (const auto& [key_node, value] : *table.table) {
+      const std::string key(key_node.str());
+      if (table.keys.contains(key)) continue;
+      const std::string where = table.name.empty() ? "" : fmt::format(" in {}", table.name);
+      error(place(key_node.source()),
+            fmt::format("unknown key{} ({}), {}", where, key, suggestion(table, key)));
+    }
+}
+
+}  // namespace ashlar
