@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of packages.txt that are missing; does nothing, and needs no rights, if none is.
+# Use: install_packages.sh [--except PATTERN], an extended regular expression of packages to leave out
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+except='^$'
+if [[ ${1:-} == --except ]]; then
+  except=$2
+fi
 
 missing=()
 while read -r package; do
   status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
   [[ $status == installed ]] || missing+=("$package")
-done < <(grep -v '^ *$' "$root/packages.txt")
+done < <(grep -Ev "^ *$|$except" "$root/packages.txt")
 if ((${#missing[@]} == 0)); then
   exit 0
 fi

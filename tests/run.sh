@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Builds ashlar with warnings as errors and runs all its tests.
-usage='use: tests/run.sh [--format] [--lint] [--clang] [--sanitizers] [--all]
-  (nothing)      the release build and its tests
+usage='use: tests/run.sh [OPTION]...
+  (nothing)      the release build, warnings as errors, and all its tests
   --format       also check that all sources are formatted
-  --lint         also --format and clang-tidy on all sources
+  --lint         also --format, and clang-tidy on all sources
   --clang        also build and test with clang
-  --sanitizers   also build and test with the address, undefined and thread sanitizers
-  --asan         also build and test with the address and undefined sanitizers
-  --all          all of these'
+  --sanitizers   also build and test with the address and undefined sanitizers, then with the thread sanitizer
+  --all          all of these
+  --only PRESET  build and test this preset of CMakePresets.json instead of release'
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -15,17 +15,18 @@ cd "$root"
 presets=(release)
 format=no
 lint=no
-for option in "$@"; do
-  case $option in
+while (($#)); do
+  case $1 in
     --format) format=yes ;;
     --lint) format=yes lint=yes ;;
     --clang) presets+=(clang) ;;
-    --asan) presets+=(asan) ;;
     --sanitizers) presets+=(asan tsan) ;;
     --all) format=yes lint=yes presets+=(clang asan tsan) ;;
+    --only) presets=("${2:?--only needs the name of a preset}"); shift ;;
     --help) echo "$usage"; exit 0 ;;
-    *) printf 'error: unknown option %s\n%s\n' "$option" "$usage" >&2; exit 2 ;;
+    *) printf 'error: unknown option %s\n%s\n' "$1" "$usage" >&2; exit 2 ;;
   esac
+  shift
 done
 
 say() { printf '\n=== %s\n' "$*"; }
