@@ -71,23 +71,28 @@ bool on_side(const PlaneLocation& location, int s, int n) {
   return location.dimension == 0 && (location.index == s || location.index == (s + 1) % n);
 }
 
-// Among the two overlap vertices on one side of a polygon, decides which one comes first along it.
-// `own` and `other` pick the location in the polygon itself and in the other one.
+// 1 if the side of one polygon enters the other one where it meets it at `location`, -1 if it leaves: the end
+// it comes from, or goes to, is beyond a side of the other that the location is on.
+int enters(const PlaneLocation& location, int side, const SideSigns& other_side, int other_size) {
+  for (int s = 0; s < other_size; ++s) {
+    if (!on_side(location, s, other_size)) continue;
+    if (other_side(s, side) < 0) return 1;
+    if (other_side(s, side + 1) < 0) return -1;
+  }
+  return 0;
+}
+
+// Which of the two overlap vertices on one side of a polygon comes first along it. `own` and `other` pick the
+// location in the polygon itself and in the other one.
 template <class Own, class Other>
 bool comes_first(const OverlapVertex& x, const OverlapVertex& y, int side, const SideSigns& other_side,
                  int other_size, Own own, Other other) {
-  const auto at_end = [&](const OverlapVertex& v) {
-    return own(v).dimension == 0 ? (own(v).index == side ? -1 : 1) : 0;
-  };
-  if (at_end(x) != at_end(y)) return at_end(x) < at_end(y);
-  // Inner points of the side: a crossing enters the other polygon (comes first) or leaves it.
-  const auto enters = [&](const OverlapVertex& v) {
-    if (other(v).dimension != 1) return 0;
-    return other_side(other(v).index, side) < 0 ? -1 : 1;
-  };
-  if (enters(x) != enters(y)) return enters(x) < enters(y);
-  // Two corners of the other polygon inside this side: its own side between them runs in the same direction.
-  return (other(x).index + 1) % other_size == other(y).index;
+  for (const bool x_is_end : {true, false}) {
+    const OverlapVertex& end = x_is_end ? x : y;
+    if (own(end).dimension == 0) return (own(end).index == side) == x_is_end;
+  }
+  const int x_enters = enters(other(x), side, other_side, other_size);
+  return x_enters != 0 ? x_enters > 0 : enters(other(y), side, other_side, other_size) < 0;
 }
 
 // Joins the vertices of an overlap with inner points to a counter-clockwise loop: every side of the overlap
