@@ -47,16 +47,16 @@ struct DoubleDouble {
 
   /// a - b for two exact doubles; exact.
   static DoubleDouble difference(double a, double b) {
-    const auto [high, low] = exact_sum(a, -b);
-    return {high, low, 0.0};
+    const auto [upper, lower] = exact_sum(a, -b);
+    return {upper, lower, 0.0};
   }
   friend DoubleDouble operator-(const DoubleDouble& a) { return {-a.high, -a.low, a.error}; }
   friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
     const auto [s, t] = exact_sum(a.high, b.high);
     const auto [p, dropped] = exact_sum(a.low, b.low);
     const auto [q, dropped_too] = exact_sum(t, p);
-    const auto [high, low] = exact_sum(s, q);
-    return {high, low, a.error + b.error + (std::abs(dropped) + std::abs(dropped_too))};
+    const auto [upper, lower] = exact_sum(s, q);
+    return {upper, lower, a.error + b.error + (std::abs(dropped) + std::abs(dropped_too))};
   }
   friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + (-b); }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
@@ -66,10 +66,10 @@ struct DoubleDouble {
     if (a.low == 0.0 && b.low == 0.0) return {p, q, inherited};
     const double one = a.high * b.low, other = a.low * b.high, both = one + other;
     const auto [tail, dropped] = exact_sum(q, both);
-    const auto [high, low] = exact_sum(p, tail);
+    const auto [upper, lower] = exact_sum(p, tail);
     const double rounded = TrackedNumber::unit_roundoff * (std::abs(one) + std::abs(other) + std::abs(both)) +
                            std::abs(a.low * b.low) + std::abs(dropped);
-    return {high, low, inherited + rounded};
+    return {upper, lower, inherited + rounded};
   }
 };
 

@@ -27,21 +27,21 @@ struct TrackedNumber {
 
   /// a - b for two exact doubles.
   static TrackedNumber difference(double a, double b) {
-    const double value = a - b;
-    return {value, unit_roundoff * std::abs(value)};
+    const double result = a - b;
+    return {result, unit_roundoff * std::abs(result)};
   }
   friend TrackedNumber operator+(const TrackedNumber& a, const TrackedNumber& b) {
-    const double value = a.value + b.value;
-    return {value, a.error + b.error + unit_roundoff * std::abs(value)};
+    const double result = a.value + b.value;
+    return {result, a.error + b.error + unit_roundoff * std::abs(result)};
   }
   friend TrackedNumber operator-(const TrackedNumber& a, const TrackedNumber& b) {
-    const double value = a.value - b.value;
-    return {value, a.error + b.error + unit_roundoff * std::abs(value)};
+    const double result = a.value - b.value;
+    return {result, a.error + b.error + unit_roundoff * std::abs(result)};
   }
   friend TrackedNumber operator*(const TrackedNumber& a, const TrackedNumber& b) {
-    const double value = a.value * b.value;
-    return {value, std::abs(a.value) * b.error + (std::abs(b.value) + b.error) * a.error +
-                       unit_roundoff * std::abs(value)};
+    const double result = a.value * b.value;
+    return {result, std::abs(a.value) * b.error + (std::abs(b.value) + b.error) * a.error +
+                        unit_roundoff * std::abs(result)};
   }
 };
 
