@@ -1,0 +1,101 @@
+#include "apps/command_line.hpp"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "support/temporary_folder.hpp"
+#include "unit/apps/sample_scene.hpp"
+
+namespace ashlar::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Outcome {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+Outcome run(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const int status = run_command_line(arguments, out, err);
+  return {status, out.str(), err.str()};
+}
+
+TEST(CommandLine, HelpIsEverywhereAndNoFault) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"run", "--help"}, {"check", "--help"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, exit_status::done);
+    EXPECT_THAT(outcome.out, HasSubstr("Usage: ashlar"));
+    EXPECT_EQ(outcome.err, "");
+  }
+}
+
+TEST(CommandLine, VersionNamesProgramCompilerAndLibraries) {
+  const Outcome outcome = run({"--version"});
+  EXPECT_EQ(outcome.status, exit_status::done);
+  EXPECT_THAT(outcome.out,
+              AllOf(StartsWith("ashlar "), HasSubstr("CGAL 5."), HasSubstr("Eigen 3."), HasSubstr("CHOLMOD "),
+                    ::testing::AnyOf(HasSubstr("GCC "), HasSubstr("Clang "))));
+}
+
+TEST(CommandLine, UsageFaultsGoToErrAndEndWithTwo) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "subcommand is required"},
+      {{"chek", "a.toml"}, "unknown command (chek), did you mean check?"},
+      {{"check"}, "SCENE is required"},
+      {{"check", "a.toml", "b.toml"}, "b.toml"},
+      {{"run", "a.toml", "--fast"}, "--fast"},
+      {{"run", "a.toml", "--threads", "0"}, "--threads"},
+      {{"run", "a.toml", "--threads", "two"}, "--threads"},
+      {{"run", "a.toml", "--set"}, "--set"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, exit_status::bad_input) << expected;
+    EXPECT_THAT(outcome.err, AllOf(StartsWith("ashlar: error: "), HasSubstr(expected)));
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(CommandLine, CheckSaysWhatAGoodSceneHolds) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "s.toml").string();
+  write_text(file, sample());
+  const Outcome outcome = run({"check", file});
+  EXPECT_EQ(outcome.status, exit_status::done);
+  EXPECT_EQ(outcome.out, file + ": good: 2 blocks, 1 material, 1 joint, 1 measure\n");
+  EXPECT_EQ(outcome.err, "");
+}
+
+TEST(CommandLine, CheckListsEveryFaultAndWritesNothing) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "s.toml").string();
+  write_text(file, sample_with(10, "density = -1"));
+  const Outcome outcome = run({"check", file, "--set", "block.A.order=0", "--set", "block.B.order=13"});
+  EXPECT_EQ(outcome.status, exit_status::bad_input);
+  EXPECT_EQ(
+      outcome.err,
+      file + ":10:11: error: density is out of range (-1), a number > 0 is needed\n" +
+          "--set block.A.order=0: error: order is out of range (0), a whole number from 1 to 12 is needed\n" +
+          "--set block.B.order=13: error: order is out of range (13), a whole number from 1 to 12 is "
+          "needed\n");
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(folder.entry_count(), 1u);
+}
+
+TEST(CommandLine, RunOfABadSceneEndsWithTwoAndLeavesNoFolder) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "s.toml").string();
+  write_text(file, sample_with(10, "density = -1"));
+  EXPECT_EQ(run({"run", file, "--quiet", "--out", (folder / "out").string()}).status, exit_status::bad_input);
+  EXPECT_EQ(folder.entry_count(), 1u);
+}
+
+}  // namespace
+}  // namespace ashlar::test

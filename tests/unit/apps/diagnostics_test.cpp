@@ -1,0 +1,40 @@
+#include "apps/diagnostics.hpp"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+namespace ashlar::test {
+namespace {
+
+TEST(Diagnostics, PrintsInFileOrderWithArgumentsLast) {
+  Diagnostics diagnostics;
+  diagnostics.error({"--set a=1", 0, 0}, "first argument");
+  diagnostics.error({"s.toml", 10, 2}, "tenth line");
+  diagnostics.error({"s.toml", 9, 3}, "ninth line, later");
+  diagnostics.error({"s.toml", 9, 1}, "ninth line, first found");
+  diagnostics.error({"s.toml", 9, 1}, "ninth line, also");
+  diagnostics.error({"--set b=1", 0, 0}, "second argument");
+  std::ostringstream stream;
+  diagnostics.print(stream);
+  EXPECT_EQ(stream.str(),
+            "s.toml:9:1: error: ninth line, first found\n"
+            "s.toml:9:1: error: ninth line, also\n"
+            "s.toml:9:3: error: ninth line, later\n"
+            "s.toml:10:2: error: tenth line\n"
+            "--set a=1: error: first argument\n"
+            "--set b=1: error: second argument\n");
+}
+
+TEST(Diagnostics, ListsTheSameFaultOnce) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(diagnostics.empty());
+  diagnostics.error({"s.toml", 1, 1}, "twice");
+  diagnostics.error({"s.toml", 1, 1}, "twice");
+  diagnostics.error({"s.toml", 2, 1}, "twice");
+  EXPECT_FALSE(diagnostics.empty());
+  EXPECT_EQ(diagnostics.sorted().size(), 2u);
+}
+
+}  // namespace
+}  // namespace ashlar::test

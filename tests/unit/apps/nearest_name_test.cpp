@@ -1,0 +1,31 @@
+#include "apps/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace ashlar::test {
+namespace {
+
+TEST(NearestName, EditDistanceCountsSingleChanges) {
+  EXPECT_EQ(edit_distance("", ""), 0u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("abc", ""), 3u);
+  EXPECT_EQ(edit_distance("order", "ordre"), 1u);     // swap of neighbours
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);  // two replacements, one insertion
+  EXPECT_EQ(edit_distance("ca", "abc"), 3u);          // no change inside a swapped pair
+  EXPECT_EQ(edit_distance("Young", "yOUNG"), 0u);
+}
+
+TEST(NearestName, TakesTheFirstOfEquals) {
+  EXPECT_EQ(nearest_name("axc", {"abc", "adc"}), "abc");
+  EXPECT_EQ(nearest_name("time_stp", {"end_time", "time_step", "type"}), "time_step");
+  EXPECT_EQ(nearest_name("x", {}), "");
+}
+
+TEST(NearestName, KnowsShortForms) {
+  // yung -> name needs 4 changes, -> young (the beginning of young_modulus) 1, and 1 for the rest.
+  EXPECT_EQ(nearest_name("yung", {"name", "young_modulus"}), "young_modulus");
+  EXPECT_EQ(nearest_name("friction", {"function", "friction_angle"}), "friction_angle");
+}
+
+}  // namespace
+}  // namespace ashlar::test
