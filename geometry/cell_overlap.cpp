@@ -1,5 +1,6 @@
 #include "geometry/cell_overlap.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "geometry/contact_search.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -6,6 +6,7 @@
 // excluded by requiring the permanent to be normal and large.
 #include "geometry/projected_orientation.hpp"
 
+#include <Eigen/Geometry>
 #include <CGAL/Mpzf.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "geometry/sub_face_surface.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <set>

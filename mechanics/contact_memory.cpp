@@ -5,7 +5,7 @@
 namespace ashlar {
 
 std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& points,
-                                               bool fresh_intact) const {
+                                               double bond_distance) const {
   std::vector<PointMemory> result;
   result.reserve(points.size());
   for (const ContactPoint& point : points) {
@@ -20,7 +20,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
       }
     }
     PointMemory memory;
-    memory.intact = fresh_intact;
+    memory.intact = point.gap <= bond_distance;
     if (nearest != nullptr) {
       memory = nearest->memory;
       const double length = memory.slip.norm();

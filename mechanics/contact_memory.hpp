@@ -21,18 +21,17 @@ struct PointMemory {
 class ContactMemory {
  public:
   /// Memory for each of the new points: that of the nearest old point of the same faces, with the slip turned
-  /// into the new tangent plane and zero if the point was open; points without one start open with
-  /// `fresh_intact`.
+  /// into the new tangent plane; points without one start open, bonded by the joint's strength if their gap
+  /// is at most `bond_distance`, m (minus infinity: never).
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
-                                                bool fresh_intact) const;
+                                                double bond_distance) const;
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest);
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
-  /// Material points of block a and the faces they are between; with `entries` the whole state, for
-  /// checkpoints.
+  /// One remembered point: where it is in block a's material and the faces it is between.
   struct Entry {
     Vector3 material_a;
     int face_a;

@@ -1,5 +1,6 @@
 #include "mechanics/face_selection.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <stdexcept>
 

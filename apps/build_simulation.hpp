@@ -1,0 +1,31 @@
+// From a checked scene to a simulation: materials, supports, loads, joint laws and every number left to the
+// program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/scene_loading.hpp"
+#include "solver/simulation.hpp"
+
+namespace ashlar {
+
+/// A number the scene left to the program.
+struct AutomaticChoice {
+  std::string key;  ///< as in the scene, e.g. "contact.distance"
+  double value;
+  std::string unit;
+};
+
+/// A simulation ready for its first step.
+struct BuiltSimulation {
+  Simulation simulation;
+  std::vector<AutomaticChoice> choices;
+};
+
+/// @param threads >= 1
+/// @return nothing if a block cannot be built (named in diagnostics at its key)
+[[nodiscard]] std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
+                                                              Diagnostics& diagnostics);
+
+}  // namespace ashlar

@@ -1,0 +1,229 @@
+#include "apps/result_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "apps/csv_text.hpp"
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+std::vector<MeasuredPoint> find_measures(const Scene& scene) {
+  std::vector<MeasuredPoint> measures;
+  for (const SceneMeasure& measure : scene.measure) {
+    const auto block = std::find_if(scene.block.begin(), scene.block.end(), [&](const SceneBlock& candidate) {
+      return candidate.name == measure.block;
+    });
+    measures.push_back({measure.name, static_cast<int>(block - scene.block.begin()), measure.point});
+  }
+  return measures;
+}
+
+std::filesystem::path prepared(std::filesystem::path folder) {
+  std::filesystem::create_directories(folder / "frames");
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
+    if (entry.path().extension() == ".vtu") std::filesystem::remove(entry.path());
+  }
+  return folder;
+}
+
+void append(std::vector<double>& values, const Vector3& vector) {
+  values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
+}
+
+constexpr const char* contact_columns =
+    "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
+    "normal_force.y,"
+    "normal_force.z,shear_force.x,shear_force.y,shear_force.z,work\n";
+
+}  // namespace
+
+std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures) {
+  std::vector<std::string> columns = {"step", "time", "dt"};
+  for (const MeasuredPoint& measure : measures) {
+    for (const char* part : {".x", ".y", ".z", ".ux", ".uy", ".uz", ".vx", ".vy", ".vz"}) {
+      columns.push_back(measure.name + part);
+    }
+  }
+  for (const char* name :
+       {"energy.kinetic", "energy.elastic", "energy.gravity", "energy.contact", "energy.friction",
+        "energy.applied", "energy.numerical", "energy.residual", "momentum.x", "momentum.y", "momentum.z",
+        "angular_momentum.x", "angular_momentum.y", "angular_momentum.z", "contacts.open", "contacts.locked",
+        "contacts.sliding", "penetration.max", "open_close.iterations"}) {
+    columns.emplace_back(name);
+  }
+  return columns;
+}
+
+std::vector<double> history_row(const Simulation& simulation, const std::vector<MeasuredPoint>& measures) {
+  const StepReport& report = simulation.report();
+  std::vector<double> values = {simulation.time(), report.step};
+  for (const MeasuredPoint& measure : measures) {
+    const BlockState& state = simulation.states()[at(measure.block)];
+    const PolynomialBasis& basis = simulation.blocks()[at(measure.block)].basis();
+    const Eigen::VectorXd phi = basis.values(measure.point);
+    append(values, state.position.transpose() * phi);
+    append(values, (state.position - basis.identity_map()).transpose() * phi);
+    append(values, state.velocity.transpose() * phi);
+  }
+  const Ledger& ledger = simulation.ledger();
+  values.insert(values.end(), {ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact,
+                               ledger.friction, ledger.applied, ledger.numerical, ledger.residual});
+  append(values, simulation.momentum());
+  append(values, simulation.angular_momentum());
+  for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
+  values.push_back(report.penetration);
+  values.push_back(report.iterations);
+  return values;
+}
+
+UnstructuredGrid block_frame(const Simulation& simulation, const SceneOutput::Fields& fields) {
+  UnstructuredGrid grid;
+  std::vector<double> displacement;
+  std::vector<double> velocity;
+  std::vector<double> stress;
+  std::vector<std::int32_t> block_of_cell;
+  std::vector<std::int32_t> order_of_cell;
+  std::vector<std::int32_t> face_of_cell;
+  for (int b = 0; b < static_cast<int>(simulation.blocks().size()); ++b) {
+    const BlockModel& block = simulation.blocks()[at(b)];
+    const BlockState& state = simulation.states()[at(b)];
+    const SubFaceSurface& surface = simulation.surfaces()[at(b)];
+    const int first = static_cast<int>(grid.points.size());
+    const auto places = simulation.surface_points(b);
+    const Eigen::MatrixX3d velocities = simulation.surface_phi(b) * state.velocity;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      grid.points.push_back(places[k]);
+      append(displacement, places[k] - surface.points[k]);
+      append(velocity, velocities.row(static_cast<Eigen::Index>(k)));
+      if (!fields.stress) continue;
+      const Eigen::Matrix3d s = block.stress(state, surface.points[k]);
+      stress.insert(stress.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
+    }
+    for (const SurfaceCell& cell : surface.cells) {
+      std::vector<int> corners;
+      for (const int corner : cell.corners) corners.push_back(first + corner);
+      grid.add_cell(corners.size() == 3 ? VtkCellType::triangle : VtkCellType::polygon, corners);
+      block_of_cell.push_back(b);
+      order_of_cell.push_back(block.fixed() ? 0 : block.order());
+      face_of_cell.push_back(cell.face);
+    }
+  }
+  if (fields.displacement)
+    grid.point_data.push_back({"displacement", 3, {"x", "y", "z"}, std::move(displacement)});
+  if (fields.velocity) grid.point_data.push_back({"velocity", 3, {"x", "y", "z"}, std::move(velocity)});
+  if (fields.stress) {
+    grid.point_data.push_back({"stress", 6, {"xx", "yy", "zz", "xy", "yz", "xz"}, std::move(stress)});
+  }
+  grid.cell_data.push_back({"block", 1, {}, std::move(block_of_cell)});
+  grid.cell_data.push_back({"order", 1, {}, std::move(order_of_cell)});
+  grid.cell_data.push_back({"face", 1, {}, std::move(face_of_cell)});
+  return grid;
+}
+
+UnstructuredGrid contact_frame(const Simulation& simulation) {
+  UnstructuredGrid grid;
+  std::vector<double> gap;
+  std::vector<double> area;
+  std::vector<double> normal;
+  std::vector<double> force;
+  std::array<std::vector<std::int32_t>, 4> numbers;  // type, state, block_a, block_b
+  for (const PairRecord& pair : simulation.contacts()) {
+    for (std::size_t k = 0; k < pair.points.size(); ++k) {
+      const ContactPoint& point = pair.points[k];
+      const PointResponse& response = pair.responses[k];
+      const int index = static_cast<int>(grid.points.size());
+      grid.points.emplace_back(0.5 * (point.place_a + point.place_b));
+      grid.add_cell(VtkCellType::vertex, std::array{index});
+      gap.push_back(pair.gaps[k]);
+      area.push_back(point.area);
+      append(normal, point.normal);
+      append(force, response.force[0] * point.normal + response.force[1] * point.tangent_1 +
+                        response.force[2] * point.tangent_2);
+      numbers[0].push_back(static_cast<std::int32_t>(point.type));
+      numbers[1].push_back(static_cast<std::int32_t>(response.state));
+      numbers[2].push_back(pair.a);
+      numbers[3].push_back(pair.b);
+    }
+  }
+  grid.point_data.push_back({"gap", 1, {}, std::move(gap)});
+  grid.point_data.push_back({"area", 1, {}, std::move(area)});
+  grid.point_data.push_back({"normal", 3, {"x", "y", "z"}, std::move(normal)});
+  grid.point_data.push_back({"force", 3, {"x", "y", "z"}, std::move(force)});
+  grid.point_data.push_back({"type", 1, {}, std::move(numbers[0])});
+  grid.point_data.push_back({"state", 1, {}, std::move(numbers[1])});
+  grid.point_data.push_back({"block_a", 1, {}, std::move(numbers[2])});
+  grid.point_data.push_back({"block_b", 1, {}, std::move(numbers[3])});
+  return grid;
+}
+
+ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation)
+    : folder_(prepared(std::move(folder))),
+      output_(scene.output),
+      measures_(find_measures(scene)),
+      history_(folder_ / "history.csv", history_columns(measures_)),
+      blocks_(folder_ / "blocks.pvd"),
+      contacts_(folder_ / "contacts.pvd"),
+      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
+  contact_rows_.write(contact_columns);
+  add_step(simulation);
+}
+
+void ResultFolder::add_step(const Simulation& simulation) {
+  history_.append(simulation.steps(), history_row(simulation, measures_));
+  if (frame_is_due(simulation)) add_frame(simulation);
+}
+
+bool ResultFolder::frame_is_due(const Simulation& simulation) {
+  if (output_.every) return simulation.steps() % *output_.every == 0;
+  // Half a step early is as near as half a step late.
+  const double due = intervals_written_ * output_.interval.value_or(0.0);
+  if (simulation.time() + 0.5 * simulation.report().step < due) return false;
+  ++intervals_written_;
+  return true;
+}
+
+void ResultFolder::add_frame(const Simulation& simulation) {
+  if (simulation.steps() == last_frame_step_) return;
+  last_frame_step_ = simulation.steps();
+  const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
+  const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
+  write_vtu(folder_ / blocks, block_frame(simulation, output_.fields));
+  write_vtu(folder_ / contacts, contact_frame(simulation));
+  blocks_.add_frame(simulation.time(), blocks);
+  contacts_.add_frame(simulation.time(), contacts);
+  add_contact_rows(simulation);
+}
+
+void ResultFolder::add_contact_rows(const Simulation& simulation) {
+  std::string rows;
+  for (const PairRecord& pair : simulation.contacts()) {
+    std::array<int, 3> count = {0, 0, 0};
+    double area = 0.0;
+    Vector3 normal = Vector3::Zero();
+    Vector3 shear = Vector3::Zero();
+    for (std::size_t k = 0; k < pair.points.size(); ++k) {
+      const ContactPoint& point = pair.points[k];
+      const PointResponse& response = pair.responses[k];
+      if (response.state == ContactState::open) continue;
+      ++count[static_cast<std::size_t>(point.type)];
+      area += point.area;
+      normal += response.force[0] * point.normal;
+      shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
+    }
+    rows += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", simulation.steps(),
+                        simulation.time(), quote_csv_field(simulation.blocks()[at(pair.a)].name()),
+                        quote_csv_field(simulation.blocks()[at(pair.b)].name()), count[0], count[1], count[2],
+                        area, normal.x(), normal.y(), normal.z(), shear.x(), shear.y(), shear.z(), pair.work);
+  }
+  contact_rows_.write(rows);
+}
+
+}  // namespace ashlar

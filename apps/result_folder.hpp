@@ -1,0 +1,68 @@
+// The result folder of a run: history.csv, contacts.csv, frames for ParaView and summary.json.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/history_writer.hpp"
+#include "apps/pvd_writer.hpp"
+#include "apps/scene.hpp"
+#include "apps/vtu_writer.hpp"
+#include "solver/simulation.hpp"
+
+namespace ashlar {
+
+/// A material point whose motion goes into the history.
+struct MeasuredPoint {
+  std::string name;
+  int block;
+  Vector3 point;  ///< reference coordinates, m
+};
+
+/// Names of the columns of history.csv, the step first.
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures);
+
+/// The values after the step, in the order of history_columns.
+[[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
+                                              const std::vector<MeasuredPoint>& measures);
+
+/// All blocks at the present time. Point data: those of displacement, velocity and stress (xx, yy, zz, xy,
+/// yz, xz) that are asked for. Cell data: block, order and face.
+[[nodiscard]] UnstructuredGrid block_frame(const Simulation& simulation, const SceneOutput::Fields& fields);
+
+/// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
+/// blocks.
+[[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
+
+/// Writes everything but the summary; files of frames are in `frames/`.
+class ResultFolder {
+ public:
+  /// Creates the folder, or empties the files of an earlier run in it. @throws std::runtime_error with path
+  /// and reason
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation);
+
+  /// Called after every accepted step (and once before the first).
+  void add_step(const Simulation& simulation);
+  /// Writes a frame now, unless one was written at this step.
+  void add_frame(const Simulation& simulation);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+  [[nodiscard]] int frames() const { return static_cast<int>(blocks_.frames().size()); }
+
+ private:
+  [[nodiscard]] bool frame_is_due(const Simulation& simulation);
+  void add_contact_rows(const Simulation& simulation);
+
+  std::filesystem::path folder_;
+  SceneOutput output_;
+  std::vector<MeasuredPoint> measures_;
+  HistoryWriter history_;
+  PvdWriter blocks_;
+  PvdWriter contacts_;
+  OutputFile contact_rows_;
+  int last_frame_step_ = -1;
+  int intervals_written_ = 0;  ///< output.interval: frames due by time so far
+};
+
+}  // namespace ashlar

@@ -1,0 +1,102 @@
+#include "apps/run_summary.hpp"
+
+#include <sys/resource.h>
+
+#include <map>
+
+#include "apps/program_version.hpp"
+#include "apps/scene_json.hpp"
+
+namespace ashlar {
+namespace {
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
+}
+
+nlohmann::ordered_json counts_of(const Simulation& simulation) {
+  const SimulationCounts counts = simulation.counts();
+  const double predicates = static_cast<double>(counts.predicates.filter + counts.predicates.exact);
+  return {{"block_pairs_tested", counts.block_pairs_tested},
+          {"block_pairs_skipped", counts.block_pairs_skipped},
+          {"contact_points", counts.contact_points},
+          {"open_close_iterations", counts.open_close_iterations},
+          {"predicates_by_filter", counts.predicates.filter},
+          {"predicates_exact", counts.predicates.exact},
+          {"share_of_exact_predicates",
+           predicates > 0.0 ? static_cast<double>(counts.predicates.exact) / predicates : 0.0},
+          {"symbolic_factorizations", counts.factors.analyses},
+          {"numeric_factorizations", counts.factors.factorizations},
+          {"numeric_factorizations_reused", counts.factors.factorizations_reused},
+          {"linear_solves", counts.factors.solves}};
+}
+
+nlohmann::ordered_json rejections_of(const Simulation& simulation) {
+  std::map<std::string, int> reasons;
+  for (const Rejection& rejection : simulation.rejections()) ++reasons[to_string(rejection.reason)];
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  constexpr std::size_t most = 1000;
+  for (std::size_t k = 0; k < simulation.rejections().size() && k < most; ++k) {
+    const Rejection& rejection = simulation.rejections()[k];
+    list.push_back(
+        {{"time", rejection.time}, {"step", rejection.step}, {"reason", to_string(rejection.reason)}});
+  }
+  return {{"count", simulation.rejections().size()}, {"reasons", reasons}, {"first", list}};
+}
+
+}  // namespace
+
+std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::failed:
+      return "failed";
+    case RunStatus::interrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built, RunStatus status,
+                                   const std::string& message, const RunSeconds& seconds, int frames) {
+  const Simulation& simulation = built.simulation;
+  nlohmann::ordered_json summary;
+  summary["status"] = to_string(status);
+  if (!message.empty()) summary["message"] = message;
+  summary["title"] = scene.title;
+  summary["steps"] = simulation.steps();
+  summary["time"] = simulation.time();
+  summary["rejected_steps"] = rejections_of(simulation);
+  summary["unknowns"] = simulation.unknowns();
+  summary["blocks"] = simulation.blocks().size();
+  summary["frames"] = frames;
+  const PhaseSeconds& phases = simulation.seconds();
+  summary["wall_seconds"] = {{"total", seconds.total},
+                             {"setup", seconds.setup},
+                             {"contact_search", phases.contact_search},
+                             {"contact_points", phases.contact_points},
+                             {"solve", phases.solve},
+                             {"output", seconds.output}};
+  summary["peak_memory_bytes"] = peak_memory_bytes();
+  summary["penetration_max"] = simulation.largest_penetration();
+  summary["energy_residual"] = simulation.ledger().residual;
+  summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
+  summary["energy_max"] = simulation.largest_energy();
+  summary["counts"] = counts_of(simulation);
+  nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
+  for (const AutomaticChoice& choice : built.choices) {
+    automatic.push_back({{"key", choice.key}, {"value", choice.value}, {"unit", choice.unit}});
+  }
+  summary["automatic"] = automatic;
+  nlohmann::ordered_json versions;
+  versions["ashlar"] = program_version();
+  for (const auto& [name, version] : tool_versions()) versions[name] = version;
+  summary["versions"] = versions;
+  summary["scene"] = to_json(scene);
+  return summary;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,27 @@
+// summary.json: what a run did, what it skipped, how long it took and how well its energies add up.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/build_simulation.hpp"
+
+namespace ashlar {
+
+/// How a run ended, as `status` in summary.json.
+enum class RunStatus { completed, failed, interrupted };
+[[nodiscard]] std::string to_string(RunStatus status);
+
+/// Wall time of the parts of a run, s.
+struct RunSeconds {
+  double total = 0.0;
+  double setup = 0.0;
+  double output = 0.0;
+};
+
+/// @param message why a run failed; empty otherwise
+[[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
+                                                 RunStatus status, const std::string& message,
+                                                 const RunSeconds& seconds, int frames);
+
+}  // namespace ashlar

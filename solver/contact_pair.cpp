@@ -1,0 +1,146 @@
+#include "solver/contact_pair.hpp"
+
+#include <utility>
+
+namespace ashlar {
+namespace {
+
+/// Rows that give the motion of material points of a block along the three directions of each contact point.
+Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactPoint>& points, bool of_a) {
+  if (model.fixed()) return {};
+  const auto count = static_cast<Eigen::Index>(points.size());
+  std::vector<Vector3> material;
+  material.reserve(points.size());
+  for (const ContactPoint& point : points) material.push_back(of_a ? point.material_a : point.material_b);
+  const Eigen::MatrixXd phi = model.basis().values(material);
+  Eigen::MatrixXd rows(3 * count, model.unknowns());
+  for (int direction = 0; direction < 3; ++direction) {
+    Eigen::MatrixX3d directions(count, 3);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const ContactPoint& point = points[static_cast<std::size_t>(k)];
+      directions.row(k) = direction == 0 ? point.normal : direction == 1 ? point.tangent_1 : point.tangent_2;
+    }
+    const Eigen::MatrixXd part = model.space().rows(phi, directions);
+    for (Eigen::Index k = 0; k < count; ++k) rows.row(3 * k + direction) = part.row(k);
+  }
+  return rows;
+}
+
+}  // namespace
+
+ContactPair::ContactPair(int a, int b, const BlockModel& model_a, const BlockModel& model_b,
+                         const JointLaw& law, std::vector<ContactPoint> points,
+                         std::vector<PointMemory> memory)
+    : a_(a),
+      b_(b),
+      points_(std::move(points)),
+      memory_(std::move(memory)),
+      start_(3, static_cast<Eigen::Index>(points_.size())),
+      rows_a_(contact_rows(model_a, points_, true)),
+      rows_b_(contact_rows(model_b, points_, false)) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
+    start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
+        points_[k].tangent_2.dot(memory_[k].slip);
+  }
+}
+
+Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  Eigen::Matrix3Xd result = start_;
+  Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
+  if (rows_a_.size() > 0) flat.noalias() += rows_a_ * ya;
+  if (rows_b_.size() > 0) flat.noalias() -= rows_b_ * yb;
+  return result;
+}
+
+PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  PairResponse response;
+  Eigen::VectorXd forces(place.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    response.points.push_back(point_response(laws_[k], place(0, column), place.col(column).tail<2>()));
+    forces.segment<3>(3 * column) = response.points.back().force;
+  }
+  if (rows_a_.size() > 0) response.force_on_a = rows_a_.transpose() * forces;
+  if (rows_b_.size() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
+  return response;
+}
+
+ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
+  std::vector<Eigen::Index> active;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (response.points[k].state != ContactState::open) active.push_back(static_cast<Eigen::Index>(k));
+  }
+  const auto gather = [&](const Eigen::MatrixXd& rows, bool times_tangent) {
+    Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(active.size()), rows.cols());
+    for (std::size_t n = 0; n < active.size(); ++n) {
+      const Eigen::Index k = active[n];
+      const auto target = static_cast<Eigen::Index>(3 * n);
+      if (times_tangent) {
+        result.middleRows<3>(target).noalias() =
+            response.points[static_cast<std::size_t>(k)].tangent * rows.middleRows<3>(3 * k);
+      } else {
+        result.middleRows<3>(target) = rows.middleRows<3>(3 * k);
+      }
+    }
+    return result;
+  };
+  Tangent tangent;
+  Eigen::MatrixXd scaled_b;
+  if (rows_b_.size() > 0) {
+    scaled_b = gather(rows_b_, true);
+    tangent.bb = gather(rows_b_, false).transpose() * scaled_b;
+  }
+  if (rows_a_.size() > 0) {
+    const Eigen::MatrixXd plain_a = gather(rows_a_, false);
+    tangent.aa = plain_a.transpose() * gather(rows_a_, true);
+    if (rows_b_.size() > 0) tangent.ab = -(plain_a.transpose() * scaled_b);
+  }
+  return tangent;
+}
+
+std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  std::vector<double> result;
+  for (Eigen::Index k = 0; k < place.cols(); ++k) result.push_back(place(0, k));
+  return result;
+}
+
+std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response, const Eigen::VectorXd& ya,
+                                                   const Eigen::VectorXd& yb) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  std::vector<PointMemory> result;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const PointResponse& point = response.points[k];
+    const Eigen::Vector2d slip =
+        elastic_slip(laws_[k], point, place.col(static_cast<Eigen::Index>(k)).tail<2>());
+    PointMemory memory;
+    memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
+    memory.state = point.state;
+    memory.intact = memory_[k].intact && point.state == ContactState::locked;
+    result.push_back(memory);
+  }
+  return result;
+}
+
+double ContactPair::friction_work(const PairResponse& response, const Eigen::VectorXd& ya,
+                                  const Eigen::VectorXd& yb) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  double work = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const PointResponse& point = response.points[k];
+    if (point.state != ContactState::sliding) continue;
+    const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
+    work += point.force.tail<2>().dot(elastic_slip(laws_[k], point, slip) - slip);
+  }
+  return work;
+}
+
+double ContactPair::energy(const PairResponse& response) {
+  double sum = 0.0;
+  for (const PointResponse& point : response.points) sum += point.energy;
+  return sum;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,233 @@
+#include "solver/island.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Everything one open-close iteration looks at.
+class IslandProblem {
+ public:
+  IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
+                double step, const SimulationSettings& settings)
+      : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), step_(step) {
+    const NewmarkWeights weights = newmark_weights(settings.integrator);
+    inertia_ = 1.0 / (weights.beta * step * step);
+    beta_ = weights.beta;
+    for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
+  }
+
+  [[nodiscard]] int place(int block) const {
+    const auto found = place_.find(block);
+    return found == place_.end() ? -1 : found->second;
+  }
+
+  void predict() {
+    for (const int index : island_.bodies) {
+      BodyStep& body = bodies_[at(index)];
+      body.change = step_ * body.velocity + 0.5 * step_ * step_ * body.acceleration;
+    }
+  }
+
+  /// Elastic and contact responses at the present changes.
+  void respond() {
+    for (const int index : island_.bodies) {
+      BodyStep& body = bodies_[at(index)];
+      body.elastic = body.model->elastic(body.state->position + body.model->space().expand(body.change));
+    }
+    responses_.clear();
+    for (const int pair : island_.pairs) {
+      const ContactPair& contact = pairs_[at(pair)];
+      responses_.push_back(contact.respond(bodies_[at(contact.a())].change, bodies_[at(contact.b())].change));
+    }
+  }
+
+  /// What is left of the equations of motion, by body; `settled` tells whether each is below its tolerance.
+  Eigen::VectorXd residual(const BlockMatrix& matrix, bool& settled) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(matrix.matrix().size);
+    std::vector<double> scale(island_.bodies.size(), 0.0);
+    const auto add = [&](int body, const Eigen::VectorXd& force) {
+      result.segment(matrix.offset(body), force.size()) += force;
+      scale[at(body)] = std::max(scale[at(body)], force.norm());
+    };
+    for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+      const BodyStep& body = bodies_[at(island_.bodies[k])];
+      const int place = static_cast<int>(k);
+      const Eigen::VectorXd start = step_ * body.velocity + (0.5 - beta_) * step_ * step_ * body.acceleration;
+      const double density = body.model->material().density;
+      add(place, body.external_force);
+      add(place, -body.model->space().restrict(body.elastic.force));
+      add(place, -density * inertia_ * (body.change - start));
+    }
+    for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
+      const ContactPair& contact = pairs_[at(island_.pairs[k])];
+      if (const int a = place(contact.a()); a >= 0) add(a, responses_[k].force_on_a);
+      if (const int b = place(contact.b()); b >= 0) add(b, responses_[k].force_on_b);
+    }
+    settled = true;
+    for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+      const BodyStep& body = bodies_[at(island_.bodies[k])];
+      const double rounding = body.roundoff_force + 8.0 * std::numeric_limits<double>::epsilon() *
+                                                        body.model->material().density * inertia_ *
+                                                        (body.change.norm() + step_ * body.velocity.norm());
+      const auto size = static_cast<Eigen::Index>(body.change.size());
+      const double left = result.segment(matrix.offset(static_cast<int>(k)), size).norm();
+      if (left > settings_.residual_tolerance * scale[k] + rounding) settled = false;
+    }
+    return result;
+  }
+
+  void assemble(BlockMatrix& matrix) const {
+    matrix.set_zero();
+    for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+      const BodyStep& body = bodies_[at(island_.bodies[k])];
+      matrix.add_diagonal(static_cast<int>(k), body.model->tangent(body.elastic.rotation));
+      matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * inertia_);
+    }
+    for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
+      const ContactPair& contact = pairs_[at(island_.pairs[k])];
+      const ContactPair::Tangent tangent = contact.tangent(responses_[k]);
+      const int a = place(contact.a());
+      const int b = place(contact.b());
+      if (a >= 0) matrix.add_diagonal(a, tangent.aa);
+      if (b >= 0) matrix.add_diagonal(b, tangent.bb);
+      if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
+    }
+  }
+
+  void apply(const BlockMatrix& matrix, const Eigen::VectorXd& change, double share) {
+    for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+      BodyStep& body = bodies_[at(island_.bodies[k])];
+      body.change += share * change.segment(matrix.offset(static_cast<int>(k)), body.change.size());
+    }
+  }
+
+  [[nodiscard]] std::vector<PairResponse> take_responses() { return std::move(responses_); }
+
+ private:
+  const Island& island_;
+  std::vector<BodyStep>& bodies_;
+  const std::vector<ContactPair>& pairs_;
+  const SimulationSettings& settings_;
+  double step_;
+  double inertia_ = 0.0;  ///< 1/(beta dt^2)
+  double beta_ = 0.0;
+  std::map<int, int> place_;
+  std::vector<PairResponse> responses_;
+};
+
+}  // namespace
+
+IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std::vector<int>& sizes,
+                                          const std::vector<std::array<int, 2>>& pairs) {
+  auto found = entries_.find(key);
+  if (found == entries_.end())
+    found = entries_.emplace(key, Entry{BlockMatrix(sizes, pairs), SparseCholesky(), true}).first;
+  found->second.used = true;
+  return found->second;
+}
+
+void IslandSolvers::drop_unused() {
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    if (entry->second.used) {
+      entry->second.used = false;
+      ++entry;
+      continue;
+    }
+    const FactorCounts& counts = entry->second.factor.counts();
+    dropped_.analyses += counts.analyses;
+    dropped_.factorizations += counts.factorizations;
+    dropped_.factorizations_reused += counts.factorizations_reused;
+    dropped_.solves += counts.solves;
+    entry = entries_.erase(entry);
+  }
+}
+
+FactorCounts IslandSolvers::counts() const {
+  FactorCounts sum = dropped_;
+  for (const auto& [key, entry] : entries_) {
+    const FactorCounts& counts = entry.factor.counts();
+    sum.analyses += counts.analyses;
+    sum.factorizations += counts.factorizations;
+    sum.factorizations_reused += counts.factorizations_reused;
+    sum.solves += counts.solves;
+  }
+  return sum;
+}
+
+std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {
+  std::vector<int> parent(moving.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const std::function<int(int)> root = [&](int k) {
+    while (parent[at(k)] != k) k = parent[at(k)] = parent[at(parent[at(k)])];
+    return k;
+  };
+  for (const ContactPair& pair : pairs) {
+    if (!moving[at(pair.a())] || !moving[at(pair.b())]) continue;
+    const int a = root(pair.a());
+    const int b = root(pair.b());
+    parent[at(std::max(a, b))] = std::min(a, b);
+  }
+  std::vector<Island> islands;
+  std::map<int, std::size_t> island_of_root;
+  for (int block = 0; block < static_cast<int>(moving.size()); ++block) {
+    if (!moving[at(block)]) continue;
+    const auto [place, added] = island_of_root.try_emplace(root(block), islands.size());
+    if (added) islands.emplace_back();
+    islands[place->second].bodies.push_back(block);
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const int block = moving[at(pairs[k].a())] ? pairs[k].a() : pairs[k].b();
+    islands[island_of_root.at(root(block))].pairs.push_back(static_cast<int>(k));
+  }
+  return islands;
+}
+
+IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                          const std::vector<ContactPair>& pairs, double step,
+                          const SimulationSettings& settings, IslandSolvers& solvers) {
+  IslandProblem problem(island, bodies, pairs, step, settings);
+  std::vector<int> sizes;
+  std::vector<std::array<int, 2>> links;
+  std::vector<int> key = island.bodies;
+  for (const int body : island.bodies) sizes.push_back(bodies[at(body)].model->unknowns());
+  for (const int pair : island.pairs) {
+    const int a = problem.place(pairs[at(pair)].a());
+    const int b = problem.place(pairs[at(pair)].b());
+    if (a < 0 || b < 0) continue;
+    links.push_back({a, b});
+    key.insert(key.end(), {a, b});
+  }
+  IslandSolvers::Entry& solver = solvers.find(key, sizes, links);
+
+  IslandResult result;
+  problem.predict();
+  problem.respond();
+  for (result.iterations = 1; result.iterations <= settings.max_iterations; ++result.iterations) {
+    bool settled = false;
+    const Eigen::VectorXd right_side = problem.residual(solver.matrix, settled);
+    if (settled) {
+      result.responses = problem.take_responses();
+      return result;
+    }
+    problem.assemble(solver.matrix);
+    if (solver.factor.factorize(solver.matrix.matrix()) != FactorStatus::success) {
+      result.status = IslandStatus::not_positive_definite;
+      return result;
+    }
+    const double share = result.iterations <= settings.undamped_iterations ? 1.0 : 0.5;
+    problem.apply(solver.matrix, solver.factor.solve(right_side), share);
+    problem.respond();
+  }
+  result.status = IslandStatus::not_settled;
+  return result;
+}
+
+}  // namespace ashlar

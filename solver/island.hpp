@@ -1,0 +1,78 @@
+// Islands: sets of blocks that touch each other. Each is solved on its own by an open-close iteration
+// (theory.md section 8) that is a Newton iteration at the same time: with the states of all contact points
+// and the elastic frames of all blocks taken from the last guess it solves a linear system, until states and
+// forces no longer change.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "solver/block_matrix.hpp"
+#include "solver/contact_pair.hpp"
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// How an open-close iteration ended.
+enum class IslandStatus {
+  settled,
+  not_settled,            ///< states or forces kept changing: cut the step
+  not_positive_definite,  ///< the system could not be factorised: cut the step
+};
+
+/// One moving block within a step. Vectors are in the block's unknowns.
+struct BodyStep {
+  const BlockModel* model = nullptr;
+  const BlockState* state = nullptr;
+  Eigen::VectorXd velocity;
+  Eigen::VectorXd acceleration;
+  Eigen::VectorXd external_force;  ///< at the end of the step
+  double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
+  Eigen::VectorXd change;          ///< D, the result
+  ElasticResponse elastic;         ///< at the end of the step
+};
+
+/// Result of one island.
+struct IslandResult {
+  IslandStatus status = IslandStatus::settled;
+  int iterations = 0;
+  std::vector<PairResponse> responses;  ///< of the island's pairs, at the end of the step
+};
+
+/// Factorisations that are kept from step to step, by the blocks and pairs of an island.
+class IslandSolvers {
+ public:
+  struct Entry {
+    BlockMatrix matrix;
+    SparseCholesky factor;
+    bool used = true;
+  };
+  /// The solver of an island. @param key block indices, then pairs
+  [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,
+                            const std::vector<std::array<int, 2>>& pairs);
+  /// Forgets the solvers of islands that did not come up since the last call.
+  void drop_unused();
+  [[nodiscard]] FactorCounts counts() const;
+
+ private:
+  std::map<std::vector<int>, Entry> entries_;
+  FactorCounts dropped_;
+};
+
+/// An island: indices into the step's bodies and pairs.
+struct Island {
+  std::vector<int> bodies;  ///< increasing block indices
+  std::vector<int> pairs;   ///< indices of contact pairs
+};
+
+/// Islands of moving blocks; fixed blocks join nothing. @param moving (#blocks)
+[[nodiscard]] std::vector<Island> find_islands(const std::vector<bool>& moving,
+                                               const std::vector<ContactPair>& pairs);
+
+/// Solves one island for the changes of its bodies' unknowns.
+/// @param bodies (#blocks), those of the island are read and their results written
+[[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                                        const std::vector<ContactPair>& pairs, double step,
+                                        const SimulationSettings& settings, IslandSolvers& solvers);
+
+}  // namespace ashlar

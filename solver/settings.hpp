@@ -1,0 +1,48 @@
+// Every number the solver uses, with unit, default, range and consequence.
+#pragma once
+
+#include "geometry/triangle_mesh.hpp"
+#include "mechanics/contact_points.hpp"
+
+namespace ashlar {
+
+/// Newmark's family; both conserve momentum and are unconditionally stable.
+enum class Integrator {
+  dda,                   ///< beta 1/2, gamma 1: dissipative, first order (theory.md section 5)
+  average_acceleration,  ///< beta 1/4, gamma 1/2: second order, no dissipation for linear systems
+};
+
+/// Weights of an integrator:  D = dt v + dt^2 ((1/2 - beta) a + beta a'),  v' = v + dt ((1 - gamma) a + gamma
+/// a').
+struct NewmarkWeights {
+  double beta;
+  double gamma;
+};
+[[nodiscard]] constexpr NewmarkWeights newmark_weights(Integrator integrator) {
+  return integrator == Integrator::dda ? NewmarkWeights{0.5, 1.0} : NewmarkWeights{0.25, 0.5};
+}
+
+/// Settings of a simulation.
+struct SimulationSettings {
+  Integrator integrator = Integrator::dda;
+  double time_step = 1e-3;                     ///< s, > 0: the largest step
+  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2
+
+  bool area_springs = true;
+  bool curved_surface = true;
+  double contact_distance =
+      1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
+  double contact_angle =
+      0.17453292519943295;  ///< rad, 0 to pi/4: faces within it of parallel meet as face-face
+  int subdivisions = 2;     ///< 0 to 8, uniform levels for the faces of blocks of order >= 2
+
+  int max_iterations = 40;       ///< of an open-close iteration; more: the step is cut
+  int undamped_iterations = 12;  ///< after these, changes are halved, which breaks most cycles
+  double residual_tolerance =
+      1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
+  int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
+
+  int threads = 1;  ///< >= 1: for finding contacts; results do not depend on it
+};
+
+}  // namespace ashlar

@@ -1,0 +1,322 @@
+#include "solver/simulation.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Adds the time since its construction to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// How far any surface point of a block can move in a step under its velocity and gravity.
+double motion_bound(const Eigen::MatrixXd& phi, const BlockState& state, const Vector3& gravity,
+                    double step) {
+  const double speed = std::sqrt((phi * state.velocity).rowwise().squaredNorm().maxCoeff());
+  const double change = std::sqrt((phi * state.acceleration).rowwise().squaredNorm().maxCoeff());
+  return step * speed + 0.5 * step * step * std::max(change, gravity.norm());
+}
+
+/// Size of the rounding errors in the internal force K (R' q - q0) of a block at rest.
+double roundoff_of(const BlockModel& block) {
+  const Eigen::Index p = block.basis().size();
+  const Eigen::MatrixXd tangent = block.tangent(Eigen::Matrix3d::Identity());
+  // The mean position drops out of K exactly, so only the linear coefficients carry rounding errors.
+  Eigen::MatrixX3d size = block.basis().identity_map().cwiseAbs();
+  size.row(0).setZero();
+  if (p == 0) return 0.0;
+  const Eigen::VectorXd reduced = block.space().restrict(size);
+  return 4.0 * std::numeric_limits<double>::epsilon() * (tangent.cwiseAbs() * reduced.cwiseAbs()).norm();
+}
+
+}  // namespace
+
+std::string to_string(RejectionReason reason) {
+  switch (reason) {
+    case RejectionReason::open_close_not_settled:
+      return "open-close iteration did not settle";
+    case RejectionReason::not_positive_definite:
+      return "system not positive definite";
+  }
+  return "unknown";
+}
+
+Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion> motions, LawOfPair law,
+                       SimulationSettings settings)
+    : blocks_(std::move(blocks)), law_(std::move(law)), settings_(settings), next_step_(settings.time_step) {
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockModel& block = blocks_[k];
+    states_.push_back(block.initial_state());
+    moving_.push_back(!block.fixed());
+    surfaces_.push_back(
+        divide_surface(block.solid(), block.order() >= 2 && !block.fixed() ? settings.subdivisions : 0));
+    surface_phi_.push_back(block.basis().values(surfaces_.back().points));
+    roundoff_force_.push_back(block.fixed() ? 0.0 : roundoff_of(block));
+    if (block.fixed()) continue;
+    states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
+    const Eigen::MatrixX3d force = block.external_force(settings_.gravity, 0.0);
+    states_.back().acceleration =
+        block.space().expand(block.space().restrict(force)) / block.material().density;
+  }
+  measure_energies(ledger_);
+  start_balance_ = ledger_.balance();
+}
+
+void Simulation::settle_supported_blocks() {
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k] || !blocks_[k].supported()) continue;
+    if (auto position = blocks_[k].equilibrium(settings_.gravity, 0.0)) {
+      states_[k].position = std::move(*position);
+      states_[k].acceleration.setZero();
+    }
+  }
+  measure_energies(ledger_);
+  start_balance_ = ledger_.balance();
+}
+
+StepStatus Simulation::step(double end_time) {
+  double step = next_step_;
+  const double left = end_time - time_;
+  // A remainder below rounding would make a step of no length.
+  if (left <= step * (1.0 + 1e-9)) step = left;
+  const std::vector<ContactPair> pairs = find_contact_pairs(step);
+  const std::vector<Island> islands = find_islands(moving_, pairs);
+  for (int cut = 0; cut <= settings_.max_step_cuts; ++cut, step *= 0.5) {
+    Stopwatch watch(seconds_.solve);
+    std::vector<BodyStep> bodies = prepare_bodies(step);
+    std::vector<IslandResult> results;
+    IslandStatus worst = IslandStatus::settled;
+    for (const Island& island : islands) {
+      results.push_back(solve_island(island, bodies, pairs, step, settings_, solvers_));
+      counts_.open_close_iterations += static_cast<std::uint64_t>(results.back().iterations);
+      worst = results.back().status;
+      if (worst != IslandStatus::settled) break;
+    }
+    if (worst == IslandStatus::settled) {
+      solvers_.drop_unused();
+      accept(step, bodies, pairs, islands, results);
+      next_step_ = std::min(settings_.time_step, cut == 0 ? 2.0 * next_step_ : step);
+      return StepStatus::accepted;
+    }
+    rejections_.push_back({time_, step,
+                           worst == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
+                                                              : RejectionReason::not_positive_definite});
+  }
+  return StepStatus::too_many_cuts;
+}
+
+std::vector<ContactPair> Simulation::find_contact_pairs(double step) {
+  std::vector<PlacedSurface> placed;
+  std::vector<double> motion;
+  std::vector<Box> boxes;
+  std::vector<std::array<int, 2>> candidates;
+  std::vector<PairContacts> found;
+  {
+    Stopwatch watch(seconds_.contact_search);
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      placed.emplace_back(surfaces_[k], placed_points(surface_phi_[k], states_[k]));
+      motion.push_back(moving_[k] ? motion_bound(surface_phi_[k], states_[k], settings_.gravity, step) : 0.0);
+      const Vector3 margin = Vector3::Constant(motion.back() + settings_.contact_distance);
+      boxes.push_back({placed.back().box().low - margin, placed.back().box().high + margin});
+    }
+    for (const auto& pair : meeting_boxes(boxes)) {
+      if (moving_[at(pair[0])] || moving_[at(pair[1])]) candidates.push_back(pair);
+    }
+    counts_.block_pairs_tested += candidates.size();
+    counts_.block_pairs_skipped += blocks_.size() * (blocks_.size() - 1) / 2 - candidates.size();
+    found.resize(candidates.size());
+    const auto search = [&](std::size_t k) {
+      const auto& [a, b] = candidates[k];
+      const auto known = memory_.find(candidates[k]);
+      ContactLimits limits;
+      limits.reach = settings_.contact_distance + motion[at(a)] + motion[at(b)];
+      limits.penetration =
+          settings_.contact_distance + (known == memory_.end() ? 0.0 : 2.0 * known->second.deepest());
+      limits.angle = settings_.contact_angle;
+      found[k] = find_contacts(placed[at(a)], placed[at(b)], limits);
+    };
+    tbb::task_arena arena(settings_.threads);
+    arena.execute([&] { tbb::parallel_for(std::size_t{0}, candidates.size(), search); });
+  }
+  Stopwatch watch(seconds_.contact_points);
+  std::vector<ContactPair> pairs;
+  const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface};
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    counts_.predicates += found[k].counts;
+    if (found[k].empty()) continue;
+    const auto& [a, b] = candidates[k];
+    const ContactBody body_a{&blocks_[at(a)], &states_[at(a)], &placed[at(a)]};
+    const ContactBody body_b{&blocks_[at(b)], &states_[at(b)], &placed[at(b)]};
+    auto points = contact_points(body_a, body_b, found[k], point_settings);
+    counts_.contact_points += points.size();
+    auto memory = memory_[candidates[k]].recall(
+        points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
+    pairs.emplace_back(a, b, blocks_[at(a)], blocks_[at(b)], law_(a, b), std::move(points),
+                       std::move(memory));
+  }
+  return pairs;
+}
+
+std::vector<BodyStep> Simulation::prepare_bodies(double step) const {
+  std::vector<BodyStep> bodies(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockModel& block = blocks_[k];
+    BodyStep& body = bodies[k];
+    body.model = &block;
+    body.state = &states_[k];
+    body.roundoff_force = roundoff_force_[k];
+    if (block.fixed()) continue;
+    body.velocity = block.space().restrict(states_[k].velocity);
+    body.acceleration = block.space().restrict(states_[k].acceleration);
+    body.external_force = block.space().restrict(block.external_force(settings_.gravity, time_ + step));
+  }
+  return bodies;
+}
+
+void Simulation::accept(double step, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
+                        const std::vector<Island>& islands, const std::vector<IslandResult>& results) {
+  const NewmarkWeights weights = newmark_weights(settings_.integrator);
+  const double last_residual = ledger_.residual;
+  // Work of a force that was f and becomes f' over the change D, as the integrator sees it: D . ((1-gamma) f
+  // + gamma f').
+  const auto mean_work = [&](double before, double after) {
+    return (1.0 - weights.gamma) * before + weights.gamma * after;
+  };
+  double potential_work = 0.0;
+  double potential_change = 0.0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    const BlockModel& block = blocks_[k];
+    BlockState& state = states_[k];
+    const Eigen::MatrixX3d change = block.space().expand(bodies[k].change);
+    const ElasticResponse before = block.elastic(state.position);
+    potential_work -= mean_work(change.cwiseProduct(before.force).sum(),
+                                change.cwiseProduct(bodies[k].elastic.force).sum());
+    potential_change += bodies[k].elastic.energy - before.energy;
+    ledger_.applied += mean_work(change.cwiseProduct(block.load_force(time_)).sum(),
+                                 change.cwiseProduct(block.load_force(time_ + step)).sum());
+    const Eigen::MatrixX3d acceleration =
+        (change - step * state.velocity - (0.5 - weights.beta) * step * step * state.acceleration) /
+        (weights.beta * step * step);
+    state.position += change;
+    state.velocity += step * ((1.0 - weights.gamma) * state.acceleration + weights.gamma * acceleration);
+    state.acceleration = acceleration;
+  }
+
+  report_ = StepReport{};
+  report_.step = step;
+  records_.clear();
+  ledger_.contact = 0.0;
+  double friction = 0.0;
+  std::map<PairKey, ContactMemory> memory;
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    report_.iterations = std::max(report_.iterations, results[i].iterations);
+    for (std::size_t n = 0; n < islands[i].pairs.size(); ++n) {
+      const ContactPair& pair = pairs[at(islands[i].pairs[n])];
+      const PairResponse& after = results[i].responses[n];
+      const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
+      const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
+      const PairResponse before =
+          pair.respond(Eigen::VectorXd::Zero(ya.size()), Eigen::VectorXd::Zero(yb.size()));
+      const auto work_of = [&](const PairResponse& response) {
+        return (ya.size() > 0 ? ya.dot(response.force_on_a) : 0.0) +
+               (yb.size() > 0 ? yb.dot(response.force_on_b) : 0.0);
+      };
+      const double work = mean_work(work_of(before), work_of(after));
+      potential_work += work;
+      potential_change += ContactPair::energy(after) - ContactPair::energy(before);
+      ledger_.contact += ContactPair::energy(after);
+      friction += pair.friction_work(after, ya, yb);
+      auto gaps = pair.gaps(ya, yb);
+      double deepest = 0.0;
+      for (std::size_t k = 0; k < gaps.size(); ++k) {
+        if (after.points[k].state == ContactState::open) {
+          ++report_.open;
+          continue;
+        }
+        ++(after.points[k].state == ContactState::locked ? report_.locked : report_.sliding);
+        deepest = std::max(deepest, -gaps[k]);
+      }
+      report_.penetration = std::max(report_.penetration, deepest);
+      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, ya, yb), deepest);
+      records_.push_back({pair.a(), pair.b(), pair.points(), after.points, std::move(gaps),
+                          contact_work_[{pair.a(), pair.b()}] += work});
+    }
+  }
+  memory_ = std::move(memory);
+  ledger_.friction += friction;
+  ledger_.numerical -= potential_work + potential_change + friction;
+
+  time_ += step;
+  ++steps_;
+  measure_energies(ledger_);
+  ledger_.residual = ledger_.balance() - start_balance_;
+  largest_step_residual_ = std::max(largest_step_residual_, std::abs(ledger_.residual - last_residual));
+  largest_energy_ = std::max({largest_energy_, ledger_.kinetic, ledger_.elastic, ledger_.contact,
+                              std::abs(ledger_.friction), std::abs(ledger_.applied)});
+  largest_penetration_ = std::max(largest_penetration_, report_.penetration);
+}
+
+void Simulation::measure_energies(Ledger& ledger) const {
+  ledger.kinetic = ledger.elastic = ledger.gravity = 0.0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    ledger.kinetic += blocks_[k].kinetic_energy(states_[k]);
+    ledger.elastic += blocks_[k].elastic(states_[k].position).energy;
+    ledger.gravity += blocks_[k].gravity_energy(states_[k], settings_.gravity);
+  }
+}
+
+std::vector<Vector3> Simulation::surface_points(int block) const {
+  return placed_points(surface_phi_[at(block)], states_[at(block)]);
+}
+
+Vector3 Simulation::momentum() const {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (moving_[k]) sum += blocks_[k].momentum(states_[k]);
+  }
+  return sum;
+}
+
+Vector3 Simulation::angular_momentum() const {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (moving_[k]) sum += blocks_[k].angular_momentum(states_[k]);
+  }
+  return sum;
+}
+
+int Simulation::unknowns() const {
+  int sum = 0;
+  for (const BlockModel& block : blocks_) sum += block.unknowns();
+  return sum;
+}
+
+SimulationCounts Simulation::counts() const {
+  SimulationCounts result = counts_;
+  result.factors = solvers_.counts();
+  return result;
+}
+
+}  // namespace ashlar

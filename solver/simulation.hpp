@@ -1,0 +1,159 @@
+// A run: blocks, what they remember of their contacts, and the time step that takes them on.
+//
+// A step: surfaces at their current positions; block pairs whose boxes can meet within the step; their
+// contacts and contact points with memory; islands; an open-close iteration per island; then all blocks move
+// together. A step that does not settle is cut in half, with the reason recorded; nothing of the state
+// changes until a step is accepted.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "solver/island.hpp"
+#include "solver/ledger.hpp"
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// Why a step was cut.
+enum class RejectionReason {
+  open_close_not_settled,  ///< reduce time_step or the stiffness of the joints
+  not_positive_definite,   ///< a joint or material far too stiff for the step
+};
+[[nodiscard]] std::string to_string(RejectionReason reason);
+
+/// A rejected step.
+struct Rejection {
+  double time;  ///< s, at its start
+  double step;  ///< s, its length
+  RejectionReason reason;
+};
+
+/// How a step ended.
+enum class StepStatus {
+  accepted,
+  too_many_cuts,  ///< the state is that of the last accepted step; see Simulation::rejections
+};
+
+/// Work done and skipped so far.
+struct SimulationCounts {
+  std::uint64_t block_pairs_tested = 0;   ///< block pairs whose surfaces were searched
+  std::uint64_t block_pairs_skipped = 0;  ///< block pairs whose boxes cannot meet in the step
+  std::uint64_t contact_points = 0;
+  std::uint64_t open_close_iterations = 0;
+  PredicateCounts predicates;
+  FactorCounts factors;
+};
+
+/// The contact points of one pair of blocks as an accepted step left them.
+struct PairRecord {
+  int a;
+  int b;
+  std::vector<ContactPoint> points;  ///< places are those at the start of the step
+  std::vector<PointResponse> responses;
+  std::vector<double> gaps;  ///< at the end of the step, m
+  double work;               ///< of the contact forces on both blocks since the start of the run, J
+};
+
+/// What the last accepted step did.
+struct StepReport {
+  double step = 0.0;
+  int iterations = 0;  ///< most of any island
+  int open = 0;
+  int locked = 0;
+  int sliding = 0;
+  double penetration = 0.0;  ///< largest, m, >= 0
+};
+
+/// Initial motion of a block.
+struct InitialMotion {
+  Vector3 velocity = Vector3::Zero();          ///< m/s
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
+};
+
+/// Wall time of the parts of a step, s.
+struct PhaseSeconds {
+  double contact_search = 0.0;
+  double contact_points = 0.0;
+  double solve = 0.0;
+};
+
+/// A scene in motion. Block indices are those of the vector given.
+class Simulation {
+ public:
+  using LawOfPair = std::function<JointLaw(int, int)>;
+
+  /// @param law joint law of each pair (a < b)
+  Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion> motions, LawOfPair law,
+             SimulationSettings settings);
+
+  /// Moves every block whose supports leave no rigid motion to its equilibrium under gravity and the loads at
+  /// time 0, contacts off, at rest. To be called before the first step.
+  void settle_supported_blocks();
+
+  /// Takes one step of at most settings.time_step, and not beyond `end_time`.
+  [[nodiscard]] StepStatus step(double end_time);
+
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
+  [[nodiscard]] const std::vector<BlockState>& states() const { return states_; }
+  [[nodiscard]] const std::vector<SubFaceSurface>& surfaces() const { return surfaces_; }
+  /// Current positions of a block's surface points, m.
+  [[nodiscard]] std::vector<Vector3> surface_points(int block) const;
+  /// phi at a block's surface points. @return (#points, p)
+  [[nodiscard]] const Eigen::MatrixXd& surface_phi(int block) const {
+    return surface_phi_[static_cast<std::size_t>(block)];
+  }
+  [[nodiscard]] const StepReport& report() const { return report_; }
+  [[nodiscard]] const std::vector<PairRecord>& contacts() const { return records_; }
+  [[nodiscard]] const Ledger& ledger() const { return ledger_; }
+  /// Largest change of the residual in one step and largest energy so far, J.
+  [[nodiscard]] double largest_step_residual() const { return largest_step_residual_; }
+  [[nodiscard]] double largest_energy() const { return largest_energy_; }
+  [[nodiscard]] double largest_penetration() const { return largest_penetration_; }
+  [[nodiscard]] Vector3 momentum() const;
+  [[nodiscard]] Vector3 angular_momentum() const;
+  [[nodiscard]] int unknowns() const;
+  [[nodiscard]] const std::vector<Rejection>& rejections() const { return rejections_; }
+  [[nodiscard]] SimulationCounts counts() const;
+  [[nodiscard]] const PhaseSeconds& seconds() const { return seconds_; }
+
+ private:
+  using PairKey = std::array<int, 2>;
+
+  [[nodiscard]] std::vector<ContactPair> find_contact_pairs(double step);
+  [[nodiscard]] std::vector<BodyStep> prepare_bodies(double step) const;
+  void accept(double step, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
+              const std::vector<Island>& islands, const std::vector<IslandResult>& results);
+  void measure_energies(Ledger& ledger) const;
+
+  std::vector<BlockModel> blocks_;
+  std::vector<BlockState> states_;
+  LawOfPair law_;
+  SimulationSettings settings_;
+  std::vector<bool> moving_;  ///< false for fixed blocks
+  std::vector<SubFaceSurface> surfaces_;
+  std::vector<Eigen::MatrixXd> surface_phi_;  ///< phi at the surface points
+  std::vector<double> roundoff_force_;        ///< see BodyStep
+  std::map<PairKey, ContactMemory> memory_;
+  std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
+  IslandSolvers solvers_;
+  double time_ = 0.0;
+  double next_step_;  ///< s, grows back to settings_.time_step after cuts
+  int steps_ = 0;
+  StepReport report_;
+  std::vector<PairRecord> records_;
+  Ledger ledger_;
+  double start_balance_ = 0.0;
+  double largest_step_residual_ = 0.0;
+  double largest_energy_ = 0.0;
+  double largest_penetration_ = 0.0;
+  std::vector<Rejection> rejections_;
+  SimulationCounts counts_;
+  PhaseSeconds seconds_;
+};
+
+}  // namespace ashlar

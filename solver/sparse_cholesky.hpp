@@ -1,0 +1,58 @@
+// Sparse symmetric positive definite systems by CHOLMOD, with the symbolic factorisation kept while the
+// pattern stands and the numeric one while the values stand (theory.md section 10).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace ashlar {
+
+/// Lower triangle of a symmetric matrix, compressed columns, rows increasing.
+struct SymmetricMatrix {
+  int size = 0;
+  std::vector<int> column_start;  ///< (size + 1)
+  std::vector<int> rows;          ///< (#entries), >= its column
+  std::vector<double> values;     ///< (#entries)
+};
+
+/// Outcome of a factorisation.
+enum class FactorStatus {
+  success,
+  not_positive_definite,  ///< a block is free of inertia and stiffness, or the step is far too large
+  out_of_memory,
+};
+
+/// How often each stage ran and was skipped.
+struct FactorCounts {
+  std::uint64_t analyses = 0;
+  std::uint64_t factorizations = 0;
+  std::uint64_t factorizations_reused = 0;
+  std::uint64_t solves = 0;
+};
+
+/// States: empty -> analyzed (pattern known) -> factored (values known). Movable, not copyable.
+class SparseCholesky {
+ public:
+  SparseCholesky();
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  /// Brings the factor to a matrix; analyses only if the pattern changed, factorises only if the values
+  /// changed.
+  [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix);
+
+  /// Solves with the last factorised matrix, with one step of iterative refinement.
+  /// @param right_side (size). @throws std::logic_error unless factored
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side);
+
+  [[nodiscard]] const FactorCounts& counts() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace ashlar
