@@ -7,8 +7,8 @@
 
 namespace ashlar {
 
-/// Volume enclosed by a closed and consistently oriented surface, V = 1/6 sum a . (b x c) over its triangles
-/// (theory.md section 3 with a constant integrand).
+/// Volume enclosed by a closed and consistently oriented surface, the sum over its triangles a, b, c of
+/// (a_z + b_z + c_z) / 6 times twice the area projected along z (divergence theorem for (0, 0, z)).
 /// @return m^3, correctly rounded; negative if the triangles are clockwise from outside; infinite on
 /// overflow.
 [[nodiscard]] double signed_volume(const TriangleMesh& mesh);

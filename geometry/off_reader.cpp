@@ -20,7 +20,7 @@ bool read_keyword(TextScanner& scan) {
 // Every item takes a line of two bytes at least, which bounds what the header may claim.
 int read_count(TextScanner& scan, std::string_view what) {
   const long long count = scan.integer(what, 1, std::numeric_limits<int>::max());
-  if (count > static_cast<long long>(scan.rest().size() / 2 + 1)) {
+  if (static_cast<std::size_t>(count) > scan.rest().size() / 2 + 1) {
     scan.fail(what, "the file is too short for them");
   }
   return static_cast<int>(count);

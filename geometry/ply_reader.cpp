@@ -31,7 +31,7 @@ class TextValues {
     scan_.word();
     scan_.fail("text after the last element", "the file must end here");
   }
-  [[noreturn]] void fail(const std::string& what, double /*value*/, const std::string& allowed) const {
+  [[noreturn]] void fail(const std::string& what, long long /*value*/, const std::string& allowed) const {
     scan_.fail(what, allowed);
   }
 
@@ -65,8 +65,8 @@ class BinaryValues {
     if (bytes_.empty()) return;
     throw MeshFileError(std::to_string(bytes_.size()) + " bytes after the last element", 0, 0);
   }
-  [[noreturn]] void fail(const std::string& what, double value, const std::string& allowed) const {
-    throw MeshFileError(what + " (" + std::to_string(static_cast<long long>(value)) + "), " + allowed, 0, 0);
+  [[noreturn]] void fail(const std::string& what, long long value, const std::string& allowed) const {
+    throw MeshFileError(what + " (" + std::to_string(value) + "), " + allowed, 0, 0);
   }
 
  private:
@@ -166,14 +166,16 @@ class BodyReader {
   }
 
   void read_list(const PlyProperty& property, bool is_corners) {
-    const double length = values_.value(property, property.count_type);
-    if (is_corners && !(length >= 3.0)) values_.fail("number of corners", length, "needs at least 3");
-    if (length < 0.0) values_.fail("length of " + property.name, length, "must not be negative");
+    const auto length = static_cast<long long>(values_.value(property, property.count_type));
+    if (is_corners && length < 3) values_.fail("number of corners", length, "needs at least 3");
+    if (length < 0) values_.fail("length of " + property.name, length, "must not be negative");
     // No reserve: a false length ends with the file.
-    for (double i = 0.0; i < length; ++i) {
-      const double value = values_.value(property, property.type);
+    for (long long i = 0; i < length; ++i) {
+      const double item = values_.value(property, property.type);
       if (!is_corners) continue;
-      if (!(value >= 0.0 && value < static_cast<double>(point_count_))) {
+      // The type is an integer one, so the item is whole.
+      const auto value = static_cast<long long>(item);
+      if (value < 0 || value >= point_count_) {
         values_.fail("point index", value, "allowed 0 to " + std::to_string(point_count_ - 1));
       }
       soup_.corners.push_back(static_cast<int>(value));

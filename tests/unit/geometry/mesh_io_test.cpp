@@ -245,6 +245,18 @@ TEST_F(MeshIo, polygon_with_a_bridge) {
   EXPECT_EQ(area, 8.0);
 }
 
+// Volumes by hand; that of the stone by rational arithmetic from the decimals of the file.
+TEST_F(MeshIo, meshes_that_ship_are_solids) {
+  const std::filesystem::path meshes = std::filesystem::path(ASHLAR_DATA_DIR) / "meshes";
+  EXPECT_EQ(Polyhedron(read_mesh(meshes / "cube.stl")).volume(), 1.0);
+  EXPECT_EQ(Polyhedron(read_mesh(meshes / "frame.obj")).volume(), 8.0);
+  EXPECT_EQ(Polyhedron(read_mesh(meshes / "l_prism.ply")).volume(), 3.0);
+  EXPECT_EQ(Polyhedron(read_mesh(meshes / "pyramid.ply")).volume(), 4.0);
+  const Polyhedron stone(read_mesh(meshes / "stone.off"));
+  EXPECT_TRUE(stone.convex());
+  EXPECT_EQ(stone.volume(), 2.4405854235);
+}
+
 TEST_F(MeshIo, refused_files_tell_place_value_and_what_is_allowed) {
   EXPECT_EQ(refusal("a.off", ""), "0:0: mesh file is empty");
   EXPECT_EQ(refusal("a.xyz", "1 2 3"), "0:0: ending of the mesh file (.xyz), allowed .off, .obj, .stl, .ply");
