@@ -14,7 +14,11 @@ std::string to_string(const Place& place) {
 }
 
 std::string to_string(const Diagnostic& diagnostic) {
-  return fmt::format("{}: error: {}", to_string(diagnostic.place), diagnostic.message);
+  std::string line = fmt::format("{}: error: {}", to_string(diagnostic.place), diagnostic.message);
+  // Values of the user may hold line breaks.
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
+  return line;
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {

@@ -26,7 +26,7 @@ struct Diagnostic {
   std::string message;
 };
 
-/// "PLACE: error: MESSAGE".
+/// "PLACE: error: MESSAGE" in one line: control characters become blanks.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 
 /// All faults found so far.

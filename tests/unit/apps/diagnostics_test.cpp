@@ -26,6 +26,10 @@ TEST(Diagnostics, PrintsInFileOrderWithArgumentsLast) {
             "--set b=1: error: second argument\n");
 }
 
+TEST(Diagnostics, PrintsEachFaultInOneLine) {
+  EXPECT_EQ(to_string(Diagnostic{{"s.toml", 1, 2}, "wrong (a\nb\tc)"}), "s.toml:1:2: error: wrong (a b c)");
+}
+
 TEST(Diagnostics, ListsTheSameFaultOnce) {
   Diagnostics diagnostics;
   EXPECT_TRUE(diagnostics.empty());

@@ -82,7 +82,6 @@ INSTANTIATE_TEST_SUITE_P(
         OverrideCase{"=5", "malformed key"}, OverrideCase{"analysis.end_time=", "no value"},
         OverrideCase{"analysis..end_time=5", "malformed key"},
         OverrideCase{"analysis.gravity=[0, 0", "malformed value"},
-        OverrideCase{"analysis.end_time=1\ntitle=2", "several keys"},
         OverrideCase{"analysis.end_tme=5", "unknown key in analysis (end_tme), did you mean end_time?"},
         OverrideCase{"outptu.every=5", "unknown key (outptu), did you mean output?"},
         OverrideCase{"analysis.end_time=-5", "end_time is out of range (-5), a number > 0 is needed"},
@@ -96,6 +95,11 @@ INSTANTIATE_TEST_SUITE_P(
         OverrideCase{"measure.tip.point.3=1",
                      "no such entry of measure.tip.point (3), an index from 0 to 2 is needed"},
         OverrideCase{"measure.tip.point.1=nan", "point is not finite (nan)"}));
+
+TEST(SceneOverrides, OneArgumentSetsOneKey) {
+  EXPECT_THAT(reading_faults(sample(), {"analysis.end_time=1\ntitle=2"}),
+              ElementsAre(StartsWith("--set analysis.end_time=1 title=2: error: several keys")));
+}
 
 }  // namespace
 }  // namespace ashlar::test
