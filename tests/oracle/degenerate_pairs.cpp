@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "oracle/exact_oracle.hpp"
 #include "oracle/lattice_pairs.hpp"
 
 namespace ashlar::oracle {
@@ -110,7 +111,9 @@ Displacement random_displacement(Random& random, const LatticePair& pair) {
   result.bits = sizes[static_cast<std::size_t>(pick(random, 0, 2))];
   if (kind < 55) {
     // A plane through the contact turns up or down by one more than nothing: parallel no longer.
-    const LatticePoint slope{pick(random, -1, 1), pick(random, -1, 1), pick(random, -1, 1)};
+    LatticePoint slope{pick(random, -1, 1), pick(random, -1, 1), pick(random, -1, 1)};
+    // The map 1 + 2^-bits normal slope' must not turn the body inside out.
+    if (lattice_dot(slope, pair.normal) < 0) slope = lattice_add({}, slope, -1);
     for (const LatticePoint& point : pair.p.points) {
       const std::int64_t height = lattice_dot(slope, lattice_add(point, pair.anchor, -1));
       result.steps.push_back(lattice_add({}, pair.normal, height));
@@ -220,10 +223,44 @@ bool nudge(Random& random, Shape& shape) {
   return false;
 }
 
+/// The image under a linear map with entries that are no doubles, every coordinate rounded: what was exactly
+/// touching, parallel or flat now is almost so, in coordinates with all their bits.
+/// @return whether both shapes are still valid; they are unchanged if not.
+bool round_off(Random& random, Shape& p, Shape& q) {
+  constexpr int kDenominator = 997;
+  std::array<std::array<mpq_class, 3>, 3> rows;
+  for (auto& row : rows) {
+    for (mpq_class& entry : row) {
+      entry = mpq_class(whole(pick(random, -kDenominator, kDenominator)), kDenominator);
+      entry.canonicalize();
+    }
+  }
+  std::array<Shape, 2> images{p, q};
+  for (Shape& image : images) {
+    for (Point& point : image.points) {
+      const Point x = point;
+      for (std::size_t k = 0; k < 3; ++k) {
+        point[k] = round_to_double(rows[k][0] * mpq_class(x[0]) + rows[k][1] * mpq_class(x[1]) +
+                                   rows[k][2] * mpq_class(x[2]));
+      }
+    }
+  }
+  // A map of negative determinant turns solids inside out.
+  for (Shape& image : images) {
+    if (is_valid(image)) continue;
+    for (auto& triangle : image.triangles) std::swap(triangle[0], triangle[1]);
+    if (!is_valid(image)) return false;
+  }
+  p = images[0];
+  q = images[1];
+  return true;
+}
+
 LatticePair random_lattice_pair(Random& random, bool solids) {
-  const auto family = pick(random, 0, 9);
-  if (family >= 8) return make_grid_pair(random, solids);
-  if (family >= 5 && solids) return make_supported_pair(random);
+  const auto family = pick(random, 0, 19);
+  if (family >= 17) return make_grid_pair(random, solids);
+  if (family >= 16) return make_twin_pair(random, solids);
+  if (family >= 10 && solids) return make_supported_pair(random);
   return make_resting_pair(random, solids);
 }
 
@@ -243,6 +280,9 @@ DegeneratePair DegeneratePairs::next() {
   for (Shape* shape : {&made->p, &made->q}) {
     if (is_simplex(*shape) && pick(random_, 0, 9) == 0 && nudge(random_, *shape)) made->family += " nudged";
   }
+  const bool simplices = is_simplex(made->p) && is_simplex(made->q);
+  if (simplices && pick(random_, 0, 11) == 0 && round_off(random_, made->p, made->q))
+    made->family += " rounded";
   if (pick(random_, 0, 1) == 0) std::swap(made->p, made->q);
   return *made;
 }

@@ -1,8 +1,7 @@
 #include "oracle/exact_oracle.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 
@@ -420,31 +419,28 @@ std::string type_name(const ExactContact& contact) {
   return {letters.at(static_cast<std::size_t>(low)), '-', letters.at(static_cast<std::size_t>(high))};
 }
 
-double round_to_double(const mpq_class& value) {
-  if (sgn(value) == 0) return 0.0;
-  const mpz_class numerator = abs(value.get_num());
-  const auto bits = [](const mpz_class& z) { return static_cast<long>(mpz_sizeinbase(z.get_mpz_t(), 2)); };
-  // 2^exponent is the weight of the last kept bit; subnormal numbers keep fewer bits.
-  const long lowest = std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
-  const auto round_at = [&](long exponent) {
-    const mpz_class scaled_numerator =
-        exponent < 0 ? mpz_class(numerator << static_cast<unsigned long>(-exponent)) : numerator;
-    const mpz_class scaled_denominator =
-        exponent > 0 ? mpz_class(value.get_den() << static_cast<unsigned long>(exponent)) : value.get_den();
-    mpz_class quotient = scaled_numerator / scaled_denominator;
-    const mpz_class twice_rest = 2 * (scaled_numerator - quotient * scaled_denominator);
-    const int half = cmp(twice_rest, scaled_denominator);
-    const bool exceeds = bits(quotient) > std::numeric_limits<double>::digits;
-    if (!exceeds && (half > 0 || (half == 0 && mpz_odd_p(quotient.get_mpz_t()) != 0))) quotient += 1;
-    return std::pair{quotient, exceeds};
-  };
-  const long guess = bits(numerator) - bits(value.get_den()) - std::numeric_limits<double>::digits;
-  const long exponent = std::max(guess, lowest);
-  auto [quotient, exceeds] = round_at(exponent);
-  const long used = exceeds ? exponent + 1 : exponent;
-  if (exceeds) quotient = round_at(used).first;
-  const double magnitude = std::ldexp(quotient.get_d(), static_cast<int>(used));
-  return sgn(value) < 0 ? -magnitude : magnitude;
+std::vector<RationalVector> separating_normals(const Shape& p_shape, const Shape& q_shape) {
+  const long exponent = common_exponent(p_shape, q_shape);
+  const ConvexBody p = make_body(p_shape, exponent);
+  const ConvexBody q = make_body(q_shape, exponent);
+  std::vector<IntegerVector> candidates = difference_normals(p, q);
+  for (const ConvexBody* body : {&p, &q}) {
+    for (const Plane& plane : body->carrier_planes) {
+      candidates.push_back(plane.normal);
+      candidates.push_back(negated(plane.normal));
+    }
+  }
+  std::vector<RationalVector> separating;
+  for (const IntegerVector& outward : candidates) {
+    // Outward on P - Q, that is from P towards Q.
+    const auto below_all_of_q = [&](const IntegerVector& v) {
+      return std::all_of(q.vertices.begin(), q.vertices.end(),
+                         [&](const IntegerVector& u) { return dot(outward, v) <= dot(outward, u); });
+    };
+    if (!std::all_of(p.vertices.begin(), p.vertices.end(), below_all_of_q)) continue;
+    separating.push_back({mpq_class(-outward[0]), mpq_class(-outward[1]), mpq_class(-outward[2])});
+  }
+  return separating;
 }
 
 }  // namespace ashlar::oracle

@@ -51,7 +51,13 @@ struct ExactAnswer {
 /// "V-V" ... "F-F" or "crossing".
 [[nodiscard]] std::string type_name(const ExactContact& contact);
 
+/// Every direction n, primitive, in which P lies in n . x >= c and Q in n . x <= c for some c, among the
+/// normals that the facets of P - Q can have. Not empty for bodies that touch; empty for solids that cross.
+[[nodiscard]] std::vector<RationalVector> separating_normals(const Shape& p, const Shape& q);
+
 /// Nearest double, ties to even, subnormal numbers included.
 [[nodiscard]] double round_to_double(const mpq_class& value);
+/// The double nearest to x / sqrt(squared), squared > 0: a component of a unit vector.
+[[nodiscard]] double round_quotient_by_root(const mpq_class& x, const mpq_class& squared);
 
 }  // namespace ashlar::oracle

@@ -70,7 +70,7 @@ LatticeBody make_upper_body(Random& random, bool solid, std::int64_t dimension,
                             const LatticePoint& direction) {
   for (;;) {
     const bool polygon = dimension == 2 && solid;
-    const int count = polygon ? static_cast<int>(pick(random, 3, 6)) : static_cast<int>(dimension) + 1;
+    const int count = polygon ? static_cast<int>(pick(random, 3, 7)) : static_cast<int>(dimension) + 1;
     std::vector<LatticePoint> points = flat_points(random, count, direction);
     if (!solid) {
       while (points.size() < 3) {
@@ -149,7 +149,7 @@ LatticeSolid make_box(Random& random, bool turned) {
 LatticeSolid make_random_hull(Random& random, std::int64_t reach) {
   for (;;) {
     std::vector<LatticePoint> points;
-    const std::int64_t count = pick(random, 4, 8);
+    const std::int64_t count = pick(random, 0, 7) == 0 ? pick(random, 12, 20) : pick(random, 4, 8);
     for (std::int64_t i = 0; i < count; ++i) points.push_back(random_point(random, reach));
     LatticeSolid hull = lattice_hull(points, random);
     if (!hull.triangles.empty()) return hull;
@@ -272,6 +272,23 @@ LatticePair make_supported_pair(Random& random) {
   LatticePair pair{body_of(p), body_of(q), choose_direction(random, p, q), {}, "supported"};
   pair.anchor = choose_anchor(random, support(pair.q, pair.normal));
   move(pair.p, lattice_add(pair.anchor, choose_anchor(random, support(pair.p, negated(pair.normal))), -1));
+  return pair;
+}
+
+LatticePair make_twin_pair(Random& random, bool solids) {
+  LatticePair pair = make_grid_pair(random, solids);
+  pair.family = "twin";
+  pair.p = pair.q;
+  const std::vector<LatticePoint> corners = pair.q.points;
+  const LatticePoint to = choose_anchor(random, corners);
+  pair.anchor = to;
+  if (pick(random, 0, 1) == 0) {
+    move(pair.p, lattice_add(to, choose_anchor(random, corners), -1));
+    return pair;
+  }
+  // Mirrored in a point of itself; the triangles turn over.
+  for (LatticePoint& point : pair.p.points) point = lattice_add(lattice_add(to, to), point, -1);
+  for (auto& triangle : pair.p.triangles) std::swap(triangle[0], triangle[1]);
   return pair;
 }
 

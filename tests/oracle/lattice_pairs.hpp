@@ -32,6 +32,10 @@ struct LatticePair {
 /// Two random bodies on a very small lattice.
 [[nodiscard]] LatticePair make_grid_pair(Random& random, bool solids);
 
+/// A small body and its copy: the same one moved, or its mirror image in a point. Everything of one is
+/// parallel to something of the other.
+[[nodiscard]] LatticePair make_twin_pair(Random& random, bool solids);
+
 /// Integer matrix |q|^2 R of a quaternion with components from -3 to 3, rows.
 [[nodiscard]] std::array<LatticePoint, 3> random_rotation(Random& random);
 

@@ -152,5 +152,26 @@ TEST(RoundToDouble, IsNearestWithTiesToEven) {
   EXPECT_EQ(round_to_double(3 / power(1075)), 2 * std::numeric_limits<double>::denorm_min());
 }
 
+TEST(RoundQuotientByRoot, IsNearest) {
+  EXPECT_EQ(round_quotient_by_root(3, 25), 0.6);
+  EXPECT_EQ(round_quotient_by_root(-4, 25), -0.8);
+  EXPECT_EQ(round_quotient_by_root(0, 7), 0.0);
+  // sqrt is correctly rounded by IEEE 754, and 1/4 keeps it so.
+  EXPECT_EQ(round_quotient_by_root(1, 8), std::sqrt(2.0) / 4);
+  EXPECT_EQ(round_quotient_by_root(3, 48), std::sqrt(3.0) / 4);
+  EXPECT_EQ(round_quotient_by_root(5, 80), std::sqrt(5.0) / 4);
+}
+
+TEST(SeparatingNormals, PointFromQToP) {
+  const Shape corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                     {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  Shape below = corner;
+  for (Point& point : below.points) point[2] -= 1.0;  // its top corner is the origin
+  const auto normals = separating_normals(corner, below);
+  EXPECT_NE(std::find(normals.begin(), normals.end(), RationalVector{0, 0, 1}), normals.end());
+  EXPECT_EQ(std::find(normals.begin(), normals.end(), RationalVector{0, 0, -1}), normals.end());
+  EXPECT_TRUE(separating_normals(corner, corner).empty());
+}
+
 }  // namespace
 }  // namespace ashlar::oracle
