@@ -7,6 +7,20 @@ namespace ashlar {
 
 namespace {
 
+// The corner with the least w . x as far as rounding shows; any answer is allowed.
+int lowest(const std::vector<Vector3>& points, const Vector3& w) {
+  int best = 0;
+  double value = w.dot(points[0]);
+  for (int v = 1; v < static_cast<int>(points.size()); ++v) {
+    const double candidate = w.dot(points[v]);
+    if (candidate < value) {
+      value = candidate;
+      best = v;
+    }
+  }
+  return best;
+}
+
 class ExactSimplexSearch {
  public:
   ExactSimplexSearch(const ConvexShape& a, const ConvexShape& b, PredicateLadder& ladder)
@@ -107,16 +121,28 @@ class ExactSimplexSearch {
   // case leaves the support corners in the result.
   CornerPair farther_pair() {
     const CornerPair first = result_.simplex.pairs[0];
-    return {farthest(a_, first.a, 1, result_.support_a), farthest(b_, first.b, -1, result_.support_b)};
+    return {farthest(a_, first.a, 1, &CornerPair::a, &CornerPair::b, result_.support_a),
+            farthest(b_, first.b, -1, &CornerPair::b, &CornerPair::a, result_.support_b)};
   }
-  int farthest(const std::vector<Vector3>& points, int first, int orientation, std::vector<int>& support) {
+  // Two corners of one shape that the simplex pairs with the same corner of the other one tie without a
+  // computation: w is normal to the difference of any two pairs.
+  [[nodiscard]] bool ties(int v, int CornerPair::*own, int CornerPair::*other) const {
+    const auto& p = result_.simplex.pairs;
+    for (int k = 0; k < result_.simplex.size; ++k)
+      for (int l = 0; l < result_.simplex.size; ++l)
+        if (p[k].*own == v && p[l].*own == p[0].*own && p[k].*other == p[l].*other) return true;
+    return false;
+  }
+  int farthest(const std::vector<Vector3>& points, int first, int orientation, int CornerPair::*own,
+               int CornerPair::*other, std::vector<int>& support) {
     const auto& w = result_.w.tracked();
     int best = first;
     double best_value = 0.0;
     support.clear();
     for (int v = 0; v < static_cast<int>(points.size()); ++v) {
-      const int sign =
-          v == first ? 0 : orientation * sign_along(result_.w, points[v], points[first], ladder_);
+      const int sign = v == first || ties(v, own, other)
+                           ? 0
+                           : orientation * sign_along(result_.w, points[v], points[first], ladder_);
       if (sign == 0) support.push_back(v);
       if (sign >= 0) continue;
       const Vector3 step = points[v] - points[first];
@@ -166,18 +192,6 @@ class FloatingSearch {
   }
 
  private:
-  static int lowest(const std::vector<Vector3>& points, const Vector3& w) {
-    int best = 0;
-    double value = w.dot(points[0]);
-    for (int v = 1; v < static_cast<int>(points.size()); ++v) {
-      const double candidate = w.dot(points[v]);
-      if (candidate < value) {
-        value = candidate;
-        best = v;
-      }
-    }
-    return best;
-  }
   [[nodiscard]] bool has(const CornerPair& p) const {
     for (int k = 0; k < simplex_.size; ++k)
       if (simplex_.pairs[k].a == p.a && simplex_.pairs[k].b == p.b) return true;
@@ -278,15 +292,20 @@ ClosestSimplex find_closest_simplex(const ConvexShape& a, const ConvexShape& b, 
   return ExactSimplexSearch(a, b, ladder).run(guess);
 }
 
-std::vector<int> support_corners(const ConvexShape& shape, const ContactDirection& w,
+std::vector<int> support_corners(const ConvexShape& shape, const ContactDirection& w, int orientation,
                                  PredicateLadder& ladder) {
   const std::vector<Vector3>& points = shape.corners();
-  std::vector<int> support{0};
-  for (int v = 1; v < static_cast<int>(points.size()); ++v) {
-    const int sign = sign_along(w, points[v], points[support[0]], ladder);
+  // Starting from the corner that rounding shows as extreme leaves almost all signs to the filter.
+  const Vector3 v(w.tracked().x.value, w.tracked().y.value, w.tracked().z.value);
+  const int start = lowest(points, orientation * v);
+  std::vector<int> support{start};
+  for (int p = 0; p < static_cast<int>(points.size()); ++p) {
+    if (p == start) continue;
+    const int sign = orientation * sign_along(w, points[p], points[support[0]], ladder);
     if (sign < 0) support.clear();
-    if (sign <= 0) support.push_back(v);
+    if (sign <= 0) support.push_back(p);
   }
+  std::sort(support.begin(), support.end());
   return support;
 }
 

@@ -42,8 +42,8 @@ struct ClosestSimplex {
 [[nodiscard]] ClosestSimplex find_closest_simplex(const ConvexShape& a, const ConvexShape& b,
                                                   const CornerSimplex& guess, PredicateLadder& ladder);
 
-/// Corners of a shape with the least w . x, increasing, by exact signs.
+/// Corners of a shape with the least (orientation 1) or greatest (-1) w . x, increasing, by exact signs.
 [[nodiscard]] std::vector<int> support_corners(const ConvexShape& shape, const ContactDirection& w,
-                                               PredicateLadder& ladder);
+                                               int orientation, PredicateLadder& ladder);
 
 }  // namespace ashlar

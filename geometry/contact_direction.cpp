@@ -4,12 +4,18 @@
 #include <CGAL/Mpzf.h>
 
 #include <array>
+#include <utility>
 
 #include "geometry/exact_rounding.hpp"
 
 namespace ashlar {
 
-using Exact = CGAL::Mpzf;
+// Third rung: dyadic numbers of any size.
+struct Exact : CGAL::Mpzf {
+  Exact(double a = 0.0) : CGAL::Mpzf(a) {}
+  Exact(CGAL::Mpzf a) : CGAL::Mpzf(std::move(a)) {}
+  static Exact difference(double a, double b) { return Exact(CGAL::Mpzf(a) - CGAL::Mpzf(b)); }
+};
 
 struct ContactDirection::ExactVector {
   NumberVector<Exact> value;
@@ -22,22 +28,13 @@ int sign_of(const Exact& a) {
 }
 
 template <class N>
-N subtract(double a, double b) {
-  return N::difference(a, b);
-}
-template <>
-Exact subtract<Exact>(double a, double b) {
-  return Exact(a) - Exact(b);
-}
-
-template <class N>
 NumberVector<N> of_point(const Vector3& p) {
   return {N(p[0]), N(p[1]), N(p[2])};
 }
 
 template <class N>
 NumberVector<N> subtract_points(const Vector3& a, const Vector3& b) {
-  return {subtract<N>(a[0], b[0]), subtract<N>(a[1], b[1]), subtract<N>(a[2], b[2])};
+  return {N::difference(a[0], b[0]), N::difference(a[1], b[1]), N::difference(a[2], b[2])};
 }
 
 template <class N>
@@ -69,28 +66,14 @@ CGAL::Gmpq rational(const Fraction<Exact>& f) {
   return CGAL::Gmpq(static_cast<CGAL::Gmpq>(f.numerator) / static_cast<CGAL::Gmpq>(f.denominator));
 }
 
-// Rounds the ratio that `fraction` (a generic function of w) returns.
-template <class FractionOf>
-double round_fraction(PredicateLadder& ladder, const ContactDirection& w, const FractionOf& fraction) {
-  if (ladder.floating) {
-    const Fraction<DoubleDouble> f = fraction(w.double_double());
-    if (const auto q = quotient(f.numerator, f.denominator))
-      if (const auto result = rounded(*q)) {
-        ++ladder.counts.filter;
-        return *result;
-      }
-  }
-  ++ladder.counts.exact;
-  return round_to_nearest(rational(fraction(w.exact().value)).mpq());
-}
-
-// The same for three ratios with one denominator; `fractions` returns numerators and denominator.
+// Three ratios with one denominator.
 template <class N>
 struct VectorFraction {
   NumberVector<N> numerator;
   N denominator;
 };
 
+// Rounds the ratios that `fractions` (a generic function of w) returns.
 template <class FractionsOf>
 Vector3 round_fractions(PredicateLadder& ladder, const ContactDirection& w, const FractionsOf& fractions) {
   Vector3 result;
@@ -142,12 +125,6 @@ void NumericRange::include(const NumericRange& other) {
 }
 
 template <class N>
-NumberVector<N> evaluate(const Difference& d) {
-  NumberVector<N> first = d.minus != nullptr ? subtract_points<N>(*d.plus, *d.minus) : of_point<N>(*d.plus);
-  return d.plus2 == nullptr ? first : sum(first, subtract_points<N>(*d.plus2, *d.minus2));
-}
-
-template <class N>
 NumberVector<N> ContactDirection::evaluate() const {
   NumberVector<N> w = ashlar::evaluate<N>(first_);
   if (kind_ != Kind::difference) {
@@ -166,13 +143,36 @@ ContactDirection::ContactDirection(ContactDirection&&) noexcept = default;
 ContactDirection& ContactDirection::operator=(ContactDirection&&) noexcept = default;
 
 ContactDirection::ContactDirection(Kind kind, const Difference& first, const Difference& second)
-    : kind_(kind), first_(first), second_(second), tracked_(evaluate<TrackedNumber>()) {}
+    : kind_(kind), first_(first), second_(second), tracked_(evaluate<TrackedNumber>()) {
+  set_bound();
+}
+
+void ContactDirection::set_bound() {
+  const auto largest = [&](auto part) {
+    return std::max({part(tracked_.x), part(tracked_.y), part(tracked_.z)});
+  };
+  const double error = largest([](const TrackedNumber& n) { return n.error; });
+  const double value = largest([](const TrackedNumber& n) { return std::abs(n.value); });
+  bound_ = (error + 8.0 * TrackedNumber::unit_roundoff * value) * (1.0 + 0x1p-20);
+}
 
 ContactDirection ContactDirection::along(const Difference& d) {
   return {Kind::difference, d, {}};
 }
 ContactDirection ContactDirection::cross(const Difference& e1, const Difference& e2) {
   return {Kind::cross, e1, e2};
+}
+ContactDirection ContactDirection::cross(const Difference& e1, const Difference& e2,
+                                         const FloatingNumbers& numbers) {
+  ContactDirection w;
+  w.kind_ = Kind::cross;
+  w.first_ = e1;
+  w.second_ = e2;
+  w.tracked_ = numbers.tracked;
+  w.double_double_ = numbers.double_double;
+  w.has_double_double_ = true;
+  w.bound_ = numbers.bound;
+  return w;
 }
 ContactDirection ContactDirection::rejection(const Difference& d, const Difference& e) {
   return {Kind::rejection, d, e};
@@ -185,6 +185,9 @@ ContactDirection ContactDirection::copy() const {
   result.first_ = first_;
   result.second_ = second_;
   result.tracked_ = tracked_;
+  result.bound_ = bound_;
+  result.has_double_double_ = has_double_double_;
+  if (has_double_double_) result.double_double_ = double_double_;
   return result;
 }
 
@@ -196,17 +199,22 @@ ContactDirection ContactDirection::reversed() const {
 
 void ContactDirection::reverse() {
   reversed_ = !reversed_;
-  has_double_double_ = false;
   exact_.reset();
+  if (has_double_double_) double_double_ = {-double_double_.x, -double_double_.y, -double_double_.z};
   for (TrackedNumber* n : {&tracked_.x, &tracked_.y, &tracked_.z}) n->value = -n->value;
 }
 
-const NumberVector<DoubleDouble>& ContactDirection::double_double() const {
-  if (!has_double_double_) {
-    double_double_ = evaluate<DoubleDouble>();
-    has_double_double_ = true;
+void ContactDirection::compute_double_double() const {
+  double_double_ = evaluate<DoubleDouble>();
+  has_double_double_ = true;
+}
+
+const DoubleDouble& ContactDirection::squared_length() const {
+  if (!has_squared_length_) {
+    squared_length_ = dot(double_double(), double_double());
+    has_squared_length_ = true;
   }
-  return double_double_;
+  return squared_length_;
 }
 
 const ContactDirection::ExactVector& ContactDirection::exact() const {
@@ -224,6 +232,54 @@ int sign_triple(const ContactDirection& w, const Difference& d1, const Differenc
   return decide(
       ladder,
       [&]<class N>(const NumberVector<N>& v) { return dot(v, cross(evaluate<N>(d1), evaluate<N>(d2))); }, w);
+}
+
+SideOfLine::SideOfLine(const ContactDirection& w, const Vector3& a, const Vector3& b)
+    : w_(w), a_(a), b_(b), tracked_(cross(w.tracked(), subtract_points<TrackedNumber>(b, a))) {}
+
+int SideOfLine::sign(const Vector3& x, PredicateLadder& ladder) const {
+  if (ladder.floating) {
+    const int sign = sign_of(dot(tracked_, subtract_points<TrackedNumber>(x, a_)));
+    if (sign != unknown_sign) {
+      ++ladder.counts.filter;
+      return sign;
+    }
+  }
+  return sign_turn(w_, a_, b_, x, ladder);
+}
+
+CoordinatePlane coordinate_plane(const ContactDirection& w, PredicateLadder& ladder) {
+  const NumberVector<TrackedNumber>& v = w.tracked();
+  const std::array<double, 3> size{std::abs(v.x.value), std::abs(v.y.value), std::abs(v.z.value)};
+  const int largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  for (const int axis : {largest, (largest + 1) % 3, (largest + 2) % 3}) {
+    const int sign = decide(
+        ladder, [&]<class N>(const NumberVector<N>& u) { return axis == 0   ? u.x
+                                                                : axis == 1 ? u.y
+                                                                            : u.z; },
+        w);
+    if (sign != 0) return {axis, sign};
+  }
+  return {0, 0};
+}
+
+int sign_turn(const CoordinatePlane& plane, const Vector3& a, const Vector3& b, const Vector3& c,
+              PredicateLadder& ladder) {
+  const int i = (plane.dropped + 1) % 3, j = (plane.dropped + 2) % 3;
+  const auto determinant = [&]<class N>(const N&) {
+    return N::difference(b[i], a[i]) * N::difference(c[j], a[j]) -
+           N::difference(b[j], a[j]) * N::difference(c[i], a[i]);
+  };
+  if (ladder.floating) {
+    int sign = sign_of(determinant(TrackedNumber()));
+    if (sign == unknown_sign) sign = sign_of(determinant(DoubleDouble()));
+    if (sign != unknown_sign) {
+      ++ladder.counts.filter;
+      return plane.orientation * sign;
+    }
+  }
+  ++ladder.counts.exact;
+  return plane.orientation * sign_of(determinant(Exact(0)));
 }
 
 int sign_projected_dot(const ContactDirection& w, const Difference& d1, const Difference& d2,
@@ -263,7 +319,7 @@ bool is_within(const ContactDirection& w, const Difference& d, double bound, boo
                const NumberVector<N> e = evaluate<N>(d);
                const N height = dot(v, e);
                const N reach = N(bound) * N(bound) * dot(v, v);
-               return height * height - (with_length ? reach * dot(e, e) : reach);
+               return height * height - (with_length ? N(reach * dot(e, e)) : reach);
              },
              w) <= 0;
 }
@@ -311,46 +367,82 @@ bool same_direction(const ContactDirection& v, const ContactDirection& w, Predic
          component([](const auto& c) { return c.z; }) == 0;
 }
 
-double squared_height(const ContactDirection& w, const Difference& d, PredicateLadder& ladder) {
-  return round_fraction(ladder, w, [&]<class N>(const NumberVector<N>& v) {
-    const N height = dot(v, evaluate<N>(d));
-    return Fraction<N>{height * height, dot(v, v)};
-  });
+ContactHeight::ContactHeight(const ContactDirection& w, const Difference& d, PredicateLadder& ladder)
+    : w_(w), d_(d), ladder_(ladder) {
+  if (!ladder.floating) return;
+  height_ = dot(w.double_double(), evaluate<DoubleDouble>(d));
+  if (const auto ratio = quotient(height_, w.squared_length())) {
+    ratio_ = *ratio;
+    has_ratio_ = true;
+  }
 }
 
-Vector3 shifted(const Vector3* x, const ContactDirection& w, const Difference& d, PredicateLadder& ladder) {
-  return round_fractions(ladder, w, [&]<class N>(const NumberVector<N>& v) {
-    const N squared_length = dot(v, v);
-    const NumberVector<N> step = scale(v, N(dot(v, evaluate<N>(d))));
-    if (x == nullptr) return VectorFraction<N>{step, squared_length};
-    return VectorFraction<N>{sum(step, scale(of_point<N>(*x), squared_length)), squared_length};
-  });
+double ContactHeight::squared() const {
+  if (has_ratio_)
+    if (const auto value = rounded(height_ * ratio_)) {
+      ++ladder_.counts.filter;
+      return *value;
+    }
+  ++ladder_.counts.exact;
+  const NumberVector<Exact>& w = w_.exact().value;
+  const Exact height = dot(w, evaluate<Exact>(d_));
+  return round_to_nearest(rational({height * height, dot(w, w)}).mpq());
+}
+
+Vector3 ContactHeight::shifted(const Vector3* x, int sign) const {
+  Vector3 result;
+  std::array<bool, 3> known{false, false, false};
+  if (has_ratio_) {
+    const NumberVector<DoubleDouble> step = scale(w_.double_double(), sign < 0 ? -ratio_ : ratio_);
+    const std::array<const DoubleDouble*, 3> steps{&step.x, &step.y, &step.z};
+    for (int i = 0; i < 3; ++i) {
+      const auto value = rounded(x != nullptr ? DoubleDouble((*x)[i]) + *steps[i] : *steps[i]);
+      if (!value) continue;
+      result[i] = *value;
+      known[i] = true;
+      ++ladder_.counts.filter;
+    }
+  }
+  if (known[0] && known[1] && known[2]) return result;
+  const NumberVector<Exact>& w = w_.exact().value;
+  const Exact height = dot(w, evaluate<Exact>(d_)) * Exact(sign), squared_length = dot(w, w);
+  const std::array<const Exact*, 3> component{&w.x, &w.y, &w.z};
+  for (int i = 0; i < 3; ++i) {
+    if (known[i]) continue;
+    ++ladder_.counts.exact;
+    Exact numerator = *component[i] * height;
+    if (x != nullptr) numerator = numerator + Exact((*x)[i]) * squared_length;
+    result[i] = round_to_nearest(rational({numerator, squared_length}).mpq());
+  }
+  return result;
 }
 
 Vector3 unit_vector(const ContactDirection& w, PredicateLadder& ladder) {
   Vector3 result;
-  const auto component = [&](int i, auto pick) {
-    const int sign = decide(
-        ladder, [&]<class N>(const NumberVector<N>& v) { return pick(v); }, w);
-    const auto square = [&]<class N>(const NumberVector<N>& v) {
-      return Fraction<N>{pick(v) * pick(v), dot(v, v)};
-    };
-    if (ladder.floating) {
-      const Fraction<DoubleDouble> f = square(w.double_double());
-      const auto q = quotient(f.numerator, f.denominator);
-      const auto root = q ? square_root(*q) : std::nullopt;
-      if (const auto value = root ? rounded(*root) : std::nullopt) {
-        ++ladder.counts.filter;
-        result[i] = sign * *value;
-        return;
-      }
+  std::array<bool, 3> known{false, false, false};
+  if (ladder.floating) {
+    const auto length = square_root(w.squared_length());
+    const auto inverse = length ? quotient(DoubleDouble(1.0), *length) : std::nullopt;
+    const NumberVector<DoubleDouble>& v = w.double_double();
+    const std::array<const DoubleDouble*, 3> component{&v.x, &v.y, &v.z};
+    for (int i = 0; inverse && i < 3; ++i) {
+      const auto value = rounded(*component[i] * *inverse);
+      if (!value) continue;
+      result[i] = *value;
+      known[i] = true;
+      ++ladder.counts.filter;
     }
+  }
+  if (known[0] && known[1] && known[2]) return result;
+  const NumberVector<Exact>& v = w.exact().value;
+  const Exact squared_length = dot(v, v);
+  const std::array<const Exact*, 3> component{&v.x, &v.y, &v.z};
+  for (int i = 0; i < 3; ++i) {
+    if (known[i]) continue;
     ++ladder.counts.exact;
-    result[i] = sign * round_square_root(rational(square(w.exact().value)).mpq());
-  };
-  component(0, [](const auto& v) { return v.x; });
-  component(1, [](const auto& v) { return v.y; });
-  component(2, [](const auto& v) { return v.z; });
+    const Exact square = *component[i] * *component[i];
+    result[i] = sign_of(*component[i]) * round_square_root(rational({square, squared_length}).mpq());
+  }
   return result;
 }
 

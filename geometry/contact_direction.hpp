@@ -69,6 +69,16 @@ class ContactDirection {
   [[nodiscard]] static ContactDirection along(const Difference& d);
   [[nodiscard]] static ContactDirection cross(const Difference& e1, const Difference& e2);
   [[nodiscard]] static ContactDirection rejection(const Difference& d, const Difference& e);
+  /// Everything of w but its points: what a shape keeps of the normals of its facets.
+  struct FloatingNumbers {
+    NumberVector<TrackedNumber> tracked;
+    NumberVector<DoubleDouble> double_double;
+    double bound = 0.0;
+  };
+  [[nodiscard]] FloatingNumbers floating_numbers() const { return {tracked_, double_double(), bound_}; }
+  /// e1 x e2 whose numbers are known already.
+  [[nodiscard]] static ContactDirection cross(const Difference& e1, const Difference& e2,
+                                              const FloatingNumbers& numbers);
   ContactDirection();
   ~ContactDirection();
   ContactDirection(ContactDirection&&) noexcept;
@@ -81,7 +91,21 @@ class ContactDirection {
 
   /// w in the numbers of the two floating rungs; the second one is computed on first use.
   [[nodiscard]] const NumberVector<TrackedNumber>& tracked() const { return tracked_; }
-  [[nodiscard]] const NumberVector<DoubleDouble>& double_double() const;
+  [[nodiscard]] const NumberVector<DoubleDouble>& double_double() const {
+    if (!has_double_double_) compute_double_double();
+    return double_double_;
+  }
+  /// |w|^2.
+  [[nodiscard]] const DoubleDouble& squared_length() const;
+  /// The sign of w . (x - y) where this follows from the size of its floating value alone. With W the exact
+  /// w, w its rounded value, e its error, d = fl(x - y), u = 2^-53:
+  ///   |fl(w.d) - W.(x - y)| <= sum |d_i| (e_i + 7 u |w_i|) (1 + 2^-28) <= |d|_1 bound
+  [[nodiscard]] int quick_sign(const Vector3& x, const Vector3& y) const {
+    const double d0 = x[0] - y[0], d1 = x[1] - y[1], d2 = x[2] - y[2];
+    const double value = tracked_.x.value * d0 + tracked_.y.value * d1 + tracked_.z.value * d2;
+    const double bound = (std::abs(d0) + std::abs(d1) + std::abs(d2)) * bound_;
+    return value > bound ? 1 : value < -bound ? -1 : unknown_sign;
+  }
   struct ExactVector;
   [[nodiscard]] const ExactVector& exact() const;
 
@@ -90,25 +114,47 @@ class ContactDirection {
   ContactDirection(Kind kind, const Difference& first, const Difference& second);
   template <class N>
   [[nodiscard]] NumberVector<N> evaluate() const;
+  void set_bound();
+  void compute_double_double() const;
 
   Kind kind_ = Kind::difference;
   bool reversed_ = false;
   mutable bool has_double_double_ = false;
+  mutable bool has_squared_length_ = false;
   Difference first_, second_;
   NumberVector<TrackedNumber> tracked_;
+  double bound_ = 0.0;  // max e_i + 8 u max |w_i|, rounded up
   mutable NumberVector<DoubleDouble> double_double_;
+  mutable DoubleDouble squared_length_;
   mutable std::unique_ptr<ExactVector> exact_;
 };
 
-/// Value of a difference in the numbers of a rung.
+/// Value of a difference in the numbers of a rung (N::difference of two doubles).
 template <class N>
-[[nodiscard]] NumberVector<N> evaluate(const Difference& d);
+[[nodiscard]] NumberVector<N> evaluate(const Difference& d) {
+  const auto subtract = [](const Vector3& a, const Vector3* b) {
+    if (b == nullptr) return NumberVector<N>{N(a[0]), N(a[1]), N(a[2])};
+    return NumberVector<N>{N::difference(a[0], (*b)[0]), N::difference(a[1], (*b)[1]),
+                           N::difference(a[2], (*b)[2])};
+  };
+  const NumberVector<N> first = subtract(*d.plus, d.minus);
+  if (d.plus2 == nullptr) return first;
+  const NumberVector<N> second = subtract(*d.plus2, d.minus2);
+  return {first.x + second.x, first.y + second.y, first.z + second.z};
+}
 
 /// Sign of w . d.
 [[nodiscard]] int sign_along(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
 /// Sign of w . (x - y).
 [[nodiscard]] inline int sign_along(const ContactDirection& w, const Vector3& x, const Vector3& y,
                                     PredicateLadder& ladder) {
+  if (ladder.floating) {
+    const int sign = w.quick_sign(x, y);
+    if (sign != unknown_sign) {
+      ++ladder.counts.filter;
+      return sign;
+    }
+  }
   return sign_along(w, Difference{&x, &y}, ladder);
 }
 /// Sign of w . (d1 x d2).
@@ -119,6 +165,27 @@ template <class N>
                                    const Vector3& c, PredicateLadder& ladder) {
   return sign_triple(w, Difference{&b, &a}, Difference{&c, &a}, ladder);
 }
+/// The side of a line in the projection along w: sign(x) = sign_turn(w, a, b, x), with w x (b - a) kept.
+class SideOfLine {
+ public:
+  SideOfLine(const ContactDirection& w, const Vector3& a, const Vector3& b);
+  [[nodiscard]] int sign(const Vector3& x, PredicateLadder& ladder) const;
+
+ private:
+  const ContactDirection& w_;
+  const Vector3 &a_, &b_;
+  NumberVector<TrackedNumber> tracked_;
+};
+
+/// A coordinate plane onto which a plane across w is projected without losing its orientation.
+struct CoordinatePlane {
+  int dropped;      ///< the coordinate that is left out
+  int orientation;  ///< sign of that component of w, not zero
+};
+[[nodiscard]] CoordinatePlane coordinate_plane(const ContactDirection& w, PredicateLadder& ladder);
+/// sign_turn for points in one plane across w.
+[[nodiscard]] int sign_turn(const CoordinatePlane& plane, const Vector3& a, const Vector3& b,
+                            const Vector3& c, PredicateLadder& ladder);
 /// Sign of (w x d1) . (w x d2): the scalar product of the two in the projection along w.
 [[nodiscard]] int sign_projected_dot(const ContactDirection& w, const Difference& d1, const Difference& d2,
                                      PredicateLadder& ladder);
@@ -143,11 +210,28 @@ template <class N>
 
 // Constructions, each correctly rounded.
 
-/// (w.d)^2 / |w|^2.
-[[nodiscard]] double squared_height(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
-/// x + w (w.d) / |w|^2; x may be null for the origin.
-[[nodiscard]] Vector3 shifted(const Vector3* x, const ContactDirection& w, const Difference& d,
-                              PredicateLadder& ladder);
+/// The height of a difference d along w, and what is constructed with it. Refers to w and the ladder.
+class ContactHeight {
+ public:
+  ContactHeight(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
+  /// (w.d)^2 / |w|^2.
+  [[nodiscard]] double squared() const;
+  /// w (w.d) / |w|^2.
+  [[nodiscard]] Vector3 step() const { return shifted(nullptr, 1); }
+  /// The point above or below x by this height.
+  [[nodiscard]] Vector3 above(const Vector3& x) const { return shifted(&x, 1); }
+  [[nodiscard]] Vector3 below(const Vector3& x) const { return shifted(&x, -1); }
+
+ private:
+  [[nodiscard]] Vector3 shifted(const Vector3* x, int sign) const;
+
+  const ContactDirection& w_;
+  Difference d_;
+  PredicateLadder& ladder_;
+  bool has_ratio_ = false;
+  DoubleDouble height_, ratio_;  // w.d, w.d / |w|^2
+};
+
 /// w / |w|.
 [[nodiscard]] Vector3 unit_vector(const ContactDirection& w, PredicateLadder& ladder);
 /// The point of the segment (a, b) that lies over the line (c, d) in the projection along w.

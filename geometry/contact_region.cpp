@@ -17,61 +17,73 @@ ContactFeature feature(const ConvexShape& shape, const PlaneSet& set, const Plan
   }
 }
 
-class RegionBuilder {
+void set_carriers(ContactRegion& region, const ContactFeature& a, const ContactFeature& b) {
+  region.a = a;
+  region.b = b;
+  region.a_dimension = a.dimension;
+  region.b_dimension = b.dimension;
+  region.type = contact_type(a.dimension, b.dimension);
+}
+
+// Coordinates of the vertices of an overlap.
+class RegionPoints {
  public:
-  RegionBuilder(const ContactDirection& w, const PlaneSet& a, const PlaneSet& b, const Difference& height,
-                bool touching, PredicateLadder& ladder)
-      : w_(w), a_(a), b_(b), height_(height), touching_(touching), ladder_(ladder) {}
+  RegionPoints(const ContactDirection& w, const PlaneSet& a, const PlaneSet& b, const ContactHeight* height,
+               PredicateLadder& ladder)
+      : w_(w), a_(a), b_(b), height_(height), ladder_(ladder) {}
 
   [[nodiscard]] Vector3 on_a(const OverlapVertex& v) const {
     if (v.a.dimension == 0) return a_.point(v.a.index);
-    if (v.b.dimension == 0) return moved(b_.point(v.b.index), height_);
-    return crossing_point(w_, a_.point(v.a.index), a_.point(v.a.index + 1), b_.point(v.b.index),
-                          b_.point(v.b.index + 1), ladder_);
+    if (v.b.dimension != 0) return crossing(a_, v.a.index, b_, v.b.index);
+    const Vector3& below = b_.point(v.b.index);
+    return height_ != nullptr ? height_->above(below) : below;
   }
   [[nodiscard]] Vector3 on_b(const OverlapVertex& v) const {
     if (v.b.dimension == 0) return b_.point(v.b.index);
-    if (v.a.dimension == 0) return moved(a_.point(v.a.index), {height_.minus, height_.plus});
-    return crossing_point(w_, b_.point(v.b.index), b_.point(v.b.index + 1), a_.point(v.a.index),
-                          a_.point(v.a.index + 1), ladder_);
+    if (v.a.dimension != 0) return crossing(b_, v.b.index, a_, v.a.index);
+    return height_->below(a_.point(v.a.index));
   }
 
  private:
-  [[nodiscard]] Vector3 moved(const Vector3& x, const Difference& by) const {
-    return touching_ ? x : shifted(&x, w_, by, ladder_);
+  [[nodiscard]] Vector3 crossing(const PlaneSet& own, int side, const PlaneSet& other, int other_side) const {
+    return crossing_point(w_, own.point(side), own.point(side + 1), other.point(other_side),
+                          other.point(other_side + 1), ladder_);
   }
 
   const ContactDirection& w_;
   const PlaneSet &a_, &b_;
-  Difference height_;
-  bool touching_;
+  const ContactHeight* height_;
   PredicateLadder& ladder_;
 };
 
 }  // namespace
 
-ContactRegion region_along(const ContactDirection& w, const ConvexShape& shape_a, const PlaneSet& a,
-                           const ConvexShape& shape_b, const PlaneSet& b, const Difference& height,
-                           bool touching, PredicateLadder& ladder) {
-  const std::vector<OverlapVertex> vertices = overlap(w, a, b, ladder);
+ContactRegion region_along(const ContactDirection& w, PlaneSetting setting, const ConvexShape& shape_a,
+                           const PlaneSet& a, const ConvexShape& shape_b, const PlaneSet& b,
+                           const ContactHeight* height, PredicateLadder& ladder) {
+  const std::vector<OverlapVertex> vertices = overlap(w, setting, a, b, ladder);
   ContactRegion region;
   if (vertices.empty()) return region;
   std::vector<PlaneLocation> in_a, in_b;
-  const RegionBuilder builder(w, a, b, height, touching, ladder);
+  const RegionPoints points(w, a, b, height, ladder);
   region.points.reserve(vertices.size());
   for (const OverlapVertex& v : vertices) {
     in_a.push_back(v.a);
     in_b.push_back(v.b);
-    const Vector3 on_a = builder.on_a(v);
-    region.points.push_back(
-        {feature(shape_a, a, v.a), feature(shape_b, b, v.b), on_a, touching ? on_a : builder.on_b(v)});
+    const Vector3 on_a = points.on_a(v);
+    region.points.push_back({feature(shape_a, a, v.a), feature(shape_b, b, v.b), on_a,
+                             height == nullptr ? on_a : points.on_b(v)});
   }
   region.dimension = static_cast<int>(std::min<std::size_t>(vertices.size(), 3)) - 1;
-  region.a = feature(shape_a, a, carrier(a, in_a));
-  region.b = feature(shape_b, b, carrier(b, in_b));
-  region.a_dimension = region.a.dimension;
-  region.b_dimension = region.b.dimension;
-  region.type = contact_type(region.a_dimension, region.b_dimension);
+  set_carriers(region, feature(shape_a, a, carrier(a, in_a)), feature(shape_b, b, carrier(b, in_b)));
+  return region;
+}
+
+ContactRegion point_region(const ContactPoint& point) {
+  ContactRegion region;
+  region.dimension = 0;
+  region.points = {point};
+  set_carriers(region, point.a, point.b);
   return region;
 }
 

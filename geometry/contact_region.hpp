@@ -42,9 +42,13 @@ struct ContactRegion {
 /// @param a,b plane sets over corners of the shapes; @param height the difference p - q of a corner of A and
 /// one of B that bound their shapes along w; @param touching that difference is zero along w.
 /// @return a region without points (dimension -1) if the sets have nothing in common.
-[[nodiscard]] ContactRegion region_along(const ContactDirection& w, const ConvexShape& shape_a,
-                                         const PlaneSet& a, const ConvexShape& shape_b, const PlaneSet& b,
-                                         const Difference& height, bool touching, PredicateLadder& ladder);
+[[nodiscard]] ContactRegion region_along(const ContactDirection& w, PlaneSetting setting,
+                                         const ConvexShape& shape_a, const PlaneSet& a,
+                                         const ConvexShape& shape_b, const PlaneSet& b,
+                                         const ContactHeight* height, PredicateLadder& ladder);
+
+/// A region of one point.
+[[nodiscard]] ContactRegion point_region(const ContactPoint& point);
 
 /// The face of a shape that is spanned by the corners of a support, as a loop counter-clockwise along w.
 /// @param above the shape lies on the side w points to (it is A).

@@ -180,7 +180,7 @@ ConvexShape ConvexShape::from_triangle(const Vector3& a, const Vector3& b, const
   shape.source_triangles_ = {0};
   PredicateLadder ladder;
   ladder.floating = shape.range_.safe();
-  if (is_zero(shape.facet_normal(0), ladder)) throw std::invalid_argument("triangle has no area");
+  if (is_zero(triangle_normal(a, b, c), ladder)) throw std::invalid_argument("triangle has no area");
   shape.index();
   return shape;
 }
@@ -237,6 +237,11 @@ void ConvexShape::index() {
     corner_facets_.insert(corner_facets_.end(), around.begin(), around.end());
     corner_start_.push_back(static_cast<int>(corner_facets_.size()));
   }
+  for (int f = 0; f < facet_count(); ++f) {
+    const std::span<const int> loop = facet(f);
+    normals_.push_back(
+        triangle_normal(corners_[loop[0]], corners_[loop[1]], corners_[loop[2]]).floating_numbers());
+  }
 }
 
 int ConvexShape::find_edge(int v, int w) const {
@@ -259,7 +264,8 @@ int ConvexShape::find_facet(std::span<const int> corners) const {
 
 ContactDirection ConvexShape::facet_normal(int f) const {
   const std::span<const int> loop = facet(f);
-  return triangle_normal(corners_[loop[0]], corners_[loop[1]], corners_[loop[2]]);
+  return ContactDirection::cross({&corners_[loop[1]], &corners_[loop[0]]},
+                                 {&corners_[loop[2]], &corners_[loop[0]]}, normals_[f]);
 }
 
 }  // namespace ashlar

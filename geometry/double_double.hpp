@@ -96,6 +96,7 @@ struct DoubleDouble {
   rest = rest - denominator * DoubleDouble(second);
   const auto [high, low] = exact_sum(first, second);
   const double remainder = std::abs(rest.high) + std::abs(rest.low) + rest.error;
+  if (std::abs(high) < 0x1p-400) return std::nullopt;  // products with it could underflow
   return DoubleDouble(high, low, remainder / least);
 }
 

@@ -6,17 +6,29 @@ namespace ashlar {
 
 namespace {
 
+struct Projection {
+  const ContactDirection& w;
+  PlaneSetting setting;
+  CoordinatePlane plane;  // coplanar sets
+};
+
 // signs(s, p): on which side of side s of one set corner p of the other lies, 1 = left (inside).
 class SideSigns {
  public:
-  SideSigns(const ContactDirection& w, const PlaneSet& sides, const PlaneSet& corners,
+  SideSigns(const Projection& projection, const PlaneSet& sides, const PlaneSet& corners,
             PredicateLadder& ladder)
       : corners_(corners.size()) {
     signs_.reserve(static_cast<std::size_t>(sides.side_count() * corners_));
-    for (int s = 0; s < sides.side_count(); ++s)
-      for (int p = 0; p < corners_; ++p)
-        signs_.push_back(static_cast<signed char>(
-            sign_turn(w, sides.point(s), sides.point(s + 1), corners.point(p), ladder)));
+    for (int s = 0; s < sides.side_count(); ++s) {
+      const Vector3 &from = sides.point(s), &to = sides.point(s + 1);
+      if (projection.setting == PlaneSetting::coplanar) {
+        for (int p = 0; p < corners_; ++p)
+          add(sign_turn(projection.plane, from, to, corners.point(p), ladder));
+      } else {
+        const SideOfLine side(projection.w, from, to);
+        for (int p = 0; p < corners_; ++p) add(side.sign(corners.point(p), ladder));
+      }
+    }
   }
   [[nodiscard]] int operator()(int side, int corner) const {
     return signs_[static_cast<std::size_t>(side * corners_ +
@@ -28,16 +40,23 @@ class SideSigns {
   }
 
  private:
+  void add(int sign) { signs_.push_back(static_cast<signed char>(sign)); }
+
   int corners_;
   std::vector<signed char> signs_;
 };
 
-PlaneLocation locate_in_segment(const ContactDirection& w, const PlaneSet& segment, const Vector3& p,
+PlaneLocation locate_in_segment(const Projection& projection, const PlaneSet& segment, const Vector3& p,
                                 PredicateLadder& ladder) {
   const Vector3 &from = segment.point(0), &to = segment.point(1);
-  const int after_start = sign_projected_dot(w, {&p, &from}, {&to, &from}, ladder);
+  const auto along = [&](const Vector3& x, const Vector3& y) {
+    return projection.setting == PlaneSetting::tilted
+               ? sign_projected_dot(projection.w, {&x, &y}, {&to, &from}, ladder)
+               : sign_along(ContactDirection::along({&to, &from}), x, y, ladder);
+  };
+  const int after_start = along(p, from);
   if (after_start == 0) return {0, 0};
-  const int before_end = sign_projected_dot(w, {&to, &p}, {&to, &from}, ladder);
+  const int before_end = along(to, p);
   if (before_end == 0) return {0, 1};
   return after_start > 0 && before_end > 0 ? PlaneLocation{1, 0} : PlaneLocation{};
 }
@@ -57,12 +76,13 @@ PlaneLocation locate_in_polygon(const PlaneSet& polygon, const SideSigns& signs,
   return result;
 }
 
-PlaneLocation locate(const ContactDirection& w, const PlaneSet& set, const SideSigns& signs,
+PlaneLocation locate(const Projection& projection, const PlaneSet& set, const SideSigns& signs,
                      const PlaneSet& corners, int corner, PredicateLadder& ladder) {
   const Vector3& p = corners.point(corner);
   if (set.size() >= 3) return locate_in_polygon(set, signs, corner);
-  if (set.size() == 2) return signs(0, corner) == 0 ? locate_in_segment(w, set, p, ladder) : PlaneLocation{};
-  return is_parallel(w, {&p, &set.point(0)}, ladder) ? PlaneLocation{0, 0} : PlaneLocation{};
+  if (set.size() == 2)
+    return signs(0, corner) == 0 ? locate_in_segment(projection, set, p, ladder) : PlaneLocation{};
+  return is_parallel(projection.w, {&p, &set.point(0)}, ladder) ? PlaneLocation{0, 0} : PlaneLocation{};
 }
 
 // True if a location lies on side s (its ends included) of a polygon of n corners.
@@ -126,20 +146,22 @@ std::vector<OverlapVertex> ordered(const std::vector<OverlapVertex>& vertices, c
 
 }  // namespace
 
-std::vector<OverlapVertex> overlap(const ContactDirection& w, const PlaneSet& a, const PlaneSet& b,
-                                   PredicateLadder& ladder) {
-  const SideSigns sides_of_a(w, a, b, ladder), sides_of_b(w, b, a, ladder);
+std::vector<OverlapVertex> overlap(const ContactDirection& w, PlaneSetting setting, const PlaneSet& a,
+                                   const PlaneSet& b, PredicateLadder& ladder) {
+  const Projection projection{
+      w, setting, setting == PlaneSetting::coplanar ? coordinate_plane(w, ladder) : CoordinatePlane{}};
+  const SideSigns sides_of_a(projection, a, b, ladder), sides_of_b(projection, b, a, ladder);
   std::vector<OverlapVertex> vertices;
   std::vector<bool> b_corner_used(static_cast<std::size_t>(b.size()), false);
   for (int p = 0; p < a.size(); ++p) {
-    const PlaneLocation in_b = locate(w, b, sides_of_b, a, p, ladder);
+    const PlaneLocation in_b = locate(projection, b, sides_of_b, a, p, ladder);
     if (in_b.dimension < 0) continue;
     vertices.push_back({{0, p}, in_b});
     if (in_b.dimension == 0) b_corner_used[in_b.index] = true;
   }
   for (int p = 0; p < b.size(); ++p) {
     if (b_corner_used[p]) continue;
-    const PlaneLocation in_a = locate(w, a, sides_of_a, b, p, ladder);
+    const PlaneLocation in_a = locate(projection, a, sides_of_a, b, p, ladder);
     if (in_a.dimension >= 0) vertices.push_back({in_a, {0, p}});
   }
   for (int s = 0; s < a.side_count(); ++s)

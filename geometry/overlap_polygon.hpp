@@ -38,10 +38,18 @@ struct OverlapVertex {
   PlaneLocation a, b;
 };
 
+/// How the two sets lie; decides which arithmetic is enough.
+enum class PlaneSetting {
+  coplanar,  ///< both in one plane across w
+  level,     ///< each in a plane across w
+  tilted,    ///< neither: only their projections matter
+};
+
 /// The vertices of the common part, each once: counter-clockwise if there are three or more; empty if the
 /// sets have nothing in common.
-[[nodiscard]] std::vector<OverlapVertex> overlap(const ContactDirection& w, const PlaneSet& a,
-                                                 const PlaneSet& b, PredicateLadder& ladder);
+[[nodiscard]] std::vector<OverlapVertex> overlap(const ContactDirection& w, PlaneSetting setting,
+                                                 const PlaneSet& a, const PlaneSet& b,
+                                                 PredicateLadder& ladder);
 
 /// The smallest face of a set that contains all of the given locations (not empty, none outside).
 [[nodiscard]] PlaneLocation carrier(const PlaneSet& set, std::span<const PlaneLocation> locations);

@@ -15,25 +15,48 @@ Difference edge_vector(const ConvexShape& s, int e) {
   return {&s.corners()[c[1]], &s.corners()[c[0]]};
 }
 
-// Signs of edge vectors of one shape along the facet normals of the other; unknown_sign is allowed, nothing
-// is decided here but which pairs of edges are worth a look.
+// Signs of the edge vectors of one shape along the facet normals of the other: all that decides which pairs
+// of edges make a facet of D.
 class EdgeSides {
  public:
-  EdgeSides(const ConvexShape& facets, const ConvexShape& edges) : facet_count_(facets.facet_count()) {
-    std::vector<NumberVector<TrackedNumber>> normals;
-    for (int f = 0; f < facet_count_; ++f) normals.push_back(facets.facet_normal(f).tracked());
-    for (int e = 0; e < static_cast<int>(edges.edges().size()); ++e) {
-      const auto v = ContactDirection::along(edge_vector(edges, e)).tracked();
-      for (const auto& n : normals) signs_.push_back(static_cast<signed char>(sign_of(dot(n, v))));
+  EdgeSides(const ConvexShape& facets, const ConvexShape& edges, PredicateLadder& ladder)
+      : facets_(facets), edges_(edges), ladder_(ladder), facet_count_(facets.facet_count()) {
+    signs_.resize(edges.edges().size() * static_cast<std::size_t>(facet_count_), unknown_sign);
+    if (!ladder.floating) return;
+    auto sign = signs_.begin();
+    for (const ConvexEdge& e : edges.edges()) {
+      const Vector3 v = edges.corners()[e.corners[1]] - edges.corners()[e.corners[0]];
+      const double length = std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
+      for (int f = 0; f < facet_count_; ++f, ++sign) {
+        const auto& n = facets.normal_numbers(f);
+        const double value = n.tracked.x.value * v[0] + n.tracked.y.value * v[1] + n.tracked.z.value * v[2];
+        const double bound = length * n.bound;  // ContactDirection::quick_sign
+        if (value > bound) *sign = 1;
+        if (value < -bound) *sign = -1;
+      }
     }
   }
-  /// The edge may ascend (sign 1) or descend (-1) along the normal.
-  [[nodiscard]] bool may_be(int edge, int facet, int sign) const {
-    const int s = signs_[static_cast<std::size_t>(edge * facet_count_ + facet)];
-    return s == sign || s == unknown_sign;
+  /// Of an edge along the normal of the facet left of an edge of the other shape.
+  [[nodiscard]] int left(int edge, const ConvexEdge& of) { return sign(edge, of.facets[0]); }
+  /// Of the facet right of it: for a triangle its back.
+  [[nodiscard]] int right(int edge, const ConvexEdge& of) {
+    return facets_.flat() ? -sign(edge, of.facets[1]) : sign(edge, of.facets[1]);
   }
 
  private:
+  int sign(int edge, int facet) {
+    signed char& s = signs_[static_cast<std::size_t>(edge * facet_count_ + facet)];
+    if (s == unknown_sign)
+      s = static_cast<signed char>(
+          sign_along(facets_.facet_normal(facet), edge_vector(edges_, edge), ladder_));
+    else
+      ++ladder_.counts.filter;
+    return s;
+  }
+
+  const ConvexShape& facets_;
+  const ConvexShape& edges_;
+  PredicateLadder& ladder_;
   int facet_count_;
   std::vector<signed char> signs_;
 };
@@ -44,13 +67,11 @@ class EntranceSearch {
       : a_(a), b_(b), ladder_(ladder) {}
 
   SeparationResult run() {
-    for (int f = 0; f < a_.facet_count(); ++f) consider({EntranceKind::face_of_a, f, -1, false});
-    for (int f = 0; f < b_.facet_count(); ++f) consider({EntranceKind::face_of_b, -1, f, false});
-    if (a_.flat() || b_.flat())
-      consider_flat_entrances();
-    else
-      consider_edge_pairs();
-    if (!result_.separated && !(a_.flat() && b_.flat())) keep_least();
+    candidates_.reserve(64);
+    search_facets(a_, b_, EntranceKind::face_of_a);
+    if (result_.relation != Relation::apart) search_facets(b_, a_, EntranceKind::face_of_b);
+    if (result_.relation == Relation::crossing) search_edge_pairs();
+    if (result_.relation == Relation::crossing && !(a_.flat() && b_.flat())) keep_least();
     return std::move(result_);
   }
 
@@ -60,80 +81,117 @@ class EntranceSearch {
     double least_squared_depth;  // a proved lower bound
   };
 
-  // A flat shape has its facet on both sides, and all around its edges: nothing can be left out.
-  void consider_flat_entrances() {
-    for (int f = 0; f < a_.facet_count() && a_.flat(); ++f) consider({EntranceKind::face_of_a, f, -1, true});
-    for (int f = 0; f < b_.facet_count() && b_.flat(); ++f) consider({EntranceKind::face_of_b, -1, f, true});
-    for (int i = 0; i < static_cast<int>(a_.edges().size()); ++i)
-      for (int j = 0; j < static_cast<int>(b_.edges().size()); ++j)
-        for (const bool reversed : {false, true}) consider({EntranceKind::edge_edge, i, j, reversed});
+  // The height of a facet of `own` is the least N.(y - x) over the corners y of the other shape.
+  void search_facets(const ConvexShape& own, const ConvexShape& other, EntranceKind kind) {
+    for (int f = 0; f < own.facet_count(); ++f)
+      for (const bool reversed : {false, true}) {
+        if (reversed && !own.flat()) continue;  // a triangle has its facet on both sides
+        const Entrance entrance{kind, kind == EntranceKind::face_of_a ? f : -1,
+                                kind == EntranceKind::face_of_b ? f : -1, reversed};
+        if (!ladder_.floating || !penetrates(own, f, reversed, other, entrance)) settle(support_of(entrance));
+        if (result_.relation == Relation::apart) return;
+      }
+  }
+
+  // True if a corner of the other shape is certainly behind the facet; notes how deep.
+  bool penetrates(const ConvexShape& own, int f, bool reversed, const ConvexShape& other,
+                  const Entrance& entrance) {
+    const auto& n = own.normal_numbers(f);
+    const double sign = reversed ? -1.0 : 1.0;
+    const double nx = sign * n.tracked.x.value, ny = sign * n.tracked.y.value, nz = sign * n.tracked.z.value;
+    const Vector3& x = own.corners()[own.facet(f)[0]];
+    double deepest = 0.0;
+    for (const Vector3& y : other.corners()) {
+      const double d0 = y[0] - x[0], d1 = y[1] - x[1], d2 = y[2] - x[2];
+      const double bound = (std::abs(d0) + std::abs(d1) + std::abs(d2)) * n.bound;
+      deepest = std::min(deepest, (nx * d0 + ny * d1 + nz * d2) + bound);
+    }
+    // The sum of value and bound is rounded itself.
+    deepest *= 1.0 - 0x1p-40;
+    if (!(deepest < 0.0)) return false;
+    ++ladder_.counts.filter;
+    note(entrance, deepest, n.tracked);
+    return true;
+  }
+
+  void note(const Entrance& entrance, double height_bound, const NumberVector<TrackedNumber>& w) {
+    const TrackedNumber length = dot(w, w);
+    candidates_.push_back(
+        {entrance,
+         height_bound * height_bound / ((length.value + length.error) * (1.0 + 0x1p-29)) * (1.0 - 0x1p-40)});
+  }
+
+  void settle(Support&& s) {
+    const int sign = sign_along(s.w, height_of(s), ladder_);
+    if (sign < 0) {
+      if (result_.relation == Relation::crossing) candidates_.push_back({s.entrance, 0.0});
+      return;
+    }
+    result_.relation = sign > 0 ? Relation::apart : Relation::touching;
+    if (sign > 0)
+      result_.supports.clear();
+    else
+      result_.supports.push_back(std::move(s));
   }
 
   // Edges u of A (facets n1 left, n2 right) and v of B (m1, m2) make a facet of D iff v.n1, -v.n2, u.m1,
-  // -u.m2 have one sign s; then w = -s u x v. Zeros belong to entrances with a facet.
-  void consider_edge_pairs() {
-    if (!ladder_.floating) {
-      for (int i = 0; i < static_cast<int>(a_.edges().size()); ++i)
-        for (int j = 0; j < static_cast<int>(b_.edges().size()); ++j)
-          for (const bool reversed : {false, true}) consider({EntranceKind::edge_edge, i, j, reversed});
-      return;
-    }
-    const EdgeSides edges_of_b(a_, b_), edges_of_a(b_, a_);
-    for (int i = 0; i < static_cast<int>(a_.edges().size()); ++i) {
-      const auto& n = a_.edges()[i].facets;
+  // -u.m2 have one sign s; then w = -s u x v, and the two edges are its support. Zeros belong to entrances
+  // with a facet.
+  void search_edge_pairs() {
+    EdgeSides edges_of_b(a_, b_, ladder_), edges_of_a(b_, a_, ladder_);
+    for (int i = 0; i < static_cast<int>(a_.edges().size()); ++i)
       for (int j = 0; j < static_cast<int>(b_.edges().size()); ++j) {
-        const auto& m = b_.edges()[j].facets;
-        for (const int s : {1, -1})
-          if (edges_of_b.may_be(j, n[0], s) && edges_of_b.may_be(j, n[1], -s) &&
-              edges_of_a.may_be(i, m[0], s) && edges_of_a.may_be(i, m[1], -s))
-            consider({EntranceKind::edge_edge, i, j, s > 0});
+        const ConvexEdge &e = a_.edges()[i], &g = b_.edges()[j];
+        const int s = edges_of_b.left(j, e);
+        if (s == 0 || edges_of_b.right(j, e) != -s || edges_of_a.left(i, g) != s ||
+            edges_of_a.right(i, g) != -s)
+          continue;
+        settle_edge_pair({EntranceKind::edge_edge, i, j, s > 0});
+        if (result_.relation == Relation::apart) return;
       }
-    }
   }
-
-  // Sorts an entrance into: separating (exactly), certainly penetrating with a lower bound of its depth.
-  void consider(const Entrance& entrance) {
-    ContactDirection w = direction_of(entrance, a_, b_);
-    if (entrance.kind == EntranceKind::edge_edge && is_zero(w, ladder_)) return;
+  void settle_edge_pair(const Entrance& entrance) {
     if (ladder_.floating) {
-      const TrackedNumber height = floating_height(w);
-      if (sign_of(height) == -1) {
-        if (!result_.separated) candidates_.push_back({entrance, squared_depth_bound(w, height)});
-        return;
+      const NumberVector<TrackedNumber> w = cross(evaluate<TrackedNumber>(edge_vector(a_, entrance.a)),
+                                                  evaluate<TrackedNumber>(edge_vector(b_, entrance.b)));
+      TrackedNumber height =
+          dot(w, evaluate<TrackedNumber>(Difference{&a_.corners()[a_.edges()[entrance.a].corners[0]],
+                                                    &b_.corners()[b_.edges()[entrance.b].corners[0]]}));
+      if (entrance.reversed) height.value = -height.value;
+      if (sign_of(height) < 0) {
+        ++ladder_.counts.filter;
+        return note(entrance, (height.value + height.error) * (1.0 - 0x1p-29), w);
       }
     }
-    Support support = support_along(a_, b_, std::move(w), ladder_);
-    support.entrance = entrance;
-    if (height_sign(support, a_, b_, ladder_) < 0) {
-      if (!result_.separated) candidates_.push_back({entrance, 0.0});
-      return;
-    }
-    result_.separated = true;
-    result_.supports.push_back(std::move(support));
+    settle(support_of(entrance));
   }
 
-  // w . (x - y) for corners x, y that are the lowest and highest as far as rounding shows: never below the
-  // true height.
-  [[nodiscard]] TrackedNumber floating_height(const ContactDirection& w) const {
-    const Vector3 v(w.tracked().x.value, w.tracked().y.value, w.tracked().z.value);
-    const auto lowest = [](const std::vector<Vector3>& points, const Vector3& along) {
-      std::size_t best = 0;
-      double value = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < points.size(); ++k)
-        if (const double candidate = along.dot(points[k]); candidate < value) {
-          best = k;
-          value = candidate;
-        }
-      return &points[best];
+  // Exact support along an entrance; that of its own features is known.
+  [[nodiscard]] Support support_of(const Entrance& entrance) {
+    Support s;
+    s.entrance = entrance;
+    s.w = direction_of(entrance, a_, b_);
+    const auto facet = [](const ConvexShape& shape, int f) {
+      return std::vector<int>(shape.facet(f).begin(), shape.facet(f).end());
     };
-    return dot(w.tracked(),
-               ContactDirection::along({lowest(a_.corners(), v), lowest(b_.corners(), -v)}).tracked());
-  }
-  // Lower bound of height^2 / |w|^2; every operation errs by less than 2^-50 of its result.
-  [[nodiscard]] static double squared_depth_bound(const ContactDirection& w, const TrackedNumber& height) {
-    const TrackedNumber length = dot(w.tracked(), w.tracked());
-    const double least = (-height.value - height.error) * (1.0 - 0x1p-29);
-    return std::max(0.0, least * least / ((length.value + length.error) * (1.0 + 0x1p-29)) * (1.0 - 0x1p-40));
+    const auto edge = [](const ConvexShape& shape, int e) {
+      return std::vector<int>(shape.edges()[e].corners.begin(), shape.edges()[e].corners.end());
+    };
+    switch (entrance.kind) {
+      case EntranceKind::face_of_a:
+        s.a = facet(a_, entrance.a);
+        s.b = support_corners(b_, s.w, -1, ladder_);
+        break;
+      case EntranceKind::face_of_b:
+        s.a = support_corners(a_, s.w, 1, ladder_);
+        s.b = facet(b_, entrance.b);
+        break;
+      case EntranceKind::edge_edge:
+        s.a = edge(a_, entrance.a);
+        s.b = edge(b_, entrance.b);
+        break;
+    }
+    return s;
   }
 
   [[nodiscard]] Difference height_of(const Support& s) const {
@@ -147,13 +205,10 @@ class EntranceSearch {
     double enough = std::numeric_limits<double>::infinity();
     for (const Candidate& c : candidates_) {
       if (ladder_.floating && c.least_squared_depth > enough) break;
-      Support support = support_along(a_, b_, direction_of(c.entrance, a_, b_), ladder_);
-      support.entrance = c.entrance;
-      if (!insert(std::move(support))) continue;
+      if (!insert(support_of(c.entrance))) continue;
       PredicateLadder uncounted = ladder_;
       const Support& least = result_.supports.front();
-      const double depth = squared_height(least.w, height_of(least), uncounted);
-      enough = depth * (1.0 + 0x1p-40);
+      enough = ContactHeight(least.w, height_of(least), uncounted).squared() * (1.0 + 0x1p-40);
     }
   }
 
@@ -205,16 +260,10 @@ ContactDirection direction_of(const Entrance& entrance, const ConvexShape& a, co
 Support support_along(const ConvexShape& a, const ConvexShape& b, ContactDirection w,
                       PredicateLadder& ladder) {
   Support s;
-  s.a = support_corners(a, w, ladder);
-  w.reverse();
-  s.b = support_corners(b, w, ladder);
-  w.reverse();
+  s.a = support_corners(a, w, 1, ladder);
+  s.b = support_corners(b, w, -1, ladder);
   s.w = std::move(w);
   return s;
-}
-
-int height_sign(const Support& s, const ConvexShape& a, const ConvexShape& b, PredicateLadder& ladder) {
-  return sign_along(s.w, a.corners()[s.a[0]], b.corners()[s.b[0]], ladder);
 }
 
 SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b, PredicateLadder& ladder) {

@@ -1,14 +1,16 @@
-// Separation and depth of two convex shapes that are not apart, over the facets of D = P - Q.
+// Separation and depth of two convex shapes, over the facets of D = P - Q.
 //
 // Every facet of D comes from a facet of P and a corner, edge or facet of Q, the reverse, or two edges that
 // are not parallel. Seen from inside, its direction w (towards P) has the height min_P w.x - max_Q w.y. If
-// some height is zero the plane across w separates the two; if all are negative the origin is inside D and
-// the least |height| / |w| is the depth.
+// some height is positive, P and Q are apart; if one is zero, the plane across w separates the two and
+// contains points of both; if all are negative, the origin is inside D and the least |height| / |w| is the
+// depth.
 #pragma once
 
 #include <vector>
 
 #include "geometry/contact_direction.hpp"
+#include "geometry/contact_type.hpp"
 #include "geometry/convex_shape.hpp"
 
 namespace ashlar {
@@ -25,7 +27,7 @@ struct Entrance {
   EntranceKind kind = EntranceKind::face_of_a;
   int a = -1;             ///< facet or edge of A; -1 for face_of_b
   int b = -1;             ///< facet or edge of B; -1 for face_of_a
-  bool reversed = false;  ///< w = -N(a), N(b), u(a) x v(b) as computed, or its opposite
+  bool reversed = false;  ///< w is the opposite of -N(a), N(b) or u(a) x v(b)
 
   friend bool operator==(const Entrance&, const Entrance&) = default;
 };
@@ -41,21 +43,21 @@ struct Support {
   std::vector<int> a, b;  ///< corners of A with the least, of B with the greatest w.x
 };
 
-/// Exact support of both shapes along w.
+/// Exact support of both shapes along any direction.
 [[nodiscard]] Support support_along(const ConvexShape& a, const ConvexShape& b, ContactDirection w,
                                     PredicateLadder& ladder);
-/// Sign of min_A w.x - max_B w.y.
-[[nodiscard]] int height_sign(const Support& s, const ConvexShape& a, const ConvexShape& b,
-                              PredicateLadder& ladder);
 
 struct SeparationResult {
-  bool separated = false;
-  /// Separated: every entrance of height zero. Crossing solids: every entrance of least |height| / |w|, one
-  /// for each direction. Crossing triangles: empty, a triangle in space has no inside.
+  /// Touching says that a plane separates the two and has points of both: they touch iff those have a common
+  /// one; otherwise they are apart.
+  Relation relation = Relation::crossing;
+  /// Touching: the entrances of height zero, those with a facet if there are any, else edge pairs. Crossing
+  /// solids: every entrance of least |height| / |w|, one for each direction. Else empty (a triangle in space
+  /// has no inside).
   std::vector<Support> supports;
 };
 
-/// @param a,b shapes that intersect (the origin is in D).
+/// For any two shapes; most useful where they are not clearly apart.
 [[nodiscard]] SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b,
                                                PredicateLadder& ladder);
 
