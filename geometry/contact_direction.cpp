@@ -66,24 +66,17 @@ CGAL::Gmpq rational(const Fraction<Exact>& f) {
   return CGAL::Gmpq(static_cast<CGAL::Gmpq>(f.numerator) / static_cast<CGAL::Gmpq>(f.denominator));
 }
 
-// Three ratios with one denominator.
-template <class N>
-struct VectorFraction {
-  NumberVector<N> numerator;
-  N denominator;
-};
-
-// Rounds the ratios that `fractions` (a generic function of w) returns.
-template <class FractionsOf>
-Vector3 round_fractions(PredicateLadder& ladder, const ContactDirection& w, const FractionsOf& fractions) {
+// The point a + (b - a) s / (s - t), rounded; `heights` (a generic function of w) gives s and t.
+template <class HeightsOf>
+Vector3 round_between(PredicateLadder& ladder, const ContactDirection& w, const Vector3& a, const Vector3& b,
+                      const HeightsOf& heights) {
   Vector3 result;
   std::array<bool, 3> known{false, false, false};
   if (ladder.floating) {
-    const VectorFraction<DoubleDouble> f = fractions(w.double_double());
-    const std::array<DoubleDouble, 3> numerators{f.numerator.x, f.numerator.y, f.numerator.z};
-    for (int i = 0; i < 3; ++i) {
-      const auto q = quotient(numerators[i], f.denominator);
-      const auto value = q ? rounded(*q) : std::nullopt;
+    const auto [s, t] = heights(w.double_double());
+    const auto ratio = quotient(s, s - t);
+    for (int i = 0; ratio && i < 3; ++i) {
+      const auto value = rounded(DoubleDouble(a[i]) + DoubleDouble::difference(b[i], a[i]) * *ratio);
       if (!value) continue;
       result[i] = *value;
       known[i] = true;
@@ -91,21 +84,15 @@ Vector3 round_fractions(PredicateLadder& ladder, const ContactDirection& w, cons
     }
   }
   if (known[0] && known[1] && known[2]) return result;
-  const VectorFraction<Exact> f = fractions(w.exact().value);
-  const std::array<const Exact*, 3> numerators{&f.numerator.x, &f.numerator.y, &f.numerator.z};
+  const auto [s, t] = heights(w.exact().value);
+  const Exact width = s - t;
   for (int i = 0; i < 3; ++i) {
     if (known[i]) continue;
     ++ladder.counts.exact;
-    result[i] = round_to_nearest(rational({*numerators[i], f.denominator}).mpq());
+    result[i] =
+        round_to_nearest(rational({Exact(a[i]) * width + Exact::difference(b[i], a[i]) * s, width}).mpq());
   }
   return result;
-}
-
-// a + (b - a) s / (s - t) for points with the opposite heights s, t.
-template <class N>
-VectorFraction<N> between(const Vector3& a, const Vector3& b, const N& s, const N& t) {
-  const N width = s - t;
-  return {sum(scale(of_point<N>(a), width), scale(subtract_points<N>(b, a), s)), width};
 }
 
 }  // namespace
@@ -227,6 +214,28 @@ int sign_along(const ContactDirection& w, const Difference& d, PredicateLadder& 
       ladder, [&]<class N>(const NumberVector<N>& v) { return dot(v, evaluate<N>(d)); }, w);
 }
 
+int sign_volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                PredicateLadder& ladder) {
+  if (ladder.floating) {
+    // The static filter of Shewchuk (1997): the error of the determinant is below (7 + 56 u) u times the same
+    // sum with absolute values; 9 u covers the rounding of that sum.
+    const double b0 = b[0] - a[0], b1 = b[1] - a[1], b2 = b[2] - a[2];
+    const double c0 = c[0] - a[0], c1 = c[1] - a[1], c2 = c[2] - a[2];
+    const double d0 = d[0] - a[0], d1 = d[1] - a[1], d2 = d[2] - a[2];
+    const double p01 = c0 * d1, p10 = c1 * d0, p12 = c1 * d2, p21 = c2 * d1, p20 = c2 * d0, p02 = c0 * d2;
+    const double value = b0 * (p12 - p21) + b1 * (p20 - p02) + b2 * (p01 - p10);
+    const double size = std::abs(b0) * (std::abs(p12) + std::abs(p21)) +
+                        std::abs(b1) * (std::abs(p20) + std::abs(p02)) +
+                        std::abs(b2) * (std::abs(p01) + std::abs(p10));
+    const double bound = 9.0 * TrackedNumber::unit_roundoff * size;
+    if (value > bound || value < -bound) {
+      ++ladder.counts.filter;
+      return value > bound ? 1 : -1;
+    }
+  }
+  return sign_triple(ContactDirection::along({&b, &a}), {&c, &a}, {&d, &a}, ladder);
+}
+
 int sign_triple(const ContactDirection& w, const Difference& d1, const Difference& d2,
                 PredicateLadder& ladder) {
   return decide(
@@ -335,24 +344,41 @@ int compare_heights(const ContactDirection& w1, const Difference& d1, const Cont
       w1, w2);
 }
 
-int compare_alignment(const ContactDirection& w1, const ContactDirection& w2, std::span<const Vector3> a,
-                      std::span<const Vector3> b, PredicateLadder& ladder) {
-  const auto along_means = [&]<class N>(const NumberVector<N>& v) {  // w . c, times the numbers of points
-    N sum_a(0.0), sum_b(0.0);
-    for (const Vector3& p : a) sum_a = sum_a + dot(v, of_point<N>(p));
-    for (const Vector3& p : b) sum_b = sum_b + dot(v, of_point<N>(p));
-    return N(sum_a * N(static_cast<double>(b.size())) - sum_b * N(static_cast<double>(a.size())));
+template <class N>
+NumberVector<N> MeanDifference::evaluate() const {
+  const auto total = [](std::span<const Vector3> points, double weight) {
+    NumberVector<N> sum_of_points = of_point<N>(points[0]);
+    for (const Vector3& p : points.subspan(1)) sum_of_points = sum(sum_of_points, of_point<N>(p));
+    return scale(sum_of_points, N(weight));
   };
-  const int sign = decide(ladder, along_means, w1);
-  const int other_sign = decide(ladder, along_means, w2);
-  if (sign != other_sign) return sign > other_sign ? 1 : -1;
-  return sign * decide(
-                    ladder,
-                    [&]<class N>(const NumberVector<N>& v1, const NumberVector<N>& v2) {
-                      const N h1 = along_means(v1), h2 = along_means(v2);
-                      return h1 * h1 * dot(v2, v2) - h2 * h2 * dot(v1, v1);
-                    },
-                    w1, w2);
+  return total(a_, static_cast<double>(b_.size())) - total(b_, static_cast<double>(a_.size()));
+}
+
+MeanDifference::MeanDifference(std::span<const Vector3> a, std::span<const Vector3> b)
+    : a_(a), b_(b), tracked_(evaluate<TrackedNumber>()), double_double_(evaluate<DoubleDouble>()) {}
+
+int MeanDifference::compare_alignment(const ContactDirection& w1, const ContactDirection& w2,
+                                      PredicateLadder& ladder) const {
+  // |h1| h1 / |w1|^2 against |h2| h2 / |w2|^2, h = w . c.
+  const auto compare = []<class N>(const NumberVector<N>& c, const NumberVector<N>& v1,
+                                   const NumberVector<N>& v2) {
+    const N h1 = dot(v1, c), h2 = dot(v2, c);
+    const int sign = sign_of(h1), other = sign_of(h2);
+    if (sign == unknown_sign || other == unknown_sign) return unknown_sign;
+    if (sign != other || sign == 0) return sign > other ? 1 : sign < other ? -1 : 0;
+    const int larger = sign_of(N(h1 * h1 * dot(v2, v2) - h2 * h2 * dot(v1, v1)));
+    return larger == unknown_sign ? unknown_sign : sign * larger;
+  };
+  if (ladder.floating) {
+    int sign = compare(tracked_, w1.tracked(), w2.tracked());
+    if (sign == unknown_sign) sign = compare(double_double_, w1.double_double(), w2.double_double());
+    if (sign != unknown_sign) {
+      ++ladder.counts.filter;
+      return sign;
+    }
+  }
+  ++ladder.counts.exact;
+  return compare(evaluate<Exact>(), w1.exact().value, w2.exact().value);
 }
 
 bool same_direction(const ContactDirection& v, const ContactDirection& w, PredicateLadder& ladder) {
@@ -448,16 +474,16 @@ Vector3 unit_vector(const ContactDirection& w, PredicateLadder& ladder) {
 
 Vector3 crossing_point(const ContactDirection& w, const Vector3& a, const Vector3& b, const Vector3& c,
                        const Vector3& d, PredicateLadder& ladder) {
-  return round_fractions(ladder, w, [&]<class N>(const NumberVector<N>& v) {
+  return round_between(ladder, w, a, b, [&]<class N>(const NumberVector<N>& v) {
     const NumberVector<N> across = cross(v, subtract_points<N>(d, c));
-    return between<N>(a, b, dot(across, subtract_points<N>(a, c)), dot(across, subtract_points<N>(b, c)));
+    return std::pair<N, N>(dot(across, subtract_points<N>(a, c)), dot(across, subtract_points<N>(b, c)));
   });
 }
 
 Vector3 plane_point(const ContactDirection& w, const Vector3& a, const Vector3& b, const Vector3& c,
                     PredicateLadder& ladder) {
-  return round_fractions(ladder, w, [&]<class N>(const NumberVector<N>& v) {
-    return between<N>(a, b, dot(v, subtract_points<N>(a, c)), dot(v, subtract_points<N>(b, c)));
+  return round_between(ladder, w, a, b, [&]<class N>(const NumberVector<N>& v) {
+    return std::pair<N, N>(dot(v, subtract_points<N>(a, c)), dot(v, subtract_points<N>(b, c)));
   });
 }
 

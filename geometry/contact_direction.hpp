@@ -157,6 +157,9 @@ template <class N>
   }
   return sign_along(w, Difference{&x, &y}, ladder);
 }
+/// Sign of (b - a) . ((c - a) x (d - a)): 1 if b is on the side of the plane (a, c, d) its normal points to.
+[[nodiscard]] int sign_volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
+                              PredicateLadder& ladder);
 /// Sign of w . (d1 x d2).
 [[nodiscard]] int sign_triple(const ContactDirection& w, const Difference& d1, const Difference& d2,
                               PredicateLadder& ladder);
@@ -200,10 +203,22 @@ struct CoordinatePlane {
 /// Sign of |w1.d1| / |w1| - |w2.d2| / |w2|.
 [[nodiscard]] int compare_heights(const ContactDirection& w1, const Difference& d1,
                                   const ContactDirection& w2, const Difference& d2, PredicateLadder& ladder);
-/// Sign of the cosine of (w1, c) minus that of (w2, c), c the mean of points a minus the mean of points b.
-[[nodiscard]] int compare_alignment(const ContactDirection& w1, const ContactDirection& w2,
-                                    std::span<const Vector3> a, std::span<const Vector3> b,
-                                    PredicateLadder& ladder);
+/// The mean of the points of one shape minus that of another one, times the product of their numbers.
+class MeanDifference {
+ public:
+  MeanDifference(std::span<const Vector3> a, std::span<const Vector3> b);
+  /// Sign of the cosine of (w1, this) minus that of (w2, this).
+  [[nodiscard]] int compare_alignment(const ContactDirection& w1, const ContactDirection& w2,
+                                      PredicateLadder& ladder) const;
+
+ private:
+  template <class N>
+  [[nodiscard]] NumberVector<N> evaluate() const;
+
+  std::span<const Vector3> a_, b_;
+  NumberVector<TrackedNumber> tracked_;
+  NumberVector<DoubleDouble> double_double_;
+};
 /// True if v = s w with s > 0.
 [[nodiscard]] bool same_direction(const ContactDirection& v, const ContactDirection& w,
                                   PredicateLadder& ladder);

@@ -41,20 +41,28 @@ class CrossingVertices {
     return {0, static_cast<int>(same - corners.begin())};
   }
 
+  /// True if a facet plane of the other shape has the whole edge on its outer side.
+  [[nodiscard]] bool is_outside(int e) const {
+    const auto& ends = mine_.edges()[e].corners;
+    for (int f = 0; f < other_.facet_count() && !other_.flat(); ++f)
+      if (side(f, ends[0]) > 0 && side(f, ends[1]) > 0) return true;
+    return false;
+  }
+
   /// Face of the other shape where an edge goes through facet f in an inner point of the edge: the facet or
   /// an edge of it; dimension -1 if it does not, 0 at a corner.
   [[nodiscard]] ContactFeature locate_piercing(int e, int f) {
     const auto& ends = mine_.edges()[e].corners;
     if (side(f, ends[0]) * side(f, ends[1]) >= 0) return {};
     const Vector3& from = mine_.corners()[ends[0]];
-    const ContactDirection along = ContactDirection::along({&mine_.corners()[ends[1]], &from});
+    const Vector3& to = mine_.corners()[ends[1]];
     const std::span<const int> loop = other_.facet(f);
     int touched = -1;
     int touched_count = 0;
     for (int k = 0; k < static_cast<int>(loop.size()); ++k) {
       const Vector3& c = other_.corners()[loop[k]];
       const Vector3& d = other_.corners()[loop[(k + 1) % loop.size()]];
-      const int inside = -side(f, ends[0]) * sign_triple(along, {&c, &from}, {&d, &from}, ladder_);
+      const int inside = -side(f, ends[0]) * sign_volume(from, to, c, d, ladder_);
       if (inside < 0) return {};
       if (inside > 0) continue;
       touched = k;
@@ -121,7 +129,7 @@ ContactRegion crossing_region(const ConvexShape& a, const ConvexShape& b, Predic
   const auto pierce = [&](CrossingVertices& mine, const ConvexShape& shape, const ConvexShape& other,
                           bool mine_is_a) {
     for (int e = 0; e < static_cast<int>(shape.edges().size()); ++e)
-      for (int f = 0; f < other.facet_count(); ++f) {
+      for (int f = 0; f < other.facet_count() && !mine.is_outside(e); ++f) {
         const ContactFeature hit = mine.locate_piercing(e, f);
         if (hit.dimension < 1) continue;
         const std::pair<int, int> edges = mine_is_a ? std::pair(e, hit.index) : std::pair(hit.index, e);

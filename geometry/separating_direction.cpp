@@ -1,6 +1,8 @@
 #include "geometry/separating_direction.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -20,44 +22,48 @@ Difference edge_vector(const ConvexShape& s, int e) {
 class EdgeSides {
  public:
   EdgeSides(const ConvexShape& facets, const ConvexShape& edges, PredicateLadder& ladder)
-      : facets_(facets), edges_(edges), ladder_(ladder), facet_count_(facets.facet_count()) {
-    signs_.resize(edges.edges().size() * static_cast<std::size_t>(facet_count_), unknown_sign);
-    if (!ladder.floating) return;
-    auto sign = signs_.begin();
-    for (const ConvexEdge& e : edges.edges()) {
-      const Vector3 v = edges.corners()[e.corners[1]] - edges.corners()[e.corners[0]];
-      const double length = std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
-      for (int f = 0; f < facet_count_; ++f, ++sign) {
-        const auto& n = facets.normal_numbers(f);
-        const double value = n.tracked.x.value * v[0] + n.tracked.y.value * v[1] + n.tracked.z.value * v[2];
-        const double bound = length * n.bound;  // ContactDirection::quick_sign
-        if (value > bound) *sign = 1;
-        if (value < -bound) *sign = -1;
-      }
-    }
+      : facets_(facets), edges_(edges), ladder_(ladder), edge_count_(static_cast<int>(edges.edges().size())) {
+    signs_.resize(static_cast<std::size_t>(edge_count_ * facets.facet_count()), unknown_sign);
+    if (ladder.floating) fill();
   }
-  /// Of an edge along the normal of the facet left of an edge of the other shape.
-  [[nodiscard]] int left(int edge, const ConvexEdge& of) { return sign(edge, of.facets[0]); }
-  /// Of the facet right of it: for a triangle its back.
-  [[nodiscard]] int right(int edge, const ConvexEdge& of) {
-    return facets_.flat() ? -sign(edge, of.facets[1]) : sign(edge, of.facets[1]);
-  }
-
- private:
-  int sign(int edge, int facet) {
-    signed char& s = signs_[static_cast<std::size_t>(edge * facet_count_ + facet)];
+  /// (#edges): signs along one normal, unknown_sign where the filter is in doubt.
+  [[nodiscard]] const signed char* row(int facet) const { return &signs_[index(facet, 0)]; }
+  [[nodiscard]] int sign(int edge, int facet) {
+    signed char& s = signs_[index(facet, edge)];
     if (s == unknown_sign)
       s = static_cast<signed char>(
           sign_along(facets_.facet_normal(facet), edge_vector(edges_, edge), ladder_));
-    else
-      ++ladder_.counts.filter;
     return s;
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(int facet, int edge) const {
+    return static_cast<std::size_t>(facet * edge_count_ + edge);
+  }
+  void fill() {
+    std::vector<std::array<double, 4>> vectors;
+    vectors.reserve(static_cast<std::size_t>(edge_count_));
+    for (const ConvexEdge& e : edges_.edges()) {
+      const Vector3 v = edges_.corners()[e.corners[1]] - edges_.corners()[e.corners[0]];
+      vectors.push_back({v[0], v[1], v[2], std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2])});
+    }
+    auto sign = signs_.begin();
+    for (int f = 0; f < facets_.facet_count(); ++f) {
+      const auto& n = facets_.normal_numbers(f);
+      for (const auto& v : vectors) {
+        const double value = n.tracked.x.value * v[0] + n.tracked.y.value * v[1] + n.tracked.z.value * v[2];
+        const double bound = v[3] * n.bound;  // ContactDirection::quick_sign
+        const int s = (value > bound) - (value < -bound);
+        ladder_.counts.filter += s * s;
+        *sign++ = static_cast<signed char>(s != 0 ? s : unknown_sign);
+      }
+    }
   }
 
   const ConvexShape& facets_;
   const ConvexShape& edges_;
   PredicateLadder& ladder_;
-  int facet_count_;
+  int edge_count_;
   std::vector<signed char> signs_;
 };
 
@@ -136,19 +142,24 @@ class EntranceSearch {
 
   // Edges u of A (facets n1 left, n2 right) and v of B (m1, m2) make a facet of D iff v.n1, -v.n2, u.m1,
   // -u.m2 have one sign s; then w = -s u x v, and the two edges are its support. Zeros belong to entrances
-  // with a facet.
+  // with a facet. The facet right of a triangle's edge is its back.
   void search_edge_pairs() {
     EdgeSides edges_of_b(a_, b_, ladder_), edges_of_a(b_, a_, ladder_);
-    for (int i = 0; i < static_cast<int>(a_.edges().size()); ++i)
+    const int a_back = a_.flat() ? -1 : 1, b_back = b_.flat() ? -1 : 1;
+    for (int i = 0; i < static_cast<int>(a_.edges().size()); ++i) {
+      const auto& n = a_.edges()[i].facets;
+      const signed char *left = edges_of_b.row(n[0]), *right = edges_of_b.row(n[1]);
       for (int j = 0; j < static_cast<int>(b_.edges().size()); ++j) {
-        const ConvexEdge &e = a_.edges()[i], &g = b_.edges()[j];
-        const int s = edges_of_b.left(j, e);
-        if (s == 0 || edges_of_b.right(j, e) != -s || edges_of_a.left(i, g) != s ||
-            edges_of_a.right(i, g) != -s)
+        if (left[j] == a_back * right[j] && left[j] != unknown_sign) continue;
+        const auto& m = b_.edges()[j].facets;
+        const int s = edges_of_b.sign(j, n[0]);
+        if (s == 0 || a_back * edges_of_b.sign(j, n[1]) != -s || edges_of_a.sign(i, m[0]) != s ||
+            b_back * edges_of_a.sign(i, m[1]) != -s)
           continue;
         settle_edge_pair({EntranceKind::edge_edge, i, j, s > 0});
         if (result_.relation == Relation::apart) return;
       }
+    }
   }
   void settle_edge_pair(const Entrance& entrance) {
     if (ladder_.floating) {
@@ -273,12 +284,12 @@ SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b, Pre
 const Support& preferred_support(const std::vector<Support>& supports, const ConvexShape& a,
                                  const ConvexShape& b, PredicateLadder& ladder) {
   const Support* best = &supports[0];
+  if (supports.size() == 1) return *best;
+  const MeanDifference means(a.corners(), b.corners());
   const auto has_facet = [](const Support& s) { return s.entrance.kind != EntranceKind::edge_edge; };
   for (const Support& s : supports) {
     if (&s == best || (has_facet(*best) && !has_facet(s))) continue;
-    if ((has_facet(s) && !has_facet(*best)) ||
-        compare_alignment(s.w, best->w, a.corners(), b.corners(), ladder) > 0)
-      best = &s;
+    if ((has_facet(s) && !has_facet(*best)) || means.compare_alignment(s.w, best->w, ladder) > 0) best = &s;
   }
   return *best;
 }
