@@ -11,10 +11,10 @@ namespace ashlar::oracle {
 namespace {
 
 TEST(DegeneratePairs, EachOfTheSevenAnswersIsFiveToThirtyPercent) {
-  constexpr int kPairs = 20000;
+  constexpr int kPairsOfAKind = 10000;
   DegeneratePairs pairs(1);
   std::map<bool, std::map<std::string, int>> counts;
-  for (int i = 0; i < kPairs; ++i) {
+  for (int i = 0; i < 2 * kPairsOfAKind; ++i) {
     const DegeneratePair pair = pairs.next();
     const bool solids = pair.p.triangles.size() > 1;
     ++counts[solids][type_name(classify_exactly(pair.p, pair.q).contact)];
@@ -23,8 +23,8 @@ TEST(DegeneratePairs, EachOfTheSevenAnswersIsFiveToThirtyPercent) {
     EXPECT_EQ(counts[solids].size(), 7U);
     for (const auto& [type, count] : counts[solids]) {
       SCOPED_TRACE(type + (solids ? " of solids" : " of triangles"));
-      EXPECT_GE(count, kPairs / 2 * 0.05);
-      EXPECT_LE(count, kPairs / 2 * 0.30);
+      EXPECT_GE(count, 0.05 * kPairsOfAKind);
+      EXPECT_LE(count, 0.30 * kPairsOfAKind);
     }
   }
 }
