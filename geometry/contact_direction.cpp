@@ -130,17 +130,18 @@ ContactDirection::ContactDirection(ContactDirection&&) noexcept = default;
 ContactDirection& ContactDirection::operator=(ContactDirection&&) noexcept = default;
 
 ContactDirection::ContactDirection(Kind kind, const Difference& first, const Difference& second)
-    : kind_(kind), first_(first), second_(second), tracked_(evaluate<TrackedNumber>()) {
+    : kind_(kind), first_(first), second_(second) {
+  numbers_.tracked = evaluate<TrackedNumber>();
   set_bound();
 }
 
 void ContactDirection::set_bound() {
   const auto largest = [&](auto part) {
-    return std::max({part(tracked_.x), part(tracked_.y), part(tracked_.z)});
+    return std::max({part(numbers_.tracked.x), part(numbers_.tracked.y), part(numbers_.tracked.z)});
   };
   const double error = largest([](const TrackedNumber& n) { return n.error; });
   const double value = largest([](const TrackedNumber& n) { return std::abs(n.value); });
-  bound_ = (error + 8.0 * TrackedNumber::unit_roundoff * value) * (1.0 + 0x1p-20);
+  numbers_.bound = (error + 8.0 * TrackedNumber::unit_roundoff * value) * (1.0 + 0x1p-20);
 }
 
 ContactDirection ContactDirection::along(const Difference& d) {
@@ -150,15 +151,13 @@ ContactDirection ContactDirection::cross(const Difference& e1, const Difference&
   return {Kind::cross, e1, e2};
 }
 ContactDirection ContactDirection::cross(const Difference& e1, const Difference& e2,
-                                         const FloatingNumbers& numbers) {
+                                         const DirectionNumbers& numbers) {
   ContactDirection w;
   w.kind_ = Kind::cross;
   w.first_ = e1;
   w.second_ = e2;
-  w.tracked_ = numbers.tracked;
-  w.double_double_ = numbers.double_double;
+  w.numbers_ = numbers;
   w.has_double_double_ = true;
-  w.bound_ = numbers.bound;
   return w;
 }
 ContactDirection ContactDirection::rejection(const Difference& d, const Difference& e) {
@@ -171,10 +170,8 @@ ContactDirection ContactDirection::copy() const {
   result.reversed_ = reversed_;
   result.first_ = first_;
   result.second_ = second_;
-  result.tracked_ = tracked_;
-  result.bound_ = bound_;
+  result.numbers_ = numbers_;
   result.has_double_double_ = has_double_double_;
-  if (has_double_double_) result.double_double_ = double_double_;
   return result;
 }
 
@@ -187,12 +184,16 @@ ContactDirection ContactDirection::reversed() const {
 void ContactDirection::reverse() {
   reversed_ = !reversed_;
   exact_.reset();
-  if (has_double_double_) double_double_ = {-double_double_.x, -double_double_.y, -double_double_.z};
-  for (TrackedNumber* n : {&tracked_.x, &tracked_.y, &tracked_.z}) n->value = -n->value;
+  if (has_double_double_) {
+    NumberVector<DoubleDouble>& d = numbers_.double_double;
+    d = {-d.x, -d.y, -d.z};
+  }
+  for (TrackedNumber* n : {&numbers_.tracked.x, &numbers_.tracked.y, &numbers_.tracked.z})
+    n->value = -n->value;
 }
 
 void ContactDirection::compute_double_double() const {
-  double_double_ = evaluate<DoubleDouble>();
+  numbers_.double_double = evaluate<DoubleDouble>();
   has_double_double_ = true;
 }
 

@@ -63,22 +63,33 @@ struct Difference {
   const Vector3* minus2 = nullptr;
 };
 
+/// Everything of a direction but its points: what a shape keeps of the normals of its facets.
+struct DirectionNumbers {
+  NumberVector<TrackedNumber> tracked;
+  double bound = 0.0;  ///< max e_i + 8 u max |w_i|, rounded up
+  NumberVector<DoubleDouble> double_double;
+};
+
+/// The sign of w . (x - y) where this follows from the size of its floating value alone. With W the exact w,
+/// w its rounded value, e its error, d = fl(x - y), u = 2^-53:
+///   |fl(w.d) - W.(x - y)| <= sum |d_i| (e_i + 7 u |w_i|) (1 + 2^-28) <= |d|_1 bound
+[[nodiscard]] inline int quick_sign(const DirectionNumbers& w, const Vector3& x, const Vector3& y) {
+  const double d0 = x[0] - y[0], d1 = x[1] - y[1], d2 = x[2] - y[2];
+  const double value = w.tracked.x.value * d0 + w.tracked.y.value * d1 + w.tracked.z.value * d2;
+  const double bound = (std::abs(d0) + std::abs(d1) + std::abs(d2)) * w.bound;
+  return value > bound ? 1 : value < -bound ? -1 : unknown_sign;
+}
+
 /// See the head of the file. The points it was made from must outlive it.
 class ContactDirection {
  public:
   [[nodiscard]] static ContactDirection along(const Difference& d);
   [[nodiscard]] static ContactDirection cross(const Difference& e1, const Difference& e2);
   [[nodiscard]] static ContactDirection rejection(const Difference& d, const Difference& e);
-  /// Everything of w but its points: what a shape keeps of the normals of its facets.
-  struct FloatingNumbers {
-    NumberVector<TrackedNumber> tracked;
-    NumberVector<DoubleDouble> double_double;
-    double bound = 0.0;
-  };
-  [[nodiscard]] FloatingNumbers floating_numbers() const { return {tracked_, double_double(), bound_}; }
+  [[nodiscard]] const DirectionNumbers& numbers() const { return numbers_; }
   /// e1 x e2 whose numbers are known already.
   [[nodiscard]] static ContactDirection cross(const Difference& e1, const Difference& e2,
-                                              const FloatingNumbers& numbers);
+                                              const DirectionNumbers& numbers);
   ContactDirection();
   ~ContactDirection();
   ContactDirection(ContactDirection&&) noexcept;
@@ -90,22 +101,13 @@ class ContactDirection {
   void reverse();
 
   /// w in the numbers of the two floating rungs; the second one is computed on first use.
-  [[nodiscard]] const NumberVector<TrackedNumber>& tracked() const { return tracked_; }
+  [[nodiscard]] const NumberVector<TrackedNumber>& tracked() const { return numbers_.tracked; }
   [[nodiscard]] const NumberVector<DoubleDouble>& double_double() const {
     if (!has_double_double_) compute_double_double();
-    return double_double_;
+    return numbers_.double_double;
   }
   /// |w|^2.
   [[nodiscard]] const DoubleDouble& squared_length() const;
-  /// The sign of w . (x - y) where this follows from the size of its floating value alone. With W the exact
-  /// w, w its rounded value, e its error, d = fl(x - y), u = 2^-53:
-  ///   |fl(w.d) - W.(x - y)| <= sum |d_i| (e_i + 7 u |w_i|) (1 + 2^-28) <= |d|_1 bound
-  [[nodiscard]] int quick_sign(const Vector3& x, const Vector3& y) const {
-    const double d0 = x[0] - y[0], d1 = x[1] - y[1], d2 = x[2] - y[2];
-    const double value = tracked_.x.value * d0 + tracked_.y.value * d1 + tracked_.z.value * d2;
-    const double bound = (std::abs(d0) + std::abs(d1) + std::abs(d2)) * bound_;
-    return value > bound ? 1 : value < -bound ? -1 : unknown_sign;
-  }
   struct ExactVector;
   [[nodiscard]] const ExactVector& exact() const;
 
@@ -122,9 +124,7 @@ class ContactDirection {
   mutable bool has_double_double_ = false;
   mutable bool has_squared_length_ = false;
   Difference first_, second_;
-  NumberVector<TrackedNumber> tracked_;
-  double bound_ = 0.0;  // max e_i + 8 u max |w_i|, rounded up
-  mutable NumberVector<DoubleDouble> double_double_;
+  mutable DirectionNumbers numbers_;
   mutable DoubleDouble squared_length_;
   mutable std::unique_ptr<ExactVector> exact_;
 };
@@ -149,7 +149,7 @@ template <class N>
 [[nodiscard]] inline int sign_along(const ContactDirection& w, const Vector3& x, const Vector3& y,
                                     PredicateLadder& ladder) {
   if (ladder.floating) {
-    const int sign = w.quick_sign(x, y);
+    const int sign = quick_sign(w.numbers(), x, y);
     if (sign != unknown_sign) {
       ++ladder.counts.filter;
       return sign;

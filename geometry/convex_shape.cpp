@@ -239,8 +239,9 @@ void ConvexShape::index() {
   }
   for (int f = 0; f < facet_count(); ++f) {
     const std::span<const int> loop = facet(f);
-    normals_.push_back(
-        triangle_normal(corners_[loop[0]], corners_[loop[1]], corners_[loop[2]]).floating_numbers());
+    const ContactDirection normal = triangle_normal(corners_[loop[0]], corners_[loop[1]], corners_[loop[2]]);
+    (void)normal.double_double();  // part of the numbers from now on
+    normals_.push_back(normal.numbers());
   }
 }
 

@@ -62,7 +62,7 @@ class ConvexShape {
   /// Outward normal of a facet (a triangle: by the right-hand rule), exact; valid while the shape lives.
   [[nodiscard]] ContactDirection facet_normal(int f) const;
   /// The floating numbers of facet_normal(f).
-  [[nodiscard]] const ContactDirection::FloatingNumbers& normal_numbers(int f) const { return normals_[f]; }
+  [[nodiscard]] const DirectionNumbers& normal_numbers(int f) const { return normals_[f]; }
 
  private:
   void index();
@@ -73,7 +73,7 @@ class ConvexShape {
   std::vector<int> facet_start_, facet_corners_;
   std::vector<int> corner_start_, corner_facets_;
   std::vector<int> source_points_, source_triangles_;
-  std::vector<ContactDirection::FloatingNumbers> normals_;
+  std::vector<DirectionNumbers> normals_;
   NumericRange range_;
 };
 

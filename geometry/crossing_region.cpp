@@ -13,12 +13,23 @@ namespace {
 class CrossingVertices {
  public:
   CrossingVertices(const ConvexShape& mine, const ConvexShape& other, PredicateLadder& ladder)
-      : mine_(mine), other_(other), ladder_(ladder) {
-    for (int f = 0; f < other.facet_count(); ++f) {
-      normals_.push_back(other.facet_normal(f));
-      const Vector3& on_plane = other.corners()[other.facet(f)[0]];
-      for (const Vector3& v : mine.corners())
-        sides_.push_back(static_cast<signed char>(sign_along(normals_.back(), v, on_plane, ladder)));
+      : mine_(mine),
+        other_(other),
+        ladder_(ladder),
+        facet_count_(other.facet_count()),
+        sides_(mine.corners().size() * static_cast<std::size_t>(facet_count_)) {
+    for (int f = 0; f < facet_count_; ++f) {
+      const auto& n = other.normal_numbers(f);
+      const Vector3& x = other.corners()[other.facet(f)[0]];
+      for (int v = 0; v < static_cast<int>(mine.corners().size()); ++v) {
+        int sign = unknown_sign;
+        if (ladder.floating) sign = quick_sign(n, mine.corners()[v], x);
+        if (sign != unknown_sign)
+          ++ladder.counts.filter;
+        else
+          sign = sign_along(other.facet_normal(f), mine.corners()[v], x, ladder);
+        sides_[index(f, v)] = static_cast<signed char>(sign);
+      }
     }
   }
 
@@ -75,21 +86,22 @@ class CrossingVertices {
 
   [[nodiscard]] Vector3 piercing_point(int e, int f) {
     const auto& ends = mine_.edges()[e].corners;
-    return plane_point(normals_[f], mine_.corners()[ends[0]], mine_.corners()[ends[1]],
+    return plane_point(other_.facet_normal(f), mine_.corners()[ends[0]], mine_.corners()[ends[1]],
                        other_.corners()[other_.facet(f)[0]], ladder_);
   }
 
  private:
-  [[nodiscard]] int side(int f, int v) const {
-    return sides_[static_cast<std::size_t>(f) * mine_.corners().size() + static_cast<std::size_t>(v)];
+  [[nodiscard]] std::size_t index(int f, int v) const {
+    return static_cast<std::size_t>(v * facet_count_ + f);
   }
+  [[nodiscard]] int side(int f, int v) const { return sides_[index(f, v)]; }
   // A corner in the plane of a triangle.
   [[nodiscard]] ContactFeature locate_in_facet(int v) {
     const std::span<const int> loop = other_.facet(0);
     ContactFeature result{2, 0};
     for (int k = 0; k < 3; ++k) {
-      const int sign = sign_turn(normals_[0], other_.corners()[loop[k]], other_.corners()[loop[(k + 1) % 3]],
-                                 mine_.corners()[v], ladder_);
+      const int sign = sign_turn(other_.facet_normal(0), other_.corners()[loop[k]],
+                                 other_.corners()[loop[(k + 1) % 3]], mine_.corners()[v], ladder_);
       if (sign < 0) return {};
       if (sign > 0) continue;
       if (result.dimension == 2)
@@ -108,8 +120,8 @@ class CrossingVertices {
   const ConvexShape& mine_;
   const ConvexShape& other_;
   PredicateLadder& ladder_;
-  std::vector<ContactDirection> normals_;
-  std::vector<signed char> sides_;
+  int facet_count_;
+  std::vector<signed char> sides_;  // corner by corner, 1 outside
 };
 
 }  // namespace
@@ -117,6 +129,7 @@ class CrossingVertices {
 ContactRegion crossing_region(const ConvexShape& a, const ConvexShape& b, PredicateLadder& ladder) {
   CrossingVertices of_a(a, b, ladder), of_b(b, a, ladder);
   ContactRegion region;
+  region.points.reserve(16);
   for (int v = 0; v < static_cast<int>(a.corners().size()); ++v) {
     const ContactFeature in_b = of_a.locate_corner(v);
     if (in_b.dimension >= 0) region.points.push_back({{0, v}, in_b, a.corners()[v], a.corners()[v]});
@@ -128,8 +141,9 @@ ContactRegion crossing_region(const ConvexShape& a, const ConvexShape& b, Predic
   std::set<std::pair<int, int>> edge_crossings;
   const auto pierce = [&](CrossingVertices& mine, const ConvexShape& shape, const ConvexShape& other,
                           bool mine_is_a) {
-    for (int e = 0; e < static_cast<int>(shape.edges().size()); ++e)
-      for (int f = 0; f < other.facet_count() && !mine.is_outside(e); ++f) {
+    for (int e = 0; e < static_cast<int>(shape.edges().size()); ++e) {
+      if (mine.is_outside(e)) continue;
+      for (int f = 0; f < other.facet_count(); ++f) {
         const ContactFeature hit = mine.locate_piercing(e, f);
         if (hit.dimension < 1) continue;
         const std::pair<int, int> edges = mine_is_a ? std::pair(e, hit.index) : std::pair(hit.index, e);
@@ -138,6 +152,7 @@ ContactRegion crossing_region(const ConvexShape& a, const ConvexShape& b, Predic
         const ContactFeature own{1, e};
         region.points.push_back({mine_is_a ? own : hit, mine_is_a ? hit : own, point, point});
       }
+    }
   };
   pierce(of_a, a, b, true);
   pierce(of_b, b, a, false);
