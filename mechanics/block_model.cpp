@@ -18,8 +18,7 @@ BlockModel::BlockModel(BlockDefinition definition)
 }
 
 BlockState BlockModel::initial_state() const {
-  const Eigen::MatrixX3d zero = Eigen::MatrixX3d::Zero(basis_.size(), 3);
-  return {basis_.identity_map(), zero, zero};
+  return {basis_.identity_map(), Eigen::MatrixX3d::Zero(basis_.size(), 3)};
 }
 
 Eigen::MatrixX3d BlockModel::rigid_velocity(const Vector3& velocity, const Vector3& angular_velocity) const {

@@ -28,11 +28,10 @@ struct BlockDefinition {
   std::vector<Load> loads;
 };
 
-/// Coefficients of position, velocity and acceleration.
+/// Coefficients of position and velocity.
 struct BlockState {
-  Eigen::MatrixX3d position;      ///< q, m^5/2
-  Eigen::MatrixX3d velocity;      ///< dq/dt
-  Eigen::MatrixX3d acceleration;  ///< d2q/dt2
+  Eigen::MatrixX3d position;  ///< q, m^5/2
+  Eigen::MatrixX3d velocity;  ///< dq/dt
 };
 
 /// Constant after construction.

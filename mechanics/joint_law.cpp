@@ -36,6 +36,25 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   return response;
 }
 
+MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
+                           const PointResponse& end, double end_gap) {
+  MeanResponse mean{0.5 * (start.force + end.force), 0.5 * end.tangent};
+  const bool start_open = start.state == ContactState::open;
+  const bool end_open = end.state == ContactState::open;
+  if (start_open == end_open || law.tension > 0.0) return mean;
+  // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
+  const double difference = end_gap - start_gap;
+  if (start_open) {
+    mean.force[0] = -0.5 * law.normal_stiffness * end_gap * end_gap / difference;
+    mean.tangent(0, 0) =
+        law.normal_stiffness * end_gap * (0.5 * end_gap - start_gap) / (difference * difference);
+  } else {
+    mean.force[0] = 0.5 * law.normal_stiffness * start_gap * start_gap / difference;
+    mean.tangent(0, 0) = mean.force[0] / difference;
+  }
+  return mean;
+}
+
 Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
                              const Eigen::Vector2d& slip) {
   switch (response.state) {

@@ -55,6 +55,18 @@ struct PointResponse {
 /// @param gap m; @param slip trial slip (2), m, as if locked
 [[nodiscard]] PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip);
 
+/// Force and tangent that act over a whole step, from the responses at its start and end, such that the work
+/// of the normal force is the change of the spring's energy exactly, also when the point opens or closes on
+/// the way (a discrete gradient); shear forces are averaged. The tangent is the derivative by the end of the
+/// step and positive semi-definite.
+struct MeanResponse {
+  Eigen::Vector3d force;    ///< N
+  Eigen::Matrix3d tangent;  ///< N/m
+};
+/// @param start_gap,end_gap m. With tensile strength left the normal force is the plain average.
+[[nodiscard]] MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
+                                         const PointResponse& end, double end_gap);
+
 /// The elastic slip that is left after a step with this trial slip: the spring of a sliding point stays at
 /// the limit.
 [[nodiscard]] Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,

@@ -5,7 +5,9 @@
 
 namespace ashlar {
 
-double block_size(const BlockModel& block) { return std::cbrt(block.basis().volume()); }
+double block_size(const BlockModel& block) {
+  return std::cbrt(block.basis().volume());
+}
 
 double automatic_normal_stiffness(const BlockModel& a, const BlockModel& b, bool area_springs,
                                   const AutomaticRatios& ratios) {

@@ -7,8 +7,9 @@ namespace ashlar {
 
 /// Where automatic choices come from. Each is a ratio without unit.
 struct AutomaticRatios {
-  /// kn of area springs times block size over Young's modulus: larger is stiffer and nearer to no penetration, but harder
-  /// for the open-close iteration. 20: a joint gives way as much as a twentieth of the block.
+  /// kn of area springs times block size over Young's modulus: larger is stiffer and nearer to no
+  /// penetration, but harder for the open-close iteration. 20: a joint gives way as much as a twentieth of
+  /// the block.
   double normal_stiffness = 20.0;
   double shear_to_normal_stiffness = 0.5;
   double distance = 1e-3;  ///< of the smallest block's size
@@ -19,8 +20,8 @@ struct AutomaticRatios {
 /// Cube root of the volume, m.
 [[nodiscard]] double block_size(const BlockModel& block);
 
-/// Normal stiffness between two blocks from the softer material and the smaller size: Pa/m, or for point springs N/m
-/// (the area stiffness times the smaller size squared).
+/// Normal stiffness between two blocks from the softer material and the smaller size: Pa/m, or for point
+/// springs N/m (the area stiffness times the smaller size squared).
 [[nodiscard]] double automatic_normal_stiffness(const BlockModel& a, const BlockModel& b, bool area_springs,
                                                 const AutomaticRatios& ratios = {});
 

@@ -42,6 +42,8 @@ ContactPair::ContactPair(int a, int b, const BlockModel& model_a, const BlockMod
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
     start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
         points_[k].tangent_2.dot(memory_[k].slip);
+    const auto start = start_.col(static_cast<Eigen::Index>(k));
+    start_responses_.push_back(point_response(laws_[k], start[0], start.tail<2>()));
   }
 }
 
@@ -53,14 +55,18 @@ Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::V
   return result;
 }
 
-PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   PairResponse response;
   Eigen::VectorXd forces(place.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    response.points.push_back(point_response(laws_[k], place(0, column), place.col(column).tail<2>()));
-    forces.segment<3>(3 * column) = response.points.back().force;
+    const PointResponse end = point_response(laws_[k], place(0, column), place.col(column).tail<2>());
+    response.points.push_back(end);
+    response.means.push_back(
+        averaged ? mean_response(laws_[k], start_responses_[k], start_(0, column), end, place(0, column))
+                 : MeanResponse{end.force, end.tangent});
+    forces.segment<3>(3 * column) = response.means.back().force;
   }
   if (rows_a_.size() > 0) response.force_on_a = rows_a_.transpose() * forces;
   if (rows_b_.size() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
@@ -70,7 +76,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
 ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
   std::vector<Eigen::Index> active;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    if (response.points[k].state != ContactState::open) active.push_back(static_cast<Eigen::Index>(k));
+    if (!response.means[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
   }
   const auto gather = [&](const Eigen::MatrixXd& rows, bool times_tangent) {
     Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(active.size()), rows.cols());
@@ -79,7 +85,7 @@ ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
       const auto target = static_cast<Eigen::Index>(3 * n);
       if (times_tangent) {
         result.middleRows<3>(target).noalias() =
-            response.points[static_cast<std::size_t>(k)].tangent * rows.middleRows<3>(3 * k);
+            response.means[static_cast<std::size_t>(k)].tangent * rows.middleRows<3>(3 * k);
       } else {
         result.middleRows<3>(target) = rows.middleRows<3>(3 * k);
       }
@@ -135,6 +141,12 @@ double ContactPair::friction_work(const PairResponse& response, const Eigen::Vec
     work += point.force.tail<2>().dot(elastic_slip(laws_[k], point, slip) - slip);
   }
   return work;
+}
+
+double ContactPair::start_energy() const {
+  double sum = 0.0;
+  for (const PointResponse& point : start_responses_) sum += point.energy;
+  return sum;
 }
 
 double ContactPair::energy(const PairResponse& response) {

@@ -10,11 +10,12 @@
 
 namespace ashlar {
 
-/// Response of all points of a pair.
+/// Response of all points of a pair over a step.
 struct PairResponse {
-  std::vector<PointResponse> points;
-  Eigen::VectorXd force_on_a;  ///< (unknowns of a)
-  Eigen::VectorXd force_on_b;  ///< (unknowns of b)
+  std::vector<PointResponse> points;  ///< at the end of the step
+  std::vector<MeanResponse> means;    ///< what acts in the equations of motion
+  Eigen::VectorXd force_on_a;         ///< (unknowns of a)
+  Eigen::VectorXd force_on_b;         ///< (unknowns of b)
 };
 
 /// Constant after construction. Points are linear in the unknowns within a step: with ya, yb the changes of
@@ -31,7 +32,11 @@ class ContactPair {
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
 
-  [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// @param averaged false: forces are those at the end of the step; true: see MeanResponse
+  [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                     bool averaged) const;
+  /// Spring energy at the start of the step, J.
+  [[nodiscard]] double start_energy() const;
 
   /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed,
   /// (na, nb).
@@ -50,7 +55,7 @@ class ContactPair {
   /// Work that sliding takes in the step, J, >= 0.
   [[nodiscard]] double friction_work(const PairResponse& response, const Eigen::VectorXd& ya,
                                      const Eigen::VectorXd& yb) const;
-  /// Spring energy, J.
+  /// Spring energy at the end of the step, J.
   [[nodiscard]] static double energy(const PairResponse& response);
 
  private:
@@ -62,6 +67,7 @@ class ContactPair {
   std::vector<ContactPoint> points_;
   std::vector<PointMemory> memory_;
   std::vector<PointLaw> laws_;
+  std::vector<PointResponse> start_responses_;
   Eigen::Matrix3Xd start_;  ///< gap and slip at the start of the step
   Eigen::MatrixXd
       rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed

@@ -18,9 +18,9 @@ class IslandProblem {
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
                 double step, const SimulationSettings& settings)
       : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), step_(step) {
-    const NewmarkWeights weights = newmark_weights(settings.integrator);
-    inertia_ = 1.0 / (weights.beta * step * step);
-    beta_ = weights.beta;
+    inertia_ = 2.0 / (step * step);
+    averaged_ = settings.integrator == Integrator::average_acceleration;
+    elastic_share_ = averaged_ ? 0.5 : 1.0;
     for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
   }
 
@@ -32,7 +32,7 @@ class IslandProblem {
   void predict() {
     for (const int index : island_.bodies) {
       BodyStep& body = bodies_[at(index)];
-      body.change = step_ * body.velocity + 0.5 * step_ * step_ * body.acceleration;
+      body.change = step_ * body.velocity + body.external_force / (inertia_ * body.model->material().density);
     }
   }
 
@@ -40,12 +40,14 @@ class IslandProblem {
   void respond() {
     for (const int index : island_.bodies) {
       BodyStep& body = bodies_[at(index)];
-      body.elastic = body.model->elastic(body.state->position + body.model->space().expand(body.change));
+      body.elastic = body.model->elastic(body.state->position +
+                                         elastic_share_ * body.model->space().expand(body.change));
     }
     responses_.clear();
     for (const int pair : island_.pairs) {
       const ContactPair& contact = pairs_[at(pair)];
-      responses_.push_back(contact.respond(bodies_[at(contact.a())].change, bodies_[at(contact.b())].change));
+      responses_.push_back(
+          contact.respond(bodies_[at(contact.a())].change, bodies_[at(contact.b())].change, averaged_));
     }
   }
 
@@ -60,11 +62,10 @@ class IslandProblem {
     for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
       const BodyStep& body = bodies_[at(island_.bodies[k])];
       const int place = static_cast<int>(k);
-      const Eigen::VectorXd start = step_ * body.velocity + (0.5 - beta_) * step_ * step_ * body.acceleration;
       const double density = body.model->material().density;
       add(place, body.external_force);
       add(place, -body.model->space().restrict(body.elastic.force));
-      add(place, -density * inertia_ * (body.change - start));
+      add(place, -density * inertia_ * (body.change - step_ * body.velocity));
     }
     for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
       const ContactPair& contact = pairs_[at(island_.pairs[k])];
@@ -88,7 +89,7 @@ class IslandProblem {
     matrix.set_zero();
     for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
       const BodyStep& body = bodies_[at(island_.bodies[k])];
-      matrix.add_diagonal(static_cast<int>(k), body.model->tangent(body.elastic.rotation));
+      matrix.add_diagonal(static_cast<int>(k), elastic_share_ * body.model->tangent(body.elastic.rotation));
       matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * inertia_);
     }
     for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
@@ -117,8 +118,9 @@ class IslandProblem {
   const std::vector<ContactPair>& pairs_;
   const SimulationSettings& settings_;
   double step_;
-  double inertia_ = 0.0;  ///< 1/(beta dt^2)
-  double beta_ = 0.0;
+  double inertia_ = 0.0;        ///< 2/dt^2, 1/s^2
+  double elastic_share_ = 1.0;  ///< where in the step the elastic force is taken
+  bool averaged_ = false;
   std::map<int, int> place_;
   std::vector<PairResponse> responses_;
 };

@@ -25,11 +25,10 @@ struct BodyStep {
   const BlockModel* model = nullptr;
   const BlockState* state = nullptr;
   Eigen::VectorXd velocity;
-  Eigen::VectorXd acceleration;
-  Eigen::VectorXd external_force;  ///< at the end of the step
+  Eigen::VectorXd external_force;  ///< as the integrator takes it
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
   Eigen::VectorXd change;          ///< D, the result
-  ElasticResponse elastic;         ///< at the end of the step
+  ElasticResponse elastic;         ///< where the integrator takes it
 };
 
 /// Result of one island.

@@ -6,21 +6,14 @@
 
 namespace ashlar {
 
-/// Newmark's family; both conserve momentum and are unconditionally stable.
+/// Both take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  with the unknown D, conserve momentum and are
+/// unconditionally stable; they differ in where F is taken.
 enum class Integrator {
-  dda,                   ///< beta 1/2, gamma 1: dissipative, first order (theory.md section 5)
-  average_acceleration,  ///< beta 1/4, gamma 1/2: second order, no dissipation for linear systems
+  dda,  ///< F at the end of the step: Newmark beta 1/2, gamma 1 (theory.md section 5), dissipative
+  average_acceleration,  ///< elastic force at the middle, others averaged: for linear systems Newmark beta
+                         ///< 1/4, gamma 1/2, without dissipation; angular momentum stays for large rotations
+                         ///< too
 };
-
-/// Weights of an integrator:  D = dt v + dt^2 ((1/2 - beta) a + beta a'),  v' = v + dt ((1 - gamma) a + gamma
-/// a').
-struct NewmarkWeights {
-  double beta;
-  double gamma;
-};
-[[nodiscard]] constexpr NewmarkWeights newmark_weights(Integrator integrator) {
-  return integrator == Integrator::dda ? NewmarkWeights{0.5, 1.0} : NewmarkWeights{0.25, 0.5};
-}
 
 /// Settings of a simulation.
 struct SimulationSettings {

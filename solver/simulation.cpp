@@ -33,8 +33,7 @@ class Stopwatch {
 double motion_bound(const Eigen::MatrixXd& phi, const BlockState& state, const Vector3& gravity,
                     double step) {
   const double speed = std::sqrt((phi * state.velocity).rowwise().squaredNorm().maxCoeff());
-  const double change = std::sqrt((phi * state.acceleration).rowwise().squaredNorm().maxCoeff());
-  return step * speed + 0.5 * step * step * std::max(change, gravity.norm());
+  return step * speed + 0.5 * step * step * gravity.norm();
 }
 
 /// Size of the rounding errors in the internal force K (R' q - q0) of a block at rest.
@@ -74,9 +73,6 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     roundoff_force_.push_back(block.fixed() ? 0.0 : roundoff_of(block));
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
-    const Eigen::MatrixX3d force = block.external_force(settings_.gravity, 0.0);
-    states_.back().acceleration =
-        block.space().expand(block.space().restrict(force)) / block.material().density;
   }
   measure_energies(ledger_);
   start_balance_ = ledger_.balance();
@@ -87,7 +83,6 @@ void Simulation::settle_supported_blocks() {
     if (!moving_[k] || !blocks_[k].supported()) continue;
     if (auto position = blocks_[k].equilibrium(settings_.gravity, 0.0)) {
       states_[k].position = std::move(*position);
-      states_[k].acceleration.setZero();
     }
   }
   measure_energies(ledger_);
@@ -187,21 +182,19 @@ std::vector<BodyStep> Simulation::prepare_bodies(double step) const {
     body.roundoff_force = roundoff_force_[k];
     if (block.fixed()) continue;
     body.velocity = block.space().restrict(states_[k].velocity);
-    body.acceleration = block.space().restrict(states_[k].acceleration);
-    body.external_force = block.space().restrict(block.external_force(settings_.gravity, time_ + step));
+    Eigen::MatrixX3d force = block.external_force(settings_.gravity, time_ + step);
+    if (settings_.integrator == Integrator::average_acceleration) {
+      force = 0.5 * (force + block.external_force(settings_.gravity, time_));
+    }
+    body.external_force = block.space().restrict(force);
   }
   return bodies;
 }
 
 void Simulation::accept(double step, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
                         const std::vector<Island>& islands, const std::vector<IslandResult>& results) {
-  const NewmarkWeights weights = newmark_weights(settings_.integrator);
   const double last_residual = ledger_.residual;
-  // Work of a force that was f and becomes f' over the change D, as the integrator sees it: D . ((1-gamma) f
-  // + gamma f').
-  const auto mean_work = [&](double before, double after) {
-    return (1.0 - weights.gamma) * before + weights.gamma * after;
-  };
+  const bool averaged = settings_.integrator == Integrator::average_acceleration;
   double potential_work = 0.0;
   double potential_change = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -209,18 +202,14 @@ void Simulation::accept(double step, std::vector<BodyStep>& bodies, const std::v
     const BlockModel& block = blocks_[k];
     BlockState& state = states_[k];
     const Eigen::MatrixX3d change = block.space().expand(bodies[k].change);
-    const ElasticResponse before = block.elastic(state.position);
-    potential_work -= mean_work(change.cwiseProduct(before.force).sum(),
-                                change.cwiseProduct(bodies[k].elastic.force).sum());
-    potential_change += bodies[k].elastic.energy - before.energy;
-    ledger_.applied += mean_work(change.cwiseProduct(block.load_force(time_)).sum(),
-                                 change.cwiseProduct(block.load_force(time_ + step)).sum());
-    const Eigen::MatrixX3d acceleration =
-        (change - step * state.velocity - (0.5 - weights.beta) * step * step * state.acceleration) /
-        (weights.beta * step * step);
+    potential_work -= change.cwiseProduct(bodies[k].elastic.force).sum();
+    potential_change -= block.elastic(state.position).energy;
+    Eigen::MatrixX3d load = block.load_force(time_ + step);
+    if (averaged) load = 0.5 * (load + block.load_force(time_));
+    ledger_.applied += change.cwiseProduct(load).sum();
     state.position += change;
-    state.velocity += step * ((1.0 - weights.gamma) * state.acceleration + weights.gamma * acceleration);
-    state.acceleration = acceleration;
+    state.velocity = (2.0 / step) * change - state.velocity;
+    potential_change += block.elastic(state.position).energy;
   }
 
   report_ = StepReport{};
@@ -236,15 +225,10 @@ void Simulation::accept(double step, std::vector<BodyStep>& bodies, const std::v
       const PairResponse& after = results[i].responses[n];
       const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
       const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
-      const PairResponse before =
-          pair.respond(Eigen::VectorXd::Zero(ya.size()), Eigen::VectorXd::Zero(yb.size()));
-      const auto work_of = [&](const PairResponse& response) {
-        return (ya.size() > 0 ? ya.dot(response.force_on_a) : 0.0) +
-               (yb.size() > 0 ? yb.dot(response.force_on_b) : 0.0);
-      };
-      const double work = mean_work(work_of(before), work_of(after));
+      const double work =
+          (ya.size() > 0 ? ya.dot(after.force_on_a) : 0.0) + (yb.size() > 0 ? yb.dot(after.force_on_b) : 0.0);
       potential_work += work;
-      potential_change += ContactPair::energy(after) - ContactPair::energy(before);
+      potential_change += ContactPair::energy(after) - pair.start_energy();
       ledger_.contact += ContactPair::energy(after);
       friction += pair.friction_work(after, ya, yb);
       auto gaps = pair.gaps(ya, yb);

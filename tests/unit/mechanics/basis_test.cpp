@@ -25,8 +25,13 @@ double orthonormality_error(const Polyhedron& solid, int order) {
 
 TEST(Basis, IsOrthonormalOnConvexAndNonConvexSolids) {
   for (const auto& [name, solid] : test_support::sample_solids()) {
-    for (const int order : {1, 2, 3, 5, 8})
-      EXPECT_LT(orthonormality_error(solid, order), 1e-11) << name << order;
+    // Points of the far box are themselves rounded at 1e-13 of its size.
+    const double tolerance = name == "far box" ? 1e-11 : 1e-12;
+    for (const int order : {1, 2, 3, 5})
+      EXPECT_LT(orthonormality_error(solid, order), tolerance) << name << order;
+    // Coefficients rounded to double lose what the seeds' condition on a tetrahedron (about 1e5 at order 8)
+    // costs.
+    EXPECT_LT(orthonormality_error(solid, 8), 1e-10) << name;
   }
 }
 

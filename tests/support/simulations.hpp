@@ -1,0 +1,52 @@
+// Small simulations that tests of mechanics and solver share.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "geometry/shapes.hpp"
+#include "solver/simulation.hpp"
+
+namespace ashlar::test_support {
+
+inline BlockDefinition block_of(const std::string& name, Polyhedron solid, Material material, int order) {
+  BlockDefinition definition;
+  definition.name = name;
+  definition.solid = std::make_shared<const Polyhedron>(std::move(solid));
+  definition.material = material;
+  definition.order = order;
+  return definition;
+}
+
+/// Box turned about the y axis through the origin, positive angles lifting the +x end.
+inline Polyhedron tilted_box(const Vector3& low, const Vector3& high, double degrees) {
+  const double angle = -degrees * std::numbers::pi / 180.0;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix();
+  const Polyhedron box(make_box(low, high));
+  std::vector<Vector3> points;
+  for (const Vector3& point : box.mesh().points) points.emplace_back(turn * point);
+  return box.with_points(std::move(points));
+}
+
+inline Simulation::LawOfPair same_law(const JointLaw& law) {
+  return [law](int, int) { return law; };
+}
+
+/// Runs to a time; false if a step could not be taken.
+inline bool run_until(Simulation& simulation, double time) {
+  while (simulation.time() < time) {
+    if (simulation.step(time) != StepStatus::accepted) return false;
+  }
+  return true;
+}
+
+/// Current position of a material point.
+inline Vector3 place_of(const Simulation& simulation, int block, const Vector3& point) {
+  const auto index = static_cast<std::size_t>(block);
+  return simulation.states()[index].position.transpose() * simulation.blocks()[index].basis().values(point);
+}
+
+}  // namespace ashlar::test_support
