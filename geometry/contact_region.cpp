@@ -79,7 +79,7 @@ ContactRegion region_along(const ContactDirection& w, PlaneSetting setting, cons
   return region;
 }
 
-ContactRegion point_region(const ContactPoint& point) {
+ContactRegion point_region(const RegionVertex& point) {
   ContactRegion region;
   region.dimension = 0;
   region.points = {point};

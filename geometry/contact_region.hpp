@@ -20,7 +20,7 @@ struct ContactFeature {
 };
 
 /// One vertex of a contact region.
-struct ContactPoint {
+struct RegionVertex {
   ContactFeature a, b;  ///< the faces that carry it
   Vector3 on_a, on_b;   ///< m, correctly rounded; on_a - on_b = w exactly but for the rounding
 
@@ -35,7 +35,7 @@ struct ContactRegion {
   ContactFeature a, b;                     ///< the carriers of K
   /// The vertices of K, each once. A polygon's are counter-clockwise when w (from B to A) points at the
   /// viewer, starting anywhere; a segment's and a solid's in no particular order.
-  std::vector<ContactPoint> points;
+  std::vector<RegionVertex> points;
 };
 
 /// The region along a direction: the common part of two plane sets seen along w.
@@ -48,7 +48,7 @@ struct ContactRegion {
                                          const ContactHeight* height, PredicateLadder& ladder);
 
 /// A region of one point.
-[[nodiscard]] ContactRegion point_region(const ContactPoint& point);
+[[nodiscard]] ContactRegion point_region(const RegionVertex& point);
 
 /// The face of a shape that is spanned by the corners of a support, as a loop counter-clockwise along w.
 /// @param above the shape lies on the side w points to (it is A).

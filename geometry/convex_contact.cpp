@@ -76,7 +76,7 @@ class ContactReport {
   }
 
   // The region where a corner is nearest, or two edges that are not parallel; no need for an overlap.
-  [[nodiscard]] std::optional<ContactPoint> single_point(const ClosestSimplex& closest,
+  [[nodiscard]] std::optional<RegionVertex> single_point(const ClosestSimplex& closest,
                                                          const ContactHeight& height) {
     std::vector<int> a, b;
     for (int k = 0; k < closest.simplex.size; ++k) {
@@ -86,7 +86,7 @@ class ContactReport {
       add(a, closest.simplex.pairs[k].a);
       add(b, closest.simplex.pairs[k].b);
     }
-    ContactPoint point;
+    RegionVertex point;
     point.a = carrier_of_point(a_, a, closest.support_a);
     point.b = carrier_of_point(b_, b, closest.support_b);
     if (closest.support_a.size() == 1) {

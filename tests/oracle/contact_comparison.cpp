@@ -38,7 +38,7 @@ PlacedPoints sorted(PlacedPoints points) {
 
 PlacedPoints points_of(const ContactRegion& region) {
   PlacedPoints points;
-  for (const ContactPoint& point : region.points) {
+  for (const RegionVertex& point : region.points) {
     points.emplace_back(to_point(point.on_a), to_point(point.on_b), point.a.dimension, point.b.dimension);
   }
   return points;
@@ -85,7 +85,7 @@ RationalVector turn_of(const RationalVector& a, const RationalVector& b, const R
 /// A polygon's vertices must be told around it: all turns one way, and once around.
 bool is_cycle(const ContactRegion& region, const ExactContact& exact, const Vector3& towards_a) {
   std::vector<RationalVector> polygon;
-  for (const ContactPoint& point : region.points) {
+  for (const RegionVertex& point : region.points) {
     for (const RegionPoint& candidate : exact.region) {
       if (rounded(candidate.on_p) == to_point(point.on_a) &&
           rounded(candidate.on_q) == to_point(point.on_b)) {
@@ -213,7 +213,7 @@ PlacedPoints carried(const ContactRegion& region, const Variant& variant, bool p
 
 PlacedPoints without_places(const ContactRegion& region) {
   PlacedPoints points;
-  for (const ContactPoint& point : region.points) {
+  for (const RegionVertex& point : region.points) {
     points.emplace_back(Point{}, Point{}, point.a.dimension, point.b.dimension);
   }
   return sorted(std::move(points));

@@ -76,7 +76,7 @@ Triple triple(const Json& v) {
 
 PointSet points_of(const ContactRegion& region, bool with_pairs) {
   PointSet points;
-  for (const ContactPoint& p : region.points)
+  for (const RegionVertex& p : region.points)
     points.emplace(triple(p.on_a), triple(p.on_b), with_pairs ? p.a.dimension : 0,
                    with_pairs ? p.b.dimension : 0);
   return points;
