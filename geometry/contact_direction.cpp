@@ -416,6 +416,19 @@ double ContactHeight::squared() const {
   return round_to_nearest(rational({height * height, dot(w, w)}).mpq());
 }
 
+double ContactHeight::length() const {
+  if (has_ratio_)
+    if (const auto root = square_root(height_ * ratio_))
+      if (const auto value = rounded(*root)) {
+        ++ladder_.counts.filter;
+        return *value;
+      }
+  ++ladder_.counts.exact;
+  const NumberVector<Exact>& w = w_.exact().value;
+  const Exact height = dot(w, evaluate<Exact>(d_));
+  return round_square_root(rational({height * height, dot(w, w)}).mpq());
+}
+
 Vector3 ContactHeight::shifted(const Vector3* x, int sign) const {
   Vector3 result;
   std::array<bool, 3> known{false, false, false};

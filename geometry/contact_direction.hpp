@@ -231,6 +231,8 @@ class ContactHeight {
   ContactHeight(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);
   /// (w.d)^2 / |w|^2.
   [[nodiscard]] double squared() const;
+  /// |w.d| / |w|.
+  [[nodiscard]] double length() const;
   /// w (w.d) / |w|^2.
   [[nodiscard]] Vector3 step() const { return shifted(nullptr, 1); }
   /// The point above or below x by this height.

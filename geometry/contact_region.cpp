@@ -12,8 +12,10 @@ ContactFeature feature(const ConvexShape& shape, const PlaneSet& set, const Plan
       return {0, set.loop[location.index]};
     case 1:
       return {1, shape.find_edge(set.loop[location.index], set.loop[(location.index + 1) % set.size()])};
-    default:
-      return {2, shape.find_facet(set.loop)};
+    default: {
+      const int facet = shape.find_facet(set.loop);
+      return {2, facet >= 0 && shape.facet(facet).size() == set.loop.size() ? facet : -1};
+    }
   }
 }
 

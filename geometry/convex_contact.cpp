@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/closest_simplex.hpp"
@@ -13,9 +15,12 @@ namespace {
 
 class ContactReport {
  public:
-  ContactReport(const ConvexShape& a, const ConvexShape& b) : a_(a), b_(b) {
+  ContactReport(const ConvexShape& a, const ConvexShape& b, const Resolution& resolution = {})
+      : a_(a), b_(b), resolution_(resolution) {
     NumericRange range = a.range();
     range.include(b.range());
+    range.include(resolution.distance);
+    range.include(resolution.sine);
     ladder_.floating = range.safe();
     report_.displacement = report_.normal = Vector3::Zero();
   }
@@ -34,6 +39,29 @@ class ContactReport {
     return std::move(report_);
   }
 
+  ResolvedContact run_resolved(const std::optional<Entrance>& history) {
+    keep_direction_ = true;
+    const ConvexContact exact = run(history, {false, false});
+    ResolvedContact result;
+    result.relation = exact.relation;
+    result.normal = exact.normal;
+    result.rule = exact.rule;
+    result.entrance = exact.entrance;
+    result.resolution = resolution_;
+    if (taken_.a.empty()) {
+      result.region = crossing_region(a_, b_, ladder_);
+    } else {
+      const ContactHeight height(taken_.w, height_of(taken_), ladder_);
+      const double length = height.length();
+      result.gap = exact.relation == Relation::crossing ? -length : length;
+      const std::vector<int> loop_a = resolved_loop(a_, taken_.a), loop_b = resolved_loop(b_, taken_.b);
+      result.region = region_along(taken_.w, PlaneSetting::tilted, a_, {a_.corners().data(), loop_a}, b_,
+                                   {b_.corners().data(), loop_b}, &height, ladder_);
+    }
+    result.decided_by = ladder_.counts;
+    return result;
+  }
+
  private:
   [[nodiscard]] Difference height_of(const Support& s) const {
     return {&a_.corners()[s.a[0]], &b_.corners()[s.b[0]]};
@@ -47,6 +75,22 @@ class ContactReport {
     return region_along(s.w, setting, a_, a, b_, b, &height, ladder_);
   }
 
+  // Corners of P_tau or Q_tau that are corners of its projection, counter-clockwise along w.
+  [[nodiscard]] std::vector<int> resolved_loop(const ConvexShape& shape, const std::vector<int>& support) {
+    const std::vector<Vector3>& x = shape.corners();
+    const auto reaches = [&](int v) {
+      if (std::find(support.begin(), support.end(), v) != support.end()) return true;
+      if (is_within(taken_.w, {&x[v], &x[support[0]]}, resolution_.distance, false, ladder_)) return true;
+      return std::all_of(support.begin(), support.end(), [&](int p) {
+        return is_within(taken_.w, {&x[v], &x[p]}, resolution_.sine, true, ladder_);
+      });
+    };
+    std::vector<int> candidates;
+    for (int v = 0; v < static_cast<int>(x.size()); ++v)
+      if (reaches(v)) candidates.push_back(v);
+    return projected_hull(taken_.w, x.data(), std::move(candidates), ladder_);
+  }
+
   void apart(ClosestSimplex&& closest) {
     report_.relation = Relation::apart;
     const CornerPair first = closest.simplex.pairs[0];
@@ -55,7 +99,9 @@ class ContactReport {
     report_.displacement = height.step();
     report_.normal = unit_vector(closest.w, ladder_);
     report_.rule = DirectionRule::closest_points;
-    if (const auto point = single_point(closest, height)) {
+    if (keep_direction_) {
+      taken_ = {{}, std::move(closest.w), std::move(closest.support_a), std::move(closest.support_b)};
+    } else if (const auto point = single_point(closest, height)) {
       report_.region = point_region(*point);
     } else {
       report_.region =
@@ -138,7 +184,10 @@ class ContactReport {
                 const CrossingDetail& detail) {
     report_.relation = Relation::crossing;
     if (detail.region) report_.region = crossing_region(a_, b_, ladder_);
-    if (supports.empty()) return;
+    if (supports.empty()) {  // triangles: no depth, so only history knows a direction
+      choose_from_history(history);
+      return;
+    }
     report_.squared_depth = ContactHeight(supports[0].w, height_of(supports[0]), ladder_).squared();
     for (const Support& s : supports) {
       const Difference outward{height_of(s).minus, height_of(s).plus};
@@ -151,25 +200,51 @@ class ContactReport {
 
   // The history rule; without history the least penetration (all supports are equally near).
   void choose(const std::vector<Support>& supports, const std::optional<Entrance>& history) {
-    if (history) {
-      Support s = support_along(a_, b_, direction_of(*history, a_, b_), ladder_);
-      s.entrance = *history;
-      if (region_of(s, PlaneSetting::level).dimension >= 0) return take(s, DirectionRule::history);
-    }
+    if (choose_from_history(history)) return;
     take(preferred_support(supports, a_, b_, ladder_),
          supports.size() == 1 ? DirectionRule::least_penetration : DirectionRule::least_penetration_tie);
+  }
+
+  bool choose_from_history(const std::optional<Entrance>& history) {
+    if (!history || !is_valid(*history)) return false;
+    Support s = support_along(a_, b_, direction_of(*history, a_, b_), ladder_);
+    s.entrance = *history;
+    if (region_of(s, PlaneSetting::level).dimension < 0) return false;
+    take(s, DirectionRule::history);
+    return true;
+  }
+
+  // The entrance names features of these shapes, and two edges of it are not parallel.
+  [[nodiscard]] bool is_valid(const Entrance& e) {
+    const auto in = [](int index, std::size_t count) {
+      return index >= 0 && index < static_cast<int>(count);
+    };
+    switch (e.kind) {
+      case EntranceKind::face_of_a:
+        return in(e.a, static_cast<std::size_t>(a_.facet_count()));
+      case EntranceKind::face_of_b:
+        return in(e.b, static_cast<std::size_t>(b_.facet_count()));
+      case EntranceKind::edge_edge:
+        return in(e.a, a_.edges().size()) && in(e.b, b_.edges().size()) &&
+               !is_zero(direction_of(e, a_, b_), ladder_);
+    }
+    return false;
   }
 
   void take(const Support& s, DirectionRule rule) {
     report_.normal = unit_vector(s.w, ladder_);
     report_.rule = rule;
     report_.entrance = s.entrance;
+    if (keep_direction_) taken_ = {s.entrance, s.w.copy(), s.a, s.b};
   }
 
   const ConvexShape& a_;
   const ConvexShape& b_;
+  Resolution resolution_;
   PredicateLadder ladder_;
   ConvexContact report_;
+  bool keep_direction_ = false;  // in taken_, instead of the region of two that are apart
+  Support taken_;
 };
 
 // Apart from classify() so that no arithmetic moves across the change of the rounding mode.
@@ -179,12 +254,43 @@ class ContactReport {
   return ContactReport(a, b).run(history, detail);
 }
 
+[[gnu::noinline]] ResolvedContact resolve_to_nearest(const ConvexShape& a, const ConvexShape& b,
+                                                     const Resolution& resolution,
+                                                     const std::optional<Entrance>& history) {
+  return ContactReport(a, b, resolution).run_resolved(history);
+}
+
+[[gnu::noinline]] std::optional<Entrance> find_entrance_to_nearest(const ConvexShape& a,
+                                                                   const ConvexShape& b) {
+  NumericRange range = a.range();
+  range.include(b.range());
+  PredicateLadder ladder;
+  ladder.floating = range.safe();
+  const std::vector<Support> farthest = find_farthest_separation(a, b, ladder);
+  if (farthest.empty()) return std::nullopt;
+  return preferred_support(farthest, a, b, ladder).entrance;
+}
+
 }  // namespace
 
 ConvexContact classify(const ConvexShape& a, const ConvexShape& b, const std::optional<Entrance>& history,
                        const CrossingDetail& detail) {
   const NearestRounding nearest;
   return classify_to_nearest(a, b, history, detail);
+}
+
+ResolvedContact classify_at(const ConvexShape& a, const ConvexShape& b, const Resolution& resolution,
+                            const std::optional<Entrance>& history) {
+  const auto valid = [](double value) { return std::isfinite(value) && value >= 0.0; };
+  if (!valid(resolution.distance) || !valid(resolution.sine) || resolution.sine > 1.0)
+    throw std::invalid_argument("classify_at: resolution is negative, not finite or above a right angle");
+  const NearestRounding nearest;
+  return resolve_to_nearest(a, b, resolution, history);
+}
+
+std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b) {
+  const NearestRounding nearest;
+  return find_entrance_to_nearest(a, b);
 }
 
 }  // namespace ashlar

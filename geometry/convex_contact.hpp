@@ -62,9 +62,45 @@ struct CrossingDetail {
 };
 
 /// Exact type and report. @param history a facet of D the pair was last seen apart across, used where the
-/// contact does not fix its own normal (V-V, V-E, collinear E-E at distance zero, crossing).
+/// contact does not fix its own normal (V-V, V-E, collinear E-E at distance zero, crossing), as long as the
+/// two features of that facet still face each other along its direction.
 [[nodiscard]] ConvexContact classify(const ConvexShape& a, const ConvexShape& b,
                                      const std::optional<Entrance>& history = std::nullopt,
                                      const CrossingDetail& detail = {});
+
+/// How near to a common plane features must be to count as one contact; from the scene, never hidden here.
+struct Resolution {
+  double distance = 0.0;  ///< m, >= 0: tau
+  double sine = 0.0;      ///< of the contact angle, 0 to 1
+};
+
+/// The type at a resolution: what a step uses.
+///
+/// With w the direction of the exact contact (touching, crossing: chosen as in classify), P_tau is the convex
+/// hull of the corners of P that are at most `distance` above its support along w, or seen from every support
+/// corner at an inclination of at most the contact angle; Q_tau likewise from below; both projected along w.
+/// The region is the common part of these plane sets. Every comparison is exact. At resolution zero this is
+/// classify(); dimensions of carriers never decrease as the resolution grows.
+struct ResolvedContact {
+  Relation relation = Relation::apart;
+  /// Carriers are faces of the plane sets; index -1 where such a face is not one of the shape. A point of the
+  /// other shape's corner (pairs V-F, V-E) is in the support plane across w.
+  ContactRegion region;
+  Vector3 normal;    ///< unit, from B to A, correctly rounded; zero for triangles that cross without history
+  double gap = 0.0;  ///< min_A n.x - max_B n.y, m: negative where they cross; correctly rounded
+  DirectionRule rule = DirectionRule::closest_points;
+  std::optional<Entrance> entrance;
+  Resolution resolution;  ///< as given
+  DecisionCounts decided_by;
+};
+
+/// @throws std::invalid_argument for a negative or non-finite resolution, or a sine above 1.
+[[nodiscard]] ResolvedContact classify_at(const ConvexShape& a, const ConvexShape& b,
+                                          const Resolution& resolution,
+                                          const std::optional<Entrance>& history = std::nullopt);
+
+/// The facet of D = P - Q across which the two are farthest apart (ties as in DirectionRule): what the next
+/// steps need as history while the two are apart or just touch. None if they cross.
+[[nodiscard]] std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b);
 
 }  // namespace ashlar

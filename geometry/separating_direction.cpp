@@ -81,6 +81,14 @@ class EntranceSearch {
     return std::move(result_);
   }
 
+  std::vector<Support> run_farthest() {
+    farthest_ = true;
+    search_facets(a_, b_, EntranceKind::face_of_a);
+    search_facets(b_, a_, EntranceKind::face_of_b);
+    search_edge_pairs();
+    return std::move(result_.supports);
+  }
+
  private:
   struct Candidate {
     Entrance entrance;
@@ -129,6 +137,10 @@ class EntranceSearch {
 
   void settle(Support&& s) {
     const int sign = sign_along(s.w, height_of(s), ladder_);
+    if (farthest_) {
+      if (sign >= 0) insert(std::move(s));
+      return;
+    }
     if (sign < 0) {
       if (result_.relation == Relation::crossing) candidates_.push_back({s.entrance, 0.0});
       return;
@@ -210,24 +222,29 @@ class EntranceSearch {
   }
 
   void keep_least() {
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& x, const Candidate& y) {
-      return x.least_squared_depth < y.least_squared_depth;
-    });
+    // The first bound is the least one, so that few others need an exact look.
+    const auto least = std::min_element(
+        candidates_.begin(), candidates_.end(),
+        [](const Candidate& x, const Candidate& y) { return x.least_squared_depth < y.least_squared_depth; });
+    if (least == candidates_.end()) return;
+    std::iter_swap(candidates_.begin(), least);
     double enough = std::numeric_limits<double>::infinity();
     for (const Candidate& c : candidates_) {
-      if (ladder_.floating && c.least_squared_depth > enough) break;
+      if (ladder_.floating && c.least_squared_depth > enough) continue;
       if (!insert(support_of(c.entrance))) continue;
       PredicateLadder uncounted = ladder_;
-      const Support& least = result_.supports.front();
-      enough = ContactHeight(least.w, height_of(least), uncounted).squared() * (1.0 + 0x1p-40);
+      const Support& nearest = result_.supports.front();
+      enough = ContactHeight(nearest.w, height_of(nearest), uncounted).squared() * (1.0 + 0x1p-40);
     }
   }
 
-  // True if the support is now the only one of least depth.
+  // Keeps the supports of least |height| / |w|, or of the greatest in a search for the farthest one. True if
+  // this one is now the only one.
   bool insert(Support&& support) {
     if (!result_.supports.empty()) {
       const Support& least = result_.supports.front();
-      const int sign = compare_heights(support.w, height_of(support), least.w, height_of(least), ladder_);
+      const int larger = compare_heights(support.w, height_of(support), least.w, height_of(least), ladder_);
+      const int sign = farthest_ ? -larger : larger;
       if (sign > 0) return false;
       if (sign == 0) {
         if (std::none_of(result_.supports.begin(), result_.supports.end(),
@@ -244,6 +261,7 @@ class EntranceSearch {
   const ConvexShape& a_;
   const ConvexShape& b_;
   PredicateLadder& ladder_;
+  bool farthest_ = false;
   SeparationResult result_;
   std::vector<Candidate> candidates_;
 };
@@ -279,6 +297,11 @@ Support support_along(const ConvexShape& a, const ConvexShape& b, ContactDirecti
 
 SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b, PredicateLadder& ladder) {
   return EntranceSearch(a, b, ladder).run();
+}
+
+std::vector<Support> find_farthest_separation(const ConvexShape& a, const ConvexShape& b,
+                                              PredicateLadder& ladder) {
+  return EntranceSearch(a, b, ladder).run_farthest();
 }
 
 const Support& preferred_support(const std::vector<Support>& supports, const ConvexShape& a,

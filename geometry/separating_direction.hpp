@@ -61,6 +61,10 @@ struct SeparationResult {
 [[nodiscard]] SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b,
                                                PredicateLadder& ladder);
 
+/// Every entrance of greatest height / |w| if that is not negative, one for each direction; else none.
+[[nodiscard]] std::vector<Support> find_farthest_separation(const ConvexShape& a, const ConvexShape& b,
+                                                            PredicateLadder& ladder);
+
 /// Of several equally near entrances the one whose direction a contact takes (DirectionRule).
 [[nodiscard]] const Support& preferred_support(const std::vector<Support>& supports, const ConvexShape& a,
                                                const ConvexShape& b, PredicateLadder& ladder);
