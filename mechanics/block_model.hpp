@@ -24,7 +24,7 @@ struct BlockDefinition {
   Material material;
   int order = 1;
   bool fixed = false;  ///< never moves, has no unknowns; material is not used
-  std::vector<Support> supports;
+  std::vector<BlockSupport> supports;
   std::vector<Load> loads;
 };
 

@@ -11,9 +11,9 @@ constexpr double rank_tolerance = 1e-10;
 
 /// Values of phi on the supports of one component, scaled to comparable sizes. @return (#conditions, p)
 Eigen::MatrixXd conditions(const Polyhedron& solid, const PolynomialBasis& basis,
-                           const std::vector<Support>& supports, std::size_t axis) {
+                           const std::vector<BlockSupport>& supports, std::size_t axis) {
   std::vector<Vector3> points;
-  for (const Support& support : supports) {
+  for (const BlockSupport& support : supports) {
     if (!support.components[axis]) continue;
     if (const auto* point = std::get_if<Vector3>(&support.where)) {
       points.push_back(*point);
@@ -40,7 +40,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& conditions, Eigen::Index funct
 }  // namespace
 
 AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis& basis,
-                                 const std::vector<Support>& supports)
+                                 const std::vector<BlockSupport>& supports)
     : functions_(basis.size()), free_(supports.empty()) {
   if (free_) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {

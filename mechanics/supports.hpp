@@ -14,7 +14,7 @@
 namespace ashlar {
 
 /// A support: all faces in a plane, or one material point; chosen components of its displacement are zero.
-struct Support {
+struct BlockSupport {
   std::variant<Plane, Vector3> where;  ///< reference coordinates, m
   std::array<bool, 3> components = {true, true, true};
 };
@@ -27,7 +27,7 @@ class AdmissibleSpace {
 
   /// @throws std::invalid_argument if a plane holds no face of the solid
   AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis& basis,
-                  const std::vector<Support>& supports);
+                  const std::vector<BlockSupport>& supports);
 
   /// Number of unknowns, the columns of Z.
   [[nodiscard]] int unknowns() const;
