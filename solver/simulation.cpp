@@ -36,6 +36,30 @@ double motion_bound(const Eigen::MatrixXd& phi, const BlockState& state, const V
   return step * speed + 0.5 * step * step * gravity.norm();
 }
 
+/// phi at the middle of every cell side less the mean of phi at its ends: times q, how far the curved surface
+/// is off the flat cells there.
+Eigen::MatrixXd chord_rows(const PolynomialBasis& basis, const SubFaceSurface& surface) {
+  if (!surface.divided) return {};
+  std::vector<Vector3> middles;
+  std::vector<Vector3> starts;
+  std::vector<Vector3> ends;
+  for (const SurfaceCell& cell : surface.cells) {
+    for (std::size_t k = 0; k < cell.corners.size(); ++k) {
+      starts.push_back(surface.points[at(cell.corners[k])]);
+      ends.push_back(surface.points[at(cell.corners[(k + 1) % cell.corners.size()])]);
+      middles.emplace_back(0.5 * (starts.back() + ends.back()));
+    }
+  }
+  return basis.values(middles) - 0.5 * (basis.values(starts) + basis.values(ends));
+}
+
+/// How far the flat cells may be off the curved surface: inside a cell the error of a quadratic is at most
+/// 4/3 of the largest one at its sides' middles; twice that leaves room for higher orders.
+double chord_error(const Eigen::MatrixXd& rows, const BlockState& state) {
+  if (rows.size() == 0) return 0.0;
+  return 8.0 / 3.0 * std::sqrt((rows * state.position).rowwise().squaredNorm().maxCoeff());
+}
+
 /// Size of the rounding errors in the internal force K (R' q - q0) of a block at rest.
 double roundoff_of(const BlockModel& block) {
   const Eigen::Index p = block.basis().size();
@@ -70,6 +94,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     surfaces_.push_back(
         divide_surface(block.solid(), block.order() >= 2 && !block.fixed() ? settings.subdivisions : 0));
     surface_phi_.push_back(block.basis().values(surfaces_.back().points));
+    chord_phi_.push_back(chord_rows(block.basis(), surfaces_.back()));
     roundoff_force_.push_back(block.fixed() ? 0.0 : roundoff_of(block));
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
@@ -123,6 +148,7 @@ StepStatus Simulation::step(double end_time) {
 std::vector<ContactPair> Simulation::find_contact_pairs(double step) {
   std::vector<PlacedSurface> placed;
   std::vector<double> motion;
+  std::vector<double> chord;
   std::vector<Box> boxes;
   std::vector<std::array<int, 2>> candidates;
   std::vector<PairContacts> found;
@@ -131,7 +157,8 @@ std::vector<ContactPair> Simulation::find_contact_pairs(double step) {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       placed.emplace_back(surfaces_[k], placed_points(surface_phi_[k], states_[k]));
       motion.push_back(moving_[k] ? motion_bound(surface_phi_[k], states_[k], settings_.gravity, step) : 0.0);
-      const Vector3 margin = Vector3::Constant(motion.back() + settings_.contact_distance);
+      chord.push_back(chord_error(chord_phi_[k], states_[k]));
+      const Vector3 margin = Vector3::Constant(motion.back() + chord.back() + settings_.contact_distance);
       boxes.push_back({placed.back().box().low - margin, placed.back().box().high + margin});
     }
     for (const auto& pair : meeting_boxes(boxes)) {
@@ -144,9 +171,9 @@ std::vector<ContactPair> Simulation::find_contact_pairs(double step) {
       const auto& [a, b] = candidates[k];
       const auto known = memory_.find(candidates[k]);
       ContactLimits limits;
-      limits.reach = settings_.contact_distance + motion[at(a)] + motion[at(b)];
-      limits.penetration =
-          settings_.contact_distance + (known == memory_.end() ? 0.0 : 2.0 * known->second.deepest());
+      const double resolution = settings_.contact_distance + chord[at(a)] + chord[at(b)];
+      limits.reach = resolution + motion[at(a)] + motion[at(b)];
+      limits.penetration = resolution + (known == memory_.end() ? 0.0 : 2.0 * known->second.deepest());
       limits.angle = settings_.contact_angle;
       found[k] = find_contacts(placed[at(a)], placed[at(b)], limits);
     };
@@ -299,7 +326,7 @@ int Simulation::unknowns() const {
 
 SimulationCounts Simulation::counts() const {
   SimulationCounts result = counts_;
-  result.factors = solvers_.counts();
+  result.factors += solvers_.counts();
   return result;
 }
 

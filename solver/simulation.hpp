@@ -80,6 +80,8 @@ struct PhaseSeconds {
   double solve = 0.0;
 };
 
+struct SimulationSnapshot;  // checkpoint.hpp
+
 /// A scene in motion. Block indices are those of the vector given.
 class Simulation {
  public:
@@ -95,6 +97,11 @@ class Simulation {
 
   /// Takes one step of at most settings.time_step, and not beyond `end_time`.
   [[nodiscard]] StepStatus step(double end_time);
+
+  /// All that has changed since construction, and back (checkpoint.hpp).
+  [[nodiscard]] SimulationSnapshot snapshot() const;
+  /// @throws std::invalid_argument if the snapshot was taken of other blocks.
+  void restore(const SimulationSnapshot& snapshot);
 
   [[nodiscard]] double time() const { return time_; }
   [[nodiscard]] int steps() const { return steps_; }
@@ -137,7 +144,9 @@ class Simulation {
   std::vector<bool> moving_;  ///< false for fixed blocks
   std::vector<SubFaceSurface> surfaces_;
   std::vector<Eigen::MatrixXd> surface_phi_;  ///< phi at the surface points
-  std::vector<double> roundoff_force_;        ///< see BodyStep
+  std::vector<Eigen::MatrixXd>
+      chord_phi_;  ///< phi at cell side middles less the mean of the ends; empty if undivided
+  std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
   IslandSolvers solvers_;
@@ -152,7 +161,7 @@ class Simulation {
   double largest_energy_ = 0.0;
   double largest_penetration_ = 0.0;
   std::vector<Rejection> rejections_;
-  SimulationCounts counts_;
+  SimulationCounts counts_;  ///< factors: those of a run that this one goes on with
   PhaseSeconds seconds_;
 };
 
