@@ -8,7 +8,7 @@ namespace ashlar {
 namespace {
 
 // The corner with the least w . x as far as rounding shows; any answer is allowed.
-int lowest(const std::vector<Vector3>& points, const Vector3& w) {
+int lowest(std::span<const Vector3> points, const Vector3& w) {
   int best = 0;
   double value = w.dot(points[0]);
   for (int v = 1; v < static_cast<int>(points.size()); ++v) {
@@ -161,19 +161,21 @@ class ExactSimplexSearch {
   ClosestSimplex result_;
 };
 
-// Floating GJK: the nearest point of a simplex of up to four corners of D by Voronoi regions (Ericson 2005).
+// Floating GJK: the nearest point of a simplex of up to four corners of D by Voronoi regions. The last corner
+// is the newest one; as it lies beyond the others' nearest point, only regions that contain it are looked at.
 class FloatingSearch {
  public:
-  FloatingSearch(const ConvexShape& a, const ConvexShape& b) : a_(a.corners()), b_(b.corners()) {}
+  FloatingSearch(std::span<const Vector3> a, std::span<const Vector3> b) : a_(a), b_(b) {}
 
   CornerSimplex run() {
-    simplex_.add({0, 0});
-    points_[0] = nearest_ = a_[0] - b_[0];
+    const Vector3 start = a_[0] - b_[0];
+    simplex_.add({lowest(a_, start), lowest(b_, -start)});
+    points_[0] = nearest_ = a_[simplex_.pairs[0].a] - b_[simplex_.pairs[0].b];
     double squared_norm = nearest_.squaredNorm();
     while (simplex_.size < 4 && squared_norm > 0.0) {
       const CornerPair next{lowest(a_, nearest_), lowest(b_, -nearest_)};
       const Vector3 point = a_[next.a] - b_[next.b];
-      if (!(nearest_.dot(point) < squared_norm) || has(next)) break;
+      if (!(nearest_.dot(point) < squared_norm) || has(next) || completes_parallelogram(next)) break;
       const CornerSimplex before = simplex_;
       const std::array<Vector3, 4> points_before = points_;
       points_[simplex_.size] = point;
@@ -197,6 +199,25 @@ class FloatingSearch {
       if (simplex_.pairs[k].a == p.a && simplex_.pairs[k].b == p.b) return true;
     return false;
   }
+  // The last corner of the sum of two edges lies in the plane of the other three; only rounding sees it
+  // nearer.
+  [[nodiscard]] bool completes_parallelogram(const CornerPair& p) const {
+    if (simplex_.size != 3) return false;
+    int same_a = 0, same_b = 0;
+    for (int k = 0; k < 3; ++k) {
+      same_a += static_cast<int>(simplex_.pairs[k].a == p.a);
+      same_b += static_cast<int>(simplex_.pairs[k].b == p.b);
+    }
+    if (same_a != 1 || same_b != 1) return false;
+    for (int k = 0; k < 3; ++k) {  // the corner opposite to p is made of the others' remaining corners
+      const CornerPair& q = simplex_.pairs[k];
+      if (q.a == p.a || q.b == p.b) continue;
+      const CornerPair &r = simplex_.pairs[(k + 1) % 3], &s = simplex_.pairs[(k + 2) % 3];
+      return (r.a == p.a && r.b == q.b && s.a == q.a && s.b == p.b) ||
+             (s.a == p.a && s.b == q.b && r.a == q.a && r.b == p.b);
+    }
+    return false;
+  }
   void keep(std::initializer_list<int> which) {
     int n = 0;
     for (const int k : which) {
@@ -206,45 +227,43 @@ class FloatingSearch {
     simplex_.size = n;
   }
   void shrink() {
-    if (simplex_.size == 2) shrink_segment();
-    if (simplex_.size == 3) shrink_triangle();
-    if (simplex_.size == 4) shrink_tetrahedron();
-  }
-  void shrink_segment() {
-    const Vector3 e = points_[1] - points_[0];
-    const double t = -points_[0].dot(e);
-    if (t <= 0.0) {
-      keep({0});
-      nearest_ = points_[0];
-    } else if (t >= e.squaredNorm()) {
-      keep({1});
-      nearest_ = points_[0];
+    if (simplex_.size == 2) {
+      shrink_segment();
+    } else if (simplex_.size == 3) {
+      shrink_triangle();
     } else {
-      nearest_ = points_[0] + e * (t / e.squaredNorm());
+      shrink_tetrahedron();
     }
   }
-  void shrink_to_side(int i, int j) {
-    keep({i, j});
+  void shrink_segment() {
+    const Vector3 e = points_[0] - points_[1];
+    const double t = -points_[1].dot(e);
+    if (t <= 0.0) return keep_last();
+    nearest_ = points_[1] + e * (t / e.squaredNorm());
+  }
+  void keep_last() {
+    keep({simplex_.size - 1});
+    nearest_ = points_[0];
+  }
+  // Nearest among the segments from the last corner to corner k, and to the other one.
+  void shrink_to_sides(int k, double t, int other, double other_t) {
+    if (t > 0.0)
+      keep({k, 2});
+    else if (other_t > 0.0)
+      keep({other, 2});
+    else
+      return keep_last();
     shrink_segment();
   }
   void shrink_triangle() {
     const Vector3 &a = points_[0], &b = points_[1], &c = points_[2];
-    const Vector3 ab = b - a, ac = c - a;
-    const double d1 = -ab.dot(a), d2 = -ac.dot(a), d3 = -ab.dot(b), d4 = -ac.dot(b), d5 = -ab.dot(c),
-                 d6 = -ac.dot(c);
-    const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-    if (d1 <= 0.0 && d2 <= 0.0) return keep_point(0);
-    if (d3 >= 0.0 && d4 <= d3) return keep_point(1);
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return shrink_to_side(0, 1);
-    if (d6 >= 0.0 && d5 <= d6) return keep_point(2);
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return shrink_to_side(0, 2);
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return shrink_to_side(1, 2);
-    const Vector3 normal = ab.cross(ac);
-    nearest_ = normal * (normal.dot(a) / normal.squaredNorm());
-  }
-  void keep_point(int k) {
-    keep({k});
-    nearest_ = points_[0];
+    const Vector3 ca = a - c, cb = b - c;
+    const double along_a = -c.dot(ca), along_b = -c.dot(cb);
+    if (along_a <= 0.0 && along_b <= 0.0) return keep_last();
+    const Vector3 normal = ca.cross(cb);
+    if (normal.dot(a.cross(c)) > 0.0) return shrink_to_sides(0, along_a, 1, along_b);
+    if (normal.dot(c.cross(b)) > 0.0) return shrink_to_sides(1, along_b, 0, along_a);
+    nearest_ = normal * (normal.dot(c) / normal.squaredNorm());
   }
   void shrink_tetrahedron() {
     const CornerSimplex full = simplex_;
@@ -252,16 +271,15 @@ class FloatingSearch {
     CornerSimplex best;
     std::array<Vector3, 4> best_points;
     Vector3 best_nearest = Vector3::Zero();
-    constexpr std::array<std::array<int, 4>, 4> faces{
-        {{0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}, {0, 1, 2, 3}}};
-    for (const auto& [i, j, k, opposite] : faces) {
-      const Vector3 normal = (points[j] - points[i]).cross(points[k] - points[i]);
-      const double origin_side = -normal.dot(points[i]);
-      const double inner_side = normal.dot(points[opposite] - points[i]);
+    constexpr std::array<std::array<int, 3>, 3> faces{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};
+    for (const auto& [i, j, opposite] : faces) {
+      const Vector3 normal = (points[i] - points[3]).cross(points[j] - points[3]);
+      const double origin_side = -normal.dot(points[3]);
+      const double inner_side = normal.dot(points[opposite] - points[3]);
       if (origin_side * inner_side > 0.0) continue;
       simplex_ = full;
       points_ = points;
-      keep({i, j, k});
+      keep({i, j, 3});
       shrink_triangle();
       if (best.size == 0 || nearest_.squaredNorm() < best_nearest.squaredNorm()) {
         best = simplex_;
@@ -274,8 +292,8 @@ class FloatingSearch {
     nearest_ = best_nearest;
   }
 
-  const std::vector<Vector3>& a_;
-  const std::vector<Vector3>& b_;
+  std::span<const Vector3> a_;
+  std::span<const Vector3> b_;
   CornerSimplex simplex_;
   std::array<Vector3, 4> points_;
   Vector3 nearest_;
@@ -283,7 +301,7 @@ class FloatingSearch {
 
 }  // namespace
 
-CornerSimplex guess_closest_simplex(const ConvexShape& a, const ConvexShape& b) {
+CornerSimplex guess_closest_simplex(std::span<const Vector3> a, std::span<const Vector3> b) {
   return FloatingSearch(a, b).run();
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "geometry/contact_direction.hpp"
@@ -36,8 +37,8 @@ struct ClosestSimplex {
   std::vector<int> support_a, support_b;
 };
 
-/// Floating guess of the simplex; any answer is allowed.
-[[nodiscard]] CornerSimplex guess_closest_simplex(const ConvexShape& a, const ConvexShape& b);
+/// Floating guess of the simplex for the corners of two convex sets; any answer is allowed.
+[[nodiscard]] CornerSimplex guess_closest_simplex(std::span<const Vector3> a, std::span<const Vector3> b);
 
 [[nodiscard]] ClosestSimplex find_closest_simplex(const ConvexShape& a, const ConvexShape& b,
                                                   const CornerSimplex& guess, PredicateLadder& ladder);

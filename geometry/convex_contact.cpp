@@ -26,7 +26,7 @@ class ContactReport {
   }
 
   ConvexContact run(const std::optional<Entrance>& history, const CrossingDetail& detail) {
-    const CornerSimplex guess = guess_closest_simplex(a_, b_);
+    const CornerSimplex guess = guess_closest_simplex(a_.corners(), b_.corners());
     // A guess that found the origin inside is worth asking for a separating direction first.
     if (guess.size < 4 || !intersecting(history, detail)) {
       ClosestSimplex closest = find_closest_simplex(a_, b_, guess, ladder_);
