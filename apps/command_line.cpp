@@ -51,6 +51,10 @@ int run_command_line(std::vector<std::string> arguments, std::ostream& out, std:
   } catch (const CLI::ParseError& error) {
     // Also how --help and --version end the parsing; those are no faults.
     return program.exit(error, out, err) == 0 ? exit_status::done : exit_status::bad_input;
+  } catch (const std::exception& error) {
+    // No fault of the input ends here; what does is the program's own failure.
+    err << "ashlar: error: " << error.what() << '\n';
+    return exit_status::failed;
   }
   return context.status;
 }

@@ -32,7 +32,8 @@ struct CommandContext {
 /// Declares a sub-command on the program. Its callback runs the command and sets the context's status.
 using CommandDeclaration = void (*)(CLI::App& program, CommandContext& context);
 
-/// Parses and runs. @param arguments without the program's name. @return exit status.
+/// Parses and runs. A failure of the program, e.g. a result that cannot be written, goes to `err` too.
+/// @param arguments without the program's name. @return exit status.
 [[nodiscard]] int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err);
 
 }  // namespace ashlar

@@ -48,8 +48,8 @@ std::string format_progress(const ProgressState& state, double end_time, std::op
   return line;
 }
 
-ProgressLine::ProgressLine(double end_time, bool quiet)
-    : ProgressLine(end_time, choose_progress_mode(quiet), std::cerr, steady_seconds) {}
+ProgressLine::ProgressLine(double end_time, bool quiet, std::ostream& out)
+    : ProgressLine(end_time, choose_progress_mode(quiet), out, steady_seconds) {}
 
 ProgressLine::ProgressLine(double end_time, ProgressMode mode, std::ostream& out,
                            std::function<double()> wall_clock)

@@ -34,8 +34,8 @@ enum class ProgressMode {
 
 class ProgressLine {
  public:
-  /// Writes to stderr. @param end_time s, simulated.
-  ProgressLine(double end_time, bool quiet);
+  /// @param end_time s, simulated. @param out stderr, or what stands for it
+  ProgressLine(double end_time, bool quiet, std::ostream& out);
   /// @param wall_clock s since any moment; decides how often something is written and how much time is left.
   ProgressLine(double end_time, ProgressMode mode, std::ostream& out, std::function<double()> wall_clock);
   /// Ends the line, so that an error message that follows starts on its own.

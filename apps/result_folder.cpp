@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <stdexcept>
+#include <system_error>
 
 #include "apps/csv_text.hpp"
 
@@ -26,11 +29,24 @@ std::vector<MeasuredPoint> find_measures(const Scene& scene) {
   return measures;
 }
 
-std::filesystem::path prepared(std::filesystem::path folder) {
-  std::filesystem::create_directories(folder / "frames");
+void remove_frames_but(const std::filesystem::path& folder, const std::set<std::filesystem::path>& kept) {
   for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
-    if (entry.path().extension() == ".vtu") std::filesystem::remove(entry.path());
+    if (entry.path().extension() == ".vtu" && !kept.contains(entry.path()))
+      std::filesystem::remove(entry.path());
   }
+}
+
+/// Results of an earlier run must not be taken for those of the one that starts.
+std::filesystem::path emptied(std::filesystem::path folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder / "frames", error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("cannot create the result folder {}: {}", folder.string(), error.message()));
+  }
+  remove_frames_but(folder, {});
+  std::filesystem::remove(folder / "checkpoint");
+  std::filesystem::remove(folder / "summary.json");
   return folder;
 }
 
@@ -165,7 +181,7 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
 }
 
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation)
-    : folder_(prepared(std::move(folder))),
+    : folder_(emptied(std::move(folder))),
       output_(scene.output),
       measures_(find_measures(scene)),
       history_(folder_ / "history.csv", history_columns(measures_)),
@@ -174,6 +190,37 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
   contact_rows_.write(contact_columns);
   add_step(simulation);
+}
+
+ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+                           const ResultFolderState& state)
+    : folder_(std::move(folder)),
+      output_(scene.output),
+      measures_(find_measures(scene)),
+      history_(
+          HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), simulation.steps())),
+      blocks_(folder_ / "blocks.pvd", state.block_frames),
+      contacts_(folder_ / "contacts.pvd", state.contact_frames),
+      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
+      last_frame_step_(state.last_frame_step),
+      intervals_written_(state.intervals_written) {
+  if (contact_rows_.size() < state.contact_bytes) {
+    throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
+                                         contact_rows_.path().string(), contact_rows_.size(),
+                                         state.contact_bytes));
+  }
+  contact_rows_.truncate(state.contact_bytes);
+  std::set<std::filesystem::path> kept;
+  for (const auto* frames : {&state.block_frames, &state.contact_frames}) {
+    for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
+  }
+  remove_frames_but(folder_, kept);
+}
+
+ResultFolderState ResultFolder::synced_state() {
+  history_.sync();
+  contact_rows_.sync();
+  return {blocks_.frames(), contacts_.frames(), contact_rows_.size(), last_frame_step_, intervals_written_};
 }
 
 void ResultFolder::add_step(const Simulation& simulation) {

@@ -1,6 +1,7 @@
 // The result folder of a run: history.csv, contacts.csv, frames for ParaView and summary.json.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -35,17 +36,35 @@ struct MeasuredPoint {
 /// blocks.
 [[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
 
-/// Writes everything but the summary; files of frames are in `frames/`.
+/// How far the files are; a checkpoint holds it.
+struct ResultFolderState {
+  std::vector<PvdFrame> block_frames;
+  std::vector<PvdFrame> contact_frames;
+  std::uint64_t contact_bytes = 0;  ///< in contacts.csv
+  int last_frame_step = -1;
+  int intervals_written = 0;
+};
+
+/// Writes everything but the summary and the checkpoint; files of frames are in `frames/`. Errors are
+/// std::runtime_error with path and reason.
 class ResultFolder {
  public:
-  /// Creates the folder, or empties the files of an earlier run in it. @throws std::runtime_error with path
-  /// and reason
+  /// Creates the folder, or removes the results of an earlier run in it, and adds the simulation's present
+  /// step.
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation);
 
-  /// Called after every accepted step (and once before the first).
+  /// Goes on in the folder of an earlier run: what was written after `state` was taken is dropped.
+  /// @param simulation as it was then
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+               const ResultFolderState& state);
+
+  /// Called after every accepted step.
   void add_step(const Simulation& simulation);
   /// Writes a frame now, unless one was written at this step.
   void add_frame(const Simulation& simulation);
+
+  /// Waits until the tables are on the disk; a checkpoint counts on them.
+  [[nodiscard]] ResultFolderState synced_state();
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
   [[nodiscard]] int frames() const { return static_cast<int>(blocks_.frames().size()); }

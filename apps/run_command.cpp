@@ -4,17 +4,20 @@
 
 #include <chrono>
 #include <csignal>
-#include <iostream>
 #include <optional>
+#include <ostream>
 
 #include "apps/atomic_file.hpp"
 #include "apps/command_line.hpp"
 #include "apps/progress.hpp"
 #include "apps/result_folder.hpp"
+#include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
 
 namespace ashlar {
 namespace {
+
+constexpr const char* checkpoint_name = "checkpoint";
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -72,60 +75,120 @@ int exit_status_of(RunStatus status) {
   return exit_status::failed;
 }
 
-/// Steps until the end, an interrupt or a failure. @param message why it failed
-RunStatus run_steps(Simulation& simulation, double end_time, ResultFolder& folder, ProgressLine& progress,
-                    RunSeconds& seconds, std::string& message) {
-  while (simulation.time() < end_time) {
-    if (interrupted != 0) return RunStatus::interrupted;
-    if (simulation.step(end_time) != StepStatus::accepted) {
-      const Rejection& last = simulation.rejections().back();
-      message = fmt::format("step {} at t = {} s was rejected down to a time step of {} s: {}",
-                            simulation.steps() + 1, simulation.time(), last.step, to_string(last.reason));
-      return RunStatus::failed;
-    }
-    const double before = seconds_now();
-    folder.add_step(simulation);
-    progress.update(progress_of(simulation));
-    seconds.output += seconds_now() - before;
+/// A run from its first step, or from a checkpoint, to its end.
+class Run {
+ public:
+  Run(const LoadedScene& loaded, BuiltSimulation built, std::filesystem::path folder,
+      const std::optional<RunCheckpoint>& earlier)
+      : scene_(loaded.scene),
+        hash_(scene_hash(loaded)),
+        built_(std::move(built)),
+        folder_(earlier ? ResultFolder(std::move(folder), scene_, built_.simulation, earlier->folder)
+                        : ResultFolder(std::move(folder), scene_, built_.simulation)) {
+    if (earlier) earlier_seconds_ = earlier->seconds;
   }
-  return RunStatus::completed;
+
+  /// Steps until the end, an interrupt or a failure. @param start wall time at which the program began, s
+  RunStatus go(double start, bool quiet, std::ostream& err) {
+    seconds_.setup = seconds_now() - start;
+    ProgressLine progress(scene_.analysis.end_time, quiet, err);
+    const RunStatus status = take_steps(start, progress);
+    // Before the last frame, which a run that goes on has only if it is due.
+    save(start);
+    folder_.add_frame(built_.simulation);
+    progress.finish();
+    const auto summary =
+        run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
+    write_file_atomically(folder_.path() / "summary.json", summary.dump(2) + "\n", Durability::process);
+    return status;
+  }
+
+  /// Why the run failed.
+  [[nodiscard]] const std::string& message() const { return message_; }
+
+ private:
+  RunStatus take_steps(double start, ProgressLine& progress) {
+    Simulation& simulation = built_.simulation;
+    const double end_time = scene_.analysis.end_time;
+    double saved_at = seconds_now();
+    while (simulation.time() < end_time) {
+      if (interrupted != 0) return RunStatus::interrupted;
+      if (simulation.step(end_time) != StepStatus::accepted) {
+        const Rejection& last = simulation.rejections().back();
+        message_ = fmt::format("step {} at t = {} s was rejected down to a time step of {} s: {}",
+                               simulation.steps() + 1, simulation.time(), last.step, to_string(last.reason));
+        return RunStatus::failed;
+      }
+      const double before = seconds_now();
+      folder_.add_step(simulation);
+      progress.update(progress_of(simulation));
+      if (before - saved_at > checkpoint_interval) {
+        save(start);
+        saved_at = seconds_now();
+      }
+      seconds_.output += seconds_now() - before;
+    }
+    return RunStatus::completed;
+  }
+
+  void save(double start) {
+    write_checkpoint(folder_.path() / checkpoint_name, hash_,
+                     {built_.simulation.snapshot(), folder_.synced_state(), seconds_until_now(start)});
+  }
+
+  [[nodiscard]] RunSeconds seconds_until_now(double start) const {
+    return {earlier_seconds_.total + seconds_now() - start, earlier_seconds_.setup + seconds_.setup,
+            earlier_seconds_.output + seconds_.output};
+  }
+
+  const Scene& scene_;
+  std::uint64_t hash_;
+  BuiltSimulation built_;
+  ResultFolder folder_;
+  RunSeconds earlier_seconds_;
+  RunSeconds seconds_;
+  std::string message_;
+};
+
+/// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
+std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
+                                             Diagnostics& diagnostics) {
+  const std::filesystem::path path = folder / checkpoint_name;
+  try {
+    return read_checkpoint(path, scene_hash(loaded));
+  } catch (const CheckpointError& error) {
+    diagnostics.error({path.string()}, error.what());
+    return std::nullopt;
+  }
 }
 
 }  // namespace
 
-int run_command(const RunOptions& options) {
-  RunSeconds seconds;
+int run_command(const RunOptions& options, std::ostream& err) {
   const double start = seconds_now();
+  const std::filesystem::path folder = result_folder_of(options);
   Diagnostics diagnostics;
   const std::optional<LoadedScene> loaded = load_scene(options.scene, options.overrides, diagnostics);
   std::optional<BuiltSimulation> built;
   if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics);
-  if (!built) {
-    diagnostics.print(std::cerr);
+  std::optional<RunCheckpoint> earlier;
+  if (built && options.resume) earlier = find_checkpoint(folder, *loaded, diagnostics);
+  if (!diagnostics.empty()) {
+    diagnostics.print(err);
     return exit_status::bad_input;
   }
+  if (earlier) built->simulation.restore(earlier->simulation);
   if (!options.quiet) {
     for (const AutomaticChoice& choice : built->choices) {
-      std::cerr << fmt::format("chosen: {} = {:.4g} {}\n", choice.key, choice.value, choice.unit);
+      err << fmt::format("chosen: {} = {:.4g} {}\n", choice.key, choice.value, choice.unit);
     }
   }
-  seconds.setup = seconds_now() - start;
-
   const InterruptGuard guard;
-  Simulation& simulation = built->simulation;
-  ResultFolder folder(result_folder_of(options), loaded->scene, simulation);
-  ProgressLine progress(loaded->scene.analysis.end_time, options.quiet);
-  std::string message;
-  const RunStatus status =
-      run_steps(simulation, loaded->scene.analysis.end_time, folder, progress, seconds, message);
-  folder.add_frame(simulation);
-  progress.finish();
-  seconds.total = seconds_now() - start;
-  const auto summary = run_summary(loaded->scene, *built, status, message, seconds, folder.frames());
-  write_file_atomically(folder.path() / "summary.json", summary.dump(2) + "\n", Durability::process);
+  Run run(*loaded, std::move(*built), folder, earlier);
+  const RunStatus status = run.go(start, options.quiet, err);
   if (status == RunStatus::failed) {
-    std::cerr << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message,
-                             folder.path().string());
+    err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", run.message(),
+                       folder.string());
   }
   return exit_status_of(status);
 }

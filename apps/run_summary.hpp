@@ -12,7 +12,7 @@ namespace ashlar {
 enum class RunStatus { completed, failed, interrupted };
 [[nodiscard]] std::string to_string(RunStatus status);
 
-/// Wall time of the parts of a run, s.
+/// Wall time of the parts of a run, s; of a resumed one with what came before.
 struct RunSeconds {
   double total = 0.0;
   double setup = 0.0;

@@ -3,6 +3,7 @@
 // one between the same faces.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "mechanics/contact_points.hpp"
@@ -20,6 +21,19 @@ struct PointMemory {
 /// Memory of a pair of blocks.
 class ContactMemory {
  public:
+  /// One remembered point: where it is in block a's material and the faces it is between.
+  struct Entry {
+    Vector3 material_a;
+    int face_a;
+    int face_b;
+    PointMemory memory;
+  };
+
+  ContactMemory() = default;
+  /// As `entries` and `deepest` of an earlier one.
+  ContactMemory(std::vector<Entry> entries, double deepest)
+      : entries_(std::move(entries)), deepest_(deepest) {}
+
   /// Memory for each of the new points: that of the nearest old point of the same faces, with the slip turned
   /// into the new tangent plane; points without one start open, bonded by the joint's strength if their gap
   /// is at most `bond_distance`, m (minus infinity: never).
@@ -31,13 +45,6 @@ class ContactMemory {
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
-  /// One remembered point: where it is in block a's material and the faces it is between.
-  struct Entry {
-    Vector3 material_a;
-    int face_a;
-    int face_b;
-    PointMemory memory;
-  };
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:

@@ -143,24 +143,14 @@ void IslandSolvers::drop_unused() {
       ++entry;
       continue;
     }
-    const FactorCounts& counts = entry->second.factor.counts();
-    dropped_.analyses += counts.analyses;
-    dropped_.factorizations += counts.factorizations;
-    dropped_.factorizations_reused += counts.factorizations_reused;
-    dropped_.solves += counts.solves;
+    dropped_ += entry->second.factor.counts();
     entry = entries_.erase(entry);
   }
 }
 
 FactorCounts IslandSolvers::counts() const {
   FactorCounts sum = dropped_;
-  for (const auto& [key, entry] : entries_) {
-    const FactorCounts& counts = entry.factor.counts();
-    sum.analyses += counts.analyses;
-    sum.factorizations += counts.factorizations;
-    sum.factorizations_reused += counts.factorizations_reused;
-    sum.solves += counts.solves;
-  }
+  for (const auto& [key, entry] : entries_) sum += entry.factor.counts();
   return sum;
 }
 

@@ -30,6 +30,13 @@ struct FactorCounts {
   std::uint64_t factorizations = 0;
   std::uint64_t factorizations_reused = 0;
   std::uint64_t solves = 0;
+  FactorCounts& operator+=(const FactorCounts& other) {
+    analyses += other.analyses;
+    factorizations += other.factorizations;
+    factorizations_reused += other.factorizations_reused;
+    solves += other.solves;
+    return *this;
+  }
 };
 
 /// States: empty -> analyzed (pattern known) -> factored (values known). Movable, not copyable.

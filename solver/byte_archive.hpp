@@ -1,0 +1,158 @@
+// Plain values as bytes and back, every number in full: what a checkpoint is made of.
+//
+// A struct takes part by one function template that lists its members for both directions, in its namespace:
+//   template <class Archive>
+//   void visit_members(Archive& archive, Ledger& ledger) { archive(ledger.kinetic, ledger.elastic); }
+// Numbers are stored as they lie in memory, little-endian; containers as their size and their elements.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace ashlar {
+
+static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
+
+template <class T>
+concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Appends values to a string of bytes.
+class ByteWriter {
+ public:
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (write(values), ...);
+  }
+  [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+ private:
+  template <PlainNumber T>
+  void write(const T& value) {
+    append(&value, sizeof(T));
+  }
+  void write(const std::string& text) {
+    write_size(text.size());
+    bytes_ += text;
+  }
+  template <class T, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
+  void write(const Eigen::Matrix<T, Rows, Columns, Options, MaxRows, MaxColumns>& matrix) {
+    write_size(static_cast<std::size_t>(matrix.rows()));
+    write_size(static_cast<std::size_t>(matrix.cols()));
+    append(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(T));
+  }
+  template <class T>
+  void write(const std::vector<T>& values) {
+    write_size(values.size());
+    for (const T& value : values) write(value);
+  }
+  template <class T, std::size_t Size>
+  void write(const std::array<T, Size>& values) {
+    for (const T& value : values) write(value);
+  }
+  template <class Key, class Value>
+  void write(const std::map<Key, Value>& values) {
+    write_size(values.size());
+    for (const auto& [key, value] : values) (*this)(key, value);
+  }
+  template <class T>
+  requires std::is_class_v<T>
+  void write(const T& value) {
+    // One list of members serves both directions; this direction only reads them.
+    visit_members(*this, const_cast<T&>(value));
+  }
+  void write_size(std::size_t size) { write(static_cast<std::uint64_t>(size)); }
+  void append(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+
+  std::string bytes_;
+};
+
+/// Takes the values back in the order in which they were written.
+/// @throws std::runtime_error where the bytes end too early or a size cannot be right.
+class ByteReader {
+ public:
+  /// @param bytes must outlive this
+  explicit ByteReader(std::string_view bytes) : left_(bytes) {}
+
+  template <class... Values>
+  void operator()(Values&... values) {
+    (read(values), ...);
+  }
+  [[nodiscard]] bool at_end() const { return left_.empty(); }
+
+ private:
+  template <PlainNumber T>
+  void read(T& value) {
+    take(&value, sizeof(T));
+  }
+  void read(std::string& text) {
+    text.resize(read_size(1));
+    take(text.data(), text.size());
+  }
+  template <class T, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
+  void read(Eigen::Matrix<T, Rows, Columns, Options, MaxRows, MaxColumns>& matrix) {
+    const std::size_t rows = read_size(sizeof(T));
+    const std::size_t columns = read_size(sizeof(T));
+    const bool fits = (Rows == Eigen::Dynamic || rows == static_cast<std::size_t>(Rows)) &&
+                      (Columns == Eigen::Dynamic || columns == static_cast<std::size_t>(Columns));
+    if (!fits || rows * columns > left_.size() / sizeof(T)) fail();
+    matrix.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+    take(matrix.data(), rows * columns * sizeof(T));
+  }
+  template <class T>
+  void read(std::vector<T>& values) {
+    values.resize(read_size(1));
+    for (T& value : values) read(value);
+  }
+  template <class T, std::size_t Size>
+  void read(std::array<T, Size>& values) {
+    for (T& value : values) read(value);
+  }
+  template <class Key, class Value>
+  void read(std::map<Key, Value>& values) {
+    values.clear();
+    for (std::size_t left = read_size(1); left > 0; --left) {
+      Key key;
+      read(key);
+      read(values[key]);
+    }
+  }
+  template <class T>
+  requires std::is_class_v<T>
+  void read(T& value) { visit_members(*this, value); }
+
+  /// A number of elements that take at least so many bytes each.
+  std::size_t read_size(std::size_t least_bytes) {
+    std::uint64_t size = 0;
+    read(size);
+    if (size > left_.size() / least_bytes) fail();
+    return static_cast<std::size_t>(size);
+  }
+  void take(void* target, std::size_t size) {
+    if (size > left_.size()) fail();
+    if (size > 0) std::memcpy(target, left_.data(), size);
+    left_.remove_prefix(size);
+  }
+  [[noreturn]] static void fail() { throw std::runtime_error("stored values end too early"); }
+
+  std::string_view left_;
+};
+
+/// FNV-1a hash of bytes. @param start a former hash, to go on with
+[[nodiscard]] constexpr std::uint64_t hash_bytes(std::string_view bytes,
+                                                 std::uint64_t start = 14695981039346656037ULL) {
+  std::uint64_t hash = start;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211ULL;
+  return hash;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,156 @@
+#include "solver/checkpoint.hpp"
+
+#include <stdexcept>
+
+#include "solver/byte_archive.hpp"
+
+namespace ashlar {
+
+template <class Archive>
+static void visit_members(Archive& archive, BlockState& state) {
+  archive(state.position, state.velocity);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PointMemory& memory) {
+  archive(memory.slip, memory.state, memory.intact);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ContactMemory::Entry& entry) {
+  archive(entry.material_a, entry.face_a, entry.face_b, entry.memory);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, RememberedPair& pair) {
+  archive(pair.blocks, pair.entries, pair.deepest);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, StepReport& report) {
+  archive(report.step, report.iterations, report.open, report.locked, report.sliding, report.penetration);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ContactPoint& point) {
+  archive(point.type, point.face_a, point.face_b, point.material_a, point.material_b, point.place_a,
+          point.place_b, point.normal, point.tangent_1, point.tangent_2, point.gap, point.area);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PointResponse& response) {
+  archive(response.state, response.force, response.tangent, response.energy);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PairRecord& record) {
+  archive(record.a, record.b, record.points, record.responses, record.gaps, record.work);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, Ledger& ledger) {
+  archive(ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction, ledger.applied,
+          ledger.numerical, ledger.residual);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, Rejection& rejection) {
+  archive(rejection.time, rejection.step, rejection.reason);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PredicateCounts& counts) {
+  archive(counts.filter, counts.exact);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, FactorCounts& counts) {
+  archive(counts.analyses, counts.factorizations, counts.factorizations_reused, counts.solves);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, SimulationCounts& counts) {
+  archive(counts.block_pairs_tested, counts.block_pairs_skipped, counts.contact_points,
+          counts.open_close_iterations, counts.predicates, counts.factors);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PhaseSeconds& seconds) {
+  archive(seconds.contact_search, seconds.contact_points, seconds.solve);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
+  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.memory,
+          snapshot.contact_work, snapshot.report, snapshot.records, snapshot.ledger, snapshot.start_balance,
+          snapshot.largest_step_residual, snapshot.largest_energy, snapshot.largest_penetration,
+          snapshot.rejections, snapshot.counts, snapshot.seconds);
+}
+
+std::string to_bytes(const SimulationSnapshot& snapshot) {
+  ByteWriter writer;
+  writer(snapshot);
+  return writer.take();
+}
+
+SimulationSnapshot snapshot_from_bytes(std::string_view bytes) {
+  SimulationSnapshot snapshot;
+  ByteReader reader(bytes);
+  reader(snapshot);
+  if (!reader.at_end()) throw std::runtime_error("more is stored than a snapshot has");
+  return snapshot;
+}
+
+SimulationSnapshot Simulation::snapshot() const {
+  SimulationSnapshot result;
+  result.time = time_;
+  result.next_step = next_step_;
+  result.steps = steps_;
+  result.states = states_;
+  for (const auto& [blocks, memory] : memory_) {
+    result.memory.push_back({blocks, memory.entries(), memory.deepest()});
+  }
+  result.contact_work = contact_work_;
+  result.report = report_;
+  result.records = records_;
+  result.ledger = ledger_;
+  result.start_balance = start_balance_;
+  result.largest_step_residual = largest_step_residual_;
+  result.largest_energy = largest_energy_;
+  result.largest_penetration = largest_penetration_;
+  result.rejections = rejections_;
+  result.counts = counts();
+  result.seconds = seconds_;
+  return result;
+}
+
+void Simulation::restore(const SimulationSnapshot& snapshot) {
+  bool fits = snapshot.states.size() == blocks_.size();
+  for (std::size_t k = 0; fits && k < blocks_.size(); ++k) {
+    fits = snapshot.states[k].position.rows() == states_[k].position.rows() &&
+           snapshot.states[k].velocity.rows() == states_[k].velocity.rows();
+  }
+  if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
+  time_ = snapshot.time;
+  next_step_ = snapshot.next_step;
+  steps_ = snapshot.steps;
+  states_ = snapshot.states;
+  memory_.clear();
+  for (const RememberedPair& pair : snapshot.memory) {
+    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest));
+  }
+  contact_work_ = snapshot.contact_work;
+  report_ = snapshot.report;
+  records_ = snapshot.records;
+  ledger_ = snapshot.ledger;
+  start_balance_ = snapshot.start_balance;
+  largest_step_residual_ = snapshot.largest_step_residual;
+  largest_energy_ = snapshot.largest_energy;
+  largest_penetration_ = snapshot.largest_penetration;
+  rejections_ = snapshot.rejections;
+  solvers_ = IslandSolvers();
+  counts_ = snapshot.counts;
+  seconds_ = snapshot.seconds;
+}
+
+}  // namespace ashlar
