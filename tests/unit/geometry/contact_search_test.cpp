@@ -1,0 +1,208 @@
+#include "geometry/contact_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <numbers>
+#include <random>
+
+#include "geometry/shapes.hpp"
+#include "support/sample_solids.hpp"
+
+namespace ashlar {
+namespace {
+
+const ContactLimits limits{0.02, 0.02, 10.0 * std::numbers::pi / 180.0};
+
+struct Body {
+  Polyhedron solid;
+  SubFaceSurface surface;
+  PlacedSurface placed;
+  explicit Body(Polyhedron polyhedron, int levels = 0)
+      : solid(std::move(polyhedron)),
+        surface(divide_surface(solid, levels)),
+        placed(surface, surface.points) {}
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
+};
+
+Polyhedron box(const Vector3& low, const Vector3& high) {
+  return Polyhedron(make_box(low, high));
+}
+
+Polyhedron moved(const Polyhedron& solid, const Eigen::AngleAxisd& turn, const Vector3& shift) {
+  std::vector<Vector3> points;
+  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point + shift);
+  return solid.with_points(std::move(points));
+}
+
+double overlap_area(const PairContacts& contacts) {
+  double sum = 0.0;
+  for (const CellOverlap& overlap : contacts.overlaps) {
+    for (std::size_t k = 0; k < overlap.corners.size(); ++k) {
+      const auto& p = overlap.corners[k].place;
+      const auto& q = overlap.corners[(k + 1) % overlap.corners.size()].place;
+      sum += 0.5 * (p.x() * q.y() - p.y() * q.x());
+    }
+  }
+  return sum;
+}
+
+TEST(ContactSearch, FaceOnFaceIsTheOverlapAlone) {
+  const Body base(box({0, 0, 0}, {4, 4, 1}));
+  for (const double gap : {0.01, 0.0, -0.01}) {
+    const Body cube(box({3.5, 1, 1 + gap}, {4.5, 2, 2 + gap}));
+    for (const bool swapped : {false, true}) {
+      const PairContacts contacts = swapped ? find_contacts(base.placed, cube.placed, limits)
+                                            : find_contacts(cube.placed, base.placed, limits);
+      ASSERT_EQ(contacts.overlaps.size(), 1U);
+      EXPECT_TRUE(contacts.vertices.empty());
+      EXPECT_TRUE(contacts.edges.empty());
+      EXPECT_NEAR(overlap_area(contacts), 0.5, 1e-15);
+      for (const double g : contacts.overlaps[0].gaps) EXPECT_NEAR(g, gap, 1e-15);
+      EXPECT_EQ(contacts.overlaps[0].frame.w, Vector3(0, 0, swapped ? -1 : 1));
+    }
+  }
+  const Body far(box({3.5, 1, 1.03}, {4.5, 2, 2}));
+  EXPECT_TRUE(find_contacts(far.placed, base.placed, limits).empty());
+}
+
+TEST(ContactSearch, AreaDoesNotDependOnTheDivisionOfTheFaces) {
+  const Body plain(box({0, 0, 0}, {4, 4, 1}));
+  const Body cube(
+      moved(box({-0.5, -0.5, 0}, {0.5, 0.5, 1}), Eigen::AngleAxisd(0.3, Vector3::UnitZ()), {2, 2, 1}));
+  const Body divided(box({0, 0, 0}, {4, 4, 1}), 3);
+  EXPECT_NEAR(overlap_area(find_contacts(cube.placed, plain.placed, limits)), 1.0, 1e-14);
+  const PairContacts contacts = find_contacts(cube.placed, divided.placed, limits);
+  EXPECT_GT(contacts.overlaps.size(), 4U);
+  EXPECT_NEAR(overlap_area(contacts), 1.0, 1e-14);
+  EXPECT_TRUE(contacts.vertices.empty());  // inner points of a divided face are no vertices
+  EXPECT_TRUE(contacts.edges.empty());
+}
+
+TEST(ContactSearch, CubeOnItsEdge) {
+  // Turned by 45 degrees about y: the lowest edge runs along y at z = 1.
+  const double r = std::sqrt(0.5);
+  const Body base(box({-4, -4, 0}, {4, 4, 1}));
+  const Body cube(moved(box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}),
+                        Eigen::AngleAxisd(std::numbers::pi / 4, Vector3::UnitY()), {0, 0, 1 + r - 0.005}));
+  const PairContacts contacts = find_contacts(cube.placed, base.placed, limits);
+  EXPECT_TRUE(contacts.overlaps.empty());
+  EXPECT_TRUE(contacts.edges.empty());
+  ASSERT_EQ(contacts.vertices.size(), 2U);  // both ends of the edge
+  for (const VertexContact& contact : contacts.vertices) {
+    EXPECT_TRUE(contact.vertex_of_a);
+    EXPECT_NEAR(contact.gap, -0.005, 1e-14);
+    EXPECT_NEAR(contact.area, 0.25, 1e-14);
+  }
+}
+
+TEST(ContactSearch, EdgeOverARimEndsInACrossing) {
+  const double r = std::sqrt(0.5);
+  const Body base(box({-4, 0, 0}, {4, 4, 1}));
+  const Body cube(moved(box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}),
+                        Eigen::AngleAxisd(std::numbers::pi / 4, Vector3::UnitY()), {0, 0, 1 + r + 0.005}));
+  const PairContacts contacts = find_contacts(cube.placed, base.placed, limits);
+  ASSERT_EQ(contacts.vertices.size(), 1U);
+  ASSERT_EQ(contacts.edges.size(), 1U);
+  EXPECT_NEAR(contacts.edges[0].gap, 0.005, 1e-14);
+  EXPECT_LT((contacts.edges[0].normal - Vector3::UnitZ()).norm(), 1e-14);
+}
+
+TEST(ContactSearch, CrossedEdges) {
+  // Two ridges at right angles, one from above.
+  const double r = std::sqrt(0.5);
+  const Eigen::AngleAxisd about_y(std::numbers::pi / 4, Vector3::UnitY());
+  const Eigen::AngleAxisd about_x(std::numbers::pi / 4, Vector3::UnitX());
+  const Body below(moved(box({-0.5, -2, -0.5}, {0.5, 2, 0.5}), about_y, {0, 0, 0}));
+  const Body above(moved(box({-2, -0.5, -0.5}, {2, 0.5, 0.5}), about_x, {0, 0, 2 * r - 0.01}));
+  const PairContacts contacts = find_contacts(above.placed, below.placed, limits);
+  EXPECT_TRUE(contacts.overlaps.empty());
+  EXPECT_TRUE(contacts.vertices.empty());
+  ASSERT_EQ(contacts.edges.size(), 1U);
+  EXPECT_NEAR(contacts.edges[0].gap, -0.01, 1e-14);
+  EXPECT_NEAR(contacts.edges[0].along_a, 0.5, 1e-14);
+  EXPECT_LT((contacts.edges[0].normal - Vector3::UnitZ()).norm(), 1e-14);
+}
+
+TEST(ContactSearch, CubeOnItsCorner) {
+  const Eigen::Quaterniond upright =
+      Eigen::Quaterniond::FromTwoVectors(Vector3(1, 1, 1).normalized(), Vector3(0, 0, -1));
+  const Body base(box({-4, -4, 0}, {4, 4, 1}));
+  const Body cube(moved(box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), Eigen::AngleAxisd(upright),
+                        {0, 0, 1 + 0.5 * std::sqrt(3.0) - 0.001}));
+  const PairContacts contacts = find_contacts(cube.placed, base.placed, limits);
+  ASSERT_EQ(contacts.vertices.size(), 1U);
+  EXPECT_NEAR(contacts.vertices[0].gap, -0.001, 1e-14);
+  EXPECT_TRUE(contacts.overlaps.empty() && contacts.edges.empty());
+}
+
+TEST(ContactSearch, VertexOverARidgeEntersThroughOneFace) {
+  const Body ridge(moved(box({-0.5, -2, -0.5}, {0.5, 2, 0.5}),
+                         Eigen::AngleAxisd(std::numbers::pi / 4, Vector3::UnitY()), {0, 0, -std::sqrt(0.5)}));
+  const Eigen::Quaterniond upright =
+      Eigen::Quaterniond::FromTwoVectors(Vector3(1, 1, 1).normalized(), Vector3(0, 0, -1));
+  const Body cube(moved(box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), Eigen::AngleAxisd(upright),
+                        {0, 0.1, 0.5 * std::sqrt(3.0) - 0.001}));
+  const PairContacts contacts = find_contacts(cube.placed, ridge.placed, limits);
+  EXPECT_LE(contacts.vertices.size(), 1U);
+}
+
+TEST(ContactSearch, ABlockInACornerHasTwoContacts) {
+  const Body corner(test_support::l_shaped_prism());  // notch at x > 1, y > 1
+  const Body cube(box({1, 1, 0}, {2, 2, 1}));
+  const PairContacts contacts = find_contacts(cube.placed, corner.placed, limits);
+  EXPECT_NEAR(overlap_area(contacts), 2.0, 1e-14);
+  for (const CellOverlap& overlap : contacts.overlaps) {
+    EXPECT_NEAR(std::abs(overlap.frame.w.x()) + std::abs(overlap.frame.w.y()), 1.0, 1e-15);
+  }
+  EXPECT_TRUE(contacts.vertices.empty());
+  EXPECT_TRUE(contacts.edges.empty());
+}
+
+TEST(ContactSearch, MeetingBoxesEqualBruteForce) {
+  std::mt19937_64 random(20241107);
+  const auto number = [&] { return static_cast<double>(random() % 1000) / 100.0; };
+  std::vector<Box> boxes;
+  for (int k = 0; k < 300; ++k) {
+    const Vector3 low(number(), number(), number());
+    boxes.push_back({low, low + 0.1 * Vector3(number(), number(), number())});
+  }
+  std::vector<std::array<int, 2>> expected;
+  for (int i = 0; i < 300; ++i) {
+    for (int j = i + 1; j < 300; ++j) {
+      if (boxes[static_cast<std::size_t>(i)].meets(boxes[static_cast<std::size_t>(j)]))
+        expected.push_back({i, j});
+    }
+  }
+  EXPECT_GT(expected.size(), 30U);
+  EXPECT_EQ(meeting_boxes(boxes), expected);
+  EXPECT_TRUE(meeting_boxes({}).empty());
+}
+
+TEST(SubFaceSurface, DividesConformingly) {
+  for (const int levels : {0, 1, 2}) {
+    const Body body(test_support::l_shaped_prism(), levels);
+    double area = 0.0;
+    for (std::size_t c = 0; c < body.surface.cells.size(); ++c) {
+      const auto corners = body.placed.corners(static_cast<int>(c));
+      Vector3 sum = Vector3::Zero();
+      for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        sum += 0.5 * (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
+      }
+      area += sum.norm();
+    }
+    EXPECT_NEAR(area, 2 * 3.0 + 8.0, 1e-13);
+    double edge_length = 0.0;
+    for (const SurfaceEdge& edge : body.surface.edges) {
+      edge_length += (body.placed.point(edge.ends[1]) - body.placed.point(edge.ends[0])).norm();
+    }
+    EXPECT_NEAR(edge_length, 2 * 8.0 + 6.0, 1e-13);
+  }
+  EXPECT_EQ(divide_surface(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), 2).cells.size(), 12U * 16U);
+  EXPECT_THROW((void)divide_surface(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), 9), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ashlar
