@@ -9,7 +9,7 @@
 
 #include "apps/name_pattern.hpp"
 #include "apps/nearest_name.hpp"
-#include "apps/scene_solids.hpp"
+#include "mechanics/face_selection.hpp"
 
 namespace ashlar {
 namespace {
@@ -131,8 +131,9 @@ class PlacementCheck {
       return;
     }
     const ScenePlane& plane = std::get<ScenePlane>(where);
-    if (!plane.point.allFinite() || !plane.normal.allFinite()) return;
-    if (!find_faces_in_plane(solid, plane).empty()) return;
+    // A plane that was refused by the reader has been reported already.
+    if (!plane.point.allFinite() || !plane.normal.allFinite() || plane.normal.isZero(0.0)) return;
+    if (!faces_in_plane(solid, {plane.point, plane.normal}).empty()) return;
     error(
         key + ".plane",
         fmt::format(

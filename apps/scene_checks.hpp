@@ -15,7 +15,7 @@ namespace ashlar {
 void check_references(const Scene& scene, Diagnostics& diagnostics);
 
 /// Points of measures, supports and loads are points of their block, and planes have a face of it. Points are
-/// held to the solid's bounding box (see PlacementTolerance), blocks without a solid are passed over.
+/// held to the solid's bounding box (see placement_tolerance), blocks without a solid are passed over.
 /// @param solids one per scene.block.
 void check_placement(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                      Diagnostics& diagnostics);

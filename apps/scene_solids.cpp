@@ -153,29 +153,4 @@ std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnost
   return solids;
 }
 
-double allowed_offset(const Polyhedron& solid, const PlacementTolerance& tolerance) {
-  Vector3 low = solid.mesh().points.front(), high = low;
-  for (const Vector3& point : solid.mesh().points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return tolerance.relative * (high - low).norm();
-}
-
-std::vector<int> find_faces_in_plane(const Polyhedron& solid, const ScenePlane& plane,
-                                     const PlacementTolerance& tolerance) {
-  const Vector3 normal = plane.normal.stableNormalized();
-  const double offset = allowed_offset(solid, tolerance);
-  const auto in_plane = [&](int corner) {
-    const Vector3& point = solid.mesh().points[static_cast<std::size_t>(corner)];
-    return std::abs(normal.dot(point - plane.point)) <= offset;
-  };
-  std::vector<int> found;
-  for (std::size_t face = 0; face < solid.faces().size(); ++face) {
-    const std::vector<int>& outer = solid.faces()[face].loops.front();
-    if (std::all_of(outer.begin(), outer.end(), in_plane)) found.push_back(static_cast<int>(face));
-  }
-  return found;
-}
-
 }  // namespace ashlar

@@ -19,18 +19,4 @@ namespace ashlar {
 [[nodiscard]] std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene,
                                                                   Diagnostics& diagnostics);
 
-/// How far a plane or point of the scene may be off the solid it is meant for: rotations round, and users
-/// round numbers.
-struct PlacementTolerance {
-  double relative = 1e-6;  ///< in parts of the diagonal of the solid's bounding box
-};
-
-/// The distance in m that a tolerance allows on a solid.
-[[nodiscard]] double allowed_offset(const Polyhedron& solid, const PlacementTolerance& tolerance = {});
-
-/// Faces of a placed solid that lie in a plane, increasing; both directions of the plane's normal are the
-/// same.
-[[nodiscard]] std::vector<int> find_faces_in_plane(const Polyhedron& solid, const ScenePlane& plane,
-                                                   const PlacementTolerance& tolerance = {});
-
 }  // namespace ashlar

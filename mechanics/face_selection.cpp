@@ -8,18 +8,22 @@
 
 namespace ashlar {
 
-std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane) {
-  const double length = plane.normal.norm();
-  if (!(length > 0.0) || !std::isfinite(length))
-    throw std::invalid_argument("a plane needs a finite, non-zero normal");
-  const Vector3 normal = plane.normal / length;
+double allowed_offset(const Polyhedron& solid) {
   Vector3 low = solid.mesh().points.front();
   Vector3 high = low;
   for (const Vector3& point : solid.mesh().points) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  const double tolerance = plane_match_tolerance * (high - low).norm();
+  return placement_tolerance * (high - low).norm();
+}
+
+std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane) {
+  const double length = plane.normal.stableNorm();
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw std::invalid_argument("a plane needs a finite, non-zero normal");
+  const Vector3 normal = plane.normal / length;
+  const double tolerance = allowed_offset(solid);
   std::vector<int> result;
   for (std::size_t f = 0; f < solid.faces().size(); ++f) {
     bool inside = true;

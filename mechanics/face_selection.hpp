@@ -13,11 +13,14 @@ struct Plane {
   Vector3 normal = Vector3::UnitZ();  ///< not zero
 };
 
-/// How far a corner may be from the plane, in parts of the block's size: users write planes in decimals, and
-/// a rotated block's corners are rounded.
-inline constexpr double plane_match_tolerance = 1e-6;
+/// How far a plane or point may be from the solid it is meant for, in parts of the diagonal of the solid's
+/// box: users write decimals, and a rotated block's corners are rounded.
+inline constexpr double placement_tolerance = 1e-6;
 
-/// Indices of the faces all of whose corners lie in the plane. Empty if there is none.
+/// That distance in m.
+[[nodiscard]] double allowed_offset(const Polyhedron& solid);
+
+/// Indices of the faces all of whose corners lie in the plane, increasing. Empty if there is none.
 /// @throws std::invalid_argument if the normal is zero or not finite
 [[nodiscard]] std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane);
 

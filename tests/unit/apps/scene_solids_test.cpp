@@ -171,23 +171,5 @@ TEST(SceneSolids, FlatHullIsReportedAtItsKey) {
   EXPECT_THAT(printed(diagnostics), ElementsAre(StartsWith("s.toml:16:1: error: shape cannot be built (")));
 }
 
-TEST(SceneSolids, FindsFacesInAPlaneFromBothSides) {
-  const Polyhedron solid = only_solid(block_of(SceneBox{{0, 0, 0}, {4, 1, 1}}));
-  const std::vector<int> found = find_faces_in_plane(solid, {{0, 5, 5}, {-2, 0, 0}});
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_EQ(solid.faces()[static_cast<std::size_t>(found[0])].normal, Vector3(-1, 0, 0));
-  EXPECT_EQ(find_faces_in_plane(solid, {{0, 5, 5}, {1, 0, 0}}), found);
-  EXPECT_THAT(find_faces_in_plane(solid, {{2, 0, 0}, {1, 0, 0}}), SizeIs(0));
-}
-
-TEST(SceneSolids, FindsFacesOfRotatedSolidsDespiteRounding) {
-  SceneBlock block = block_of(SceneBox{{0, 0, 0}, {4, 1, 1}});
-  block.rotate = SceneRotation{{0, 0, 1}, 30.0, {0, 0, 0}};
-  // The face x = 4 turns to the plane through (4 cos 30, 4 sin 30) with normal (cos 30, sin 30), given
-  // roughly.
-  EXPECT_THAT(find_faces_in_plane(only_solid(block), {{3.4641016, 2.0, 0.0}, {0.8660254, 0.5, 0.0}}),
-              SizeIs(1));
-}
-
 }  // namespace
 }  // namespace ashlar::test
