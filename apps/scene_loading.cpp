@@ -1,6 +1,7 @@
 #include "apps/scene_loading.hpp"
 
 #include "apps/available_features.hpp"
+#include "apps/initial_overlap.hpp"
 #include "apps/scene_checks.hpp"
 #include "apps/scene_reader.hpp"
 #include "apps/scene_solids.hpp"
@@ -14,6 +15,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   check_availability(loaded.scene, diagnostics);
   std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics);
   check_placement(loaded.scene, solids, diagnostics);
+  check_initial_overlap(loaded.scene, solids, diagnostics);
   if (!diagnostics.empty()) return std::nullopt;
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;
