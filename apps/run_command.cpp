@@ -111,7 +111,7 @@ class Run {
     Simulation& simulation = built_.simulation;
     const double end_time = scene_.analysis.end_time;
     double saved_at = seconds_now();
-    while (simulation.time() < end_time) {
+    while (!simulation.reached(end_time)) {
       if (interrupted != 0) return RunStatus::interrupted;
       if (simulation.step(end_time) != StepStatus::accepted) {
         const Rejection& last = simulation.rejections().back();

@@ -1,6 +1,7 @@
 #include "solver/island.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -80,7 +81,9 @@ class IslandProblem {
                                                         (body.change.norm() + step_ * body.velocity.norm());
       const auto size = static_cast<Eigen::Index>(body.change.size());
       const double left = result.segment(matrix.offset(static_cast<int>(k)), size).norm();
-      if (left > settings_.residual_tolerance * scale[k] + rounding) settled = false;
+      // Numbers that overflowed have settled nothing, and no comparison with them may say so.
+      if (!(left <= settings_.residual_tolerance * scale[k] + rounding) || !std::isfinite(scale[k]))
+        settled = false;
     }
     return result;
   }

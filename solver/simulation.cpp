@@ -12,6 +12,9 @@
 namespace ashlar {
 namespace {
 
+/// Rounding of times that are sums of steps, in parts of a step: a remainder of this length is none.
+constexpr double step_rounding = 1e-9;
+
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
@@ -114,11 +117,14 @@ void Simulation::settle_supported_blocks() {
   start_balance_ = ledger_.balance();
 }
 
+bool Simulation::reached(double end_time) const {
+  return end_time - time_ <= step_rounding * settings_.time_step;
+}
+
 StepStatus Simulation::step(double end_time) {
   double step = next_step_;
   const double left = end_time - time_;
-  // A remainder below rounding would make a step of no length.
-  if (left <= step * (1.0 + 1e-9)) step = left;
+  if (left < step * (1.0 - step_rounding)) step = left;
   const std::vector<ContactPair> pairs = find_contact_pairs(step);
   const std::vector<Island> islands = find_islands(moving_, pairs);
   for (int cut = 0; cut <= settings_.max_step_cuts; ++cut, step *= 0.5) {

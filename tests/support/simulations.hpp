@@ -37,7 +37,7 @@ inline Simulation::LawOfPair same_law(const JointLaw& law) {
 
 /// Runs to a time; false if a step could not be taken.
 inline bool run_until(Simulation& simulation, double time) {
-  while (simulation.time() < time) {
+  while (!simulation.reached(time)) {
     if (simulation.step(time) != StepStatus::accepted) return false;
   }
   return true;

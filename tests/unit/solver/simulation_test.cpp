@@ -100,7 +100,7 @@ TEST(Simulation, BouncePenetrationAndDuration) {
     const double start = simulation.ledger().balance();
     double first_touch = 0.0;
     double last_touch = 0.0;
-    while (simulation.time() < 0.6) {
+    while (!simulation.reached(0.6)) {
       ASSERT_EQ(simulation.step(0.6), StepStatus::accepted);
       if (simulation.report().locked + simulation.report().sliding > 0) {
         if (first_touch == 0.0) first_touch = simulation.time() - simulation.report().step;

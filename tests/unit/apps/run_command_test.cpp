@@ -1,0 +1,304 @@
+// `ashlar run` from its command line to its files.
+#include "apps/run_command.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+// A cube of 450 kg set on a clamped beam with 0.5 m/s: springs of 1.25e7 N/m throw it back after some 19 ms.
+constexpr const char* scene_text = R"(title = "test"
+[analysis]
+end_time = 0.04
+time_step = 1e-3
+[contact]
+normal_stiffness = 5e7
+shear_stiffness = 5e7
+friction_angle = 30
+[[material]]
+name = "rock"
+density = 3600
+young_modulus = 5e8
+poisson_ratio = 0.2
+[[block]]
+name = "A"
+material = "rock"
+box = { min = [3.0, -0.25, 0.5], max = [3.5, 0.25, 1.0] }
+velocity = [0.1, 0, -0.5]
+[[block]]
+name = "B"
+material = "rock"
+order = 2
+box = { min = [0, -0.5, -0.5], max = [4, 0.5, 0.5] }
+[[block.fix]]
+plane = { point = [0, 0, 0], normal = [-1, 0, 0] }
+[[measure]]
+name = "tip"
+block = "B"
+point = [4, 0, 0]
+[output]
+every = 10
+)";
+
+class RunCommand : public ::testing::Test {
+ protected:
+  RunCommand() { write_text(scene_, scene_text); }
+
+  /// Runs into the folder `out` of the test's own folder. @return exit status
+  int run(const std::string& out, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"run", scene_.string(), "--out", (folder_ / out).string(),
+                                          "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return command(std::move(arguments));
+  }
+
+  int command(std::vector<std::string> arguments) {
+    std::ostringstream out;
+    std::ostringstream err;
+    const int status = run_command_line(std::move(arguments), out, err);
+    printed_ = out.str();
+    faults_ = err.str();
+    return status;
+  }
+
+  [[nodiscard]] std::string text(const std::string& path) const { return read_text(folder_ / path); }
+
+  [[nodiscard]] std::vector<std::string> lines(const std::string& path) const {
+    std::istringstream input(text(path));
+    std::vector<std::string> result;
+    for (std::string line; std::getline(input, line);) result.push_back(line);
+    return result;
+  }
+
+  /// Names of the files in a folder, sorted.
+  [[nodiscard]] std::vector<std::string> files(const std::string& path) const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / path)) {
+      names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  /// Everything but what is measured in wall time.
+  void expect_same_results(const std::string& a, const std::string& b) const {
+    for (const char* file : {"history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd"}) {
+      EXPECT_EQ(text(a + "/" + file), text(b + "/" + file)) << file;
+    }
+    ASSERT_EQ(files(a + "/frames"), files(b + "/frames"));
+    for (const std::string& frame : files(a + "/frames")) {
+      EXPECT_TRUE(text(a + "/frames/" + frame) == text(b + "/frames/" + frame)) << frame;
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path scene_ = folder_ / "s.toml";
+  std::string printed_;
+  std::string faults_;
+};
+
+TEST_F(RunCommand, WritesTheResultFolder) {
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  EXPECT_THAT(files("out"), ElementsAre("blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd", "frames",
+                                        "history.csv", "summary.json"));
+  EXPECT_THAT(
+      files("out/frames"),
+      ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu", "blocks_0000030.vtu",
+                  "blocks_0000040.vtu", "contacts_0000000.vtu", "contacts_0000010.vtu",
+                  "contacts_0000020.vtu", "contacts_0000030.vtu", "contacts_0000040.vtu"));
+}
+
+TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const std::vector<std::string> rows = lines("out/history.csv");
+  ASSERT_EQ(rows.size(), 42U);  // columns, the start and 40 steps
+  EXPECT_EQ(rows[0],
+            "step,time,dt,tip.x,tip.y,tip.z,tip.ux,tip.uy,tip.uz,tip.vx,tip.vy,tip.vz,energy.kinetic,"
+            "energy.elastic,energy.gravity,energy.contact,energy.friction,energy.applied,energy.numerical,"
+            "energy.residual,momentum.x,momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,"
+            "angular_momentum.z,contacts.open,contacts.locked,contacts.sliding,penetration.max,"
+            "open_close.iterations");
+  EXPECT_THAT(rows[1], StartsWith("0,0,0,4,0,0,0,0,0,0,0,0,"));
+  EXPECT_THAT(rows[41], StartsWith("40,0.04"));
+}
+
+TEST_F(RunCommand, ContactsOfEveryFrameAreInTheTable) {
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const std::vector<std::string> rows = lines("out/contacts.csv");
+  ASSERT_GT(rows.size(), 1U);
+  EXPECT_THAT(rows[1], StartsWith("10,"));
+  EXPECT_EQ(rows[0],
+            "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,"
+            "normal_force.x,normal_force.y,normal_force.z,shear_force.x,shear_force.y,shear_force.z,work");
+  for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_THAT(rows[k], HasSubstr(",A,B,"));
+}
+
+TEST_F(RunCommand, SummaryTellsWhatWasDone) {
+  ASSERT_EQ(run("out", {"--set", "contact.friction_angle=20"}), exit_status::done) << faults_;
+  const auto summary = nlohmann::json::parse(text("out/summary.json"));
+  for (const char* key :
+       {"status", "steps", "rejected_steps", "unknowns", "wall_seconds", "peak_memory_bytes",
+        "penetration_max", "energy_residual", "counts", "versions", "scene"}) {
+    EXPECT_TRUE(summary.contains(key)) << key;
+  }
+  EXPECT_EQ(summary["status"], "completed");
+  EXPECT_EQ(summary["steps"], 40);
+  EXPECT_EQ(summary["frames"], 5);
+  EXPECT_EQ(summary["unknowns"], 12 + 12);  // A: 3 x 4; B: 3 x (10 - 6), six do not vanish at the clamp
+  EXPECT_GT(summary["penetration_max"], 0.0);
+  EXPECT_EQ(summary["scene"]["contact"]["friction_angle"], 20.0);
+}
+
+TEST_F(RunCommand, QuietSaysNothingOthersSayWhatWasChosen) {
+  ASSERT_EQ(run("quiet"), exit_status::done);
+  EXPECT_THAT(faults_, IsEmpty());
+  EXPECT_THAT(printed_, IsEmpty());
+  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string()}), exit_status::done);
+  EXPECT_THAT(faults_, AllOf(HasSubstr("chosen: contact.distance = "), HasSubstr("step 40 ")));
+  EXPECT_THAT(printed_, IsEmpty());
+}
+
+TEST_F(RunCommand, FramesByTimeStandAtTheNearestSteps) {
+  std::string by_time = scene_text;
+  by_time.replace(by_time.find("every = 10"), 10, "interval = 0.0094");
+  write_text(scene_, by_time);
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const std::vector<std::string> frames = files("out/frames");
+  // 0.0094, 0.0188, 0.0282 and 0.0376 s, and the end.
+  EXPECT_THAT(std::vector<std::string>(frames.begin(), frames.begin() + 6),
+              ElementsAre("blocks_0000000.vtu", "blocks_0000009.vtu", "blocks_0000019.vtu",
+                          "blocks_0000028.vtu", "blocks_0000038.vtu", "blocks_0000040.vtu"));
+}
+
+TEST_F(RunCommand, BadInputLeavesNothingBehind) {
+  EXPECT_EQ(run("out", {"--set", "analysis.time_step=-1"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr("--set analysis.time_step=-1: error: "));
+  EXPECT_EQ(run("new/out", {"--set", "block.A.box.min=[3.0, -0.25, 0.25]"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(StartsWith(scene_.string() + ":19:1: error: "), HasSubstr("overlap by 0.25 m")));
+  EXPECT_EQ(command({"run", (folder_ / "none.toml").string(), "--out", (folder_ / "out").string()}),
+            exit_status::bad_input);
+  EXPECT_EQ(run("out", {"--no-such-option"}), exit_status::bad_input);
+  EXPECT_EQ(folder_.entry_count(), 1U) << "only the scene";
+}
+
+TEST_F(RunCommand, ResultsThatCannotBeWrittenEndTheRunWithTheReason) {
+  write_text(folder_ / "file", "in the way");
+  EXPECT_EQ(run("file/out"), exit_status::failed);
+  EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: cannot create the result folder "),
+                             HasSubstr((folder_ / "file/out").string()), HasSubstr("Not a directory")));
+}
+
+TEST_F(RunCommand, FailedRunSavesItsLastState) {
+  // Springs that stiff swallow the inertia of the blocks, or make the numbers of the system overflow.
+  for (const char* stiffness : {"1e40", "1e300"}) {
+    EXPECT_EQ(run("out", {"--set", "contact.normal_stiffness=" + std::string(stiffness)}),
+              exit_status::failed);
+    EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: step "), HasSubstr("was rejected"),
+                               HasSubstr((folder_ / "out").string())));
+    const auto summary = nlohmann::json::parse(text("out/summary.json"));
+    EXPECT_EQ(summary["status"], "failed");
+    EXPECT_GT(summary["rejected_steps"]["count"], 0);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint"));
+  }
+}
+
+TEST_F(RunCommand, ResumedRunIsTheRunThatNeverStopped) {
+  ASSERT_EQ(run("straight"), exit_status::done) << faults_;
+  // In the middle of contact and between two frames.
+  ASSERT_EQ(run("cut", {"--set", "analysis.end_time=0.017"}), exit_status::done) << faults_;
+  EXPECT_EQ(files("cut/frames").size(), 6U) << "frames at 0, 10 and the end";
+  ASSERT_EQ(run("cut", {"--resume", "--threads", "2"}), exit_status::done) << faults_;
+  expect_same_results("straight", "cut");
+  const auto straight = nlohmann::json::parse(text("straight/summary.json"));
+  const auto cut = nlohmann::json::parse(text("cut/summary.json"));
+  for (const char* key : {"steps", "time", "frames", "penetration_max", "energy_residual", "energy_max"}) {
+    EXPECT_EQ(straight[key], cut[key]) << key;
+  }
+  // Nothing is left to do.
+  ASSERT_EQ(run("cut", {"--resume"}), exit_status::done) << faults_;
+  expect_same_results("straight", "cut");
+}
+
+TEST_F(RunCommand, ResumeDropsWhatAKilledRunWroteAfterItsCheckpoint) {
+  ASSERT_EQ(run("straight"), exit_status::done) << faults_;
+  ASSERT_EQ(run("cut", {"--set", "analysis.end_time=0.02"}), exit_status::done) << faults_;
+  const std::string checkpoint = text("cut/checkpoint");
+  ASSERT_EQ(run("cut", {"--resume", "--set", "analysis.end_time=0.035"}), exit_status::done) << faults_;
+  write_text(folder_ / "cut/checkpoint", checkpoint);
+  std::ofstream(folder_ / "cut/history.csv", std::ios::app) << "36,0.03";
+  ASSERT_EQ(run("cut", {"--resume"}), exit_status::done) << faults_;
+  expect_same_results("straight", "cut");
+}
+
+TEST_F(RunCommand, ResumeNeedsTheCheckpointOfTheSameScene) {
+  EXPECT_EQ(run("out", {"--resume"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(StartsWith((folder_ / "out/checkpoint").string() + ": error: no checkpoint")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+
+  ASSERT_EQ(run("out", {"--set", "analysis.end_time=0.005"}), exit_status::done) << faults_;
+  const std::string history = text("out/history.csv");
+  EXPECT_EQ(run("out", {"--resume", "--set", "material.rock.density=3601"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr("checkpoint: error: checkpoint of another scene"));
+  std::string checkpoint = text("out/checkpoint");
+  checkpoint[checkpoint.size() / 2] ^= 1;
+  write_text(folder_ / "out/checkpoint", checkpoint);
+  EXPECT_EQ(run("out", {"--resume"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr("checkpoint: error: checkpoint is damaged"));
+  write_text(folder_ / "out/checkpoint", checkpoint.substr(0, 20));
+  EXPECT_EQ(run("out", {"--resume"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr("checkpoint: error: checkpoint is damaged"));
+  EXPECT_EQ(text("out/history.csv"), history);
+}
+
+TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  ASSERT_EQ(run("out", {"--set", "analysis.end_time=0.01"}), exit_status::done) << faults_;
+  EXPECT_THAT(files("out/frames"), ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu",
+                                               "contacts_0000000.vtu", "contacts_0000010.vtu"));
+  EXPECT_EQ(lines("out/history.csv").size(), 12U);
+}
+
+TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const std::string name = "out" + std::to_string(signal);
+    // Sent as soon as some steps are written, whenever that is.
+    std::thread sender([&] {
+      for (int k = 0; k < 60000 && lines(name + "/history.csv").size() < 5; ++k)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ::kill(::getpid(), signal);
+    });
+    const int status = run(name, {"--set", "analysis.end_time=1000"});
+    sender.join();
+    ASSERT_EQ(status, exit_status::interrupted) << faults_;
+    EXPECT_EQ(nlohmann::json::parse(text(name + "/summary.json"))["status"], "interrupted");
+    const int steps = nlohmann::json::parse(text(name + "/summary.json"))["steps"];
+    const std::string end = "analysis.end_time=" + std::to_string(0.001 * (steps + 10));
+    ASSERT_EQ(run(name, {"--resume", "--set", end}), exit_status::done) << faults_;
+    ASSERT_EQ(run("straight", {"--set", end}), exit_status::done) << faults_;
+    expect_same_results("straight", name);
+  }
+}
+
+}  // namespace
+}  // namespace ashlar
