@@ -29,12 +29,12 @@ Eigen::MatrixX3d BlockModel::rigid_velocity(const Vector3& velocity, const Vecto
 
 std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, double time) const {
   if (fixed()) return basis_.identity_map();
-  const Eigen::MatrixXd stiffness = corotational() ? space_.restrict(stiffness_) : reduced_stiffness_;
-  const Eigen::LLT<Eigen::MatrixXd> factor(stiffness);
-  if (factor.info() != Eigen::Success || corotational()) return std::nullopt;
+  if (!space_.held()) return std::nullopt;
+  const Eigen::LLT<Eigen::MatrixXd> factor(reduced_stiffness_);
+  if (factor.info() != Eigen::Success) return std::nullopt;
   const Eigen::VectorXd force = space_.restrict(external_force(gravity, time));
   Eigen::VectorXd y = factor.solve(force);
-  y += factor.solve(force - stiffness * y);
+  y += factor.solve(force - reduced_stiffness_ * y);
   return Eigen::MatrixX3d(basis_.identity_map() + space_.expand(y));
 }
 

@@ -62,8 +62,10 @@ AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis&
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(outside, Eigen::ComputeThinU | Eigen::ComputeFullV);
   can_turn_ = false;
+  held_ = true;
   for (int k = 0; k < 6; ++k) {
     const bool admissible = svd.singularValues()[k] < std::sqrt(rank_tolerance);
+    if (admissible) held_ = false;
     if (admissible && svd.matrixV().col(k).tail(3).norm() > std::sqrt(rank_tolerance)) can_turn_ = true;
   }
 }

@@ -33,6 +33,8 @@ class AdmissibleSpace {
   [[nodiscard]] int unknowns() const;
   /// True if nothing is supported: Z = I.
   [[nodiscard]] bool free() const { return free_; }
+  /// True if no rigid motion is admissible: the block can rest under any load.
+  [[nodiscard]] bool held() const { return held_; }
   /// True if some rigid motion that turns the block is admissible; false calls for small-displacement theory.
   [[nodiscard]] bool can_turn() const { return can_turn_; }
 
@@ -53,6 +55,7 @@ class AdmissibleSpace {
 
   int functions_;
   bool free_ = true;
+  bool held_ = false;
   bool can_turn_ = true;
   std::array<Eigen::MatrixXd, 3> null_space_;  ///< Z of each component, (p, columns); empty when free
 };

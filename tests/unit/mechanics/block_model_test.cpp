@@ -166,5 +166,12 @@ TEST(BlockModel, SupportsThatLeaveARotationAreSeen) {
   EXPECT_TRUE(BlockModel(definition).equilibrium({0, 0, -1}, 0.0).has_value());
 }
 
+TEST(BlockModel, ASlidingSupportHasNoEquilibrium) {
+  BlockDefinition definition = block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {1.0, 1.0, 0.0}, 2);
+  definition.supports.push_back({Plane{{0, 0, 0}, {0, 0, 1}}, {false, true, true}});
+  EXPECT_FALSE(BlockModel(definition).corotational());
+  EXPECT_FALSE(BlockModel(definition).equilibrium({0, 0, -1}, 0.0).has_value());
+}
+
 }  // namespace
 }  // namespace ashlar
