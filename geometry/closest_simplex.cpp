@@ -176,18 +176,11 @@ class FloatingSearch {
       const CornerPair next{lowest(a_, nearest_), lowest(b_, -nearest_)};
       const Vector3 point = a_[next.a] - b_[next.b];
       if (!(nearest_.dot(point) < squared_norm) || has(next) || completes_parallelogram(next)) break;
-      const CornerSimplex before = simplex_;
-      const std::array<Vector3, 4> points_before = points_;
       points_[simplex_.size] = point;
       simplex_.add(next);
       shrink();
-      if (simplex_.size == 4) break;
       const double shorter = nearest_.squaredNorm();
-      if (!(shorter < squared_norm)) {
-        simplex_ = before;
-        points_ = points_before;
-        break;
-      }
+      if (simplex_.size == 4 || !(shorter < squared_norm)) break;
       squared_norm = shorter;
     }
     return simplex_;
@@ -266,30 +259,37 @@ class FloatingSearch {
     nearest_ = normal * (normal.dot(c) / normal.squaredNorm());
   }
   void shrink_tetrahedron() {
+    int best = -1;
+    double least = 0.0;
+    CornerSimplex best_simplex;
+    std::array<Vector3, 4> best_points;
+    Vector3 best_nearest;
     const CornerSimplex full = simplex_;
     const std::array<Vector3, 4> points = points_;
-    CornerSimplex best;
-    std::array<Vector3, 4> best_points;
-    Vector3 best_nearest = Vector3::Zero();
     constexpr std::array<std::array<int, 3>, 3> faces{{{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}};
-    for (const auto& [i, j, opposite] : faces) {
+    for (int f = 0; f < 3; ++f) {
+      const auto& [i, j, opposite] = faces[f];
       const Vector3 normal = (points[i] - points[3]).cross(points[j] - points[3]);
       const double origin_side = -normal.dot(points[3]);
       const double inner_side = normal.dot(points[opposite] - points[3]);
       if (origin_side * inner_side > 0.0) continue;
-      simplex_ = full;
-      points_ = points;
-      keep({i, j, 3});
-      shrink_triangle();
-      if (best.size == 0 || nearest_.squaredNorm() < best_nearest.squaredNorm()) {
-        best = simplex_;
+      if (best >= 0) {  // rare: the origin is outside two faces
+        best_simplex = simplex_;
         best_points = points_;
         best_nearest = nearest_;
+        simplex_ = full;
+        points_ = points;
       }
+      keep({i, j, 3});
+      shrink_triangle();
+      if (best >= 0 && !(nearest_.squaredNorm() < least)) {
+        simplex_ = best_simplex;
+        points_ = best_points;
+        nearest_ = best_nearest;
+      }
+      best = f;
+      least = nearest_.squaredNorm();
     }
-    simplex_ = best.size == 0 ? full : best;
-    points_ = best.size == 0 ? points : best_points;
-    nearest_ = best_nearest;
   }
 
   std::span<const Vector3> a_;

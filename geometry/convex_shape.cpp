@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/rounding_mode.hpp"
+#include "geometry/shapes.hpp"
 
 namespace ashlar {
 
@@ -33,9 +34,8 @@ ContactDirection triangle_normal(const Vector3& a, const Vector3& b, const Vecto
 class HullSurface {
  public:
   HullSurface(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles, bool floating)
-      : points_(points), triangles_(triangles), source_(triangles.size()) {
+      : points_(points), triangles_(triangles) {
     ladder_.floating = floating;
-    std::iota(source_.begin(), source_.end(), 0);
     for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
       check_area(t);
       add(t);
@@ -52,7 +52,6 @@ class HullSurface {
     while (parent_[t] != t) t = parent_[t];
     return t;
   }
-  [[nodiscard]] int source(int t) const { return source_[t]; }
   [[nodiscard]] int across(int from, int to) const { return triangle_of_edge_.at({to, from}); }
 
  private:
@@ -107,7 +106,6 @@ class HullSurface {
     remove(right);
     triangles_[left] = {a, from, b};
     triangles_[right] = {b, to, a};
-    source_[left] = source_[right] = -1;
     for (const int t : {left, right}) {
       check_area(t);
       add(t);
@@ -123,7 +121,7 @@ class HullSurface {
 
   const std::vector<Vector3>& points_;
   std::vector<Triangle> triangles_;
-  std::vector<int> source_, parent_;
+  std::vector<int> parent_;
   std::map<std::pair<int, int>, int> triangle_of_edge_;
   PredicateLadder ladder_;
 };
@@ -167,6 +165,22 @@ std::vector<int> groups_around_points(const HullSurface& surface, std::size_t po
   return count;
 }
 
+// A triangle of the face of the solid that has all corners of a facet, or -1.
+int triangle_of_face(const Polyhedron& solid, const ConvexShape& shape, int facet) {
+  for (const PolyhedronFace& face : solid.faces()) {
+    const auto has = [&](int point) {
+      return std::any_of(face.triangles.begin(), face.triangles.end(), [&](int t) {
+        const Triangle& c = solid.mesh().triangles[t];
+        return std::find(c.begin(), c.end(), point) != c.end();
+      });
+    };
+    const std::span<const int> loop = shape.facet(facet);
+    if (std::all_of(loop.begin(), loop.end(), [&](int v) { return has(shape.source_points()[v]); }))
+      return face.triangles.front();
+  }
+  return -1;
+}
+
 }  // namespace
 
 ConvexShape ConvexShape::from_triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -183,6 +197,23 @@ ConvexShape ConvexShape::from_triangle(const Vector3& a, const Vector3& b, const
   if (is_zero(triangle_normal(a, b, c), ladder)) throw std::invalid_argument("triangle has no area");
   shape.index();
   return shape;
+}
+
+ConvexShape ConvexShape::from_polyhedron(const Polyhedron& solid) {
+  if (!solid.convex()) throw std::invalid_argument("convex shape: the solid is not convex");
+  const TriangleMesh& mesh = solid.mesh();
+  try {
+    return from_mesh(mesh);
+  } catch (const std::invalid_argument&) {
+    // Rounding has pushed a point inside a flat face or straight side below the hull: it is no corner then.
+    ConvexShape shape = from_mesh(make_convex_hull(mesh.points));
+    for (std::size_t v = 0; v < shape.corners_.size(); ++v)
+      shape.source_points_[v] = static_cast<int>(
+          std::find(mesh.points.begin(), mesh.points.end(), shape.corners_[v]) - mesh.points.begin());
+    for (int f = 0; f < shape.facet_count(); ++f)
+      shape.source_triangles_[f] = triangle_of_face(solid, shape, f);
+    return shape;
+  }
 }
 
 ConvexShape ConvexShape::from_mesh(const TriangleMesh& mesh) {
@@ -205,10 +236,7 @@ ConvexShape ConvexShape::from_mesh(const TriangleMesh& mesh) {
     for (const int p : boundary_loop(surface, t, group_count))
       shape.facet_corners_.push_back(corner_of_point[p]);
     shape.facet_start_.push_back(static_cast<int>(shape.facet_corners_.size()));
-    int source = surface.source(t);
-    for (int s = 0; source < 0 && s < static_cast<int>(surface.triangles().size()); ++s)
-      if (surface.group(s) == t) source = surface.source(s);
-    shape.source_triangles_.push_back(source);
+    shape.source_triangles_.push_back(t);
   }
   if (shape.facet_count() < 4) throw std::invalid_argument("convex shape: fewer than four facets");
   shape.index();

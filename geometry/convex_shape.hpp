@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/contact_direction.hpp"
+#include "geometry/polyhedron.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
@@ -27,6 +28,12 @@ class ConvexShape {
  public:
   /// @throws std::invalid_argument for collinear or non-finite points.
   [[nodiscard]] static ConvexShape from_triangle(const Vector3& a, const Vector3& b, const Vector3& c);
+
+  /// The convex hull of a convex solid's points: the solid itself, or a placed copy of it whose faces
+  /// rounding has tilted (Polyhedron::with_points). A facet's source triangle is one of the face it came
+  /// from.
+  /// @throws std::invalid_argument unless solid.convex().
+  [[nodiscard]] static ConvexShape from_polyhedron(const Polyhedron& solid);
 
   /// The convex solid bounded by a closed, outward, connected mesh. A mesh that rounding has tilted (a
   /// rotated copy of an exact solid) may be concave by a few ulp at edges within its former facets: such
@@ -56,7 +63,8 @@ class ConvexShape {
 
   /// Index into the given points of each corner.
   [[nodiscard]] const std::vector<int>& source_points() const { return source_points_; }
-  /// A given triangle inside each facet, or -1 if the facet's triangles come from flipped edges.
+  /// A given triangle each facet came from (of a flipped pair, either), or -1 where the mesh had to be
+  /// replaced by its hull and no single face has the facet's corners.
   [[nodiscard]] const std::vector<int>& source_triangles() const { return source_triangles_; }
   [[nodiscard]] const NumericRange& range() const { return range_; }
   /// Outward normal of a facet (a triangle: by the right-hand rule), exact; valid while the shape lives.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/convex_contact.hpp"
+#include "geometry/triangle_pair.hpp"
 
 namespace ashlar {
 namespace {
@@ -111,9 +112,35 @@ void touching_cubes_report(benchmark::State& state) {
   run(state, touching_cubes());
 }
 
-// Side of the box the centers are drawn from: 20 all apart, 4 a sixth cross, 1 nearly all cross.
+std::vector<std::pair<TriangleCorners, TriangleCorners>> triangles(double spread) {
+  std::mt19937_64 random(3);
+  std::vector<std::pair<TriangleCorners, TriangleCorners>> pairs(pair_count);
+  for (auto& pair : pairs)
+    for (TriangleCorners* t : {&pair.first, &pair.second}) {
+      const Vector3 corner = Vector3(uniform(random), uniform(random), uniform(random)) * spread;
+      for (Vector3& p : *t) p = corner + Vector3(uniform(random), uniform(random), uniform(random));
+    }
+  return pairs;
+}
+
+void triangle_type(benchmark::State& state) {
+  const auto pairs = triangles(static_cast<double>(state.range(0)));
+  std::size_t k = 0;
+  long crossing = 0;
+  for (auto unused : state) {
+    const TrianglePairType type = classify_triangles(pairs[k].first, pairs[k].second);
+    crossing += static_cast<long>(type.relation == Relation::crossing);
+    k = k + 1 == pairs.size() ? 0 : k + 1;
+  }
+  state.SetItemsProcessed(state.iterations());
+  state.counters["crossing"] = static_cast<double>(crossing) / static_cast<double>(state.iterations());
+}
+
+// Side of the box the centers are drawn from: 20 all apart, 4 a ninth cross, 1 nearly all cross.
 BENCHMARK(rotated_cubes_report)->Arg(20)->Arg(4)->Arg(1);
 BENCHMARK(touching_cubes_report);
+// Corners are drawn from unit boxes; side of the box the corners of those are drawn from: 0 one common box.
+BENCHMARK(triangle_type)->Arg(4)->Arg(1)->Arg(0);
 
 }  // namespace
 }  // namespace ashlar
