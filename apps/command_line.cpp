@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "apps/check_command.hpp"
+#include "apps/contacts_command.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/program_version.hpp"
 #include "apps/run_options.hpp"
@@ -17,7 +18,8 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 2> commands = {declare_run_command, declare_check_command};
+constexpr std::array<CommandDeclaration, 3> commands = {declare_run_command, declare_check_command,
+                                                        declare_contacts_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

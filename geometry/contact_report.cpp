@@ -1,0 +1,208 @@
+#include "geometry/contact_report.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "geometry/rounding_mode.hpp"
+
+namespace ashlar {
+
+namespace {
+
+// The third point of the triangle of a face that has the edge from -> to as a side; -1 if there is none.
+int apex_over(const Polyhedron& solid, int face, int from, int to) {
+  for (const int t : solid.faces()[face].triangles) {
+    const auto& c = solid.mesh().triangles[t];
+    for (int k = 0; k < 3; ++k)
+      if (c[k] == from && c[(k + 1) % 3] == to) return c[(k + 2) % 3];
+  }
+  return -1;
+}
+
+// True if every concave edge is no deeper than rounding of the coordinates explains.
+[[gnu::noinline]] bool is_convex_but_for_rounding(const Polyhedron& solid) {
+  const std::vector<Vector3>& x = solid.mesh().points;
+  NumericRange range;
+  double greatest = 0.0;
+  for (const Vector3& p : x) {
+    for (int i = 0; i < 3; ++i) range.include(p[i]);
+    greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
+  }
+  const double unit = std::nextafter(greatest, std::numeric_limits<double>::infinity()) - greatest;
+  const double deepest = rounding_dent_units * unit;
+  range.include(deepest);
+  PredicateLadder ladder;
+  ladder.floating = range.safe();
+  return std::all_of(solid.edges().begin(), solid.edges().end(), [&](const PolyhedronEdge& edge) {
+    if (edge.convex) return true;
+    const auto [from, to] = edge.vertices;
+    const int left = apex_over(solid, edge.faces[0], from, to);
+    const int right = apex_over(solid, edge.faces[1], to, from);
+    if (left < 0 || right < 0) return false;
+    const ContactDirection w = ContactDirection::cross({&x[to], &x[from]}, {&x[right], &x[left]});
+    return !is_zero(w, ladder) && is_within(w, {&x[left], &x[from]}, deepest, false, ladder);
+  });
+}
+
+double polygon_area(const std::vector<RegionVertex>& points) {
+  Vector3 twice = Vector3::Zero();
+  const Vector3& o = points.front().on_a;
+  for (std::size_t k = 2; k < points.size(); ++k) twice += (points[k - 1].on_a - o).cross(points[k].on_a - o);
+  return 0.5 * twice.norm();
+}
+
+// Without negative zeros.
+Vector3 opposite(const Vector3& v) {
+  return Vector3::Zero() - v;
+}
+
+// The corner of a body that reaches farthest along a direction.
+Vector3 farthest_corner(const ContactBody& body, const Vector3& direction) {
+  const std::vector<Vector3>& x = body.shape()->corners();
+  return *std::max_element(x.begin(), x.end(), [&](const Vector3& p, const Vector3& q) {
+    return direction.dot(p) < direction.dot(q);
+  });
+}
+
+// Writes the contact of one region in the features of the meshes.
+class ContactWriter {
+ public:
+  ContactWriter(const ContactBody& a, const ContactBody& b, const ContactRegion& region,
+                const Vector3& normal)
+      : a_(a), b_(b), region_(region), normal_(normal) {}
+
+  /// @param gap of all points; none: each point has its own, from the plane across the normal in which the
+  /// other body ends.
+  [[nodiscard]] ReportedContact write(std::optional<double> gap) const {
+    ReportedContact contact;
+    contact.type = region_.type;
+    contact.a = a_.feature(region_.a);
+    contact.b = b_.feature(region_.b);
+    contact.region_dimension = region_.dimension;
+    if (region_.dimension == 2) contact.area = polygon_area(region_.points);
+    for (const RegionVertex& v : region_.points) {
+      ReportedPoint p = point(v);
+      if (gap)
+        p.gap = *gap;
+      else if (p.face_of)
+        move_to_end_plane(p);
+      else
+        p.gap = normal_.dot(p.point - p.foot);
+      contact.points.push_back(p);
+    }
+    return contact;
+  }
+
+ private:
+  [[nodiscard]] ReportedPoint point(const RegionVertex& v) const {
+    ReportedPoint p;
+    p.pair = v.pair();
+    if (v.b.dimension == 2 || (v.a.dimension != 2 && region_.b.dimension == 2))
+      p.face_of = ReportedBody::b;
+    else if (v.a.dimension == 2 || region_.a.dimension == 2)
+      p.face_of = ReportedBody::a;
+    const bool on_a = p.face_of == ReportedBody::a;
+    p.point = on_a ? v.on_b : v.on_a;
+    p.foot = p.plane_point = on_a ? v.on_a : v.on_b;
+    p.plane_normal = on_a ? opposite(normal_) : normal_;
+    // A corner of the facet is exact.
+    if (on_a && region_.a.index >= 0) p.plane_point = facet_corner(a_, region_.a);
+    if (p.face_of == ReportedBody::b && region_.b.index >= 0) p.plane_point = facet_corner(b_, region_.b);
+    return p;
+  }
+  void move_to_end_plane(ReportedPoint& p) const {
+    p.plane_point = farthest_corner(p.face_of == ReportedBody::a ? a_ : b_, p.plane_normal);
+    p.gap = p.plane_normal.dot(p.point - p.plane_point);
+    p.foot = p.point - p.gap * p.plane_normal;
+  }
+  [[nodiscard]] static Vector3 facet_corner(const ContactBody& body, const ContactFeature& facet) {
+    return body.shape()->corners()[body.shape()->facet(facet.index)[0]];
+  }
+
+  const ContactBody &a_, &b_;
+  const ContactRegion& region_;
+  const Vector3& normal_;
+};
+
+ConvexReport convex_report(const ContactRegion& region, const Vector3& normal, DirectionRule rule) {
+  ConvexReport report{region.type, region.a_dimension, region.b_dimension, region.dimension, normal, rule,
+                      {}};
+  for (const RegionVertex& v : region.points) report.region.push_back(v.on_a);
+  return report;
+}
+
+}  // namespace
+
+ContactBody::ContactBody(Polyhedron solid) : solid_(std::move(solid)) {
+  const NearestRounding nearest;
+  is_hull_ = !solid_.convex();
+  if (is_hull_ && !is_convex_but_for_rounding(solid_)) return;
+  try {
+    shape_ = ConvexShape::from_mesh(solid_.mesh());
+  } catch (const std::invalid_argument&) {
+    if (!is_hull_) throw;  // an exactly convex mesh is always a shape
+  }
+}
+
+ReportedFeature ContactBody::feature(const ContactFeature& of_shape) const {
+  ReportedFeature feature{of_shape.dimension, -1, {}};
+  if (of_shape.index < 0) return feature;
+  const std::vector<int>& source = shape_->source_points();
+  if (of_shape.dimension == 0) {
+    feature.index = source[of_shape.index];
+  } else if (of_shape.dimension == 1) {
+    const auto& [from, to] = shape_->edges()[of_shape.index].corners;
+    feature.points = {source[from], source[to]};
+    for (std::size_t e = 0; e < solid_.edges().size() && feature.index < 0; ++e) {
+      const std::array<int, 2>& ends = solid_.edges()[e].vertices;
+      if (std::is_permutation(ends.begin(), ends.end(), feature.points.begin()))
+        feature.index = static_cast<int>(e);
+    }
+  } else if (const int triangle = shape_->source_triangles()[of_shape.index]; triangle >= 0) {
+    feature.index = solid_.face_of_triangle()[triangle];
+  } else {
+    for (const int v : shape_->facet(of_shape.index)) feature.points.push_back(source[v]);
+  }
+  if (feature.index >= 0) feature.points.clear();
+  return feature;
+}
+
+ContactReport report_contact(const ContactBody& a, const ContactBody& b,
+                             const std::optional<Resolution>& resolution) {
+  if (a.shape() == nullptr || b.shape() == nullptr) throw NotConvexError();
+  const ConvexContact exact = classify(*a.shape(), *b.shape(), std::nullopt, {!resolution, false});
+  ContactReport report;
+  report.relation = exact.relation;
+  report.squared_distance = exact.squared_distance;
+  report.hull_of_a = a.is_hull();
+  report.hull_of_b = b.is_hull();
+  report.resolution = resolution;
+  report.decided_by = exact.decided_by;
+  for (const MinimalTranslation& m : exact.minimal_translations)
+    report.minimal_translations.push_back(m.translation);
+
+  // Height of the contact along its direction: the distance, or the depth with a minus sign.
+  double height = 0.0;
+  if (resolution || exact.relation != Relation::touching) {
+    const ResolvedContact resolved = classify_at(*a.shape(), *b.shape(), resolution.value_or(Resolution{}));
+    report.decided_by.filter += resolved.decided_by.filter;
+    report.decided_by.exact += resolved.decided_by.exact;
+    height = resolved.gap;
+    if (resolution) {
+      report.convex = convex_report(resolved.region, resolved.normal, resolved.rule);
+      report.contacts = {ContactWriter(a, b, resolved.region, resolved.normal).write(std::nullopt)};
+    }
+  }
+  if (!resolution) {
+    report.convex = convex_report(exact.region, exact.normal, exact.rule);
+    if (exact.relation != Relation::crossing)
+      report.contacts = {ContactWriter(a, b, exact.region, exact.normal).write(height)};
+  }
+  if (exact.relation == Relation::crossing) report.depth = -height;
+  return report;
+}
+
+}  // namespace ashlar
