@@ -66,33 +66,43 @@ CGAL::Gmpq rational(const Fraction<Exact>& f) {
   return CGAL::Gmpq(static_cast<CGAL::Gmpq>(f.numerator) / static_cast<CGAL::Gmpq>(f.denominator));
 }
 
+// Rounds three components: `floating(i)` gives one as an optional DoubleDouble and is asked where `usable`,
+// `exact(i)` gives the nearest double and is asked where that leaves a doubt.
+template <class Floating, class ExactOf>
+Vector3 round_components(PredicateLadder& ladder, bool usable, const Floating& floating,
+                         const ExactOf& exact) {
+  Vector3 result;
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> value = usable ? rounded(floating(i)) : std::nullopt;
+    ++(value ? ladder.counts.filter : ladder.counts.exact);
+    result[i] = value ? *value : exact(i);
+  }
+  return result;
+}
+
+template <class N>
+const N& component(const NumberVector<N>& v, int i) {
+  return i == 0 ? v.x : i == 1 ? v.y : v.z;
+}
+
 // The point a + (b - a) s / (s - t), rounded; `heights` (a generic function of w) gives s and t.
 template <class HeightsOf>
 Vector3 round_between(PredicateLadder& ladder, const ContactDirection& w, const Vector3& a, const Vector3& b,
                       const HeightsOf& heights) {
-  Vector3 result;
-  std::array<bool, 3> known{false, false, false};
+  std::optional<DoubleDouble> ratio;
   if (ladder.floating) {
     const auto [s, t] = heights(w.double_double());
-    const auto ratio = quotient(s, s - t);
-    for (int i = 0; ratio && i < 3; ++i) {
-      const auto value = rounded(DoubleDouble(a[i]) + DoubleDouble::difference(b[i], a[i]) * *ratio);
-      if (!value) continue;
-      result[i] = *value;
-      known[i] = true;
-      ++ladder.counts.filter;
-    }
+    ratio = quotient(s, s - t);
   }
-  if (known[0] && known[1] && known[2]) return result;
-  const auto [s, t] = heights(w.exact().value);
-  const Exact width = s - t;
-  for (int i = 0; i < 3; ++i) {
-    if (known[i]) continue;
-    ++ladder.counts.exact;
-    result[i] =
-        round_to_nearest(rational({Exact(a[i]) * width + Exact::difference(b[i], a[i]) * s, width}).mpq());
-  }
-  return result;
+  return round_components(
+      ladder, ratio.has_value(),
+      [&](int i) { return DoubleDouble(a[i]) + DoubleDouble::difference(b[i], a[i]) * *ratio; },
+      [&](int i) {
+        const auto [s, t] = heights(w.exact().value);
+        const Exact width = s - t;
+        const Exact numerator = Exact(a[i]) * width + Exact::difference(b[i], a[i]) * s;
+        return round_to_nearest(rational({numerator, width}).mpq());
+      });
 }
 
 }  // namespace
@@ -172,12 +182,6 @@ ContactDirection ContactDirection::copy() const {
   result.second_ = second_;
   result.numbers_ = numbers_;
   result.has_double_double_ = has_double_double_;
-  return result;
-}
-
-ContactDirection ContactDirection::reversed() const {
-  ContactDirection result = copy();
-  result.reverse();
   return result;
 }
 
@@ -430,60 +434,32 @@ double ContactHeight::length() const {
 }
 
 Vector3 ContactHeight::shifted(const Vector3* x, int sign) const {
-  Vector3 result;
-  std::array<bool, 3> known{false, false, false};
-  if (has_ratio_) {
-    const NumberVector<DoubleDouble> step = scale(w_.double_double(), sign < 0 ? -ratio_ : ratio_);
-    const std::array<const DoubleDouble*, 3> steps{&step.x, &step.y, &step.z};
-    for (int i = 0; i < 3; ++i) {
-      const auto value = rounded(x != nullptr ? DoubleDouble((*x)[i]) + *steps[i] : *steps[i]);
-      if (!value) continue;
-      result[i] = *value;
-      known[i] = true;
-      ++ladder_.counts.filter;
-    }
-  }
-  if (known[0] && known[1] && known[2]) return result;
-  const NumberVector<Exact>& w = w_.exact().value;
-  const Exact height = dot(w, evaluate<Exact>(d_)) * Exact(sign), squared_length = dot(w, w);
-  const std::array<const Exact*, 3> component{&w.x, &w.y, &w.z};
-  for (int i = 0; i < 3; ++i) {
-    if (known[i]) continue;
-    ++ladder_.counts.exact;
-    Exact numerator = *component[i] * height;
-    if (x != nullptr) numerator = numerator + Exact((*x)[i]) * squared_length;
-    result[i] = round_to_nearest(rational({numerator, squared_length}).mpq());
-  }
-  return result;
+  return round_components(
+      ladder_, has_ratio_,
+      [&](int i) {
+        const DoubleDouble step = component(w_.double_double(), i) * (sign < 0 ? -ratio_ : ratio_);
+        return x != nullptr ? DoubleDouble((*x)[i]) + step : step;
+      },
+      [&](int i) {
+        const NumberVector<Exact>& w = w_.exact().value;
+        const Exact squared_length = dot(w, w);
+        Exact numerator = component(w, i) * dot(w, evaluate<Exact>(d_)) * Exact(sign);
+        if (x != nullptr) numerator = numerator + Exact((*x)[i]) * squared_length;
+        return round_to_nearest(rational({numerator, squared_length}).mpq());
+      });
 }
 
 Vector3 unit_vector(const ContactDirection& w, PredicateLadder& ladder) {
-  Vector3 result;
-  std::array<bool, 3> known{false, false, false};
-  if (ladder.floating) {
-    const auto length = square_root(w.squared_length());
-    const auto inverse = length ? quotient(DoubleDouble(1.0), *length) : std::nullopt;
-    const NumberVector<DoubleDouble>& v = w.double_double();
-    const std::array<const DoubleDouble*, 3> component{&v.x, &v.y, &v.z};
-    for (int i = 0; inverse && i < 3; ++i) {
-      const auto value = rounded(*component[i] * *inverse);
-      if (!value) continue;
-      result[i] = *value;
-      known[i] = true;
-      ++ladder.counts.filter;
-    }
-  }
-  if (known[0] && known[1] && known[2]) return result;
-  const NumberVector<Exact>& v = w.exact().value;
-  const Exact squared_length = dot(v, v);
-  const std::array<const Exact*, 3> component{&v.x, &v.y, &v.z};
-  for (int i = 0; i < 3; ++i) {
-    if (known[i]) continue;
-    ++ladder.counts.exact;
-    const Exact square = *component[i] * *component[i];
-    result[i] = sign_of(*component[i]) * round_square_root(rational({square, squared_length}).mpq());
-  }
-  return result;
+  std::optional<DoubleDouble> inverse;
+  if (ladder.floating)
+    if (const auto length = square_root(w.squared_length())) inverse = quotient(DoubleDouble(1.0), *length);
+  return round_components(
+      ladder, inverse.has_value(), [&](int i) { return component(w.double_double(), i) * *inverse; },
+      [&](int i) {
+        const NumberVector<Exact>& v = w.exact().value;
+        const Exact& own = component(v, i);
+        return sign_of(own) * round_square_root(rational({own * own, dot(v, v)}).mpq());
+      });
 }
 
 Vector3 crossing_point(const ContactDirection& w, const Vector3& a, const Vector3& b, const Vector3& c,

@@ -15,7 +15,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <initializer_list>
 #include <memory>
 #include <span>
 
@@ -95,8 +94,6 @@ class ContactDirection {
   ContactDirection(ContactDirection&&) noexcept;
   ContactDirection& operator=(ContactDirection&&) noexcept;
   [[nodiscard]] ContactDirection copy() const;
-  /// -w.
-  [[nodiscard]] ContactDirection reversed() const;
   /// Turns w into -w.
   void reverse();
 
