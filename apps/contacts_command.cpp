@@ -32,8 +32,7 @@ constexpr const char* help_text =
     "file, to the folder of LIST. With --json one object a line is printed for each pair, in order; a pair "
     "that cannot be answered gives {\"error\": [\"...\"]} and exit status 2 when all others are done.";
 
-constexpr const char* not_convex =
-    "solid is not convex, contacts of such solids are not available in this version";
+constexpr const char* not_convex = "solid is not convex, a distance or angle of contact is for convex solids";
 
 Diagnostic fault_at(const std::string& origin, int line, int column, std::string message) {
   Diagnostic fault;
@@ -83,7 +82,8 @@ std::optional<ContactReport> report_of(const LoadedBody& a, const LoadedBody& b,
   for (const auto& [body, path] : {std::pair(&a, &a_path), std::pair(&b, &b_path)}) {
     if (body == &b && *path == a_path) break;
     faults.insert(faults.end(), body->faults.begin(), body->faults.end());
-    if (body->body && body->body->shape() == nullptr) faults.push_back(fault_at(*path, 0, 0, not_convex));
+    if (resolution && body->body && body->body->shape() == nullptr)
+      faults.push_back(fault_at(*path, 0, 0, not_convex));
   }
   if (!faults.empty()) return std::nullopt;
   return report_contact(*a.body, *b.body, resolution);

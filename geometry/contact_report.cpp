@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/rounding_mode.hpp"
+#include "geometry/solid_contacts.hpp"
 
 namespace ashlar {
 
@@ -172,7 +173,10 @@ ReportedFeature ContactBody::feature(const ContactFeature& of_shape) const {
 
 ContactReport report_contact(const ContactBody& a, const ContactBody& b,
                              const std::optional<Resolution>& resolution) {
-  if (a.shape() == nullptr || b.shape() == nullptr) throw NotConvexError();
+  if (a.shape() == nullptr || b.shape() == nullptr) {
+    if (resolution) throw NotConvexError();
+    return report_solids(a.solid(), b.solid());
+  }
   const ConvexContact exact = classify(*a.shape(), *b.shape(), std::nullopt, {!resolution, false});
   ContactReport report;
   report.relation = exact.relation;

@@ -101,14 +101,15 @@ class ContactBody {
   bool is_hull_ = false;
 };
 
-/// Thrown for solids the report does not exist for.
+/// Thrown for a type at a resolution of solids that have none.
 class NotConvexError : public std::invalid_argument {
  public:
   NotConvexError() : invalid_argument("solid is not convex") {}
 };
 
 /// @param resolution asks for type, region and contacts at a resolution instead of the exact ones.
-/// @throws NotConvexError if one of the two is not convex; std::invalid_argument as classify_at().
+/// @throws NotConvexError for a resolution if one of the two is not convex; std::invalid_argument as
+/// classify_at().
 [[nodiscard]] ContactReport report_contact(const ContactBody& a, const ContactBody& b,
                                            const std::optional<Resolution>& resolution = std::nullopt);
 

@@ -139,6 +139,21 @@ TEST_F(ContactsCommand, ResolutionIsStoredWithTheAnswer) {
   EXPECT_EQ(report["squared_distance"], 0.25);
 }
 
+TEST_F(ContactsCommand, SolidsThatAreNotConvexHaveContactsButNoType) {
+  const std::string a = write_cube("a.off", {1, 1, 0}), b = write_off("l.off", test_support::make_l_prism());
+  const json report = json::parse(run({a, b, {}, {}, {}, true}).out);
+  EXPECT_EQ(report["relation"], "touching");
+  EXPECT_TRUE(report["type"].is_null());
+  EXPECT_EQ(report["squared_distance"], 0.0);
+  EXPECT_EQ(report["contacts"].size(), 2u);
+  const json crossing = json::parse(run({b, b, {}, {}, {}, true}).out);
+  EXPECT_EQ(crossing["relation"], "crossing");
+  EXPECT_TRUE(crossing["depth"].is_null());
+  const Outcome refused = run({a, b, {}, 0.1, {}, true});
+  EXPECT_EQ(refused.status, exit_status::bad_input);
+  EXPECT_THAT(refused.err, StartsWith(b + ": error: solid is not convex"));
+}
+
 TEST_F(ContactsCommand, EveryDefectOfBothMeshesIsListed) {
   TriangleMesh open = make_box({0, 0, 0}, {1, 1, 1});
   open.triangles.pop_back();

@@ -216,8 +216,9 @@ TEST(ContactReport, SolidsThatAreReallyConcaveHaveNoShape) {
     EXPECT_EQ(ContactBody(solid).shape() != nullptr, solid.convex());
   }
   EXPECT_EQ(ContactBody(Polyhedron(test_support::make_dented_cube(0.5))).shape(), nullptr);
-  EXPECT_THROW((void)report_contact(ContactBody(Polyhedron(test_support::make_l_prism())), unit_cube()),
-               NotConvexError);
+  const ContactBody l(Polyhedron(test_support::make_l_prism()));
+  EXPECT_FALSE(report_contact(l, unit_cube()).convex);
+  EXPECT_THROW((void)report_contact(l, unit_cube(), Resolution{}), NotConvexError);
 }
 
 }  // namespace
