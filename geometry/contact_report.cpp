@@ -48,6 +48,17 @@ int apex_over(const Polyhedron& solid, int face, int from, int to) {
   });
 }
 
+// True if the triangles of a face have all of some points.
+bool has_points(const Polyhedron& solid, int face, const std::vector<int>& points) {
+  const std::vector<int>& triangles = solid.faces()[face].triangles;
+  return std::all_of(points.begin(), points.end(), [&](int point) {
+    return std::any_of(triangles.begin(), triangles.end(), [&](int t) {
+      const auto& corners = solid.mesh().triangles[t];
+      return std::find(corners.begin(), corners.end(), point) != corners.end();
+    });
+  });
+}
+
 double polygon_area(const std::vector<RegionVertex>& points) {
   Vector3 twice = Vector3::Zero();
   const Vector3& o = points.front().on_a;
@@ -162,10 +173,12 @@ ReportedFeature ContactBody::feature(const ContactFeature& of_shape) const {
       if (std::is_permutation(ends.begin(), ends.end(), feature.points.begin()))
         feature.index = static_cast<int>(e);
     }
-  } else if (const int triangle = shape_->source_triangles()[of_shape.index]; triangle >= 0) {
-    feature.index = solid_.face_of_triangle()[triangle];
   } else {
     for (const int v : shape_->facet(of_shape.index)) feature.points.push_back(source[v]);
+    const int triangle = shape_->source_triangles()[of_shape.index];
+    // A facet of the hull may have come from two faces.
+    if (triangle >= 0 && has_points(solid_, solid_.face_of_triangle()[triangle], feature.points))
+      feature.index = solid_.face_of_triangle()[triangle];
   }
   if (feature.index >= 0) feature.points.clear();
   return feature;

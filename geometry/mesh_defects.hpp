@@ -60,7 +60,7 @@ struct MeshCheck {
       defects;             ///< at most `limit` of each kind, in the order of the enumeration's checks
   std::vector<int> twins;  ///< twins[3 t + k]: the half-edge opposite to the one from corner k of triangle t
                            ///< to the next corner; complete for a sound mesh only
-  double volume = 0.0;  ///< m^3, correctly rounded; for a sound mesh only
+  double volume = 0.0;     ///< m^3, correctly rounded; for a sound mesh only
 };
 
 /// @param limit most defects listed of each kind, at least 1.

@@ -6,8 +6,8 @@
 // excluded by requiring the permanent to be normal and large.
 #include "geometry/projected_orientation.hpp"
 
-#include <Eigen/Geometry>
 #include <CGAL/Mpzf.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <limits>

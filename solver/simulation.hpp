@@ -97,9 +97,9 @@ class Simulation {
 
   /// Whether nothing is left up to `end_time` but the rounding of summed steps.
   [[nodiscard]] bool reached(double end_time) const;
-  /// Takes one step of at most settings.time_step, and not beyond `end_time`, which is not yet reached. A step
-  /// that ends there but for rounding is not fitted to it, so that a run that goes on later has had the same
-  /// steps.
+  /// Takes one step of at most settings.time_step, and not beyond `end_time`, which is not yet reached. A
+  /// step that ends there but for rounding is not fitted to it, so that a run that goes on later has had the
+  /// same steps.
   [[nodiscard]] StepStatus step(double end_time);
 
   /// All that has changed since construction, and back (checkpoint.hpp).

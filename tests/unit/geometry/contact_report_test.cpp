@@ -194,6 +194,17 @@ TEST(ContactReport, RotatedCubesAreTakenAsTheirHulls) {
   const ContactBody body(rotated);
   ASSERT_NE(body.shape(), nullptr);
   EXPECT_EQ(body.is_hull(), !rotated.convex());
+  // Every facet is named after a face of the mesh that has its corners, or after those.
+  for (int f = 0; f < body.shape()->facet_count(); ++f) {
+    const ReportedFeature name = body.feature({2, f});
+    EXPECT_NE(name.index < 0, name.points.empty());
+    for (const int v : body.shape()->facet(f)) {
+      const int point = body.shape()->source_points()[v];
+      const auto& loop = rotated.faces().at(std::max(name.index, 0)).loops.at(0);
+      const auto& points = name.index < 0 ? name.points : loop;
+      EXPECT_THAT(points, ::testing::Contains(point));
+    }
+  }
   const double reach = std::sqrt(3.0) / 2.0;
   const ContactReport report = report_contact(body, unit_cube({reach + 1, -0.5, -0.5}));
   EXPECT_EQ(report.relation, Relation::apart);
