@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <tbb/parallel_for.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -20,6 +18,7 @@
 #include "apps/contact_report_json.hpp"
 #include "apps/diagnostics.hpp"
 #include "geometry/mesh_io.hpp"
+#include "solver/parallel_for.hpp"
 
 namespace ashlar {
 namespace {
@@ -185,7 +184,7 @@ class PairList {
 
   template <class Work>
   static void in_parallel(std::size_t count, Work work) {
-    tbb::parallel_for(std::size_t{0}, count, work);
+    parallel_for(available_threads(), count, work);
   }
 
   void answer(std::span<const ListedPair> pairs) {

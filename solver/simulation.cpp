@@ -1,13 +1,12 @@
 #include "solver/simulation.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "solver/parallel_for.hpp"
 
 namespace ashlar {
 namespace {
@@ -183,8 +182,7 @@ std::vector<ContactPair> Simulation::find_contact_pairs(double step) {
       limits.angle = settings_.contact_angle;
       found[k] = find_contacts(placed[at(a)], placed[at(b)], limits);
     };
-    tbb::task_arena arena(settings_.threads);
-    arena.execute([&] { tbb::parallel_for(std::size_t{0}, candidates.size(), search); });
+    parallel_for(settings_.threads, candidates.size(), search);
   }
   Stopwatch watch(seconds_.contact_points);
   std::vector<ContactPair> pairs;

@@ -1,0 +1,58 @@
+// oneTBB does the work. The thread sanitizer sees only half of it, as the library of the system is not
+// compiled with that: it then either takes TBB's own hand-overs for races or, with those suppressed, sees no
+// race at all. So the build with the thread sanitizer uses plain threads, and races between pieces of work
+// are found.
+#include "solver/parallel_for.hpp"
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace ashlar {
+
+#if defined(__SANITIZE_THREAD__)
+
+void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr error;
+  const auto work_on = [&] {
+    try {
+      for (std::size_t k = next++; k < count; k = next++) work(k);
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(mutex);
+      if (!error) error = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> team;
+    const auto helpers = std::min(static_cast<std::size_t>(threads), count);
+    for (std::size_t k = 1; k < helpers; ++k) team.emplace_back(work_on);
+    work_on();
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+#else
+
+void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
+  // More than the machine has would make TBB print a warning and go on with fewer.
+  tbb::task_arena arena(std::min(threads, available_threads()));
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+}
+
+#endif
+
+int available_threads() {
+  return std::max(1, tbb::info::default_concurrency());
+}
+
+}  // namespace ashlar
