@@ -10,13 +10,15 @@
 
 namespace ashlar {
 
-// Third rung: dyadic numbers of any size.
+// Third rung: dyadic numbers of any size. CGAL declares its moves noexcept although they may allocate.
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct Exact : CGAL::Mpzf {
   Exact(double a = 0.0) : CGAL::Mpzf(a) {}
   Exact(CGAL::Mpzf a) : CGAL::Mpzf(std::move(a)) {}
   static Exact difference(double a, double b) { return Exact(CGAL::Mpzf(a) - CGAL::Mpzf(b)); }
 };
 
+// NOLINTNEXTLINE(bugprone-exception-escape)
 struct ContactDirection::ExactVector {
   NumberVector<Exact> value;
 };

@@ -88,7 +88,7 @@ class ContactReport {
     std::vector<int> candidates;
     for (int v = 0; v < static_cast<int>(x.size()); ++v)
       if (reaches(v)) candidates.push_back(v);
-    return projected_hull(taken_.w, x.data(), std::move(candidates), ladder_);
+    return projected_hull(taken_.w, x.data(), candidates, ladder_);
   }
 
   void apart(ClosestSimplex&& closest) {

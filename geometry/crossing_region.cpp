@@ -92,7 +92,7 @@ class CrossingVertices {
 
  private:
   [[nodiscard]] std::size_t index(int f, int v) const {
-    return static_cast<std::size_t>(v * facet_count_ + f);
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(facet_count_) + static_cast<std::size_t>(f);
   }
   [[nodiscard]] int side(int f, int v) const { return sides_[index(f, v)]; }
   // A corner in the plane of a triangle.

@@ -18,7 +18,7 @@ class SideSigns {
   SideSigns(const Projection& projection, const PlaneSet& sides, const PlaneSet& corners,
             PredicateLadder& ladder)
       : corners_(corners.size()) {
-    signs_.reserve(static_cast<std::size_t>(sides.side_count() * corners_));
+    signs_.reserve(static_cast<std::size_t>(sides.side_count()) * static_cast<std::size_t>(corners_));
     for (int s = 0; s < sides.side_count(); ++s) {
       const Vector3 &from = sides.point(s), &to = sides.point(s + 1);
       if (projection.setting == PlaneSetting::coplanar) {
@@ -31,8 +31,9 @@ class SideSigns {
     }
   }
   [[nodiscard]] int operator()(int side, int corner) const {
-    return signs_[static_cast<std::size_t>(side * corners_ +
-                                           (corner < corners_ ? corner : corner - corners_))];
+    const int wrapped = corner < corners_ ? corner : corner - corners_;
+    return signs_[static_cast<std::size_t>(side) * static_cast<std::size_t>(corners_) +
+                  static_cast<std::size_t>(wrapped)];
   }
   /// Both ends of the other set's side lie strictly on different sides.
   [[nodiscard]] bool separates(int side, int other_side) const {
@@ -179,8 +180,8 @@ PlaneLocation carrier(const PlaneSet& set, std::span<const PlaneLocation> locati
   return {2, -1};
 }
 
-std::vector<int> projected_hull(const ContactDirection& w, const Vector3* points, std::vector<int> candidates,
-                                PredicateLadder& ladder) {
+std::vector<int> projected_hull(const ContactDirection& w, const Vector3* points,
+                                const std::vector<int>& candidates, PredicateLadder& ladder) {
   std::vector<int> hull;
   std::vector<int> distinct;
   for (const int c : candidates)

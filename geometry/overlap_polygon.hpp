@@ -57,6 +57,6 @@ enum class PlaneSetting {
 /// Corners of the convex hull of points in the projection along w, counter-clockwise, starting anywhere; one
 /// point of those that coincide in the projection, none inside a side.
 [[nodiscard]] std::vector<int> projected_hull(const ContactDirection& w, const Vector3* points,
-                                              std::vector<int> candidates, PredicateLadder& ladder);
+                                              const std::vector<int>& candidates, PredicateLadder& ladder);
 
 }  // namespace ashlar

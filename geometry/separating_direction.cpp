@@ -23,7 +23,8 @@ class EdgeSides {
  public:
   EdgeSides(const ConvexShape& facets, const ConvexShape& edges, PredicateLadder& ladder)
       : facets_(facets), edges_(edges), ladder_(ladder), edge_count_(static_cast<int>(edges.edges().size())) {
-    signs_.resize(static_cast<std::size_t>(edge_count_ * facets.facet_count()), unknown_sign);
+    signs_.resize(static_cast<std::size_t>(edge_count_) * static_cast<std::size_t>(facets.facet_count()),
+                  unknown_sign);
     if (ladder.floating) fill();
   }
   /// (#edges): signs along one normal, unknown_sign where the filter is in doubt.
@@ -38,7 +39,8 @@ class EdgeSides {
 
  private:
   [[nodiscard]] std::size_t index(int facet, int edge) const {
-    return static_cast<std::size_t>(facet * edge_count_ + edge);
+    return static_cast<std::size_t>(facet) * static_cast<std::size_t>(edge_count_) +
+           static_cast<std::size_t>(edge);
   }
   void fill() {
     std::vector<std::array<double, 4>> vectors;
