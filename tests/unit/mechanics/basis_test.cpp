@@ -29,9 +29,10 @@ TEST(Basis, IsOrthonormalOnConvexAndNonConvexSolids) {
     const double tolerance = name == "far box" ? 1e-11 : 1e-12;
     for (const int order : {1, 2, 3, 5})
       EXPECT_LT(orthonormality_error(solid, order), tolerance) << name << order;
-    // Coefficients rounded to double lose what the seeds' condition on a tetrahedron (about 1e5 at order 8)
-    // costs.
-    EXPECT_LT(orthonormality_error(solid, 8), 1e-10) << name;
+    // The coefficients are rounded to double, and on solids that fill little of their bounding box that costs
+    // more.
+    const bool fills_little = name == "tetrahedron" || name == "hull";
+    EXPECT_LT(orthonormality_error(solid, 8), fills_little ? 1e-10 : 1e-11) << name;
   }
 }
 
