@@ -55,8 +55,15 @@ struct ReportedContact {
   ContactType type = ContactType::vertex_vertex;
   ReportedFeature a, b;
   int region_dimension = 0;
-  double area = 0.0;  ///< m^2, of the polygon of the rounded points; zero for points and segments
+  /// m^2, of the polygon of the rounded points (solids that are not convex: correctly rounded); zero for
+  /// points and segments
+  double area = 0.0;
   std::vector<ReportedPoint> points;
+  /// Solids that are not convex: each contact has its own distance (m^2, correctly rounded) and unit
+  /// direction from B to A, zero where the touching features do not fix one (V-V, V-E, collinear edges).
+  /// Convex ones have those of the report.
+  double squared_distance = 0.0;
+  Vector3 direction = Vector3::Zero();
 };
 
 /// What is known of two convex solids only.
