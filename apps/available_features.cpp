@@ -16,14 +16,13 @@ struct PartialKey {
   const char* available;  ///< JSON array of the values that work; empty: the key cannot be used yet
 };
 
-constexpr std::array<PartialKey, 10> partial_keys = {{
+constexpr std::array<PartialKey, 9> partial_keys = {{
     {"analysis.type", R"(["dynamic"])"},
     {"analysis.integrator", R"(["dda", "average-acceleration"])"},
     {"analysis.formulation", R"(["total"])"},
     {"analysis.solver", R"(["auto", "cholmod"])"},
     {"analysis.mass_damping", "[0.0]"},
     {"contact.augmented", "[false]"},
-    {"contact.chord_tolerance", R"(["auto"])"},
     {"joint.*.tied", "[false]"},
     {"material.*.elasticity", R"(["linear"])"},
     {"block.*.fix.*.displacement_history", "[]"},

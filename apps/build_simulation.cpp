@@ -69,9 +69,10 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
     return !block.fixed() && block.order() >= 2;
   });
-  if (curved) {
-    settings.subdivisions = static_cast<int>(
-        choose(scene.contact.subdivisions, ratios.subdivisions, "contact.subdivisions", "levels"));
+  settings.subdivisions = scene.contact.subdivisions.value_or(0);
+  if (curved && !scene.contact.subdivisions) {
+    settings.chord_tolerance = choose(scene.contact.chord_tolerance, ratios.chord_tolerance * smallest,
+                                      "contact.chord_tolerance", "m");
   }
   return settings;
 }

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "geometry/contact_search.hpp"
+#include "geometry/box_pairs.hpp"
 #include "geometry/convex_contact.hpp"
 
 namespace ashlar {
@@ -20,15 +20,6 @@ namespace {
 constexpr double crossing_slack = 1e-9;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Box box_of(const Polyhedron& solid) {
-  Box box{Vector3::Constant(infinity), Vector3::Constant(-infinity)};
-  for (const Vector3& point : solid.mesh().points) {
-    box.low = box.low.cwiseMin(point);
-    box.high = box.high.cwiseMax(point);
-  }
-  return box;
-}
 
 /// Squared distance of a point to a triangle: to its plane where the point lies over it, else to its sides.
 double squared_distance(const Vector3& point, const std::array<Vector3, 3>& corners) {
@@ -57,7 +48,7 @@ double solid_angle(const Vector3& point, const std::array<Vector3, 3>& corners) 
 /// A solid with the questions that are asked of it.
 class Probe {
  public:
-  explicit Probe(const Polyhedron& solid) : solid_(solid), box_(box_of(solid)) {
+  explicit Probe(const Polyhedron& solid) : solid_(solid), box_(box_of(solid.mesh().points)) {
     for (const auto& triangle : solid.mesh().triangles) {
       triangles_.push_back({point(triangle[0]), point(triangle[1]), point(triangle[2])});
     }
@@ -187,7 +178,7 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (!solids[k]) continue;
     blocks.push_back(k);
-    boxes.push_back(box_of(*solids[k]));
+    boxes.push_back(box_of(solids[k]->mesh().points));
     shapes.push_back(convex_shape(*solids[k]));
   }
   for (const auto& [first, second] : meeting_boxes(boxes)) {

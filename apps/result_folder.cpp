@@ -100,7 +100,20 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   return values;
 }
 
-UnstructuredGrid block_frame(const Simulation& simulation, const SceneOutput::Fields& fields) {
+std::vector<DrawnSurface> drawn_surfaces(const std::vector<BlockModel>& blocks) {
+  constexpr int levels = 2;
+  std::vector<DrawnSurface> surfaces;
+  for (const BlockModel& block : blocks) {
+    const bool curves = block.order() >= 2 && !block.fixed();
+    SubFaceSurface surface = curves ? divide_surface(block.solid(), levels) : whole_surface(block.solid());
+    Eigen::MatrixXd phi = block.basis().values(surface.points);
+    surfaces.push_back({std::move(surface), std::move(phi)});
+  }
+  return surfaces;
+}
+
+UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<DrawnSurface>& surfaces,
+                             const SceneOutput::Fields& fields) {
   UnstructuredGrid grid;
   std::vector<double> displacement;
   std::vector<double> velocity;
@@ -111,10 +124,10 @@ UnstructuredGrid block_frame(const Simulation& simulation, const SceneOutput::Fi
   for (int b = 0; b < static_cast<int>(simulation.blocks().size()); ++b) {
     const BlockModel& block = simulation.blocks()[at(b)];
     const BlockState& state = simulation.states()[at(b)];
-    const SubFaceSurface& surface = simulation.surfaces()[at(b)];
+    const auto& [surface, phi] = surfaces[at(b)];
     const int first = static_cast<int>(grid.points.size());
-    const auto places = simulation.surface_points(b);
-    const Eigen::MatrixX3d velocities = simulation.surface_phi(b) * state.velocity;
+    const auto places = placed_points(phi, state);
+    const Eigen::MatrixX3d velocities = phi * state.velocity;
     for (std::size_t k = 0; k < places.size(); ++k) {
       grid.points.push_back(places[k]);
       append(displacement, places[k] - surface.points[k]);
@@ -184,6 +197,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     : folder_(emptied(std::move(folder))),
       output_(scene.output),
       measures_(find_measures(scene)),
+      surfaces_(drawn_surfaces(simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_)),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
@@ -197,6 +211,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     : folder_(std::move(folder)),
       output_(scene.output),
       measures_(find_measures(scene)),
+      surfaces_(drawn_surfaces(simulation.blocks())),
       history_(
           HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), simulation.steps())),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
@@ -242,7 +257,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   last_frame_step_ = simulation.steps();
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
-  write_vtu(folder_ / blocks, block_frame(simulation, output_.fields));
+  write_vtu(folder_ / blocks, block_frame(simulation, surfaces_, output_.fields));
   write_vtu(folder_ / contacts, contact_frame(simulation));
   blocks_.add_frame(simulation.time(), blocks);
   contacts_.add_frame(simulation.time(), contacts);

@@ -28,9 +28,19 @@ struct MeasuredPoint {
 [[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
                                               const std::vector<MeasuredPoint>& measures);
 
+/// The surface a block is drawn with: whole faces of a block that stays affine, evenly divided ones of a
+/// block that may curve, wherever contacts need sub-faces or not.
+struct DrawnSurface {
+  SubFaceSurface surface;
+  Eigen::MatrixXd phi;  ///< (#points, p)
+};
+[[nodiscard]] std::vector<DrawnSurface> drawn_surfaces(const std::vector<BlockModel>& blocks);
+
 /// All blocks at the present time. Point data: those of displacement, velocity and stress (xx, yy, zz, xy,
 /// yz, xz) that are asked for. Cell data: block, order and face.
-[[nodiscard]] UnstructuredGrid block_frame(const Simulation& simulation, const SceneOutput::Fields& fields);
+[[nodiscard]] UnstructuredGrid block_frame(const Simulation& simulation,
+                                           const std::vector<DrawnSurface>& surfaces,
+                                           const SceneOutput::Fields& fields);
 
 /// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
 /// blocks.
@@ -76,6 +86,7 @@ class ResultFolder {
   std::filesystem::path folder_;
   SceneOutput output_;
   std::vector<MeasuredPoint> measures_;
+  std::vector<DrawnSurface> surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;
   PvdWriter contacts_;

@@ -18,15 +18,20 @@ std::uint64_t peak_memory_bytes() {
 
 nlohmann::ordered_json counts_of(const Simulation& simulation) {
   const SimulationCounts counts = simulation.counts();
-  const double predicates = static_cast<double>(counts.predicates.filter + counts.predicates.exact);
-  return {{"block_pairs_tested", counts.block_pairs_tested},
-          {"block_pairs_skipped", counts.block_pairs_skipped},
+  const FinderCounts& finder = counts.finder;
+  const auto predicates = static_cast<double>(finder.predicates.filter + finder.predicates.exact);
+  return {{"block_pairs_tested", finder.block_pairs_tested},
+          {"block_pairs_skipped", finder.block_pairs_skipped},
+          {"block_pairs_known_apart", finder.block_pairs_far},
+          {"block_pairs_followed_through_a_step", finder.motions_checked},
+          {"contacts_added_for_passing", counts.passing_contacts},
+          {"changes_of_sub_faces", finder.divisions},
           {"contact_points", counts.contact_points},
           {"open_close_iterations", counts.open_close_iterations},
-          {"predicates_by_filter", counts.predicates.filter},
-          {"predicates_exact", counts.predicates.exact},
+          {"predicates_by_filter", finder.predicates.filter},
+          {"predicates_exact", finder.predicates.exact},
           {"share_of_exact_predicates",
-           predicates > 0.0 ? static_cast<double>(counts.predicates.exact) / predicates : 0.0},
+           predicates > 0.0 ? static_cast<double>(finder.predicates.exact) / predicates : 0.0},
           {"symbolic_factorizations", counts.factors.analyses},
           {"numeric_factorizations", counts.factors.factorizations},
           {"numeric_factorizations_reused", counts.factors.factorizations_reused},
@@ -79,12 +84,14 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
                              {"contact_search", phases.contact_search},
                              {"contact_points", phases.contact_points},
                              {"solve", phases.solve},
+                             {"motion_check", phases.motion_check},
                              {"output", seconds.output}};
   summary["peak_memory_bytes"] = peak_memory_bytes();
   summary["penetration_max"] = simulation.largest_penetration();
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();
+  summary["chord_error_bound"] = simulation.finder().chord_bound();
   summary["counts"] = counts_of(simulation);
   nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
   for (const AutomaticChoice& choice : built.choices) {

@@ -10,48 +10,25 @@
 
 #include <vector>
 
-#include "geometry/cell_overlap.hpp"
-#include "geometry/sub_face_surface.hpp"
+#include "geometry/overlap_polygon.hpp"
+#include "geometry/placed_surface.hpp"
+#include "geometry/view_frame.hpp"
 
 namespace ashlar {
 
-/// Axis-parallel box.
-struct Box {
-  Vector3 low;
-  Vector3 high;
-  [[nodiscard]] bool meets(const Box& other) const {
-    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
-  }
-};
-
-/// The current shape of a surface: what the search needs more than once.
-class PlacedSurface {
- public:
-  /// @param surface must outlive this. @param points (#surface.points), current positions, m
-  PlacedSurface(const SubFaceSurface& surface, std::vector<Vector3> points);
-
-  [[nodiscard]] const SubFaceSurface& surface() const { return *surface_; }
-  [[nodiscard]] const std::vector<Vector3>& points() const { return points_; }
-  [[nodiscard]] const Vector3& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
-  /// Outward unit normal of a cell (of its area vector; zero if the cell has collapsed).
-  [[nodiscard]] const Vector3& normal(int cell) const { return normals_[static_cast<std::size_t>(cell)]; }
-  [[nodiscard]] const Box& cell_box(int cell) const { return cell_boxes_[static_cast<std::size_t>(cell)]; }
-  [[nodiscard]] const Box& box() const { return box_; }
-  [[nodiscard]] std::vector<Vector3> corners(int cell) const;
-
- private:
-  const SubFaceSurface* surface_;
-  std::vector<Vector3> points_;
-  std::vector<Vector3> normals_;
-  std::vector<Box> cell_boxes_;
-  Box box_;
-};
-
 /// What counts as a contact. The comparison with each limit is the user's resolution, never hidden elsewhere.
 struct ContactLimits {
-  double reach = 0.0;        ///< m, largest gap
+  double reach = 0.0;        ///< m, largest gap, beyond the chord bounds of curved cells
   double penetration = 0.0;  ///< m, deepest entrance that is still taken as one through this face
   double angle = 0.0;        ///< rad, how far two faces may be from parallel to meet as face-face, 0 to pi/4
+};
+
+/// A corner of an overlap polygon: where it lies in both cells (corner or side by the cell's own numbering).
+/// Which corners there are and what they are made of is exact for the given doubles; the place is rounded.
+struct OverlapCorner {
+  PlaneLocation in_a;
+  PlaneLocation in_b;
+  Eigen::Vector2d place;  ///< in the frame's plane, m
 };
 
 /// Two cells whose faces face each other.
@@ -59,25 +36,31 @@ struct CellOverlap {
   int cell_a;
   int cell_b;
   ViewFrame frame;                     ///< w is the mean direction of the two normals, out of b
-  std::vector<OverlapCorner> corners;  ///< at least 3
+  std::vector<OverlapCorner> corners;  ///< at least 3, counter-clockwise seen against w, each once
   std::vector<double> gaps;            ///< of the flat cells at each corner along w, m
 };
 
-/// A vertex of one block over a cell of the other.
+/// A point of one block's surface over a cell of the other.
 struct VertexContact {
-  bool vertex_of_a;  ///< true: vertex of a over a cell of b
-  int vertex;        ///< index into SubFaceSurface::vertices of its block
+  bool vertex_of_a;  ///< true: point of a over a cell of b
+  int point;         ///< index into SubFaceSurface::points of its block
+  int own_cell;      ///< a cell around it
   int cell;          ///< of the other block
   double gap;        ///< m, along the cell's normal
   double area;       ///< tributary area of the vertex, m^2
 };
 
+/// A side of a cell in an edge contact.
+struct CrossedSide {
+  std::array<int, 2> ends;  ///< points of its block's surface
+  int cell;                 ///< a cell that has the side
+  double along;             ///< place of the crossing, 0 to 1 from the first end
+};
+
 /// Two edges crossing.
 struct EdgeContact {
-  int edge_a;  ///< index into SubFaceSurface::edges
-  int edge_b;
-  double along_a;  ///< place of the crossing on each edge, 0 to 1 from its first end
-  double along_b;
+  CrossedSide of_a;
+  CrossedSide of_b;
   Vector3 normal;  ///< unit, across both edges, out of b
   double gap;      ///< m
   double area;     ///< tributary area, m^2
@@ -88,16 +71,15 @@ struct PairContacts {
   std::vector<CellOverlap> overlaps;
   std::vector<VertexContact> vertices;
   std::vector<EdgeContact> edges;
-  PredicateCounts counts;
+  DecisionCounts counts;
   [[nodiscard]] bool empty() const { return overlaps.empty() && vertices.empty() && edges.empty(); }
 };
+
+/// Mean over the faces around some cells of the area that falls to one corner of each, m^2.
+[[nodiscard]] double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cells);
 
 /// Finds every contact of two blocks. The answer is symmetric: swapping a and b swaps their roles in it.
 [[nodiscard]] PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b,
                                          const ContactLimits& limits);
-
-/// Pairs (i < j) of closed boxes that meet, sorted. O(N log N + pairs whose extents meet along the longest
-/// axis).
-[[nodiscard]] std::vector<std::array<int, 2>> meeting_boxes(const std::vector<Box>& boxes);
 
 }  // namespace ashlar

@@ -1,7 +1,8 @@
-// The surface of a block as contact sees it: faces divided into flat cells in reference coordinates. Cells
-// carry the polyhedron's face they are part of; an edge between two cells of one face is an inner edge by
-// that attribute and is never a contact feature. The topology is constant; only the positions of its points
-// move.
+// The surface of a block as contact sees it: flat cells in reference coordinates. A block that stays affine
+// has whole convex faces as cells; the faces of a block that may curve are divided into triangles. Cells
+// carry the polyhedron's face they are part of, their sides the polyhedron's edge: a side between two cells
+// of one face is an inner side by that attribute and is never a contact feature. The topology is constant;
+// only the positions of its points move.
 #pragma once
 
 #include <array>
@@ -11,11 +12,14 @@
 
 namespace ashlar {
 
-/// A flat convex piece of one face: a whole convex face, or a triangle of it.
+/// A flat convex piece of one face.
 struct SurfaceCell {
   int face;  ///< index into Polyhedron::faces()
   std::vector<int>
       corners;  ///< at least 3, indices into SubFaceSurface::points, counter-clockwise from outside
+  /// (#corners) the edge of the polyhedron that side k, from corner k to the next, is a piece of; -1: an
+  /// inner side.
+  std::vector<int> rim;
 };
 
 /// A piece of an edge of the polyhedron.
@@ -38,15 +42,25 @@ struct SubFaceSurface {
   std::vector<SurfaceCell> cells;
   std::vector<SurfaceEdge> edges;
   std::vector<SurfaceVertex> vertices;
+  std::vector<int> vertex_of_point;               ///< (#points) index into vertices; -1: none
   std::vector<double> face_share;                 ///< (#faces) area of a face over its number of corners, m^2
   std::vector<std::vector<int>> face_neighbours;  ///< (#faces) faces that share an edge with it, increasing
   bool divided = false;                           ///< true if faces were divided because the block may curve
 };
 
-/// Divides every face uniformly. The division is conforming: cells of neighbouring faces share their sides.
-/// @param levels 0: convex faces stay whole, others become the triangles of the mesh; k >= 1: all triangles
-/// of the mesh
-///   are split into 4^k. @throws std::invalid_argument unless 0 <= levels <= 8
+/// Convex faces whole, others as the triangles of the mesh: for blocks whose faces stay flat. Its edges and
+/// vertices are those of the polyhedron, whatever points the mesh has inside them.
+[[nodiscard]] SubFaceSurface whole_surface(const Polyhedron& solid);
+
+/// The mesh's triangles, split into 4^levels each. The division is conforming: cells of neighbouring faces
+/// share their sides. @throws std::invalid_argument unless 0 <= levels <= 8
 [[nodiscard]] SubFaceSurface divide_surface(const Polyhedron& solid, int levels);
+
+/// A conforming division into triangles, with the rims known.
+/// @param points reference coordinates of at least all corners; the surface has those that cells use, in the
+/// order of their first use
+/// @param cells triangles that cover every face of the solid
+[[nodiscard]] SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<Vector3>& points,
+                                                  std::vector<SurfaceCell> cells);
 
 }  // namespace ashlar

@@ -119,50 +119,91 @@ void set_foot(ContactPoint& point, const ContactBody& master, int face, bool mas
   point.normal = master_is_a ? Vector3(-foot.normal) : foot.normal;
 }
 
-/// Corners of the polygon with the area that falls to each, for point springs.
-PolygonRule corner_rule(const std::vector<Eigen::Vector2d>& polygon) {
-  PolygonRule rule;
+std::vector<Eigen::Vector2d> places_of(const CellOverlap& overlap) {
+  std::vector<Eigen::Vector2d> places;
+  for (const OverlapCorner& corner : overlap.corners) places.push_back(corner.place);
+  return places;
+}
+
+double area_of(const std::vector<Eigen::Vector2d>& polygon) {
   double area = 0.0;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Eigen::Vector2d u = polygon[k] - polygon[0];
     const Eigen::Vector2d v = polygon[k + 1] - polygon[0];
     area += 0.5 * (u.x() * v.y() - u.y() * v.x());
   }
-  rule.points = polygon;
-  rule.weights.assign(polygon.size(), area / static_cast<double>(polygon.size()));
-  return rule;
+  return area;
 }
 
-void add_overlap(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap, bool master_is_a,
-                 const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
-  std::vector<Eigen::Vector2d> polygon;
-  for (const OverlapCorner& corner : overlap.corners) polygon.push_back(corner.place);
+/// Makes the contact points of two cells that face each other.
+class OverlapPoints {
+ public:
+  OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap, bool master_is_a,
+                bool curved)
+      : a_(a),
+        b_(b),
+        overlap_(overlap),
+        master_is_a_(master_is_a),
+        curved_(curved),
+        map_a_(a, overlap.cell_a, overlap.frame),
+        map_b_(b, overlap.cell_b, overlap.frame) {}
+
+  [[nodiscard]] ContactPoint at_place(const Eigen::Vector2d& place, double area) const {
+    ContactPoint point{};
+    point.type = ContactPointType::face_face;
+    point.face_a = cell_of(a_, overlap_.cell_a).face;
+    point.face_b = cell_of(b_, overlap_.cell_b).face;
+    point.material_a = map_a_.reference(place);
+    point.material_b = map_b_.reference(place);
+    point.area = area;
+    if (curved_) {
+      point.place_a = true_place(a_, point.material_a);
+      point.place_b = true_place(b_, point.material_b);
+      set_foot(point, master_is_a_ ? a_ : b_, master_is_a_ ? point.face_a : point.face_b, master_is_a_);
+    } else {
+      point.place_a = map_a_.placed(place);
+      point.place_b = map_b_.placed(place);
+      point.normal =
+          master_is_a_ ? Vector3(-a_.placed->normal(overlap_.cell_a)) : b_.placed->normal(overlap_.cell_b);
+    }
+    complete(point);
+    return point;
+  }
+
+ private:
+  const ContactBody& a_;
+  const ContactBody& b_;
+  const CellOverlap& overlap_;
+  bool master_is_a_;
+  bool curved_;
+  CellMap map_a_;
+  CellMap map_b_;
+};
+
+/// Area springs: a quadrature rule on every cell overlap.
+void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
+                      bool master_is_a, const ContactPointSettings& settings,
+                      std::vector<ContactPoint>& points) {
   int degree = std::max({2, a.model->order(), b.model->order()});
   if (a.placed->surface().divided || b.placed->surface().divided)
     degree = std::min(degree, settings.max_quadrature_degree);
-  const PolygonRule rule = settings.area_springs ? polygon_rule(polygon, degree) : corner_rule(polygon);
-  const CellMap map_a(a, overlap.cell_a, overlap.frame);
-  const CellMap map_b(b, overlap.cell_b, overlap.frame);
-  for (std::size_t k = 0; k < rule.points.size(); ++k) {
-    ContactPoint point{};
-    point.type = ContactPointType::face_face;
-    point.face_a = cell_of(a, overlap.cell_a).face;
-    point.face_b = cell_of(b, overlap.cell_b).face;
-    point.material_a = map_a.reference(rule.points[k]);
-    point.material_b = map_b.reference(rule.points[k]);
-    point.area = rule.weights[k];
-    if (settings.curved) {
-      point.place_a = true_place(a, point.material_a);
-      point.place_b = true_place(b, point.material_b);
-      set_foot(point, master_is_a ? a : b, master_is_a ? point.face_a : point.face_b, master_is_a);
-    } else {
-      point.place_a = map_a.placed(rule.points[k]);
-      point.place_b = map_b.placed(rule.points[k]);
-      point.normal =
-          master_is_a ? Vector3(-a.placed->normal(overlap.cell_a)) : b.placed->normal(overlap.cell_b);
-    }
-    complete(point);
-    points.push_back(point);
+  const PolygonRule rule = polygon_rule(places_of(overlap), degree);
+  const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
+  for (std::size_t k = 0; k < rule.points.size(); ++k)
+    points.push_back(make.at_place(rule.points[k], rule.weights[k]));
+}
+
+/// Point springs: one at every vertex of the faces' overlap polygon, with an equal share of its area.
+void add_point_springs(const ContactBody& a, const ContactBody& b, const FaceOverlap& face,
+                       const std::vector<CellOverlap>& overlaps, bool master_is_a,
+                       const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
+  double area = 0.0;
+  for (const int cell : face.cells) area += area_of(places_of(overlaps[at(cell)]));
+  for (const FaceOverlapPoint& point : face.points) {
+    const CellOverlap& overlap = overlaps[at(point.overlap)];
+    points.push_back(OverlapPoints(a, b, overlap, master_is_a, settings.curved)
+                         .at_place(overlap.corners[at(point.corner)].place,
+                                   area / static_cast<double>(face.points.size())));
   }
 }
 
@@ -170,20 +211,19 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
                 const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
   const ContactBody& with_vertex = contact.vertex_of_a ? a : b;
   const ContactBody& with_cell = contact.vertex_of_a ? b : a;
-  const SurfaceVertex& vertex = with_vertex.placed->surface().vertices[at(contact.vertex)];
   const Vector3& normal = with_cell.placed->normal(contact.cell);
-  const Vector3 place = with_vertex.placed->point(vertex.point);
+  const Vector3 place = with_vertex.placed->point(contact.point);
   const Vector3 foot = place - contact.gap * normal;
   const ViewFrame frame(foot, normal);
   const int face = cell_of(with_cell, contact.cell).face;
-  const int own_face = cell_of(with_vertex, vertex.cells.front()).face;
+  const int own_face = cell_of(with_vertex, contact.own_cell).face;
   ContactPoint point{};
   point.type = ContactPointType::vertex_face;
   point.face_a = contact.vertex_of_a ? own_face : face;
   point.face_b = contact.vertex_of_a ? face : own_face;
   const Vector3 foot_material = CellMap(with_cell, contact.cell, frame).reference(Eigen::Vector2d::Zero());
-  point.material_a = contact.vertex_of_a ? reference_point(a, vertex.point) : foot_material;
-  point.material_b = contact.vertex_of_a ? foot_material : reference_point(b, vertex.point);
+  point.material_a = contact.vertex_of_a ? reference_point(a, contact.point) : foot_material;
+  point.material_b = contact.vertex_of_a ? foot_material : reference_point(b, contact.point);
   point.place_a = contact.vertex_of_a ? place : foot;
   point.place_b = contact.vertex_of_a ? foot : place;
   point.area = contact.area;
@@ -196,30 +236,35 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
   points.push_back(point);
 }
 
+/// The point of a side in the material, and where it is.
+struct SidePoint {
+  Vector3 material;
+  Vector3 place;
+};
+
+SidePoint side_point(const ContactBody& body, const CrossedSide& side, bool curved) {
+  const auto between = [&](const Vector3& start, const Vector3& end) {
+    return Vector3(start + side.along * (end - start));
+  };
+  SidePoint point;
+  point.material = between(reference_point(body, side.ends[0]), reference_point(body, side.ends[1]));
+  point.place = curved ? true_place(body, point.material)
+                       : between(body.placed->point(side.ends[0]), body.placed->point(side.ends[1]));
+  return point;
+}
+
 void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& contact,
               const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
-  const SurfaceEdge& edge_a = a.placed->surface().edges[at(contact.edge_a)];
-  const SurfaceEdge& edge_b = b.placed->surface().edges[at(contact.edge_b)];
-  const auto between = [](const Vector3& start, const Vector3& end, double share) {
-    return Vector3(start + share * (end - start));
-  };
+  const SidePoint on_a = side_point(a, contact.of_a, settings.curved);
+  const SidePoint on_b = side_point(b, contact.of_b, settings.curved);
   ContactPoint point{};
   point.type = ContactPointType::edge_edge;
-  point.face_a = cell_of(a, edge_a.cells[0]).face;
-  point.face_b = cell_of(b, edge_b.cells[0]).face;
-  point.material_a =
-      between(reference_point(a, edge_a.ends[0]), reference_point(a, edge_a.ends[1]), contact.along_a);
-  point.material_b =
-      between(reference_point(b, edge_b.ends[0]), reference_point(b, edge_b.ends[1]), contact.along_b);
-  if (settings.curved) {
-    point.place_a = true_place(a, point.material_a);
-    point.place_b = true_place(b, point.material_b);
-  } else {
-    point.place_a =
-        between(a.placed->point(edge_a.ends[0]), a.placed->point(edge_a.ends[1]), contact.along_a);
-    point.place_b =
-        between(b.placed->point(edge_b.ends[0]), b.placed->point(edge_b.ends[1]), contact.along_b);
-  }
+  point.face_a = cell_of(a, contact.of_a.cell).face;
+  point.face_b = cell_of(b, contact.of_b.cell).face;
+  point.material_a = on_a.material;
+  point.material_b = on_b.material;
+  point.place_a = on_a.place;
+  point.place_b = on_b.place;
   point.normal = contact.normal;
   point.area = contact.area;
   complete(point);
@@ -248,8 +293,13 @@ std::vector<ContactPoint> contact_points(const ContactBody& a, const ContactBody
                                          const PairContacts& contacts, const ContactPointSettings& settings) {
   std::vector<ContactPoint> points;
   const bool master_is_a = first_is_master(a, b);
-  for (const CellOverlap& overlap : contacts.overlaps)
-    add_overlap(a, b, overlap, master_is_a, settings, points);
+  if (settings.area_springs) {
+    for (const CellOverlap& overlap : contacts.overlaps)
+      add_area_springs(a, b, overlap, master_is_a, settings, points);
+  } else {
+    for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
+      add_point_springs(a, b, face, contacts.overlaps, master_is_a, settings, points);
+  }
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, points);
   return points;

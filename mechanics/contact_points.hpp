@@ -2,16 +2,17 @@
 // and one of block b with the outward unit normal of b's surface between them (theory.md sections 6.4, 6.5
 // and 7).
 //
-// Per area, the points of a face-face contact are a quadrature rule on each overlap polygon; per point (the
-// paper's springs) they are the corners of the polygon. Isolated vertices and edge crossings carry a
-// tributary area. With curved surfaces, the point on the master block is the closest one on its true
-// polynomial surface, so that x_a - x_b is along the normal; with flat surfaces both points stay on their
-// sub-face planes.
+// Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells; per
+// point (the paper's springs) they are the vertices of the faces' overlap polygon (face_overlap.hpp).
+// Isolated vertices and edge crossings carry a tributary area. With curved surfaces, the point on the master
+// block is the closest one on its true polynomial surface, so that x_a - x_b is along the normal; with flat
+// surfaces both points stay on their sub-face planes.
 #pragma once
 
 #include <vector>
 
 #include "geometry/contact_search.hpp"
+#include "geometry/face_overlap.hpp"
 #include "mechanics/block_model.hpp"
 #include "mechanics/joint_law.hpp"
 

@@ -14,7 +14,7 @@ struct AutomaticRatios {
   double shear_to_normal_stiffness = 0.5;
   double distance = 1e-3;  ///< of the smallest block's size
   double angle_degrees = 10.0;
-  int subdivisions = 2;
+  double chord_tolerance = 5e-3;  ///< of the smallest block's size
 };
 
 /// Cube root of the volume, m.

@@ -59,8 +59,24 @@ static void visit_members(Archive& archive, Rejection& rejection) {
 }
 
 template <class Archive>
-static void visit_members(Archive& archive, PredicateCounts& counts) {
+static void visit_members(Archive& archive, DecisionCounts& counts) {
   archive(counts.filter, counts.exact);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, FinderCounts& counts) {
+  archive(counts.block_pairs_tested, counts.block_pairs_skipped, counts.block_pairs_far,
+          counts.motions_checked, counts.divisions, counts.predicates);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, Clearance& clearance) {
+  archive(clearance.distance, clearance.path);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, FinderState& state) {
+  archive(state.paths, state.clearances, state.divisions, state.counts);
 }
 
 template <class Archive>
@@ -70,21 +86,21 @@ static void visit_members(Archive& archive, FactorCounts& counts) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationCounts& counts) {
-  archive(counts.block_pairs_tested, counts.block_pairs_skipped, counts.contact_points,
-          counts.open_close_iterations, counts.predicates, counts.factors);
+  archive(counts.finder, counts.contact_points, counts.open_close_iterations, counts.passing_contacts,
+          counts.factors);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, PhaseSeconds& seconds) {
-  archive(seconds.contact_search, seconds.contact_points, seconds.solve);
+  archive(seconds.contact_search, seconds.contact_points, seconds.solve, seconds.motion_check);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
   archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.memory,
-          snapshot.contact_work, snapshot.report, snapshot.records, snapshot.ledger, snapshot.start_balance,
-          snapshot.largest_step_residual, snapshot.largest_energy, snapshot.largest_penetration,
-          snapshot.rejections, snapshot.counts, snapshot.seconds);
+          snapshot.contact_work, snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger,
+          snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
+          snapshot.largest_penetration, snapshot.rejections, snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -111,6 +127,7 @@ SimulationSnapshot Simulation::snapshot() const {
     result.memory.push_back({blocks, memory.entries(), memory.deepest()});
   }
   result.contact_work = contact_work_;
+  result.finder = finder_.state();
   result.report = report_;
   result.records = records_;
   result.ledger = ledger_;
@@ -140,6 +157,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
     memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest));
   }
   contact_work_ = snapshot.contact_work;
+  finder_.restore(snapshot.finder);
   report_ = snapshot.report;
   records_ = snapshot.records;
   ledger_ = snapshot.ledger;

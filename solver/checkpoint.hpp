@@ -27,6 +27,7 @@ struct SimulationSnapshot {
   std::vector<BlockState> states;
   std::vector<RememberedPair> memory;
   std::map<std::array<int, 2>, double> contact_work;
+  FinderState finder;
   StepReport report;
   std::vector<PairRecord> records;
   Ledger ledger;

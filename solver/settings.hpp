@@ -1,6 +1,8 @@
 // Every number the solver uses, with unit, default, range and consequence.
 #pragma once
 
+#include <limits>
+
 #include "geometry/triangle_mesh.hpp"
 #include "mechanics/contact_points.hpp"
 
@@ -27,7 +29,15 @@ struct SimulationSettings {
       1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
   double contact_angle =
       0.17453292519943295;  ///< rad, 0 to pi/4: faces within it of parallel meet as face-face
-  int subdivisions = 2;     ///< 0 to 8, uniform levels for the faces of blocks of order >= 2
+  /// m, > 0: faces of blocks of order >= 2 that have a neighbour in reach are divided until their certified
+  /// chord error is below it; infinity: not at all
+  double chord_tolerance = std::numeric_limits<double>::infinity();
+  int subdivisions = 2;  ///< 0 to 8, uniform levels for the faces of blocks of order >= 2 to start from
+  /// m, > 0, as a share of contact_distance: two blocks may get this far into each other in a step that no
+  /// contact was found for; deeper, and the step is cut to the first touch
+  double passing_share = 0.01;
+  /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
+  double smallest_cut = 0.01;
 
   int max_iterations = 40;       ///< of an open-close iteration; more: the step is cut
   int undamped_iterations = 12;  ///< after these, changes are halved, which breaks most cycles

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "solver/parallel_for.hpp"
-
 namespace ashlar {
 namespace {
 
@@ -31,37 +29,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// How far any surface point of a block can move in a step under its velocity and gravity.
-double motion_bound(const Eigen::MatrixXd& phi, const BlockState& state, const Vector3& gravity,
-                    double step) {
-  const double speed = std::sqrt((phi * state.velocity).rowwise().squaredNorm().maxCoeff());
-  return step * speed + 0.5 * step * step * gravity.norm();
-}
-
-/// phi at the middle of every cell side less the mean of phi at its ends: times q, how far the curved surface
-/// is off the flat cells there.
-Eigen::MatrixXd chord_rows(const PolynomialBasis& basis, const SubFaceSurface& surface) {
-  if (!surface.divided) return {};
-  std::vector<Vector3> middles;
-  std::vector<Vector3> starts;
-  std::vector<Vector3> ends;
-  for (const SurfaceCell& cell : surface.cells) {
-    for (std::size_t k = 0; k < cell.corners.size(); ++k) {
-      starts.push_back(surface.points[at(cell.corners[k])]);
-      ends.push_back(surface.points[at(cell.corners[(k + 1) % cell.corners.size()])]);
-      middles.emplace_back(0.5 * (starts.back() + ends.back()));
-    }
-  }
-  return basis.values(middles) - 0.5 * (basis.values(starts) + basis.values(ends));
-}
-
-/// How far the flat cells may be off the curved surface: inside a cell the error of a quadratic is at most
-/// 4/3 of the largest one at its sides' middles; twice that leaves room for higher orders.
-double chord_error(const Eigen::MatrixXd& rows, const BlockState& state) {
-  if (rows.size() == 0) return 0.0;
-  return 8.0 / 3.0 * std::sqrt((rows * state.position).rowwise().squaredNorm().maxCoeff());
-}
-
 /// Size of the rounding errors in the internal force K (R' q - q0) of a block at rest.
 double roundoff_of(const BlockModel& block) {
   const Eigen::Index p = block.basis().size();
@@ -74,6 +41,22 @@ double roundoff_of(const BlockModel& block) {
   return 4.0 * std::numeric_limits<double>::epsilon() * (tangent.cwiseAbs() * reduced.cwiseAbs()).norm();
 }
 
+/// Adds contacts for blocks that would pass through each other, pairs kept in order.
+void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found) {
+  for (const PassingBlocks& blocks : passing) {
+    auto place = std::lower_bound(
+        found.begin(), found.end(), blocks.blocks,
+        [](const FoundContacts& contacts, const std::array<int, 2>& pair) { return contacts.blocks < pair; });
+    if (place == found.end() || place->blocks != blocks.blocks)
+      place = found.insert(place, FoundContacts{blocks.blocks, {}});
+    if (const auto* vertex = std::get_if<VertexContact>(&blocks.touch.contact)) {
+      place->contacts.vertices.push_back(*vertex);
+    } else {
+      place->contacts.edges.push_back(std::get<EdgeContact>(blocks.touch.contact));
+    }
+  }
+}
+
 }  // namespace
 
 std::string to_string(RejectionReason reason) {
@@ -82,21 +65,23 @@ std::string to_string(RejectionReason reason) {
       return "open-close iteration did not settle";
     case RejectionReason::not_positive_definite:
       return "system not positive definite";
+    case RejectionReason::passing:
+      return "blocks would have passed through each other";
   }
   return "unknown";
 }
 
 Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion> motions, LawOfPair law,
                        SimulationSettings settings)
-    : blocks_(std::move(blocks)), law_(std::move(law)), settings_(settings), next_step_(settings.time_step) {
+    : blocks_(std::move(blocks)),
+      law_(std::move(law)),
+      settings_(settings),
+      finder_(blocks_, settings),
+      next_step_(settings.time_step) {
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockModel& block = blocks_[k];
     states_.push_back(block.initial_state());
     moving_.push_back(!block.fixed());
-    surfaces_.push_back(
-        divide_surface(block.solid(), block.order() >= 2 && !block.fixed() ? settings.subdivisions : 0));
-    surface_phi_.push_back(block.basis().values(surfaces_.back().points));
-    chord_phi_.push_back(chord_rows(block.basis(), surfaces_.back()));
     roundoff_force_.push_back(block.fixed() ? 0.0 : roundoff_of(block));
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
@@ -120,87 +105,104 @@ bool Simulation::reached(double end_time) const {
   return end_time - time_ <= step_rounding * settings_.time_step;
 }
 
+/// A step as tried: nothing of it is taken over before it is accepted.
+struct Simulation::Trial {
+  std::vector<ContactPair> pairs;
+  std::vector<Island> islands;
+  std::vector<BodyStep> bodies;
+  std::vector<IslandResult> results;
+};
+
 StepStatus Simulation::step(double end_time) {
   double step = next_step_;
   const double left = end_time - time_;
   if (left < step * (1.0 - step_rounding)) step = left;
-  const std::vector<ContactPair> pairs = find_contact_pairs(step);
-  const std::vector<Island> islands = find_islands(moving_, pairs);
-  for (int cut = 0; cut <= settings_.max_step_cuts; ++cut, step *= 0.5) {
-    Stopwatch watch(seconds_.solve);
-    std::vector<BodyStep> bodies = prepare_bodies(step);
-    std::vector<IslandResult> results;
-    IslandStatus worst = IslandStatus::settled;
-    for (const Island& island : islands) {
-      results.push_back(solve_island(island, bodies, pairs, step, settings_, solvers_));
-      counts_.open_close_iterations += static_cast<std::uint64_t>(results.back().iterations);
-      worst = results.back().status;
-      if (worst != IslandStatus::settled) break;
+  std::vector<FoundContacts> found = find_contacts(step);
+  Trial trial;
+  trial.pairs = make_pairs(found);
+  int cuts = 0;
+  bool unsettled = false;
+  while (cuts <= settings_.max_step_cuts) {
+    const IslandStatus status = try_step(step, trial);
+    if (status != IslandStatus::settled) {
+      rejections_.push_back({time_, step,
+                             status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
+                                                                 : RejectionReason::not_positive_definite});
+      unsettled = true;
+      step *= 0.5;
+      ++cuts;
+      continue;
     }
-    if (worst == IslandStatus::settled) {
-      solvers_.drop_unused();
-      accept(step, bodies, pairs, islands, results);
-      next_step_ = std::min(settings_.time_step, cut == 0 ? 2.0 * next_step_ : step);
+    const std::vector<PassingBlocks> passing = check_motion(trial, found);
+    if (passing.empty()) {
+      accept(step, trial);
+      next_step_ = std::min(settings_.time_step, unsettled ? step : 2.0 * next_step_);
       return StepStatus::accepted;
     }
-    rejections_.push_back({time_, step,
-                           worst == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
-                                                              : RejectionReason::not_positive_definite});
+    const double first = passing.front().touch.share;
+    if (first > settings_.smallest_cut && cuts < settings_.max_step_cuts) {
+      rejections_.push_back({time_, step, RejectionReason::passing});
+      step *= first;
+      ++cuts;
+      continue;
+    }
+    add_contacts(passing, found);
+    counts_.passing_contacts += passing.size();
+    trial.pairs = make_pairs(found);
   }
   return StepStatus::too_many_cuts;
 }
 
-std::vector<ContactPair> Simulation::find_contact_pairs(double step) {
-  std::vector<PlacedSurface> placed;
-  std::vector<double> motion;
-  std::vector<double> chord;
-  std::vector<Box> boxes;
-  std::vector<std::array<int, 2>> candidates;
-  std::vector<PairContacts> found;
-  {
-    Stopwatch watch(seconds_.contact_search);
-    for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      placed.emplace_back(surfaces_[k], placed_points(surface_phi_[k], states_[k]));
-      motion.push_back(moving_[k] ? motion_bound(surface_phi_[k], states_[k], settings_.gravity, step) : 0.0);
-      chord.push_back(chord_error(chord_phi_[k], states_[k]));
-      const Vector3 margin = Vector3::Constant(motion.back() + chord.back() + settings_.contact_distance);
-      boxes.push_back({placed.back().box().low - margin, placed.back().box().high + margin});
-    }
-    for (const auto& pair : meeting_boxes(boxes)) {
-      if (moving_[at(pair[0])] || moving_[at(pair[1])]) candidates.push_back(pair);
-    }
-    counts_.block_pairs_tested += candidates.size();
-    counts_.block_pairs_skipped += blocks_.size() * (blocks_.size() - 1) / 2 - candidates.size();
-    found.resize(candidates.size());
-    const auto search = [&](std::size_t k) {
-      const auto& [a, b] = candidates[k];
-      const auto known = memory_.find(candidates[k]);
-      ContactLimits limits;
-      const double resolution = settings_.contact_distance + chord[at(a)] + chord[at(b)];
-      limits.reach = resolution + motion[at(a)] + motion[at(b)];
-      limits.penetration = resolution + (known == memory_.end() ? 0.0 : 2.0 * known->second.deepest());
-      limits.angle = settings_.contact_angle;
-      found[k] = find_contacts(placed[at(a)], placed[at(b)], limits);
-    };
-    parallel_for(settings_.threads, candidates.size(), search);
+IslandStatus Simulation::try_step(double step, Trial& trial) {
+  const Stopwatch watch(seconds_.solve);
+  trial.islands = find_islands(moving_, trial.pairs);
+  trial.bodies = prepare_bodies(step);
+  trial.results.clear();
+  for (const Island& island : trial.islands) {
+    trial.results.push_back(solve_island(island, trial.bodies, trial.pairs, step, settings_, solvers_));
+    counts_.open_close_iterations += static_cast<std::uint64_t>(trial.results.back().iterations);
+    if (trial.results.back().status != IslandStatus::settled) return trial.results.back().status;
   }
-  Stopwatch watch(seconds_.contact_points);
+  return IslandStatus::settled;
+}
+
+std::vector<FoundContacts> Simulation::find_contacts(double step) {
+  const Stopwatch watch(seconds_.contact_search);
+  std::vector<double> motion;
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    motion.push_back(finder_.expected_motion(static_cast<int>(k), states_[k], step));
+  return finder_.find(states_, motion, [&](int a, int b) {
+    const auto known = memory_.find({a, b});
+    return known == memory_.end() ? 0.0 : known->second.deepest();
+  });
+}
+
+std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found) {
+  const Stopwatch watch(seconds_.contact_points);
   std::vector<ContactPair> pairs;
   const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface};
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    counts_.predicates += found[k].counts;
-    if (found[k].empty()) continue;
-    const auto& [a, b] = candidates[k];
-    const ContactBody body_a{&blocks_[at(a)], &states_[at(a)], &placed[at(a)]};
-    const ContactBody body_b{&blocks_[at(b)], &states_[at(b)], &placed[at(b)]};
-    auto points = contact_points(body_a, body_b, found[k], point_settings);
+  for (const auto& [blocks, contacts] : found) {
+    const auto& [a, b] = blocks;
+    const ContactBody body_a{&blocks_[at(a)], &states_[at(a)], &finder_.placed(a)};
+    const ContactBody body_b{&blocks_[at(b)], &states_[at(b)], &finder_.placed(b)};
+    auto points = contact_points(body_a, body_b, contacts, point_settings);
     counts_.contact_points += points.size();
-    auto memory = memory_[candidates[k]].recall(
+    auto memory = memory_[blocks].recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
     pairs.emplace_back(a, b, blocks_[at(a)], blocks_[at(b)], law_(a, b), std::move(points),
                        std::move(memory));
   }
   return pairs;
+}
+
+std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
+                                                    const std::vector<FoundContacts>& found) {
+  const Stopwatch watch(seconds_.motion_check);
+  std::vector<BlockState> after = states_;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (moving_[k]) after[k].position += blocks_[k].space().expand(trial.bodies[k].change);
+  }
+  return finder_.check_motion(states_, after, found);
 }
 
 std::vector<BodyStep> Simulation::prepare_bodies(double step) const {
@@ -222,8 +224,10 @@ std::vector<BodyStep> Simulation::prepare_bodies(double step) const {
   return bodies;
 }
 
-void Simulation::accept(double step, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                        const std::vector<Island>& islands, const std::vector<IslandResult>& results) {
+void Simulation::accept(double step, Trial& trial) {
+  const auto& [pairs, islands, bodies, results] = trial;
+  solvers_.drop_unused();
+  finder_.accept_motion();
   const double last_residual = ledger_.residual;
   const bool averaged = settings_.integrator == Integrator::average_acceleration;
   double potential_work = 0.0;
@@ -302,10 +306,6 @@ void Simulation::measure_energies(Ledger& ledger) const {
   }
 }
 
-std::vector<Vector3> Simulation::surface_points(int block) const {
-  return placed_points(surface_phi_[at(block)], states_[at(block)]);
-}
-
 Vector3 Simulation::momentum() const {
   Vector3 sum = Vector3::Zero();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -330,6 +330,7 @@ int Simulation::unknowns() const {
 
 SimulationCounts Simulation::counts() const {
   SimulationCounts result = counts_;
+  result.finder = finder_.counts();
   result.factors += solvers_.counts();
   return result;
 }

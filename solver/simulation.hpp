@@ -1,9 +1,9 @@
 // A run: blocks, what they remember of their contacts, and the time step that takes them on.
 //
-// A step: surfaces at their current positions; block pairs whose boxes can meet within the step; their
-// contacts and contact points with memory; islands; an open-close iteration per island; then all blocks move
-// together. A step that does not settle is cut in half, with the reason recorded; nothing of the state
-// changes until a step is accepted.
+// A step: the contacts of all blocks (contact_finder.hpp) and their contact points with memory; islands; an
+// open-close iteration per island; a check that no block passes through another; then all blocks move
+// together. A step that does not settle is cut in half, one in which blocks would pass is cut to their first
+// touch, with the reason recorded; nothing of the state changes until a step is accepted.
 #pragma once
 
 #include <functional>
@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/contact_finder.hpp"
 #include "solver/island.hpp"
 #include "solver/ledger.hpp"
 #include "solver/settings.hpp"
@@ -21,6 +22,7 @@ namespace ashlar {
 enum class RejectionReason {
   open_close_not_settled,  ///< reduce time_step or the stiffness of the joints
   not_positive_definite,   ///< a joint or material far too stiff for the step
+  passing,                 ///< blocks would have passed through each other: cut to the first touch
 };
 [[nodiscard]] std::string to_string(RejectionReason reason);
 
@@ -39,11 +41,11 @@ enum class StepStatus {
 
 /// Work done and skipped so far.
 struct SimulationCounts {
-  std::uint64_t block_pairs_tested = 0;   ///< block pairs whose surfaces were searched
-  std::uint64_t block_pairs_skipped = 0;  ///< block pairs whose boxes cannot meet in the step
+  FinderCounts finder;
   std::uint64_t contact_points = 0;
   std::uint64_t open_close_iterations = 0;
-  PredicateCounts predicates;
+  std::uint64_t passing_contacts =
+      0;  ///< contacts added because blocks at rest on each other's rim would pass
   FactorCounts factors;
 };
 
@@ -78,6 +80,7 @@ struct PhaseSeconds {
   double contact_search = 0.0;
   double contact_points = 0.0;
   double solve = 0.0;
+  double motion_check = 0.0;
 };
 
 struct SimulationSnapshot;  // checkpoint.hpp
@@ -111,13 +114,8 @@ class Simulation {
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
   [[nodiscard]] const std::vector<BlockState>& states() const { return states_; }
-  [[nodiscard]] const std::vector<SubFaceSurface>& surfaces() const { return surfaces_; }
-  /// Current positions of a block's surface points, m.
-  [[nodiscard]] std::vector<Vector3> surface_points(int block) const;
-  /// phi at a block's surface points. @return (#points, p)
-  [[nodiscard]] const Eigen::MatrixXd& surface_phi(int block) const {
-    return surface_phi_[static_cast<std::size_t>(block)];
-  }
+  /// Surfaces as the last step's search had them, and where they came from.
+  [[nodiscard]] const ContactFinder& finder() const { return finder_; }
   [[nodiscard]] const StepReport& report() const { return report_; }
   [[nodiscard]] const std::vector<PairRecord>& contacts() const { return records_; }
   [[nodiscard]] const Ledger& ledger() const { return ledger_; }
@@ -135,10 +133,15 @@ class Simulation {
  private:
   using PairKey = std::array<int, 2>;
 
-  [[nodiscard]] std::vector<ContactPair> find_contact_pairs(double step);
+  struct Trial;
+
+  [[nodiscard]] std::vector<FoundContacts> find_contacts(double step);
+  [[nodiscard]] std::vector<ContactPair> make_pairs(const std::vector<FoundContacts>& found);
+  [[nodiscard]] IslandStatus try_step(double step, Trial& trial);
+  [[nodiscard]] std::vector<PassingBlocks> check_motion(const Trial& trial,
+                                                        const std::vector<FoundContacts>& found);
   [[nodiscard]] std::vector<BodyStep> prepare_bodies(double step) const;
-  void accept(double step, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-              const std::vector<Island>& islands, const std::vector<IslandResult>& results);
+  void accept(double step, Trial& trial);
   void measure_energies(Ledger& ledger) const;
 
   std::vector<BlockModel> blocks_;
@@ -146,10 +149,7 @@ class Simulation {
   LawOfPair law_;
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
-  std::vector<SubFaceSurface> surfaces_;
-  std::vector<Eigen::MatrixXd> surface_phi_;  ///< phi at the surface points
-  std::vector<Eigen::MatrixXd>
-      chord_phi_;  ///< phi at cell side middles less the mean of the ends; empty if undivided
+  ContactFinder finder_;
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J

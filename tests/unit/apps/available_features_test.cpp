@@ -46,8 +46,6 @@ INSTANTIATE_TEST_SUITE_P(
                   "s.toml:2:16: error: not available in this version (mass_damping = 0.1), available: 0.0"},
         FaultCase{5, "augmented = true",
                   "s.toml:5:13: error: not available in this version (augmented = true)"},
-        FaultCase{5, "chord_tolerance = 1e-3",
-                  "s.toml:5:19: error: not available in this version (chord_tolerance = 0.001)"},
         FaultCase{6, "[[joint]]\ntied = true",
                   "s.toml:7:8: error: not available in this version (tied = true)"},
         FaultCase{8, "[[material]]\nelasticity = \"st-venant-kirchhoff\"",

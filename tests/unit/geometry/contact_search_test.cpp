@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "geometry/box_pairs.hpp"
 #include "geometry/shapes.hpp"
 #include "support/sample_solids.hpp"
 
@@ -19,9 +20,9 @@ struct Body {
   Polyhedron solid;
   SubFaceSurface surface;
   PlacedSurface placed;
-  explicit Body(Polyhedron polyhedron, int levels = 0)
+  explicit Body(Polyhedron polyhedron, int levels = -1)
       : solid(std::move(polyhedron)),
-        surface(divide_surface(solid, levels)),
+        surface(levels < 0 ? whole_surface(solid) : divide_surface(solid, levels)),
         placed(surface, surface.points) {}
   Body(const Body&) = delete;
   Body& operator=(const Body&) = delete;
@@ -122,7 +123,7 @@ TEST(ContactSearch, CrossedEdges) {
   EXPECT_TRUE(contacts.vertices.empty());
   ASSERT_EQ(contacts.edges.size(), 1U);
   EXPECT_NEAR(contacts.edges[0].gap, -0.01, 1e-14);
-  EXPECT_NEAR(contacts.edges[0].along_a, 0.5, 1e-14);
+  EXPECT_NEAR(contacts.edges[0].of_a.along, 0.5, 1e-14);
   EXPECT_LT((contacts.edges[0].normal - Vector3::UnitZ()).norm(), 1e-14);
 }
 
@@ -182,7 +183,7 @@ TEST(ContactSearch, MeetingBoxesEqualBruteForce) {
 }
 
 TEST(SubFaceSurface, DividesConformingly) {
-  for (const int levels : {0, 1, 2}) {
+  for (const int levels : {-1, 0, 1, 2}) {
     const Body body(test_support::l_shaped_prism(), levels);
     double area = 0.0;
     for (std::size_t c = 0; c < body.surface.cells.size(); ++c) {

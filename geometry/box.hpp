@@ -1,0 +1,39 @@
+// Boxes with sides along the axes.
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// A closed box; as constructed it is empty and meets nothing.
+struct Box {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
+
+  [[nodiscard]] bool meets(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  void include(const Vector3& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  void include(const Box& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+  }
+  /// @param margin m, >= 0
+  [[nodiscard]] Box grown(double margin) const {
+    return {low - Vector3::Constant(margin), high + Vector3::Constant(margin)};
+  }
+};
+
+[[nodiscard]] inline Box box_of(std::span<const Vector3> points) {
+  Box box;
+  for (const Vector3& point : points) box.include(point);
+  return box;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,20 @@
+// A plane across a direction of sight.
+#pragma once
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Place (s, t) stands for the line origin + s e1 + t e2 + any multiple of w.
+struct ViewFrame {
+  Vector3 origin;
+  Vector3 e1;
+  Vector3 e2;
+  Vector3 w;  ///< unit; e1, e2, w is a right-handed orthonormal frame
+
+  /// @param direction not zero, any length
+  ViewFrame(const Vector3& origin, const Vector3& direction);
+  [[nodiscard]] Eigen::Vector2d project(const Vector3& point) const;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,70 @@
+#include "mechanics/block_surface.hpp"
+
+#include "mechanics/contact_points.hpp"
+
+namespace ashlar {
+
+BlockSurface::BlockSurface(const BlockModel& model, int levels) : model_(&model) {
+  if (model.order() >= 2 && !model.fixed()) {
+    adaptive_.emplace(model.solid(), model.order(), levels);
+    domain_phi_ = model.basis().values(adaptive_->domain_points());
+    point_phi_ = model.basis().values(adaptive_->surface().points);
+  } else {
+    whole_ = whole_surface(model.solid());
+    point_phi_ = model.basis().values(whole_.points);
+  }
+}
+
+const SubFaceSurface& BlockSurface::surface() const {
+  return adaptive_ ? adaptive_->surface() : whole_;
+}
+
+Eigen::Matrix3Xd BlockSurface::domain_values(const BlockState& state) const {
+  return (domain_phi_ * state.position).transpose();
+}
+
+std::vector<Vector3> BlockSurface::points(const BlockState& state) const {
+  return placed_points(point_phi_, state);
+}
+
+void BlockSurface::move(const BlockState& state) {
+  state_ = state;
+  if (adaptive_) {
+    adaptive_->move(domain_values(state));
+    box_ = adaptive_->box();
+  }
+  points_ = points(state);
+  if (!adaptive_) box_ = box_of(points_);
+}
+
+double BlockSurface::motion_bound(const BlockState& before, const BlockState& after) const {
+  if (adaptive_) return adaptive_->motion_bound(domain_values(before), domain_values(after));
+  return std::sqrt((point_phi_ * (after.position - before.position)).rowwise().squaredNorm().maxCoeff());
+}
+
+double BlockSurface::largest_speed(const BlockState& state) const {
+  const Eigen::MatrixXd& phi = adaptive_ ? domain_phi_ : point_phi_;
+  return std::sqrt((phi * state.velocity).rowwise().squaredNorm().maxCoeff());
+}
+
+bool BlockSurface::divide(const DivisionDemand& demand) {
+  if (!adaptive_ || !adaptive_->divide(demand)) return false;
+  point_phi_ = model_->basis().values(adaptive_->surface().points);
+  points_ = points(state_);
+  return true;
+}
+
+PlacedSurface BlockSurface::placed() const {
+  if (!adaptive_) return {whole_, points_};
+  return {adaptive_->surface(), points_, adaptive_->cell_shapes()};
+}
+
+std::vector<std::uint64_t> BlockSurface::wanted() const {
+  return adaptive_ ? adaptive_->wanted() : std::vector<std::uint64_t>{};
+}
+
+void BlockSurface::set_wanted(const std::vector<std::uint64_t>& wanted) {
+  if (adaptive_) adaptive_->set_wanted(wanted);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,56 @@
+// The surface of a block as its motion places it: whole faces of a block that stays affine, adaptive
+// sub-faces of one that curves.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "geometry/adaptive_surface.hpp"
+#include "geometry/placed_surface.hpp"
+#include "mechanics/block_model.hpp"
+
+namespace ashlar {
+
+/// Keeps its division from step to step.
+class BlockSurface {
+ public:
+  /// @param model must outlive this. @param levels uniform levels (0 to 8) that divisions of curved faces
+  /// start from
+  BlockSurface(const BlockModel& model, int levels);
+
+  /// Takes the block's present shape.
+  void move(const BlockState& state);
+  /// Contains the true surface as moved last.
+  [[nodiscard]] const Box& box() const { return box_; }
+  /// How far any surface point can have gone between two states, m, from above.
+  [[nodiscard]] double motion_bound(const BlockState& before, const BlockState& after) const;
+
+  /// Largest speed of the surface's points, m/s.
+  [[nodiscard]] double largest_speed(const BlockState& state) const;
+
+  /// Divides and joins the faces of a block that curves. @return true if cells changed
+  bool divide(const DivisionDemand& demand);
+  [[nodiscard]] const SubFaceSurface& surface() const;
+  /// The surface as moved and divided last. The BlockSurface must outlive it and stay unchanged.
+  [[nodiscard]] PlacedSurface placed() const;
+  /// Current positions of the surface's points in a state, m.
+  [[nodiscard]] std::vector<Vector3> points(const BlockState& state) const;
+
+  /// See AdaptiveSurface::wanted; empty for blocks that stay affine.
+  [[nodiscard]] std::vector<std::uint64_t> wanted() const;
+  void set_wanted(const std::vector<std::uint64_t>& wanted);
+
+ private:
+  [[nodiscard]] Eigen::Matrix3Xd domain_values(const BlockState& state) const;
+
+  const BlockModel* model_;
+  std::optional<AdaptiveSurface> adaptive_;
+  SubFaceSurface whole_;         ///< of a block that stays affine
+  Eigen::MatrixXd domain_phi_;   ///< phi at the domain points, or at the points of a whole surface
+  Eigen::MatrixXd point_phi_;    ///< phi at the surface's points
+  BlockState state_;             ///< as moved last
+  std::vector<Vector3> points_;  ///< in that state
+  Box box_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,109 @@
+// Which blocks meet, where, and whether they would pass through each other: the bodies of a scene as geometry
+// sees them from step to step.
+//
+// Work is proportional to what changes: pairs whose boxes cannot meet within the step are never looked at,
+// pairs known to be apart not again until they could have met, faces are divided only where they curve and
+// have a neighbour in reach.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "geometry/motion_check.hpp"
+#include "mechanics/block_surface.hpp"
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// The contacts of a pair of blocks (a < b) at the start of a step.
+struct FoundContacts {
+  std::array<int, 2> blocks;
+  PairContacts contacts;
+};
+
+/// Blocks that would pass through each other in a step.
+struct PassingBlocks {
+  std::array<int, 2> blocks;
+  Touch touch;
+};
+
+/// A pair of blocks that was found apart.
+struct Clearance {
+  double distance;  ///< m, at least, when it was found
+  double path;      ///< m, what both had gone until then
+};
+
+/// What was done and skipped.
+struct FinderCounts {
+  std::uint64_t block_pairs_tested = 0;   ///< whose surfaces were searched
+  std::uint64_t block_pairs_skipped = 0;  ///< whose boxes cannot meet in the step
+  std::uint64_t block_pairs_far = 0;      ///< known to be too far apart to have met since the last search
+  std::uint64_t motions_checked = 0;      ///< pairs whose surfaces were followed through a step
+  std::uint64_t divisions = 0;            ///< times the sub-faces of a block changed
+  DecisionCounts predicates;
+};
+
+/// What a finder has beyond its blocks (checkpoint.hpp).
+struct FinderState {
+  std::vector<double> paths;
+  std::map<std::array<int, 2>, Clearance> clearances;
+  std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
+  FinderCounts counts;
+};
+
+/// Keeps surfaces and clearances from step to step.
+class ContactFinder {
+ public:
+  /// @param blocks must outlive this and stay where they are
+  ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings);
+
+  /// All contacts within reach at the start of a step.
+  /// @param motion (#blocks) how far surface points are expected to go in the step, m
+  /// @param deepest largest penetration of a pair in the step before, m
+  [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
+                                                const std::vector<double>& motion,
+                                                const std::function<double(int, int)>& deepest);
+  /// A surface as the last search had it.
+  [[nodiscard]] const PlacedSurface& placed(int block) const {
+    return placed_[static_cast<std::size_t>(block)];
+  }
+
+  /// Blocks that would pass through each other on the way from the last search to new states, features that
+  /// a found contact stands for left out; the earliest first.
+  [[nodiscard]] std::vector<PassingBlocks> check_motion(const std::vector<BlockState>& before,
+                                                        const std::vector<BlockState>& after,
+                                                        const std::vector<FoundContacts>& found);
+  /// Takes note that the motion checked last was accepted.
+  void accept_motion();
+
+  /// How far points on a block's surface go in a step under their present velocity and gravity, m.
+  [[nodiscard]] double expected_motion(int block, const BlockState& state, double step) const;
+  /// Largest certified chord error of the sub-faces in the last search, m.
+  [[nodiscard]] double chord_bound() const;
+  [[nodiscard]] const std::vector<BlockSurface>& surfaces() const { return surfaces_; }
+  [[nodiscard]] const FinderCounts& counts() const { return counts_; }
+
+  [[nodiscard]] FinderState state() const;
+  void restore(const FinderState& state);
+
+ private:
+  using PairKey = std::array<int, 2>;
+
+  void place(const std::vector<BlockState>& states, const std::vector<double>& motion);
+  [[nodiscard]] bool known_apart(const PairKey& pair, double reach) const;
+  void note_clearance(const PairKey& pair);
+
+  SimulationSettings settings_;
+  std::vector<bool> moving_;  ///< false for fixed blocks
+  std::vector<BlockSurface> surfaces_;
+  std::vector<PlacedSurface> placed_;
+  std::vector<PairKey> candidates_;     ///< pairs whose boxes can meet in the step
+  std::vector<double> paths_;           ///< what the fastest point of each block has gone so far at most, m
+  std::vector<double> checked_motion_;  ///< of the motion checked last
+  std::map<PairKey, Clearance> clearances_;
+  FinderCounts counts_;
+};
+
+}  // namespace ashlar
