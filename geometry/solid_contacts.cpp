@@ -68,13 +68,20 @@ class MinimumWriter {
 };
 
 // Apart from report_solids() so that no arithmetic moves across the change of the rounding mode.
-[[gnu::noinline]] void add_contacts(const Polyhedron& a, const Polyhedron& b,
-                                    const std::optional<double>& distance, ContactReport& report) {
+[[gnu::noinline]] ContactReport report_to_nearest(const Polyhedron& a, const Polyhedron& b,
+                                                  const std::optional<double>& distance) {
   const SolidFeatures features_a(a), features_b(b);
+  const SolidRelation relation = relate_solids(features_a, features_b);
+  ContactReport report;
+  report.relation = relation.relation;
+  report.squared_distance = relation.squared_distance;
+  report.decided_by = relation.decided_by;
+  if (relation.relation == Relation::crossing) return report;
   const MinimumBound bound{distance, report.squared_distance, report.relation == Relation::touching};
   for (const DistanceMinimum& minimum :
        find_distance_minima(features_a, features_b, bound, report.decided_by))
     report.contacts.push_back(MinimumWriter(features_a, features_b, minimum).write());
+  return report;
 }
 
 }  // namespace
@@ -82,14 +89,8 @@ class MinimumWriter {
 ContactReport report_solids(const Polyhedron& a, const Polyhedron& b, const std::optional<double>& distance) {
   if (distance && (!(*distance >= 0.0) || std::isinf(*distance)))
     throw std::invalid_argument("contact distance must be finite and not negative");
-  const SolidRelation relation = relate_solids(a.mesh(), b.mesh());
-  ContactReport report;
-  report.relation = relation.relation;
-  report.squared_distance = relation.squared_distance;
-  report.decided_by = relation.decided_by;
   const NearestRounding nearest;
-  if (relation.relation != Relation::crossing) add_contacts(a, b, distance, report);
-  return report;
+  return report_to_nearest(a, b, distance);
 }
 
 }  // namespace ashlar

@@ -86,6 +86,12 @@ ContactFeature SolidFeatures::feature_of_side(int from, int to, int triangle) co
   return edge != edge_of_side_.end() ? ContactFeature{1, edge->second} : ContactFeature{2, face(triangle)};
 }
 
+std::vector<int> SolidFeatures::triangles_at(int v) const {
+  std::vector<int> triangles;
+  for (int r = ray_start_[v]; r < ray_start_[v + 1]; ++r) triangles.push_back(rays_[r].triangle);
+  return triangles;
+}
+
 bool SolidFeatures::admits(const SolidEdge& edge, const ContactDirection& w, int sign,
                            PredicateLadder& ladder) const {
   return edge.convex && sign * sign_along(w, point(edge.left_apex), point(edge.from), ladder) >= 0 &&

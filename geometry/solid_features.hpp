@@ -65,6 +65,9 @@ class SolidFeatures {
   /// @param v a corner.
   [[nodiscard]] CornerKind corner_kind(int v) const { return corner_kind_[v]; }
 
+  /// Triangles around a point of the mesh.
+  [[nodiscard]] std::vector<int> triangles_at(int v) const;
+
   /// True if sign * w . m >= 0 for both inward directions of an edge; w is across the edge.
   [[nodiscard]] bool admits(const SolidEdge& edge, const ContactDirection& w, int sign,
                             PredicateLadder& ladder) const;
