@@ -13,13 +13,14 @@
 #include "apps/nearest_name.hpp"
 #include "apps/program_version.hpp"
 #include "apps/run_options.hpp"
+#include "apps/study_command.hpp"
 
 namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 3> commands = {declare_run_command, declare_check_command,
-                                                        declare_contacts_command};
+constexpr std::array<CommandDeclaration, 4> commands = {declare_run_command, declare_check_command,
+                                                        declare_contacts_command, declare_study_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

@@ -26,6 +26,7 @@ nlohmann::ordered_json counts_of(const Simulation& simulation) {
           {"block_pairs_followed_through_a_step", finder.motions_checked},
           {"contacts_added_for_passing", counts.passing_contacts},
           {"changes_of_sub_faces", finder.divisions},
+          {"searches_at_the_limit_of_sub_faces", finder.divisions_at_limit},
           {"contact_points", counts.contact_points},
           {"open_close_iterations", counts.open_close_iterations},
           {"predicates_by_filter", finder.predicates.filter},
@@ -91,7 +92,6 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();
-  summary["chord_error_bound"] = simulation.finder().chord_bound();
   summary["counts"] = counts_of(simulation);
   nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
   for (const AutomaticChoice& choice : built.choices) {

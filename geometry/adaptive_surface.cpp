@@ -176,15 +176,26 @@ void AdaptiveSurface::divide_anew(const DivisionDemand& demand) {
     node.wanted = false;
     for (std::size_t k = 0; k < 3; ++k) leaf_of_side_[{node.corners[k], node.corners[(k + 1) % 3]}] = root;
   }
+  // Coarse tolerances first, so that a division that is ended by its limit is even.
+  double coarse = demand.chord_tolerance;
+  for (int root = 0; root < root_count_; ++root) {
+    while (needs_division(nodes_[at(root)], patches_[at(root)], 8.0 * coarse, demand)) coarse *= 8.0;
+  }
+  for (; coarse > demand.chord_tolerance; coarse *= 0.125) divide_to(coarse, demand);
+  divide_to(demand.chord_tolerance, demand);
+  remembered_.clear();
+}
+
+void AdaptiveSurface::divide_to(double tolerance, const DivisionDemand& demand) {
   // Cutting appends nodes, so that every node is looked at once, when all before it are done.
   for (int node = 0; node < static_cast<int>(nodes_.size()) && leaf_count_ < max_cells; ++node) {
     const bool before = remembered_.count(nodes_[at(node)].path) > 0;
-    const double tolerance = before ? 0.5 * demand.chord_tolerance : demand.chord_tolerance;
-    if (!needs_division(nodes_[at(node)], patches_[at(node)], tolerance, demand)) continue;
+    if (nodes_[at(node)].wanted) continue;
+    if (!needs_division(nodes_[at(node)], patches_[at(node)], before ? 0.5 * tolerance : tolerance, demand))
+      continue;
     nodes_[at(node)].wanted = true;
     if (nodes_[at(node)].children[0] < 0) cut_with_neighbours(node);
   }
-  remembered_.clear();
 }
 
 /// A side can only be cut where it is the longest one on both its sides: longer ones beyond it go first.

@@ -90,6 +90,7 @@ class AdaptiveSurface {
                                     const DivisionDemand& demand) const;
   [[nodiscard]] bool division_fits(const DivisionDemand& demand);
   void divide_anew(const DivisionDemand& demand);
+  void divide_to(double tolerance, const DivisionDemand& demand);
   void cut(int node);
   void cut_with_neighbours(int node);
   void place_patches();

@@ -66,7 +66,7 @@ static void visit_members(Archive& archive, DecisionCounts& counts) {
 template <class Archive>
 static void visit_members(Archive& archive, FinderCounts& counts) {
   archive(counts.block_pairs_tested, counts.block_pairs_skipped, counts.block_pairs_far,
-          counts.motions_checked, counts.divisions, counts.predicates);
+          counts.motions_checked, counts.divisions, counts.divisions_at_limit, counts.predicates);
 }
 
 template <class Archive>

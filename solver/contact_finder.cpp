@@ -74,6 +74,8 @@ void ContactFinder::place(const std::vector<BlockState>& states, const std::vect
   placed_.clear();
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     if (surfaces_[k].divide({settings_.chord_tolerance, neighbours[k]})) ++counts_.divisions;
+    const std::size_t cells = surfaces_[k].surface().cells.size();
+    if (cells >= static_cast<std::size_t>(AdaptiveSurface::max_cells)) ++counts_.divisions_at_limit;
   }
   for (const BlockSurface& surface : surfaces_) placed_.push_back(surface.placed());
 }
@@ -174,12 +176,6 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
 
 void ContactFinder::accept_motion() {
   for (std::size_t k = 0; k < paths_.size(); ++k) paths_[k] += checked_motion_[k];
-}
-
-double ContactFinder::chord_bound() const {
-  double bound = 0.0;
-  for (const PlacedSurface& surface : placed_) bound = std::max(bound, surface.largest_chord_bound());
-  return bound;
 }
 
 FinderState ContactFinder::state() const {

@@ -42,6 +42,8 @@ struct FinderCounts {
   std::uint64_t block_pairs_far = 0;      ///< known to be too far apart to have met since the last search
   std::uint64_t motions_checked = 0;      ///< pairs whose surfaces were followed through a step
   std::uint64_t divisions = 0;            ///< times the sub-faces of a block changed
+  /// times a block had as many sub-faces as there may be, so that the chord tolerance may not be met
+  std::uint64_t divisions_at_limit = 0;
   DecisionCounts predicates;
 };
 
@@ -80,8 +82,6 @@ class ContactFinder {
 
   /// How far points on a block's surface go in a step under their present velocity and gravity, m.
   [[nodiscard]] double expected_motion(int block, const BlockState& state, double step) const;
-  /// Largest certified chord error of the sub-faces in the last search, m.
-  [[nodiscard]] double chord_bound() const;
   [[nodiscard]] const std::vector<BlockSurface>& surfaces() const { return surfaces_; }
   [[nodiscard]] const FinderCounts& counts() const { return counts_; }
 

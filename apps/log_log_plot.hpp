@@ -1,0 +1,33 @@
+// Log-log plots as SVG: the pictures of studies. Every series carries the slope of its last points in the
+// legend, which is what a convergence study is read for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace ashlar {
+
+/// Points of a series that are not positive and finite are left out of the picture.
+struct PlotSeries {
+  std::string name;
+  std::vector<double> x;
+  std::vector<double> y;
+  bool dashed = false;
+  bool same_color_as_last = false;  ///< a companion of the series before it, e.g. its bound
+};
+
+struct LogLogPlot {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<PlotSeries> series;
+};
+
+/// Slope d log y / d log x through the last `count` points by least squares; NaN with fewer than two
+/// different x.
+[[nodiscard]] double last_slope(const PlotSeries& series, std::size_t count = 3);
+
+/// A self-contained SVG document, 900 by 600.
+[[nodiscard]] std::string to_svg(const LogLogPlot& plot);
+
+}  // namespace ashlar

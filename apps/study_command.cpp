@@ -1,0 +1,66 @@
+#include "apps/study_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <ostream>
+
+#include "apps/atomic_file.hpp"
+#include "apps/nearest_name.hpp"
+#include "apps/sub_face_study.hpp"
+
+namespace ashlar {
+namespace {
+
+// In the order in which --help lists them.
+const std::array<Study, 1> studies = {
+    {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
+      study_sub_faces}}};
+
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  for (const Study& study : studies) list.emplace_back(study.name);
+  return list;
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const auto* study = std::find_if(studies.begin(), studies.end(),
+                                   [&](const Study& candidate) { return candidate.name == options.name; });
+  if (study == studies.end()) {
+    err << fmt::format("ashlar: error: unknown study ({}), did you mean {}? one of {} is needed\n",
+                       options.name, nearest_name(options.name, names()), fmt::join(names(), ", "));
+    return exit_status::bad_input;
+  }
+  const std::filesystem::path folder = options.folder.value_or(options.name + ".study");
+  std::filesystem::create_directories(folder);
+  const StudyResult result = study->run();
+  const std::filesystem::path table = folder / (options.name + ".csv");
+  const std::filesystem::path picture = folder / (options.name + ".svg");
+  write_file_atomically(table, table_csv(result), Durability::process);
+  write_file_atomically(picture, to_svg(result.plot), Durability::process);
+  out << table_text(result);
+  for (const std::string& finding : result.findings) out << finding << '\n';
+  out << fmt::format("table: {}\npicture: {}\n", table.string(), picture.string());
+  return result.holds ? exit_status::done : exit_status::failed;
+}
+
+void declare_study_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("study", "Measure error against cost; writes a table and a picture");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<StudyOptions>();
+  std::string list = "Study:";
+  for (const Study& study : studies) list += fmt::format("\n  {}: {}", study.name, study.description);
+  command->add_option("NAME", options->name, list)->required()->type_name("");
+  command->add_option("--out", options->folder, "Result folder (default: NAME.study)")->type_name("DIR");
+  command->callback(
+      [options, &context] { context.status = study_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,26 @@
+// `ashlar study`: convergence and run-time-against-error studies of the program itself.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/command_line.hpp"
+
+namespace ashlar {
+
+struct StudyOptions {
+  std::string name;
+  std::optional<std::filesystem::path> folder;  ///< default: NAME.study
+};
+
+/// Declares `ashlar study`.
+void declare_study_command(CLI::App& program, CommandContext& context);
+
+/// Runs a study: its table and findings go to out and, with its picture, to FOLDER/NAME.csv and
+/// FOLDER/NAME.svg.
+/// @return exit_status::done; failed if a finding contradicts what is promised; bad_input for an unknown
+/// name.
+[[nodiscard]] int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace ashlar

@@ -1,0 +1,34 @@
+#include "apps/log_log_plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ashlar {
+namespace {
+
+TEST(LogLogPlot, SlopeOfAPowerLawIsItsExponent) {
+  PlotSeries series{"y = 5 x^-2", {1, 10, 100, 1000}, {}};
+  for (const double x : series.x) series.y.push_back(5.0 / (x * x));
+  EXPECT_NEAR(last_slope(series), -2.0, 1e-12);
+  EXPECT_TRUE(std::isnan(last_slope({"one point", {1}, {1}})));
+  EXPECT_TRUE(std::isnan(last_slope({"no logarithms", {1, -2}, {0, 3}})));
+}
+
+TEST(LogLogPlot, PointsLieWhereTheirLogarithmsSay) {
+  // Axes from 10^0 to 10^2 and 10^-4 to 10^0: (10, 10^-2) is in the middle of the frame.
+  const std::string svg = to_svg({"a < b", "x", "y", {{"series", {1, 10, 100}, {1e-4, 1e-2, 1}}}});
+  EXPECT_NE(svg.find(R"(cx="365.0" cy="290.0")"), std::string::npos);
+  EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
+  EXPECT_NE(svg.find("slope 2.00"), std::string::npos);
+}
+
+TEST(LogLogPlot, APlotWithoutPointsIsStillAPicture) {
+  const std::string svg = to_svg({"empty", "x", "y", {{"nothing", {}, {}}}});
+  EXPECT_TRUE(svg.starts_with("<svg"));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ashlar
