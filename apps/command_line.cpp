@@ -10,6 +10,7 @@
 
 #include "apps/check_command.hpp"
 #include "apps/contacts_command.hpp"
+#include "apps/integrate_command.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/program_version.hpp"
 #include "apps/run_options.hpp"
@@ -19,8 +20,9 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 4> commands = {declare_run_command, declare_check_command,
-                                                        declare_contacts_command, declare_study_command};
+constexpr std::array<CommandDeclaration, 5> commands = {declare_run_command, declare_check_command,
+                                                        declare_contacts_command, declare_integrate_command,
+                                                        declare_study_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {
