@@ -232,6 +232,8 @@ class ContactHeight {
   [[nodiscard]] double length() const;
   /// w (w.d) / |w|^2.
   [[nodiscard]] Vector3 step() const { return shifted(nullptr, 1); }
+  /// Its opposite.
+  [[nodiscard]] Vector3 step_back() const { return shifted(nullptr, -1); }
   /// The point above or below x by this height.
   [[nodiscard]] Vector3 above(const Vector3& x) const { return shifted(&x, 1); }
   [[nodiscard]] Vector3 below(const Vector3& x) const { return shifted(&x, -1); }

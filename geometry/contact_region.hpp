@@ -7,6 +7,7 @@
 #include "geometry/contact_type.hpp"
 #include "geometry/convex_shape.hpp"
 #include "geometry/overlap_polygon.hpp"
+#include "geometry/plane_heights.hpp"
 
 namespace ashlar {
 
@@ -56,7 +57,8 @@ struct ContactRegion {
                                             const ContactDirection& w, bool above, PredicateLadder& ladder);
 
 /// The common points of two shapes that cross: vertices of P n Q (two triangles: the ends of the segment).
+/// @param heights of the two, complete if the ladder is floating.
 [[nodiscard]] ContactRegion crossing_region(const ConvexShape& a, const ConvexShape& b,
-                                            PredicateLadder& ladder);
+                                            const PairHeights& heights, PredicateLadder& ladder);
 
 }  // namespace ashlar

@@ -190,7 +190,7 @@ ContactReport report_contact(const ContactBody& a, const ContactBody& b,
     if (resolution) throw NotConvexError();
     return report_solids(a.solid(), b.solid());
   }
-  const ConvexContact exact = classify(*a.shape(), *b.shape(), std::nullopt, {!resolution, false});
+  const ConvexContact exact = classify(*a.shape(), *b.shape(), std::nullopt, {!resolution, false, true});
   ContactReport report;
   report.relation = exact.relation;
   report.squared_distance = exact.squared_distance;
@@ -201,24 +201,18 @@ ContactReport report_contact(const ContactBody& a, const ContactBody& b,
   for (const MinimalTranslation& m : exact.minimal_translations)
     report.minimal_translations.push_back(m.translation);
 
-  // Height of the contact along its direction: the distance, or the depth with a minus sign.
-  double height = 0.0;
-  if (resolution || exact.relation != Relation::touching) {
-    const ResolvedContact resolved = classify_at(*a.shape(), *b.shape(), resolution.value_or(Resolution{}));
+  if (resolution) {
+    const ResolvedContact resolved = classify_at(*a.shape(), *b.shape(), *resolution);
     report.decided_by.filter += resolved.decided_by.filter;
     report.decided_by.exact += resolved.decided_by.exact;
-    height = resolved.gap;
-    if (resolution) {
-      report.convex = convex_report(resolved.region, resolved.normal, resolved.rule);
-      report.contacts = {ContactWriter(a, b, resolved.region, resolved.normal).write(std::nullopt)};
-    }
-  }
-  if (!resolution) {
+    report.convex = convex_report(resolved.region, resolved.normal, resolved.rule);
+    report.contacts = {ContactWriter(a, b, resolved.region, resolved.normal).write(std::nullopt)};
+  } else {
     report.convex = convex_report(exact.region, exact.normal, exact.rule);
     if (exact.relation != Relation::crossing)
-      report.contacts = {ContactWriter(a, b, exact.region, exact.normal).write(height)};
+      report.contacts = {ContactWriter(a, b, exact.region, exact.normal).write(exact.gap)};
   }
-  if (exact.relation == Relation::crossing) report.depth = -height;
+  if (exact.relation == Relation::crossing) report.depth = -exact.gap;
   return report;
 }
 

@@ -16,7 +16,7 @@ namespace {
 class ContactReport {
  public:
   ContactReport(const ConvexShape& a, const ConvexShape& b, const Resolution& resolution = {})
-      : a_(a), b_(b), resolution_(resolution) {
+      : a_(a), b_(b), resolution_(resolution), heights_(a, b) {
     NumericRange range = a.range();
     range.include(b.range());
     range.include(resolution.distance);
@@ -31,7 +31,7 @@ class ContactReport {
     if (guess.size < 4 || !intersecting(history, detail)) {
       ClosestSimplex closest = find_closest_simplex(a_, b_, guess, ladder_);
       if (!closest.contains_origin)
-        apart(std::move(closest));
+        apart(std::move(closest), detail);
       else
         intersecting(history, detail);
     }
@@ -41,7 +41,7 @@ class ContactReport {
 
   ResolvedContact run_resolved(const std::optional<Entrance>& history) {
     keep_direction_ = true;
-    const ConvexContact exact = run(history, {false, false});
+    const ConvexContact exact = run(history, {false, false, false});
     ResolvedContact result;
     result.relation = exact.relation;
     result.normal = exact.normal;
@@ -49,7 +49,7 @@ class ContactReport {
     result.entrance = exact.entrance;
     result.resolution = resolution_;
     if (taken_.a.empty()) {
-      result.region = crossing_region(a_, b_, ladder_);
+      result.region = crossing_region(a_, b_, heights_, ladder_);
     } else {
       const ContactHeight height(taken_.w, height_of(taken_), ladder_);
       const double length = height.length();
@@ -66,13 +66,20 @@ class ContactReport {
   [[nodiscard]] Difference height_of(const Support& s) const {
     return {&a_.corners()[s.a[0]], &b_.corners()[s.b[0]]};
   }
-  [[nodiscard]] ContactRegion region_of(const Support& s, PlaneSetting setting) {
+  [[nodiscard]] ContactRegion coplanar_region_of(const Support& s) {
+    return region_of(s, PlaneSetting::coplanar, nullptr);
+  }
+  [[nodiscard]] ContactRegion level_region_of(const Support& s, const ContactHeight& height) {
+    return region_of(s, PlaneSetting::level, &height);
+  }
+  [[nodiscard]] ContactRegion level_region_of(const Support& s) {
+    return level_region_of(s, ContactHeight(s.w, height_of(s), ladder_));
+  }
+  [[nodiscard]] ContactRegion region_of(const Support& s, PlaneSetting setting, const ContactHeight* height) {
     const std::vector<int> loop_a = support_loop(a_, s.a, s.w, true, ladder_);
     const std::vector<int> loop_b = support_loop(b_, s.b, s.w, false, ladder_);
-    const PlaneSet a{a_.corners().data(), loop_a}, b{b_.corners().data(), loop_b};
-    if (setting == PlaneSetting::coplanar) return region_along(s.w, setting, a_, a, b_, b, nullptr, ladder_);
-    const ContactHeight height(s.w, height_of(s), ladder_);
-    return region_along(s.w, setting, a_, a, b_, b, &height, ladder_);
+    return region_along(s.w, setting, a_, {a_.corners().data(), loop_a}, b_, {b_.corners().data(), loop_b},
+                        height, ladder_);
   }
 
   // Corners of P_tau or Q_tau that are corners of its projection, counter-clockwise along w.
@@ -91,11 +98,12 @@ class ContactReport {
     return projected_hull(taken_.w, x.data(), candidates, ladder_);
   }
 
-  void apart(ClosestSimplex&& closest) {
+  void apart(ClosestSimplex&& closest, const CrossingDetail& detail) {
     report_.relation = Relation::apart;
     const CornerPair first = closest.simplex.pairs[0];
     const ContactHeight height(closest.w, {&a_.corners()[first.a], &b_.corners()[first.b]}, ladder_);
     report_.squared_distance = height.squared();
+    if (detail.gap) report_.gap = height.length();
     report_.displacement = height.step();
     report_.normal = unit_vector(closest.w, ladder_);
     report_.rule = DirectionRule::closest_points;
@@ -104,9 +112,8 @@ class ContactReport {
     } else if (const auto point = single_point(closest, height)) {
       report_.region = point_region(*point);
     } else {
-      report_.region =
-          region_of({{}, std::move(closest.w), std::move(closest.support_a), std::move(closest.support_b)},
-                    PlaneSetting::level);
+      report_.region = level_region_of(
+          {{}, std::move(closest.w), std::move(closest.support_a), std::move(closest.support_b)});
     }
   }
 
@@ -158,7 +165,7 @@ class ContactReport {
 
   // False, with nothing reported, if the two are apart.
   bool intersecting(const std::optional<Entrance>& history, const CrossingDetail& detail) {
-    SeparationResult separation = find_separation(a_, b_, ladder_);
+    SeparationResult separation = find_separation(a_, b_, heights_, ladder_);
     if (separation.relation == Relation::apart) return false;
     if (separation.relation == Relation::touching) return touching(separation.supports, history);
     crossing(separation.supports, history, detail);
@@ -167,7 +174,7 @@ class ContactReport {
 
   // Both have points in a plane that separates them: the common points of those are all they have in common.
   bool touching(const std::vector<Support>& supports, const std::optional<Entrance>& history) {
-    report_.region = region_of(supports[0], PlaneSetting::coplanar);
+    report_.region = coplanar_region_of(supports[0]);
     if (report_.region.dimension < 0) return false;
     report_.relation = Relation::touching;
     const ContactType type = report_.type();
@@ -183,17 +190,20 @@ class ContactReport {
   void crossing(const std::vector<Support>& supports, const std::optional<Entrance>& history,
                 const CrossingDetail& detail) {
     report_.relation = Relation::crossing;
-    if (detail.region) report_.region = crossing_region(a_, b_, ladder_);
+    if (detail.region) report_.region = crossing_region(a_, b_, heights_, ladder_);
     if (supports.empty()) {  // triangles: no depth, so only history knows a direction
       choose_from_history(history);
       return;
     }
-    report_.squared_depth = ContactHeight(supports[0].w, height_of(supports[0]), ladder_).squared();
     for (const Support& s : supports) {
-      const Difference outward{height_of(s).minus, height_of(s).plus};
+      const ContactHeight height(s.w, height_of(s), ladder_);
+      if (&s == &supports.front()) {
+        report_.squared_depth = height.squared();
+        if (detail.gap) report_.gap = -height.length();
+      }
       report_.minimal_translations.push_back(
-          {s.entrance, ContactHeight(s.w, outward, ladder_).step(),
-           detail.translation_regions ? region_of(s, PlaneSetting::level) : ContactRegion{}});
+          {s.entrance, height.step_back(),
+           detail.translation_regions ? level_region_of(s, height) : ContactRegion{}});
     }
     choose(supports, history);
   }
@@ -209,7 +219,7 @@ class ContactReport {
     if (!history || !is_valid(*history)) return false;
     Support s = support_along(a_, b_, direction_of(*history, a_, b_), ladder_);
     s.entrance = *history;
-    if (region_of(s, PlaneSetting::level).dimension < 0) return false;
+    if (level_region_of(s).dimension < 0) return false;
     take(s, DirectionRule::history);
     return true;
   }
@@ -241,6 +251,7 @@ class ContactReport {
   const ConvexShape& a_;
   const ConvexShape& b_;
   Resolution resolution_;
+  PairHeights heights_;
   PredicateLadder ladder_;
   ConvexContact report_;
   bool keep_direction_ = false;  // in taken_, instead of the region of two that are apart

@@ -41,7 +41,9 @@ struct ConvexContact {
   Relation relation = Relation::apart;
   ContactRegion region;           ///< with type and carriers; crossing: the common solid
   double squared_distance = 0.0;  ///< m^2, correctly rounded
-  Vector3 displacement;           ///< w, m, correctly rounded; zero unless apart
+  /// Distance, or minus the depth of crossing solids, m, correctly rounded; only with CrossingDetail::gap.
+  double gap = 0.0;
+  Vector3 displacement;  ///< w, m, correctly rounded; zero unless apart
   /// Unit normal from B to A, correctly rounded: w / |w|, the contact normal, or the direction the rule
   /// chose; zero for two triangles that cross.
   Vector3 normal;
@@ -55,10 +57,11 @@ struct ConvexContact {
   [[nodiscard]] ContactType type() const { return region.type; }
 };
 
-/// What of a crossing is wanted beyond its depth; nothing of it costs anything for other pairs.
+/// What is wanted beyond relation, type and squared lengths.
 struct CrossingDetail {
   bool region = true;               ///< the vertices of the common solid
   bool translation_regions = true;  ///< the contacts the minimal translations lead to
+  bool gap = false;                 ///< ConvexContact::gap, of any pair
 };
 
 /// Exact type and report. @param history a facet of D the pair was last seen apart across, used where the

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/hull_surface.hpp"
 #include "geometry/rounding_mode.hpp"
 #include "geometry/shapes.hpp"
 
@@ -27,142 +27,6 @@ NumericRange checked_range(std::span<const Vector3> points) {
 
 ContactDirection triangle_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
   return ContactDirection::cross({&b, &a}, {&c, &a});
-}
-
-// Triangles with the directed edges that lead to their neighbours; edges within former facets are flipped
-// until none is concave.
-class HullSurface {
- public:
-  HullSurface(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles, bool floating)
-      : points_(points), triangles_(triangles) {
-    ladder_.floating = floating;
-    for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
-      check_area(t);
-      add(t);
-    }
-    for (const auto& [edge, t] : triangle_of_edge_)
-      if (!triangle_of_edge_.contains({edge.second, edge.first}))
-        throw std::invalid_argument("convex shape: the mesh is not closed");
-    flip_concave_edges();
-    merge_flat_edges();
-  }
-
-  [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
-  [[nodiscard]] int group(int t) const {
-    while (parent_[t] != t) t = parent_[t];
-    return t;
-  }
-  [[nodiscard]] int across(int from, int to) const { return triangle_of_edge_.at({to, from}); }
-
- private:
-  void check_area(int t) {
-    const Triangle& c = triangles_[t];
-    for (const int i : c)
-      if (i < 0 || i >= static_cast<int>(points_.size()))
-        throw std::invalid_argument("convex shape: triangle " + std::to_string(t) + " names no point");
-    if (is_zero(triangle_normal(points_[c[0]], points_[c[1]], points_[c[2]]), ladder_))
-      throw std::invalid_argument("convex shape: triangle " + std::to_string(t) + " has no area");
-  }
-  void add(int t) {
-    const Triangle& c = triangles_[t];
-    for (int k = 0; k < 3; ++k)
-      if (!triangle_of_edge_.insert({{c[k], c[(k + 1) % 3]}, t}).second)
-        throw std::invalid_argument("convex shape: triangles around an edge do not fit together");
-  }
-  void remove(int t) {
-    for (int k = 0; k < 3; ++k) triangle_of_edge_.erase({triangles_[t][k], triangles_[t][(k + 1) % 3]});
-  }
-  [[nodiscard]] int opposite(int t, int from, int to) const {
-    for (const int v : triangles_[t])
-      if (v != from && v != to) return v;
-    return -1;
-  }
-  // 1 convex, 0 flat, -1 concave.
-  int bend(int from, int to) {
-    const int t = triangle_of_edge_.at({from, to});
-    const int far = opposite(across(from, to), from, to);
-    const Triangle& c = triangles_[t];
-    return -sign_along(triangle_normal(points_[c[0]], points_[c[1]], points_[c[2]]), points_[far],
-                       points_[c[0]], ladder_);
-  }
-  void flip_concave_edges() {
-    // Every flip adds the volume of a tetrahedron, so none is undone and the loop ends.
-    for (bool again = true; again;) {
-      again = false;
-      const auto edges = triangle_of_edge_;
-      for (const auto& [edge, unused] : edges) {
-        const auto [from, to] = edge;
-        if (from > to || !triangle_of_edge_.contains(edge) || bend(from, to) >= 0) continue;
-        flip(from, to);
-        again = true;
-      }
-    }
-  }
-  void flip(int from, int to) {
-    const int left = triangle_of_edge_.at({from, to}), right = across(from, to);
-    const int a = opposite(left, from, to), b = opposite(right, from, to);
-    if (triangle_of_edge_.contains({a, b})) throw std::invalid_argument("convex shape: the mesh is concave");
-    remove(left);
-    remove(right);
-    triangles_[left] = {a, from, b};
-    triangles_[right] = {b, to, a};
-    for (const int t : {left, right}) {
-      check_area(t);
-      add(t);
-    }
-  }
-  void merge_flat_edges() {
-    parent_.resize(triangles_.size());
-    std::iota(parent_.begin(), parent_.end(), 0);
-    for (const auto& [edge, t] : triangle_of_edge_)
-      if (edge.first < edge.second && bend(edge.first, edge.second) == 0)
-        parent_[group(t)] = group(across(edge.first, edge.second));
-  }
-
-  const std::vector<Vector3>& points_;
-  std::vector<Triangle> triangles_;
-  std::vector<int> parent_;
-  std::map<std::pair<int, int>, int> triangle_of_edge_;
-  PredicateLadder ladder_;
-};
-
-// The boundary of one group of coplanar triangles, without the points inside straight sides (those have only
-// two groups around them).
-std::vector<int> boundary_loop(const HullSurface& surface, int group, const std::vector<int>& group_count) {
-  std::map<int, int> next;
-  for (int t = 0; t < static_cast<int>(surface.triangles().size()); ++t) {
-    if (surface.group(t) != group) continue;
-    for (int k = 0; k < 3; ++k) {
-      const int from = surface.triangles()[t][k], to = surface.triangles()[t][(k + 1) % 3];
-      if (surface.group(surface.across(from, to)) != group && !next.insert({from, to}).second)
-        throw std::invalid_argument("convex shape: a facet touches itself");
-    }
-  }
-  std::vector<int> loop;
-  const int start = next.begin()->first;
-  std::size_t steps = 0;
-  int v = start;
-  do {
-    if (group_count[v] > 2) loop.push_back(v);
-    const auto step = next.find(v);
-    if (step == next.end()) throw std::invalid_argument("convex shape: the mesh is concave");
-    v = step->second;
-    ++steps;
-  } while (v != start);
-  if (steps != next.size()) throw std::invalid_argument("convex shape: a facet has a hole");
-  return loop;
-}
-
-std::vector<int> groups_around_points(const HullSurface& surface, std::size_t point_count) {
-  std::vector<std::vector<int>> groups(point_count);
-  for (int t = 0; t < static_cast<int>(surface.triangles().size()); ++t)
-    for (const int v : surface.triangles()[t]) groups[v].push_back(surface.group(t));
-  std::vector<int> count(point_count);
-  for (std::size_t v = 0; v < point_count; ++v) {
-    std::sort(groups[v].begin(), groups[v].end());
-    count[v] = static_cast<int>(std::unique(groups[v].begin(), groups[v].end()) - groups[v].begin());
-  }
-  return count;
 }
 
 // A triangle of the face of the solid that has all corners of a facet, or -1.
@@ -220,7 +84,8 @@ ConvexShape ConvexShape::from_mesh(const TriangleMesh& mesh) {
   const NearestRounding nearest;
   const bool floating = checked_range(mesh.points).safe();
   const HullSurface surface(mesh.points, mesh.triangles, floating);
-  const std::vector<int> group_count = groups_around_points(surface, mesh.points.size());
+  const std::vector<int>& group_count = surface.group_counts();
+  FacetBoundaries boundaries(surface);
   ConvexShape shape;
   std::vector<int> corner_of_point(mesh.points.size(), -1);
   for (std::size_t p = 0; p < mesh.points.size(); ++p) {
@@ -233,8 +98,7 @@ ConvexShape ConvexShape::from_mesh(const TriangleMesh& mesh) {
   shape.facet_start_ = {0};
   for (int t = 0; t < static_cast<int>(surface.triangles().size()); ++t) {
     if (surface.group(t) != t) continue;
-    for (const int p : boundary_loop(surface, t, group_count))
-      shape.facet_corners_.push_back(corner_of_point[p]);
+    for (const int p : boundaries.loop(t)) shape.facet_corners_.push_back(corner_of_point[p]);
     shape.facet_start_.push_back(static_cast<int>(shape.facet_corners_.size()));
     shape.source_triangles_.push_back(t);
   }
@@ -244,33 +108,52 @@ ConvexShape ConvexShape::from_mesh(const TriangleMesh& mesh) {
 }
 
 void ConvexShape::index() {
-  std::map<std::pair<int, int>, int> edge_of_corners;
-  std::vector<std::vector<int>> facets(corners_.size());
+  // The edges that start from a corner are linked, the last one first.
+  std::vector<int> last_edge(corners_.size(), -1), edge_before;
+  edge_before.reserve(facet_corners_.size());
+  edges_.reserve(facet_corners_.size());
+  facet_edges_.reserve(facet_corners_.size());
   for (int f = 0; f < facet_count(); ++f) {
     const std::span<const int> loop = facet(f);
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const int from = loop[k], to = loop[(k + 1) % loop.size()];
-      facets[from].push_back(f);
-      const auto twin = edge_of_corners.find({to, from});
-      if (twin != edge_of_corners.end()) {
-        edges_[twin->second].facets[1] = f;
+      int twin = last_edge[to];
+      while (twin >= 0 && edges_[twin].corners[1] != from) twin = edge_before[twin];
+      if (twin >= 0) {
+        edges_[twin].facets[1] = f;
+        facet_edges_.push_back(twin);
       } else {
-        edge_of_corners[{from, to}] = static_cast<int>(edges_.size());
+        edge_before.push_back(std::exchange(last_edge[from], static_cast<int>(edges_.size())));
+        facet_edges_.push_back(static_cast<int>(edges_.size()));
         edges_.push_back({{from, to}, {f, f}});
       }
     }
   }
-  corner_start_ = {0};
-  for (std::vector<int>& around : facets) {
-    corner_facets_.insert(corner_facets_.end(), around.begin(), around.end());
-    corner_start_.push_back(static_cast<int>(corner_facets_.size()));
-  }
+  index_facets_of_corners();
+  normals_.reserve(static_cast<std::size_t>(facet_count()));
+  squared_normals_.reserve(static_cast<std::size_t>(facet_count()));
   for (int f = 0; f < facet_count(); ++f) {
     const std::span<const int> loop = facet(f);
     const ContactDirection normal = triangle_normal(corners_[loop[0]], corners_[loop[1]], corners_[loop[2]]);
     (void)normal.double_double();  // part of the numbers from now on
     normals_.push_back(normal.numbers());
+    squared_normals_.push_back(dot(normal.tracked(), normal.tracked()));
   }
+  low_ = high_ = corners_[0];
+  for (const Vector3& p : corners_) {
+    low_ = low_.cwiseMin(p);
+    high_ = high_.cwiseMax(p);
+  }
+}
+
+void ConvexShape::index_facets_of_corners() {
+  corner_start_.assign(corners_.size() + 1, 0);
+  for (const int v : facet_corners_) ++corner_start_[v + 1];
+  std::partial_sum(corner_start_.begin(), corner_start_.end(), corner_start_.begin());
+  corner_facets_.resize(facet_corners_.size());
+  std::vector<int> place(corner_start_.begin(), corner_start_.end() - 1);
+  for (int f = 0; f < facet_count(); ++f)
+    for (const int v : facet(f)) corner_facets_[place[v]++] = f;
 }
 
 int ConvexShape::find_edge(int v, int w) const {

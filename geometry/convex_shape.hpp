@@ -52,6 +52,10 @@ class ConvexShape {
   [[nodiscard]] std::span<const int> facet(int f) const {
     return {facet_corners_.data() + facet_start_[f], facet_corners_.data() + facet_start_[f + 1]};
   }
+  /// Edges of a facet; edge k joins corners k and k + 1 of the loop.
+  [[nodiscard]] std::span<const int> edges_of_facet(int f) const {
+    return {facet_edges_.data() + facet_start_[f], facet_edges_.data() + facet_start_[f + 1]};
+  }
   /// Facets around a corner, increasing.
   [[nodiscard]] std::span<const int> facets_of_corner(int v) const {
     return {corner_facets_.data() + corner_start_[v], corner_facets_.data() + corner_start_[v + 1]};
@@ -71,17 +75,25 @@ class ConvexShape {
   [[nodiscard]] ContactDirection facet_normal(int f) const;
   /// The floating numbers of facet_normal(f).
   [[nodiscard]] const DirectionNumbers& normal_numbers(int f) const { return normals_[f]; }
+  /// |facet_normal(f)|^2.
+  [[nodiscard]] const TrackedNumber& squared_normal(int f) const { return squared_normals_[f]; }
+  /// Opposite corners of the axis-parallel box around the shape, m.
+  [[nodiscard]] const Vector3& low() const { return low_; }
+  [[nodiscard]] const Vector3& high() const { return high_; }
 
  private:
   void index();
+  void index_facets_of_corners();
 
   bool flat_ = false;
   std::vector<Vector3> corners_;
   std::vector<ConvexEdge> edges_;
-  std::vector<int> facet_start_, facet_corners_;
+  std::vector<int> facet_start_, facet_corners_, facet_edges_;
   std::vector<int> corner_start_, corner_facets_;
   std::vector<int> source_points_, source_triangles_;
   std::vector<DirectionNumbers> normals_;
+  std::vector<TrackedNumber> squared_normals_;
+  Vector3 low_, high_;
   NumericRange range_;
 };
 

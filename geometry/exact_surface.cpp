@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <optional>
+#include <utility>
 
+#include "geometry/contact_direction.hpp"
 #include "geometry/exact_rounding.hpp"
+#include "geometry/rounding_mode.hpp"
 
 namespace ashlar {
 namespace {
@@ -16,6 +19,14 @@ namespace {
 // Integer times a power of two: sums and products of doubles without rounding and without overflow.
 using Exact = CGAL::Mpzf;
 using ExactVector = std::array<Exact, 3>;
+
+// The same with the constructors the number types of the filters have.
+// NOLINTNEXTLINE(bugprone-exception-escape): CGAL declares its moves noexcept although they may allocate
+struct DyadicNumber : Exact {
+  explicit DyadicNumber(double a) : Exact(a) {}
+  DyadicNumber(Exact a) : Exact(std::move(a)) {}
+  static DyadicNumber difference(double a, double b) { return Exact(a) - Exact(b); }
+};
 
 // The analyser takes the limbs behind an offset pointer for lost.
 // NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
@@ -53,20 +64,40 @@ Vector3 round_direction(ExactVector v) {
 
 }  // namespace
 
-// The signed volume between a triangle and the plane z = 0 is its projected area times its mean height.
-double signed_volume(const TriangleMesh& mesh) {
-  std::vector<ExactVector> points;
-  points.reserve(mesh.points.size());
-  for (const Vector3& p : mesh.points) points.push_back(exact(p));
-  Exact sum(0);
+namespace {
+
+// Six times the volume: the signed volume between a triangle and the plane z = 0 is its projected area times
+// its mean height.
+template <class N>
+N six_volumes(const TriangleMesh& mesh) {
+  N sum(0.0);
   for (const auto& [i, j, k] : mesh.triangles) {
-    const ExactVector& a = points[i];
-    const ExactVector& b = points[j];
-    const ExactVector& c = points[k];
-    const Exact twice_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-    if (twice_area.sign() != 0) sum = sum + twice_area * (a[2] + b[2] + c[2]);
+    const Vector3 &a = mesh.points[i], &b = mesh.points[j], &c = mesh.points[k];
+    const N twice_area = N::difference(b[0], a[0]) * N::difference(c[1], a[1]) -
+                         N::difference(c[0], a[0]) * N::difference(b[1], a[1]);
+    sum = sum + twice_area * (N(a[2]) + N(b[2]) + N(c[2]));
   }
-  const CGAL::Gmpq volume = CGAL::Gmpq(sum) / 6;
+  return sum;
+}
+
+// Apart from signed_volume() so that no arithmetic moves across the change of the rounding mode.
+[[gnu::noinline]] std::optional<double> quick_volume(const TriangleMesh& mesh) {
+  NumericRange range;
+  for (const Vector3& p : mesh.points)
+    for (int d = 0; d < 3; ++d) range.include(p[d]);
+  if (!range.safe()) return std::nullopt;
+  const std::optional<DoubleDouble> volume = quotient(six_volumes<DoubleDouble>(mesh), DoubleDouble(6.0));
+  return volume ? rounded(*volume) : std::nullopt;
+}
+
+}  // namespace
+
+double signed_volume(const TriangleMesh& mesh) {
+  {
+    const NearestRounding nearest;
+    if (const auto volume = quick_volume(mesh)) return *volume;
+  }
+  const CGAL::Gmpq volume = CGAL::Gmpq(six_volumes<DyadicNumber>(mesh)) / 6;
   return round_to_nearest(volume.mpq());
 }
 
@@ -75,7 +106,8 @@ Vector3 area_direction(const TriangleMesh& mesh, std::span<const int> triangles)
   for (const int t : triangles) {
     const auto& [i, j, k] = mesh.triangles[t];
     const ExactVector a = exact(mesh.points[i]);
-    const ExactVector n = cross(exact(mesh.points[j]) - a, exact(mesh.points[k]) - a);
+    ExactVector n = cross(exact(mesh.points[j]) - a, exact(mesh.points[k]) - a);
+    if (triangles.size() == 1) return round_direction(std::move(n));
     for (int d = 0; d < 3; ++d) sum[d] = sum[d] + n[d];
   }
   return round_direction(std::move(sum));

@@ -38,16 +38,18 @@ std::string read_bytes(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw MeshFileError("mesh file does not exist", 0, 0);
   if (!fs::is_regular_file(status)) throw MeshFileError("mesh file is not a regular file", 0, 0);
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error || size > std::numeric_limits<int>::max()) {
+  std::ifstream file;
+  file.rdbuf()->pubsetbuf(nullptr, 0);  // one read of the whole file needs no buffer
+  file.open(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  if (size < 0) throw MeshFileError("mesh file cannot be read", 0, 0);
+  if (size > std::numeric_limits<int>::max()) {
     throw MeshFileError("mesh file of " + std::to_string(size) + " bytes, allowed up to 2 GiB", 0, 0);
   }
   if (size == 0) throw MeshFileError("mesh file is empty", 0, 0);
-  std::string bytes(size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    throw MeshFileError("mesh file cannot be read", 0, 0);
-  }
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  file.seekg(0);
+  if (!file.read(bytes.data(), size)) throw MeshFileError("mesh file cannot be read", 0, 0);
   return bytes;
 }
 

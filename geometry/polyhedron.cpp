@@ -7,8 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/contact_direction.hpp"
 #include "geometry/exact_surface.hpp"
 #include "geometry/mesh_edges.hpp"
+#include "geometry/rounding_mode.hpp"
 
 namespace ashlar {
 namespace {
@@ -24,6 +26,11 @@ class FaceBuilder {
   FaceBuilder(const TriangleMesh& mesh, const std::vector<int>& twins) : mesh_(mesh), twins_(twins) {}
 
   void build() {
+    bend_.assign(twins_.size(), CGAL::ZERO);
+    {
+      const NearestRounding nearest;
+      find_bends();
+    }
     find_sharp_edges();
     collect_faces();
     collect_edges();
@@ -42,13 +49,10 @@ class FaceBuilder {
   [[nodiscard]] bool is_corner(int v) const { return sharp_degree_[v] > 2; }
 
   void find_sharp_edges() {
-    bend_.assign(twins_.size(), CGAL::ZERO);
     sharp_degree_.assign(mesh_.points.size(), 0);
     for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
       const int twin = twins_[h];
-      if (twin < h) continue;
-      bend_[h] = bend_[twin] = bend_over(h, twin);
-      if (!is_sharp(h)) continue;
+      if (twin < h || !is_sharp(h)) continue;
       convex = convex && bend_[h] == CGAL::NEGATIVE;
       ++sharp_degree_[start(h)];
       ++sharp_degree_[start(twin)];
@@ -58,15 +62,22 @@ class FaceBuilder {
     }
   }
 
+  // Not inlined, so that no arithmetic moves across the change of the rounding mode.
+  [[gnu::noinline]] void find_bends() {
+    NumericRange range;
+    for (const Vector3& p : mesh_.points)
+      for (int d = 0; d < 3; ++d) range.include(p[d]);
+    PredicateLadder ladder;
+    ladder.floating = range.safe();
+    for (int h = 0; h < static_cast<int>(twins_.size()); ++h)
+      if (twins_[h] >= h) bend_[h] = bend_[twins_[h]] = bend_over(h, twins_[h], ladder);
+  }
   // Negative if the neighbour's third corner lies below the triangle, inside: a convex edge.
-  [[nodiscard]] CGAL::Sign bend_over(int h, int twin) const {
-    const auto point = [this](int v) {
-      const Vector3& p = mesh_.points[v];
-      return Kernel::Point_3(p.x(), p.y(), p.z());
-    };
+  [[nodiscard]] CGAL::Sign bend_over(int h, int twin, PredicateLadder& ladder) const {
     const auto& [a, b, c] = mesh_.triangles[h / 3];
     const int apex = start(next_halfedge(next_halfedge(twin)));
-    return CGAL::orientation(point(a), point(b), point(c), point(apex));
+    const std::vector<Vector3>& x = mesh_.points;
+    return CGAL::sign(sign_volume(x[a], x[b], x[c], x[apex], ladder));
   }
 
   void collect_faces() {

@@ -12,6 +12,7 @@
 #include "geometry/contact_direction.hpp"
 #include "geometry/contact_type.hpp"
 #include "geometry/convex_shape.hpp"
+#include "geometry/plane_heights.hpp"
 
 namespace ashlar {
 
@@ -52,14 +53,15 @@ struct SeparationResult {
   /// one; otherwise they are apart.
   Relation relation = Relation::crossing;
   /// Touching: the entrances of height zero, those with a facet if there are any, else edge pairs. Crossing
-  /// solids: every entrance of least |height| / |w|, one for each direction. Else empty (a triangle in space
-  /// has no inside).
+  /// solids: every entrance of least |height| / |w|, the first for each direction. Else empty (a triangle in
+  /// space has no inside).
   std::vector<Support> supports;
 };
 
 /// For any two shapes; most useful where they are not clearly apart.
+/// @param heights of the two; complete afterwards if they cross and the ladder is floating.
 [[nodiscard]] SeparationResult find_separation(const ConvexShape& a, const ConvexShape& b,
-                                               PredicateLadder& ladder);
+                                               PairHeights& heights, PredicateLadder& ladder);
 
 /// Every entrance of greatest height / |w| if that is not negative, one for each direction; else none.
 [[nodiscard]] std::vector<Support> find_farthest_separation(const ConvexShape& a, const ConvexShape& b,

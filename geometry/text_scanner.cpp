@@ -6,7 +6,9 @@
 namespace ashlar {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
 
 char to_lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -42,7 +44,7 @@ bool TextScanner::next_line() {
     left_ = comment_ != '\0' ? line_.substr(0, line_.find(comment_)) : line_;
     word_ = {};
     column_ = 1;
-    if (left_.find_first_not_of(blanks) != std::string_view::npos) return true;
+    if (!std::all_of(left_.begin(), left_.end(), is_blank)) return true;
   }
   left_ = {};
   return false;
@@ -53,10 +55,11 @@ void TextScanner::require_line(std::string_view what) {
 }
 
 std::string_view TextScanner::word() {
-  const std::size_t begin = left_.find_first_not_of(blanks);
-  left_.remove_prefix(std::min(begin, left_.size()));
+  const auto* const begin = std::find_if_not(left_.begin(), left_.end(), is_blank);
+  left_.remove_prefix(static_cast<std::size_t>(begin - left_.begin()));
   column_ = static_cast<int>(left_.data() - line_.data()) + 1;
-  word_ = left_.substr(0, left_.find_first_of(blanks));
+  const auto* const end = std::find_if(left_.begin(), left_.end(), is_blank);
+  word_ = left_.substr(0, static_cast<std::size_t>(end - left_.begin()));
   left_.remove_prefix(word_.size());
   return word_;
 }

@@ -3,7 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -108,6 +110,15 @@ void run(benchmark::State& state, const ShapePairs& pairs) {
 void rotated_cubes_report(benchmark::State& state) {
   run(state, rotated_cubes(static_cast<double>(state.range(0))));
 }
+// Random cubes near each other: the label says how many of them cross, the others are apart.
+void random_cubes_mixed(benchmark::State& state) {
+  const ShapePairs pairs = rotated_cubes(static_cast<double>(state.range(0)) / 4.0);
+  const auto crossing = std::count_if(pairs.begin(), pairs.end(), [](const auto& pair) {
+    return classify(pair.first, pair.second).relation == Relation::crossing;
+  });
+  state.SetLabel(std::to_string(crossing) + " of " + std::to_string(pairs.size()) + " cross");
+  run(state, pairs);
+}
 void touching_cubes_report(benchmark::State& state) {
   run(state, touching_cubes());
 }
@@ -138,6 +149,8 @@ void triangle_type(benchmark::State& state) {
 
 // Side of the box the centers are drawn from: 20 all apart, 4 a ninth cross, 1 nearly all cross.
 BENCHMARK(rotated_cubes_report)->Arg(20)->Arg(4)->Arg(1);
+// Quarters of that side.
+BENCHMARK(random_cubes_mixed)->Arg(8)->Arg(10);
 BENCHMARK(touching_cubes_report);
 // Corners are drawn from unit boxes; side of the box the corners of those are drawn from: 0 one common box.
 BENCHMARK(triangle_type)->Arg(4)->Arg(1)->Arg(0);

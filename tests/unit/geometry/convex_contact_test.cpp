@@ -48,6 +48,25 @@ TEST(ConvexContact, ABoxOverABoxIsFaceToFace) {
   EXPECT_GT(contact.decided_by.filter, 0);
 }
 
+TEST(ConvexContact, TheGapIsGivenWhereAskedFor) {
+  const ConvexShape lower = box(Vector3(0, 0, 0), Vector3(1, 1, 1));
+  const CrossingDetail detail{true, true, true};
+  EXPECT_EQ(classify(box(Vector3(2, 3, 0), Vector3(4, 4, 1)), lower, std::nullopt, detail).gap,
+            std::sqrt(5.0));
+  EXPECT_EQ(classify(box(Vector3(0, 0, 0.75), Vector3(1, 1, 3)), lower, std::nullopt, detail).gap, -0.25);
+  EXPECT_EQ(classify(box(Vector3(0, 0, 1), Vector3(1, 1, 3)), lower, std::nullopt, detail).gap, 0.0);
+}
+
+// Whatever bounds the filter has of equal depths: facets of A first, by their numbers.
+TEST(ConvexContact, EqualTranslationsComeInOrder) {
+  const ConvexShape cube = box(Vector3(0, 0, 0), Vector3(1, 1, 1));
+  const ConvexContact contact = classify(cube, cube);
+  EXPECT_EQ(contact.squared_depth, 1.0);
+  ASSERT_EQ(contact.minimal_translations.size(), 6U);
+  for (int k = 0; k < 6; ++k)
+    EXPECT_EQ(contact.minimal_translations[k].entrance, (Entrance{EntranceKind::face_of_a, k, -1, false}));
+}
+
 TEST(ConvexContact, OneUlpIsSeen) {
   const ConvexShape lower = box(Vector3(0, 0, 0), Vector3(1, 1, 1));
   const double above = std::nextafter(1.0, 2.0), below = std::nextafter(1.0, 0.0);
