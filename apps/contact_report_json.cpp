@@ -108,13 +108,23 @@ void put_point(Buffer& out, const ReportedPoint& p) {
   put(out, "}");
 }
 
-void put_contact(Buffer& out, const ReportedContact& contact) {
+// @param is_convex the report has the distance and direction of its one contact.
+void put_contact(Buffer& out, const ReportedContact& contact, bool is_convex) {
   fmt::format_to(std::back_inserter(out), "{{\"type\":\"{}\",\"a\":", to_string(contact.type));
   put_name(out, contact.a);
   put(out, ",\"b\":");
   put_name(out, contact.b);
   fmt::format_to(std::back_inserter(out), ",\"region_dim\":{},\"area\":", contact.region_dimension);
   put(out, contact.area);
+  if (!is_convex) {
+    put(out, ",\"squared_distance\":");
+    put(out, contact.squared_distance);
+    put(out, ",\"direction\":");
+    if (contact.direction.isZero(0.0))
+      put(out, "null");
+    else
+      put(out, contact.direction);
+  }
   put(out, ",\"points\":");
   put_list(out, contact.points, [&](const ReportedPoint& p) { put_point(out, p); });
   put(out, "}");
@@ -147,10 +157,15 @@ std::string text_of(const ReportedFeature& feature) {
   return name.empty() ? fmt::format("{} of the projection", names[feature.dimension]) : name;
 }
 
-void put_contact_text(Buffer& out, const ReportedContact& contact) {
+void put_contact_text(Buffer& out, const ReportedContact& contact, bool is_convex) {
   fmt::format_to(std::back_inserter(out), "  {} contact: {} of A, {} of B", to_string(contact.type),
                  text_of(contact.a), text_of(contact.b));
   if (contact.region_dimension == 2) fmt::format_to(std::back_inserter(out), ", area {}", contact.area);
+  if (!is_convex) {
+    fmt::format_to(std::back_inserter(out), ", squared distance {}", contact.squared_distance);
+    if (!contact.direction.isZero(0.0))
+      fmt::format_to(std::back_inserter(out), ", direction from B to A {}", text_of(contact.direction));
+  }
   put(out, "\n");
   for (const ReportedPoint& p : contact.points) {
     fmt::format_to(std::back_inserter(out), "    {} at {}, foot {}, gap {}", to_string(p.pair),
@@ -169,7 +184,8 @@ std::string contact_report_json(const ContactReport& report, double angle) {
   fmt::format_to(std::back_inserter(out), "{{\"relation\":\"{}\",", to_string(report.relation));
   put_convex_part(out, report);
   put(out, ",\"contacts\":");
-  put_list(out, report.contacts, [&](const ReportedContact& contact) { put_contact(out, contact); });
+  put_list(out, report.contacts,
+           [&](const ReportedContact& contact) { put_contact(out, contact, report.convex.has_value()); });
   put(out, ",\"depth\":");
   if (report.convex || report.relation != Relation::crossing)
     put(out, report.depth);
@@ -209,7 +225,10 @@ std::string contact_report_text(const ContactReport& report, std::string_view a,
   put(out, "\n");
   if (report.hull_of_a) put(out, "  A is concave by rounding: taken as the convex hull of its points\n");
   if (report.hull_of_b) put(out, "  B is concave by rounding: taken as the convex hull of its points\n");
-  if (report.resolution)
+  if (report.resolution && !report.convex)
+    fmt::format_to(std::back_inserter(out), "  all contacts up to distance {} m\n",
+                   report.resolution->distance);
+  if (report.resolution && report.convex)
     fmt::format_to(std::back_inserter(out), "  type and contacts at distance {} m, sine of the angle {}\n",
                    report.resolution->distance, report.resolution->sine);
   fmt::format_to(std::back_inserter(out), "  squared distance {}\n", report.squared_distance);
@@ -221,7 +240,8 @@ std::string contact_report_text(const ContactReport& report, std::string_view a,
     for (const Vector3& t : report.minimal_translations)
       fmt::format_to(std::back_inserter(out), "  ends by moving A by {}\n", text_of(t));
   }
-  for (const ReportedContact& contact : report.contacts) put_contact_text(out, contact);
+  for (const ReportedContact& contact : report.contacts)
+    put_contact_text(out, contact, report.convex.has_value());
   fmt::format_to(std::back_inserter(out), "  decided by filters {}, by exact arithmetic {}\n",
                  report.decided_by.filter, report.decided_by.exact);
   return fmt::to_string(out);

@@ -31,7 +31,7 @@ constexpr const char* help_text =
     "file, to the folder of LIST. With --json one object a line is printed for each pair, in order; a pair "
     "that cannot be answered gives {\"error\": [\"...\"]} and exit status 2 when all others are done.";
 
-constexpr const char* not_convex = "solid is not convex, a distance or angle of contact is for convex solids";
+constexpr const char* not_convex = "solid is not convex, an angle of contact is for convex solids";
 
 Diagnostic fault_at(const std::string& origin, int line, int column, std::string message) {
   Diagnostic fault;
@@ -81,7 +81,7 @@ std::optional<ContactReport> report_of(const LoadedBody& a, const LoadedBody& b,
   for (const auto& [body, path] : {std::pair(&a, &a_path), std::pair(&b, &b_path)}) {
     if (body == &b && *path == a_path) break;
     faults.insert(faults.end(), body->faults.begin(), body->faults.end());
-    if (resolution && body->body && body->body->shape() == nullptr)
+    if (resolution && resolution->sine > 0.0 && body->body && body->body->shape() == nullptr)
       faults.push_back(fault_at(*path, 0, 0, not_convex));
   }
   if (!faults.empty()) return std::nullopt;
@@ -300,11 +300,15 @@ void declare_contacts_command(CLI::App& program, CommandContext& context) {
   command->add_option("--pairs", options->pairs, "Many pairs: a file with a line A B for each")
       ->type_name("LIST")
       ->excludes(a, b);
-  const auto at_resolution = " for the type at that resolution (convex solids)";
-  command->add_option("--distance", options->distance, std::string("Contact distance, m,") + at_resolution)
+  command
+      ->add_option("--distance", options->distance,
+                   "Contact distance, m: the type at that resolution (convex solids), all contacts up to it "
+                   "(others)")
       ->type_name("D")
       ->check(within(std::numeric_limits<double>::max()));
-  command->add_option("--angle", options->angle, std::string("Contact angle, deg,") + at_resolution)
+  command
+      ->add_option("--angle", options->angle,
+                   "Contact angle, deg: the type at that resolution (convex solids)")
       ->type_name("DEG")
       ->check(within(90.0));
   command->add_flag("--json", options->json, "Print JSON, one object a line");

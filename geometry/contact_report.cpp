@@ -187,8 +187,12 @@ ReportedFeature ContactBody::feature(const ContactFeature& of_shape) const {
 ContactReport report_contact(const ContactBody& a, const ContactBody& b,
                              const std::optional<Resolution>& resolution) {
   if (a.shape() == nullptr || b.shape() == nullptr) {
-    if (resolution) throw NotConvexError();
-    return report_solids(a.solid(), b.solid());
+    if (resolution && resolution->sine > 0.0) throw NotConvexError();
+    ContactReport report = report_solids(
+        a.solid(), b.solid(),
+        resolution && resolution->distance != 0.0 ? std::optional(resolution->distance) : std::nullopt);
+    report.resolution = resolution;
+    return report;
   }
   const ConvexContact exact = classify(*a.shape(), *b.shape(), std::nullopt, {!resolution, false, true});
   ContactReport report;

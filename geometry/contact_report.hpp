@@ -108,15 +108,17 @@ class ContactBody {
   bool is_hull_ = false;
 };
 
-/// Thrown for a type at a resolution of solids that have none.
+/// Thrown for a type at a contact angle of solids that have none.
 class NotConvexError : public std::invalid_argument {
  public:
   NotConvexError() : invalid_argument("solid is not convex") {}
 };
 
-/// @param resolution asks for type, region and contacts at a resolution instead of the exact ones.
-/// @throws NotConvexError for a resolution if one of the two is not convex; std::invalid_argument as
-/// classify_at().
+/// @param resolution asks for type, region and contacts at a resolution instead of the exact ones; of solids
+/// that are not convex, for all contacts up to its distance (zero: the exact report), each with its exact
+/// type.
+/// @throws NotConvexError for a resolution with an angle if one of the two is not convex;
+/// std::invalid_argument as classify_at().
 [[nodiscard]] ContactReport report_contact(const ContactBody& a, const ContactBody& b,
                                            const std::optional<Resolution>& resolution = std::nullopt);
 

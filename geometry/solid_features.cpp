@@ -21,7 +21,7 @@ SolidFeatures::SolidFeatures(const Polyhedron& solid)
   rays_.resize(3 * triangles.size());
   std::vector<int> next(ray_start_.begin(), ray_start_.end() - 1);
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
-    for (int k = 0; k < 3; ++k) rays_[next[triangles[t][k]]++] = {triangles[t][(k + 1) % 3], t};
+    for (int k = 0; k < 3; ++k) rays_[next[triangles[t][k]]++] = {triangles[t][(k + 1) % 3], t, -1};
 
   // Two corners are joined by one straight line, so by at most one edge.
   std::unordered_map<std::uint64_t, int> edge_between;
@@ -35,6 +35,11 @@ SolidFeatures::SolidFeatures(const Polyhedron& solid)
   for (const int v : solid.corners())
     for (int r = ray_start_[v]; r < ray_start_[v + 1]; ++r)
       if (is_sharp(v, rays_[r].to)) follow(v, rays_[r].to, edge_between);
+  for (int v = 0; v + 1 < static_cast<int>(ray_start_.size()); ++v)
+    for (int r = ray_start_[v]; r < ray_start_[v + 1]; ++r) {
+      const auto edge = edge_of_side_.find(key(v, rays_[r].to));
+      if (edge != edge_of_side_.end()) rays_[r].edge = edge->second;
+    }
   classify_corners();
 }
 
@@ -120,13 +125,39 @@ bool SolidFeatures::lies_on_side_of(int corner, const RationalVector& w) const {
     squared_rise = squared;
     squared_length = length;
   }
-  const auto edge = edge_of_side_.find(key(corner, lowest->to));
-  if (edge != edge_of_side_.end()) return edges_[edge->second].convex;
-  const auto& [i, j, k] = solid_.mesh().triangles[lowest->triangle];
+  return lies_on_side_of(*lowest, w);
+}
+
+bool SolidFeatures::lies_on_side_of(const Ray& lowest, const RationalVector& w) const {
+  if (lowest.edge >= 0) return edges_[lowest.edge].convex;
+  const auto& [i, j, k] = solid_.mesh().triangles[lowest.triangle];
   const RationalVector a = to_rational(point(i));
   const RationalVector normal =
       cross_product(difference(to_rational(point(j)), a), difference(to_rational(point(k)), a));
   return sgn(dot_product(normal, w)) < 0;
+}
+
+bool SolidFeatures::lies_beyond(int corner, const Vector3& from, bool floating) const {
+  if (corner_kind_[corner] != CornerKind::saddle) return corner_kind_[corner] == CornerKind::convex;
+  const Vector3& p = point(corner);
+  const Ray* lowest = nullptr;
+  if (floating) {
+    const NumberVector<TrackedNumber> w = evaluate<TrackedNumber>({&p, &from});
+    TrackedNumber squared_rise, squared_length;
+    for (int r = ray_start_[corner]; r < ray_start_[corner + 1]; ++r) {
+      const NumberVector<TrackedNumber> e = evaluate<TrackedNumber>({&point(rays_[r].to), &p});
+      const TrackedNumber rise = dot(w, e), length = dot(e, e), squared = rise * rise;
+      const int order = lowest == nullptr ? -1 : sign_of(squared * squared_length - squared_rise * length);
+      if (order == 0 || order == unknown_sign)
+        return lies_on_side_of(corner, difference(to_rational(p), to_rational(from)));
+      if (order > 0) continue;
+      lowest = &rays_[r];
+      squared_rise = squared;
+      squared_length = length;
+    }
+    if (lowest->edge >= 0) return edges_[lowest->edge].convex;
+  }
+  return lies_on_side_of(corner, difference(to_rational(p), to_rational(from)));
 }
 
 }  // namespace ashlar

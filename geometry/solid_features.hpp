@@ -76,11 +76,14 @@ class SolidFeatures {
                                 PredicateLadder& ladder) const;
   /// The other half, for a w that the rays admit. @param w not zero.
   [[nodiscard]] bool lies_on_side_of(int corner, const RationalVector& w) const;
+  /// The same for w from a point to the corner, with a filter. @param floating as in PredicateLadder.
+  [[nodiscard]] bool lies_beyond(int corner, const Vector3& from, bool floating) const;
 
  private:
   struct Ray {
     int to;
     int triangle;  // at its left
+    int edge;      // that has it, or -1 within a face
   };
   static std::uint64_t key(int from, int to) {
     return (static_cast<std::uint64_t>(from) << 32U) | static_cast<std::uint32_t>(to);
@@ -93,6 +96,7 @@ class SolidFeatures {
   [[nodiscard]] int next_sharp(int previous, int v) const;
   void follow(int from, int first, const std::unordered_map<std::uint64_t, int>& edge_between);
   void classify_corners();
+  [[nodiscard]] bool lies_on_side_of(const Ray& lowest, const RationalVector& w) const;
 
   const Polyhedron& solid_;
   std::vector<SolidEdge> edges_;

@@ -49,6 +49,44 @@ inline TriangleMesh make_frame() {
                     {{0, 1, 2, 3}, {4, 7, 6, 5}}, 1.0);
 }
 
+/// Cube [-1, 2]^3 without the cube [0, 2]^3: a floor and two walls that meet in the origin, volume 19.
+inline TriangleMesh make_corner() {
+  TriangleMesh mesh = make_box(Vector3::Constant(-1.0), Vector3::Constant(2.0));
+  // Point x + 2 y + 4 z of the box is at the far side of the axes that are one. The far corner is replaced by
+  // the cube's seven other points.
+  std::erase_if(mesh.triangles, [&](const auto& t) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (mesh.points[t[0]][axis] == 2.0 && mesh.points[t[1]][axis] == 2.0 && mesh.points[t[2]][axis] == 2.0)
+        return true;
+    return false;
+  });
+  const auto number = [&mesh](const Vector3& p) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      if (mesh.points[i] == p) return static_cast<int>(i);
+    mesh.points.push_back(p);
+    return static_cast<int>(mesh.points.size()) - 1;
+  };
+  std::erase(mesh.points, Vector3(2, 2, 2));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto point = [&](double along, double u, double v) {
+      Vector3 p;
+      p[axis] = along;
+      p[(axis + 1) % 3] = u;
+      p[(axis + 2) % 3] = v;
+      return number(p);
+    };
+    const auto quadrangle = [&](const std::array<int, 4>& c) {
+      mesh.triangles.push_back({c[0], c[1], c[2]});
+      mesh.triangles.push_back({c[0], c[2], c[3]});
+    };
+    // The wall, and the L at the far side of the cube, of which the cube leaves two strips.
+    quadrangle({point(0, 0, 0), point(0, 2, 0), point(0, 2, 2), point(0, 0, 2)});
+    quadrangle({point(2, -1, -1), point(2, 2, -1), point(2, 2, 0), point(2, 0, 0)});
+    quadrangle({point(2, -1, -1), point(2, 0, 0), point(2, 0, 2), point(2, -1, 2)});
+  }
+  return mesh;
+}
+
 /// Square base 2 by 2, height 3: volume 4.
 inline TriangleMesh make_pyramid() {
   return {{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 3}},

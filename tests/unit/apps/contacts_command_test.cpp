@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iomanip>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -149,9 +150,28 @@ TEST_F(ContactsCommand, SolidsThatAreNotConvexHaveContactsButNoType) {
   const json crossing = json::parse(run({b, b, {}, {}, {}, true}).out);
   EXPECT_EQ(crossing["relation"], "crossing");
   EXPECT_TRUE(crossing["depth"].is_null());
-  const Outcome refused = run({a, b, {}, 0.1, {}, true});
+  const Outcome refused = run({a, b, {}, {}, 1.0, true});
   EXPECT_EQ(refused.status, exit_status::bad_input);
   EXPECT_THAT(refused.err, StartsWith(b + ": error: solid is not convex"));
+}
+
+TEST_F(ContactsCommand, ContactDistanceGivesAllContactsOfSolidsThatAreNotConvex) {
+  const std::string a = write_cube("a.off", {1.25, 1.5, 0}),
+                    b = write_off("l.off", test_support::make_l_prism());
+  EXPECT_EQ(json::parse(run({a, b, {}, {}, {}, true}).out)["contacts"].size(), 1u);
+  const json report = json::parse(run({a, b, {}, 0.5, {}, true}).out);
+  EXPECT_EQ(report["relation"], "apart");
+  EXPECT_EQ(report["squared_distance"], 0.0625);
+  EXPECT_EQ(report["resolution"]["distance"], 0.5);
+  ASSERT_EQ(report["contacts"].size(), 2u);
+  std::map<double, json> by_distance;
+  for (const json& contact : report["contacts"]) by_distance[contact["squared_distance"]] = contact;
+  EXPECT_EQ(by_distance.at(0.0625)["direction"], json({1, 0, 0}));
+  EXPECT_EQ(by_distance.at(0.25)["direction"], json({0, 1, 0}));
+  EXPECT_EQ(by_distance.at(0.25)["area"], 0.75);
+  EXPECT_THAT(run({a, b, {}, 0.5, {}, false}).out,
+              AllOf(HasSubstr("all contacts up to distance 0.5 m\n"),
+                    HasSubstr("area 0.75, squared distance 0.25, direction from B to A (0, 1, 0)\n")));
 }
 
 TEST_F(ContactsCommand, EveryDefectOfBothMeshesIsListed) {

@@ -229,7 +229,7 @@ TEST(ContactReport, SolidsThatAreReallyConcaveHaveNoShape) {
   EXPECT_EQ(ContactBody(Polyhedron(test_support::make_dented_cube(0.5))).shape(), nullptr);
   const ContactBody l(Polyhedron(test_support::make_l_prism()));
   EXPECT_FALSE(report_contact(l, unit_cube()).convex);
-  EXPECT_THROW((void)report_contact(l, unit_cube(), Resolution{}), NotConvexError);
+  EXPECT_THROW((void)report_contact(l, unit_cube(), Resolution{0.0, 0.5}), NotConvexError);
 }
 
 }  // namespace
