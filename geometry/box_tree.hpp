@@ -1,37 +1,18 @@
-// Boxes and a tree of them: which parts of two surfaces can be near each other.
+// A tree of boxes: which parts of two surfaces can be near each other.
 #pragma once
 
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "geometry/triangle_mesh.hpp"
+#include "geometry/box.hpp"
 
 namespace ashlar {
-
-struct Box {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
-
-  void include(const Vector3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  void include(const Box& b) {
-    low = low.cwiseMin(b.low);
-    high = high.cwiseMax(b.high);
-  }
-};
 
 /// Rounded. Every coordinate of the gap is rounded once, and so are three squares and two sums: its relative
 /// error is below 4 * 2^-52. Zero only if the boxes meet, or by underflow.
 [[nodiscard]] inline double squared_distance(const Box& a, const Box& b) {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).squaredNorm();
-}
-
-[[nodiscard]] inline bool have_common_points(const Box& a, const Box& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
 /// True only if boxes of that rounded squared distance are farther apart than a bound of squared distances;

@@ -122,7 +122,7 @@ class MinimumFinder {
         tree_a, tree_b, [limit = squared_limit()] { return limit; },
         [&](int i, int k) {
           const ContactFeature &f = boxes_a.features[i], &g = boxes_b.features[k];
-          const bool may_touch = have_common_points(boxes_a.boxes[i], boxes_b.boxes[k]);
+          const bool may_touch = boxes_a.boxes[i].meets(boxes_b.boxes[k]);
           if (may_touch || (has_cone(a_, f) && has_cone(b_, g)))
             pairs_[f.dimension + g.dimension].emplace_back(f, g);
           return true;
