@@ -15,14 +15,15 @@
 #include "apps/program_version.hpp"
 #include "apps/run_options.hpp"
 #include "apps/study_command.hpp"
+#include "apps/verify_command.hpp"
 
 namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 5> commands = {declare_run_command, declare_check_command,
+constexpr std::array<CommandDeclaration, 6> commands = {declare_run_command, declare_check_command,
                                                         declare_contacts_command, declare_integrate_command,
-                                                        declare_study_command};
+                                                        declare_verify_command, declare_study_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

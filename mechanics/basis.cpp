@@ -1,8 +1,11 @@
 #include "mechanics/basis.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <boost/multiprecision/eigen.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "mechanics/simplex_moments.hpp"
@@ -131,10 +134,8 @@ RealMatrix inverse_of_lower(const RealMatrix& lower) {
   return inverse;
 }
 
-/// inverse(L) S L with S the derivative of the seeds along one axis: L_k' = sum of (2m+1) L_m, m = k-1, k-3,
-/// ...
-Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inverse, int order, int axis,
-                                  double half_size) {
+/// inverse(L) S L with S the derivative of the seeds by one xi: L_k' = sum of (2m+1) L_m, m = k-1, k-3, ...
+Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inverse, int order, int axis) {
   const auto exponents = monomial_exponents(order);
   const Eigen::Index p = lower.rows();
   RealMatrix derived = RealMatrix::Zero(p, p);  // S L
@@ -143,7 +144,7 @@ Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inv
     auto& k = e[at(axis)];
     for (k -= 1; k >= 0; k -= 2) {
       const Eigen::Index target = monomial_index(e[0], e[1], e[2]);
-      const Real weight = Real(2 * k + 1) / Real(half_size);
+      const Real weight(2 * k + 1);
       for (Eigen::Index column = 0; column <= target; ++column)
         derived(row, column) += weight * lower(target, column);
     }
@@ -163,104 +164,201 @@ Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inv
   return result;
 }
 
+using RealPoints = std::vector<std::array<Real, 3>>;
+
+/// Integrals of the monomials of the given coordinates over the solid they bound, a + b + c <= degree.
+std::vector<Real> monomial_moments(const RealPoints& points, const TriangleMesh& mesh, int degree) {
+  std::vector<Real> result = moment_sums(points, mesh.triangles, degree);
+  const auto factorial = factorials<Real>(degree + 3);
+  for (const auto& [a, b, c] : monomial_exponents(degree)) {
+    result[at(monomial_index(a, b, c))] *=
+        factorial[at(a)] * factorial[at(b)] * factorial[at(c)] / factorial[at(a + b + c + 3)];
+  }
+  return result;
+}
+
+/// Principal axes, each nearest to the coordinate axis of its column; the coordinate axes if the second
+/// moment is diagonal or has no direction.
+Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& second_moment) {
+  // Rounding must not turn the axes of a cube; any axes give a basis, so that nothing depends on this number.
+  constexpr double negligible = 1e-9;
+  const Eigen::Matrix3d diagonal = second_moment.diagonal().asDiagonal();
+  if ((second_moment - diagonal).cwiseAbs().maxCoeff() <= negligible * second_moment.trace())
+    return Eigen::Matrix3d::Identity();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(second_moment);
+  Eigen::Matrix3d vectors = solver.eigenvectors();
+  Eigen::Matrix3d axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Index nearest = 0;
+    vectors.row(axis).cwiseAbs().maxCoeff(&nearest);
+    axes.col(axis) = vectors.col(nearest) * (vectors(axis, nearest) < 0.0 ? -1.0 : 1.0);
+    vectors.col(nearest).setZero();
+  }
+  return axes;
+}
+
+/// The weights of xi_axis phi_parent in the basis, from `first` to phi_k.
+/// @return (k - first + 1)
+std::vector<Real> multiplied(const RealMatrix& lower, const RealMatrix& inverse,
+                             const std::vector<std::array<int, 3>>& exponents, int axis, int parent,
+                             int first, int k) {
+  std::vector<Real> of_seeds(at(k) + 1, Real(0));
+  for (int j = 0; j <= parent; ++j) {
+    auto e = exponents[at(j)];
+    const int degree = e[at(axis)];
+    const Real weight = inverse(parent, j) / Real(2 * degree + 1);
+    ++e[at(axis)];
+    of_seeds[at(monomial_index(e[0], e[1], e[2]))] += weight * Real(degree + 1);
+    if (degree == 0) continue;
+    e[at(axis)] -= 2;
+    of_seeds[at(monomial_index(e[0], e[1], e[2]))] += weight * Real(degree);
+  }
+  std::vector<Real> result;
+  for (int m = first; m <= k; ++m) {
+    Real sum = 0;
+    for (int j = m; j <= k; ++j) sum += of_seeds[at(j)] * lower(j, m);
+    result.push_back(sum);
+  }
+  return result;
+}
+
 }  // namespace
 
 PolynomialBasis::PolynomialBasis(const Polyhedron& solid, int order) : order_(order) {
   if (order < 0 || order > max_order) throw std::invalid_argument("order of a basis must be 0 to 12");
-  Vector3 low = solid.mesh().points.front();
+  const TriangleMesh& mesh = solid.mesh();
+  Vector3 low = mesh.points.front();
   Vector3 high = low;
-  for (const Vector3& point : solid.mesh().points) {
+  for (const Vector3& point : mesh.points) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
   center_ = 0.5 * (low + high);
-  half_size_ = 0.5 * (high - low);
 
-  std::vector<std::array<Real, 3>> points;
-  for (const Vector3& point : solid.mesh().points) {
-    std::array<Real, 3> scaled;
-    for (int axis = 0; axis < 3; ++axis) {
-      scaled[at(axis)] = (Real(point[axis]) - Real(center_[axis])) / Real(half_size_[axis]);
-    }
-    points.push_back(scaled);
+  RealPoints points;
+  for (const Vector3& point : mesh.points) {
+    std::array<Real, 3> from_center;
+    for (int axis = 0; axis < 3; ++axis) from_center[at(axis)] = Real(point[axis]) - Real(center_[axis]);
+    points.push_back(from_center);
   }
-  const int degree = std::max(2 * order, 2);
-  std::vector<Real> monomial_moments = moment_sums(points, solid.mesh().triangles, degree);
-  const auto factorial = factorials<Real>(degree + 3);
-  const Real jacobian = Real(half_size_[0]) * Real(half_size_[1]) * Real(half_size_[2]);
-  for (const auto& [a, b, c] : monomial_exponents(degree)) {
-    monomial_moments[at(monomial_index(a, b, c))] *=
-        jacobian * factorial[at(a)] * factorial[at(b)] * factorial[at(c)] / factorial[at(a + b + c + 3)];
-  }
-
-  const Real volume = monomial_moments[0];
+  const std::vector<Real> second = monomial_moments(points, mesh, 2);
+  const Real& volume = second[0];
   volume_ = static_cast<double>(volume);
   std::array<Real, 3> mean;
   for (int axis = 0; axis < 3; ++axis) {
-    mean[at(axis)] = monomial_moments[at(1 + axis)] / volume;
-    centroid_[axis] = static_cast<double>(Real(center_[axis]) + mean[at(axis)] * Real(half_size_[axis]));
+    mean[at(axis)] = second[at(1 + axis)] / volume;
+    centroid_[axis] = static_cast<double>(Real(center_[axis]) + mean[at(axis)]);
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       std::array<int, 3> e = {0, 0, 0};
       ++e[at(i)];
       ++e[at(j)];
-      const Real centred =
-          monomial_moments[at(monomial_index(e[0], e[1], e[2]))] - mean[at(i)] * mean[at(j)] * volume;
-      second_moment_(i, j) = static_cast<double>(centred * Real(half_size_[i]) * Real(half_size_[j]));
+      second_moment_(i, j) = static_cast<double>(second[at(monomial_index(e[0], e[1], e[2]))] -
+                                                 mean[at(i)] * mean[at(j)] * volume);
     }
   }
 
-  const RealMatrix lower = cholesky_factor(gram_matrix(legendre_moments(monomial_moments, degree), order));
+  axes_ = principal_axes(second_moment_);
+  Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 most = -least;
+  for (const Vector3& point : mesh.points) {
+    const Vector3 along = axes_.transpose() * (point - center_);
+    least = least.cwiseMin(along);
+    most = most.cwiseMax(along);
+  }
+  middle_ = 0.5 * (least + most);
+  half_size_ = 0.5 * (most - least);
+  RealMatrix axes(3, 3);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) axes(i, j) = Real(axes_(i, j));
+  }
+  for (auto& point : points) {
+    const std::array<Real, 3> from_center = point;
+    for (int j = 0; j < 3; ++j) {
+      Real along = -Real(middle_[j]);
+      for (int i = 0; i < 3; ++i) along += axes(i, j) * from_center[at(i)];
+      point[at(j)] = along / Real(half_size_[j]);
+    }
+  }
+  const int degree = std::max(2 * order, 2);
+  std::vector<Real> scaled = monomial_moments(points, mesh, degree);
+  // The axes are orthonormal but for rounding, so that the determinant of the map is not exactly that of h.
+  const Real scale = volume / scaled[0];
+  for (Real& moment : scaled) moment *= scale;
+
+  const RealMatrix lower = cholesky_factor(gram_matrix(legendre_moments(scaled, degree), order));
   const RealMatrix inverse = inverse_of_lower(lower);
-  from_seeds_ = inverse.unaryExpr([](const Real& x) { return static_cast<double>(x); });
-  for (int axis = 0; axis < 3; ++axis) {
-    derivatives_[at(axis)] = derivative_matrix(lower, inverse, order, axis, half_size_[axis]);
+  const auto exponents = monomial_exponents(order);
+  constant_ = static_cast<double>(inverse(0, 0));
+  for (int k = 1; k < size(); ++k) {
+    auto e = exponents[at(k)];
+    const auto axis = static_cast<int>(std::max_element(e.begin(), e.end()) - e.begin());
+    const int first = std::max(0, polynomial_count(e[0] + e[1] + e[2] - 3));
+    --e[at(axis)];
+    const int parent = monomial_index(e[0], e[1], e[2]);
+    const std::vector<Real> weights = multiplied(lower, inverse, exponents, axis, parent, first, k);
+    Recurrence recurrence{axis, parent, first, Eigen::VectorXd(k - first),
+                          static_cast<double>(weights.back())};
+    for (int j = 0; j < k - first; ++j) recurrence.weights[j] = static_cast<double>(weights[at(j)]);
+    recurrences_.push_back(std::move(recurrence));
   }
 
-  // seed = L phi: the coefficients of a seed function are a row of L; X = center + half_size seed(1, 2, 3).
+  std::array<Eigen::MatrixXd, 3> local_derivatives;
+  for (int j = 0; j < 3; ++j) {
+    local_derivatives[at(j)] = derivative_matrix(lower, inverse, order, j) / half_size_[j];
+  }
+  for (int i = 0; i < 3; ++i) {
+    derivatives_[at(i)] = axes_(i, 0) * local_derivatives[0] + axes_(i, 1) * local_derivatives[1] +
+                          axes_(i, 2) * local_derivatives[2];
+  }
+
+  // seed = L phi: the coefficients of a seed are a row of L. X = c + inverse(A') (m + h xi), xi = seeds 1
+  // to 3.
+  const RealMatrix back = axes.transpose().inverse();
   identity_map_ = Eigen::MatrixX3d::Zero(size(), 3);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int i = 0; i < 3; ++i) {
     if (order == 0) {
-      identity_map_(0, axis) = centroid_[axis] * static_cast<double>(lower(0, 0));
+      identity_map_(0, i) = centroid_[i] * static_cast<double>(lower(0, 0));
       continue;
     }
-    const Real scale(half_size_[axis]);
-    identity_map_(0, axis) =
-        static_cast<double>(Real(center_[axis]) * lower(0, 0) + scale * lower(1 + axis, 0));
-    for (int k = 1; k <= 3; ++k) identity_map_(k, axis) = static_cast<double>(scale * lower(1 + axis, k));
-  }
-}
-
-Eigen::VectorXd PolynomialBasis::seeds(const Vector3& point) const {
-  Eigen::Matrix<double, max_order + 1, 3> legendre;
-  const Vector3 local = (point - center_).cwiseQuotient(half_size_);
-  legendre.row(0).setOnes();
-  if (order_ >= 1) legendre.row(1) = local.transpose();
-  for (int k = 1; k < order_; ++k) {
-    legendre.row(k + 1) =
-        ((2 * k + 1) * local.transpose().cwiseProduct(legendre.row(k)) - k * legendre.row(k - 1)) / (k + 1);
-  }
-  Eigen::VectorXd result(size());
-  Eigen::Index place = 0;
-  for (int degree = 0; degree <= order_; ++degree) {
-    for (int a = degree; a >= 0; --a) {
-      for (int b = degree - a; b >= 0; --b) {
-        result[place++] = legendre(a, 0) * legendre(b, 1) * legendre(degree - a - b, 2);
-      }
+    Real constant = Real(center_[i]);
+    for (int j = 0; j < 3; ++j) constant += back(i, j) * Real(middle_[j]);
+    std::array<Real, 4> coefficients = {constant * lower(0, 0), Real(0), Real(0), Real(0)};
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k <= 1 + j; ++k)
+        coefficients[at(k)] += back(i, j) * Real(half_size_[j]) * lower(1 + j, k);
     }
+    for (int k = 0; k < 4; ++k) identity_map_(k, i) = static_cast<double>(coefficients[at(k)]);
   }
-  return result;
 }
 
 Eigen::VectorXd PolynomialBasis::values(const Vector3& point) const {
-  return from_seeds_.triangularView<Eigen::Lower>() * seeds(point);
+  const Vector3 xi = local(point);
+  Eigen::VectorXd phi(size());
+  phi[0] = constant_;
+  Eigen::Index k = 1;
+  for (const auto& [axis, parent, first, weights, divisor] : recurrences_) {
+    phi[k] = (xi[axis] * phi[parent] - weights.dot(phi.segment(first, weights.size()))) / divisor;
+    ++k;
+  }
+  return phi;
 }
 
 Eigen::MatrixXd PolynomialBasis::values(const std::vector<Vector3>& points) const {
-  Eigen::MatrixXd seed(size(), static_cast<Eigen::Index>(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k) seed.col(static_cast<Eigen::Index>(k)) = seeds(points[k]);
-  return (from_seeds_.triangularView<Eigen::Lower>() * seed).transpose();
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixX3d xi(count, 3);
+  for (Eigen::Index n = 0; n < count; ++n) xi.row(n) = local(points[static_cast<std::size_t>(n)]);
+  Eigen::MatrixXd phi(count, size());
+  phi.col(0).setConstant(constant_);
+  Eigen::Index k = 1;
+  for (const auto& [axis, parent, first, weights, divisor] : recurrences_) {
+    phi.col(k) = xi.col(axis).cwiseProduct(phi.col(parent));
+    phi.col(k).noalias() -= phi.middleCols(first, weights.size()) * weights;
+    phi.col(k) /= divisor;
+    ++k;
+  }
+  return phi;
 }
 
 Eigen::MatrixX3d PolynomialBasis::gradients(const Vector3& point) const {

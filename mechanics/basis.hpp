@@ -1,9 +1,15 @@
 // The polynomial basis of a block (theory.md section 2): complete of order n, orthonormal on the block's own
 // volume and graded, so that the first 4, 10, 20, ... functions span the orders 1, 2, 3, ...
 //
-//   seed_k(X) = L_a(xi) L_b(eta) L_c(zeta)  Legendre polynomials, (xi, eta, zeta) = (X - center) / half_size,
-//   G = integral of seed seed' dV = L L'    exact moments, Cholesky factor in 50-digit arithmetic,
-//   phi = inverse(L) seed                   so that  integral of phi phi' dV = I.
+//   xi = (A' (X - c) - m) / h                 along the block's principal axes A, -1 to 1 in its box along
+//   them seed_k(X) = L_a(xi_1) L_b(xi_2) L_c(xi_3)  Legendre polynomials, G = integral of seed seed' dV = L
+//   L'       exact moments, Cholesky factor in 50-digit arithmetic, phi = inverse(L) seed so that  integral
+//   of phi phi' dV = I.
+//
+// phi is not evaluated so: where the block fills little of its box, inverse(L) is large and rounding with it.
+// Multiplied by xi_i, a function of degree d - 1 is a combination of those of degrees d, d - 1 and d - 2
+// only, so that each function follows from the ones before it by a recurrence that is as stable as
+// orthogonalization.
 //
 // Derivatives of phi are polynomials of the same space, so they are matrices: d phi / dX_i = D_i phi, and
 // every integral of products of phi and its derivatives is a product of those matrices.
@@ -11,6 +17,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <vector>
 
 #include "geometry/polyhedron.hpp"
 #include "mechanics/multi_index.hpp"
@@ -61,15 +68,29 @@ class PolynomialBasis {
   [[nodiscard]] Eigen::MatrixX3d linear_field(const Vector3& value, const Eigen::Matrix3d& gradient) const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd seeds(const Vector3& point) const;
+  /// phi_k = (xi_axis phi_parent - sum_j weights_j phi_(first + j)) / divisor
+  struct Recurrence {
+    int axis;
+    int parent;
+    int first;
+    Eigen::VectorXd weights;
+    double divisor;
+  };
+
+  [[nodiscard]] Vector3 local(const Vector3& point) const {
+    return (axes_.transpose() * (point - center_) - middle_).cwiseQuotient(half_size_);
+  }
 
   int order_;
   double volume_ = 0.0;
   Vector3 centroid_;
   Eigen::Matrix3d second_moment_;
-  Vector3 center_;              ///< of the bounding box, m
-  Vector3 half_size_;           ///< of the bounding box, m
-  Eigen::MatrixXd from_seeds_;  ///< inverse(L), (p, p) lower triangular
+  Vector3 center_;                       ///< c, of the block's box along the coordinate axes, m
+  Eigen::Matrix3d axes_;                 ///< A, by columns
+  Vector3 middle_;                       ///< m, of the block's box along the principal axes, from c, m
+  Vector3 half_size_;                    ///< h, of that box, m
+  double constant_ = 0.0;                ///< phi_0
+  std::vector<Recurrence> recurrences_;  ///< (p - 1), of phi_1 on
   std::array<Eigen::MatrixXd, 3> derivatives_;
   Eigen::MatrixX3d identity_map_;
 };
