@@ -26,9 +26,30 @@ Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactP
   return rows;
 }
 
+bool is_free(const ContactBody& body) {
+  return !body.model->fixed() && body.model->space().free();
+}
+
+/// Forces f_a = w x q_a that have no resultant and the given torque about the middle of the step, stacked as
+/// the unknowns of a free block are. @param start coefficients at the start of the step, @param change of
+/// them
+Eigen::VectorXd turning_force(const Eigen::MatrixX3d& start, const Eigen::VectorXd& change,
+                              const Vector3& torque) {
+  Eigen::MatrixX3d middle = start + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(change.data(), start.rows(), 3);
+  // Only the first function has a mean, so that what is left of it turns about the centroid.
+  middle.row(0).setZero();
+  const Eigen::Matrix3d products = middle.transpose() * middle;
+  const Eigen::Matrix3d inertia = products.trace() * Eigen::Matrix3d::Identity() - products;
+  const Vector3 w = inertia.ldlt().solve(torque);
+  Eigen::VectorXd force(change.size());
+  Eigen::Map<Eigen::MatrixX3d> rows(force.data(), start.rows(), 3);
+  for (Eigen::Index k = 0; k < middle.rows(); ++k) rows.row(k) = w.cross(Vector3(middle.row(k)));
+  return force;
+}
+
 }  // namespace
 
-ContactPair::ContactPair(int a, int b, const BlockModel& model_a, const BlockModel& model_b,
+ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
                          const JointLaw& law, std::vector<ContactPoint> points,
                          std::vector<PointMemory> memory)
     : a_(a),
@@ -36,8 +57,13 @@ ContactPair::ContactPair(int a, int b, const BlockModel& model_a, const BlockMod
       points_(std::move(points)),
       memory_(std::move(memory)),
       start_(3, static_cast<Eigen::Index>(points_.size())),
-      rows_a_(contact_rows(model_a, points_, true)),
-      rows_b_(contact_rows(model_b, points_, false)) {
+      rows_a_(contact_rows(*body_a.model, points_, true)),
+      rows_b_(contact_rows(*body_b.model, points_, false)),
+      free_pair_(is_free(body_a) && is_free(body_b)) {
+  if (free_pair_) {
+    position_a_ = body_a.state->position;
+    position_b_ = body_b.state->position;
+  }
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
     start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
@@ -70,7 +96,26 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   }
   if (rows_a_.size() > 0) response.force_on_a = rows_a_.transpose() * forces;
   if (rows_b_.size() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
+  if (free_pair_) {
+    const Vector3 half = -0.5 * couple(place, forces);
+    response.turning_on_a = turning_force(position_a_, ya, half);
+    response.turning_on_b = turning_force(position_b_, yb, half);
+  }
   return response;
+}
+
+Vector3 ContactPair::couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const ContactPoint& point = points_[k];
+    const auto column = static_cast<Eigen::Index>(k);
+    const Eigen::Matrix3d frame =
+        (Eigen::Matrix3d() << point.normal, point.tangent_1, point.tangent_2).finished();
+    const Vector3 half_change = 0.5 * frame * (place.col(column) - start_.col(column));
+    const Vector3 offset = point.place_a - point.place_b + half_change;
+    sum += offset.cross(Vector3(frame * forces.segment<3>(3 * column)));
+  }
+  return sum;
 }
 
 ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {

@@ -14,17 +14,32 @@ namespace ashlar {
 struct PairResponse {
   std::vector<PointResponse> points;  ///< at the end of the step
   std::vector<MeanResponse> means;    ///< what acts in the equations of motion
-  Eigen::VectorXd force_on_a;         ///< (unknowns of a)
+  Eigen::VectorXd force_on_a;         ///< of the springs, (unknowns of a)
   Eigen::VectorXd force_on_b;         ///< (unknowns of b)
+  Eigen::VectorXd turning_on_a;  ///< that balances their couple, see ContactPair; empty unless both are free
+  Eigen::VectorXd turning_on_b;
+
+  [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, turning_on_a); }
+  [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, turning_on_b); }
+
+ private:
+  static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& turning) {
+    return turning.size() > 0 ? Eigen::VectorXd(force + turning) : force;
+  }
 };
 
+/// The force of a point acts on a at x_a and on b at x_b. Where these differ, by the gap or because a slides
+/// on b within the step, the two forces are a couple r x F, r = x_a - x_b at the middle of the step, which
+/// would change the angular momentum of two free blocks. Half of its opposite is then given to each of them
+/// as the forces of a rigid angular acceleration, which strain nothing.
+///
 /// Constant after construction. Points are linear in the unknowns within a step: with ya, yb the changes of
 /// the blocks' unknowns,  gap = g0 + n . (C_a ya - C_b yb)  and likewise the slip (theory.md section 7; H =
 /// rows_a, Q = rows_b).
 class ContactPair {
  public:
   /// @param a,b indices of the blocks, used by the solver only
-  ContactPair(int a, int b, const BlockModel& model_a, const BlockModel& model_b, const JointLaw& law,
+  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
               std::vector<ContactPoint> points, std::vector<PointMemory> memory);
 
   [[nodiscard]] int a() const { return a_; }
@@ -59,6 +74,9 @@ class ContactPair {
   [[nodiscard]] static double energy(const PairResponse& response);
 
  private:
+  /// Sum of r x F over the points, N m. @param place as relative() returns, @param forces (3 #points) by
+  /// frame
+  [[nodiscard]] Vector3 couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const;
   /// Gap and trial slip of every point. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
 
@@ -72,6 +90,9 @@ class ContactPair {
   Eigen::MatrixXd
       rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed
   Eigen::MatrixXd rows_b_;
+  bool free_pair_;               ///< nothing but the other block holds either
+  Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step, of free pairs
+  Eigen::MatrixX3d position_b_;
 };
 
 }  // namespace ashlar

@@ -70,8 +70,8 @@ class IslandProblem {
     }
     for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
       const ContactPair& contact = pairs_[at(island_.pairs[k])];
-      if (const int a = place(contact.a()); a >= 0) add(a, responses_[k].force_on_a);
-      if (const int b = place(contact.b()); b >= 0) add(b, responses_[k].force_on_b);
+      if (const int a = place(contact.a()); a >= 0) add(a, responses_[k].total_on_a());
+      if (const int b = place(contact.b()); b >= 0) add(b, responses_[k].total_on_b());
     }
     settled = true;
     for (std::size_t k = 0; k < island_.bodies.size(); ++k) {

@@ -189,7 +189,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     counts_.contact_points += points.size();
     auto memory = memory_[blocks].recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
-    pairs.emplace_back(a, b, blocks_[at(a)], blocks_[at(b)], law_(a, b), std::move(points),
+    pairs.emplace_back(a, b, body_a, body_b, law_(a, b), std::move(points),
                        std::move(memory));
   }
   return pairs;
@@ -261,7 +261,7 @@ void Simulation::accept(double step, Trial& trial) {
       const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
       const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
       const double work =
-          (ya.size() > 0 ? ya.dot(after.force_on_a) : 0.0) + (yb.size() > 0 ? yb.dot(after.force_on_b) : 0.0);
+          (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) + (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0);
       potential_work += work;
       potential_change += ContactPair::energy(after) - pair.start_energy();
       ledger_.contact += ContactPair::energy(after);

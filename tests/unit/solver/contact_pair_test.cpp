@@ -18,6 +18,13 @@ struct Setting {
   std::vector<ContactPoint> points;
 };
 
+ContactPair pair_of(const Setting& setting, const JointLaw& law, const PointMemory& memory) {
+  const BlockState state_a = setting.a.initial_state();
+  const BlockState state_b = setting.b.initial_state();
+  return {0,       1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}, law, setting.points,
+          {memory}};
+}
+
 /// Two blocks of different orders with one point in each other, seen along a skew normal.
 Setting skew_setting(double gap) {
   Setting setting{
@@ -49,7 +56,7 @@ TEST(ContactPair, ForcesAndTangentsAreDerivativesOfTheEnergy) {
     const Setting setting = skew_setting(gap);
     PointMemory memory;
     memory.slip = 1e-4 * setting.points[0].tangent_1;
-    const ContactPair pair(0, 1, setting.a, setting.b, law, setting.points, {memory});
+    const ContactPair pair = pair_of(setting, law, memory);
     const int na = setting.a.unknowns();
     const int nb = setting.b.unknowns();
     const auto respond = [&](const Eigen::VectorXd& y) {
@@ -84,8 +91,7 @@ TEST(ContactPair, MatricesAreThoseOfTheTheory) {
   const double ks = 1e9 * 0.25;
   const Setting setting = skew_setting(-1e-3);
   const ContactPoint& point = setting.points[0];
-  const ContactPair pair(0, 1, setting.a, setting.b, {2e9, 1e9, 10.0, 0.0, 0.0, true}, setting.points,
-                         {PointMemory{}});
+  const ContactPair pair = pair_of(setting, {2e9, 1e9, 10.0, 0.0, 0.0, true}, {});
   // C is (3, 3p): x = C q with q stacked column by column.
   const auto c_matrix = [](const BlockModel& block, const Vector3& at) {
     const Eigen::VectorXd phi = block.basis().values(at);
@@ -108,6 +114,42 @@ TEST(ContactPair, MatricesAreThoseOfTheTheory) {
   EXPECT_TRUE(near(tangent.bb, kn * q.transpose() * q + ks * (cj.transpose() * cj - q.transpose() * q)));
   EXPECT_TRUE(near(response.force_on_a, -kn * point.gap * h.transpose()));
   EXPECT_TRUE(near(response.force_on_b, kn * point.gap * q.transpose()));
+}
+
+TEST(ContactPair, TotalForcesHaveNoResultantAndNoTorque) {
+  // a slides on b and is deep in it: the springs' forces alone are a couple about the middle of the step.
+  Setting setting = skew_setting(-1e-2);
+  ContactPoint& point = setting.points[0];
+  point.place_a = point.material_a;
+  point.place_b = point.material_b;
+  const ContactPair pair = pair_of(setting, {2e9, 1e9, 0.3, 0.0, 0.0, true}, {});
+  const auto change = [](const BlockModel& block, double size) {
+    return Eigen::VectorXd(size * Eigen::VectorXd::LinSpaced(block.unknowns(), -1.0, 2.0));
+  };
+  const Eigen::VectorXd ya = change(setting.a, 0.02);
+  const Eigen::VectorXd yb = change(setting.b, -0.01);
+  const PairResponse response = pair.respond(ya, yb, false);
+  const auto torque_and_force = [](const BlockModel& block, const Eigen::VectorXd& y,
+                                   const Eigen::VectorXd& force) {
+    const Eigen::Index p = block.basis().size();
+    const Eigen::MatrixX3d middle =
+        block.basis().identity_map() + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(y.data(), p, 3);
+    const Eigen::Map<const Eigen::MatrixX3d> rows(force.data(), p, 3);
+    Eigen::Matrix<double, 6, 1> result = Eigen::Matrix<double, 6, 1>::Zero();
+    for (Eigen::Index k = 0; k < p; ++k) {
+      const Vector3 place = middle.row(k);
+      result.head<3>() += place.cross(Vector3(rows.row(k)));
+    }
+    result.tail<3>() = std::sqrt(block.basis().volume()) * rows.row(0).transpose();
+    return result;
+  };
+  const Eigen::Matrix<double, 6, 1> springs = torque_and_force(setting.a, ya, response.force_on_a) +
+                                              torque_and_force(setting.b, yb, response.force_on_b);
+  const Eigen::Matrix<double, 6, 1> total = torque_and_force(setting.a, ya, response.total_on_a()) +
+                                            torque_and_force(setting.b, yb, response.total_on_b());
+  const double scale = torque_and_force(setting.a, ya, response.force_on_a).norm();
+  EXPECT_GT(springs.head<3>().norm(), 1e-3 * scale);
+  EXPECT_LT(total.norm(), 1e-12 * scale);
 }
 
 }  // namespace

@@ -156,8 +156,9 @@ TEST(Simulation, InclineStick) {
   EXPECT_NEAR(after_10, after_2, 1e-9);
 }
 
-TEST(Simulation, CollisionKeepsMomentum) {
+void expect_collision_to_keep_momentum(Integrator integrator, double angular_tolerance) {
   SimulationSettings settings;
+  settings.integrator = integrator;
   settings.gravity.setZero();
   settings.time_step = 2e-4;
   JointLaw law{1e9, 5e8, std::tan(0.5), 0.0, 0.0, true};
@@ -174,7 +175,13 @@ TEST(Simulation, CollisionKeepsMomentum) {
   EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-10 * momentum.norm());
   EXPECT_GT(simulation.blocks()[1].momentum(simulation.states()[1]).norm(),
             0.1 * momentum.norm());  // they did collide
-  EXPECT_LT((simulation.angular_momentum() - angular).norm(), 1e-3 * angular.norm());
+  EXPECT_LT((simulation.angular_momentum() - angular).norm(), angular_tolerance * angular.norm());
+}
+
+TEST(Simulation, CollisionKeepsMomentum) {
+  expect_collision_to_keep_momentum(Integrator::average_acceleration, 1e-10);
+  // The dda step takes elastic forces at its end and so loses some of what turns, by construction.
+  expect_collision_to_keep_momentum(Integrator::dda, 1e-3);
 }
 
 TEST(Simulation, BlocksOfDifferentOrdersInOneScene) {
