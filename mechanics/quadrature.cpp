@@ -4,6 +4,7 @@
 #include "mechanics/quadrature.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace ashlar {
@@ -143,6 +144,30 @@ TriangleRule triangle_rule(int degree) {
       const double v = inner.points[j];
       rule.barycentric.emplace_back(1.0 - u, u * (1.0 - v), u * v);
       rule.weights.push_back(2.0 * u * outer.weights[i] * inner.weights[j]);
+    }
+  }
+  return rule;
+}
+
+VolumeRule volume_rule(const TriangleMesh& mesh, const Vector3& apex, int degree) {
+  // A point of the tetrahedron is apex + u (p - apex), p on the triangle; u^2 of the Jacobian takes two degrees.
+  const SegmentRule height = gauss_legendre(degree / 2 + 2);
+  const TriangleRule base = triangle_rule(degree);
+  VolumeRule rule;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vector3 a = mesh.points[static_cast<std::size_t>(i)] - apex;
+    const Vector3 b = mesh.points[static_cast<std::size_t>(j)] - apex;
+    const Vector3 c = mesh.points[static_cast<std::size_t>(k)] - apex;
+    const double half_determinant = 0.5 * a.dot(b.cross(c));
+    if (half_determinant == 0.0) continue;
+    for (std::size_t n = 0; n < base.weights.size(); ++n) {
+      const Vector3& l = base.barycentric[n];
+      const Vector3 side = l[0] * a + l[1] * b + l[2] * c;
+      for (std::size_t m = 0; m < height.points.size(); ++m) {
+        const double u = height.points[m];
+        rule.points.emplace_back(apex + u * side);
+        rule.weights.push_back(half_determinant * u * u * base.weights[n] * height.weights[m]);
+      }
     }
   }
   return rule;

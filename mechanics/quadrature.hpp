@@ -47,4 +47,14 @@ struct TriangleRule {
 };
 [[nodiscard]] TriangleRule triangle_rule(int degree);
 
+/// Points (m) with weights (m^3) that integrate polynomials of a degree exactly over the inside of a closed
+/// surface: signed tetrahedra from one point, so that points of a solid that is not convex may lie outside it
+/// and weights may be negative.
+struct VolumeRule {
+  std::vector<Vector3> points;
+  std::vector<double> weights;
+};
+/// @param mesh closed, outward triangles. @param apex of the tetrahedra, near the solid. @param degree 0 to 100
+[[nodiscard]] VolumeRule volume_rule(const TriangleMesh& mesh, const Vector3& apex, int degree);
+
 }  // namespace ashlar

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "mechanics/moments.hpp"
+#include "support/sample_solids.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -84,6 +87,29 @@ TEST(Quadrature, TriangleRuleIsExact) {
           sum += rule.weights[k] * std::pow(rule.barycentric[k][0], a) * std::pow(rule.barycentric[k][1], b);
         }
         EXPECT_NEAR(sum, 2.0 * factorial(a) * factorial(b) / factorial(a + b + 2), 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Quadrature, VolumeRuleGivesTheExactMoments) {
+  for (const auto& [name, solid] : test_support::sample_solids()) {
+    if (name == "far box") continue;  // whose moments are large differences
+    for (const int degree : {0, 1, 4, 9}) {
+      const VolumeRule rule = volume_rule(solid.mesh(), solid.mesh().points[1], degree);
+      const auto exact = moments(solid.mesh(), degree);
+      const auto exponents = monomial_exponents(degree);
+      for (std::size_t k = 0; k < exact.size(); ++k) {
+        double sum = 0.0;
+        double size = 0.0;
+        for (std::size_t n = 0; n < rule.points.size(); ++n) {
+          double value = rule.weights[n];
+          for (int axis = 0; axis < 3; ++axis)
+            value *= std::pow(rule.points[n][axis], exponents[k][static_cast<std::size_t>(axis)]);
+          sum += value;
+          size += std::abs(value);
+        }
+        EXPECT_NEAR(sum, exact[k], 1e-13 * size) << name << degree;
       }
     }
   }
