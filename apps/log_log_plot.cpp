@@ -12,7 +12,7 @@
 namespace ashlar {
 namespace {
 
-constexpr double width = 900.0;
+constexpr double width = 1000.0;
 constexpr double height = 600.0;
 constexpr double left = 90.0;
 constexpr double right = 640.0;  // the legend is beside the axes

@@ -27,7 +27,7 @@ struct LogLogPlot {
 /// different x.
 [[nodiscard]] double last_slope(const PlotSeries& series, std::size_t count = 3);
 
-/// A self-contained SVG document, 900 by 600.
+/// A self-contained SVG document, 1000 by 600.
 [[nodiscard]] std::string to_svg(const LogLogPlot& plot);
 
 }  // namespace ashlar

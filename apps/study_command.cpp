@@ -10,16 +10,20 @@
 #include <ostream>
 
 #include "apps/atomic_file.hpp"
+#include "apps/conditioning_study.hpp"
 #include "apps/nearest_name.hpp"
+#include "apps/orders_study.hpp"
 #include "apps/sub_face_study.hpp"
 
 namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-const std::array<Study, 1> studies = {
+const std::array<Study, 3> studies = {
     {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
-      study_sub_faces}}};
+      study_sub_faces},
+     {"orders", "error, unknowns and time of one block against its order", study_orders},
+     {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning}}};
 
 std::vector<std::string> names() {
   std::vector<std::string> list;

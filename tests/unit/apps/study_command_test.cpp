@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "apps/conditioning_study.hpp"
+#include "apps/orders_study.hpp"
 #include "apps/study.hpp"
 #include "apps/sub_face_study.hpp"
 #include "support/temporary_folder.hpp"
@@ -35,6 +37,33 @@ TEST(SubFaceStudy, BoundsHoldAndMeetTheTolerance) {
   for (const auto& row : result.rows) {
     EXPECT_LE(row[4], row[1]);  // bound, tolerance
     EXPECT_GE(row[4], row[3]);  // bound, error
+  }
+}
+
+TEST(OrdersStudy, ASmoothFieldConvergesExponentiallyAClampedOneDoesNot) {
+  const StudyResult result = study_orders_to(6);
+  ASSERT_EQ(result.rows.size(), 12U);
+  for (std::size_t k = 1; k < 6; ++k) EXPECT_LT(result.rows[k][3], result.rows[k - 1][3]);
+  // Ratios of successive errors of the smooth field fall; those of the cantilever do not go below a third.
+  for (std::size_t k = 8; k < 12; ++k) {
+    EXPECT_LT(result.rows[k][3] / result.rows[k - 1][3], 0.3);
+    EXPECT_LT(result.rows[k][3] / result.rows[k - 1][3], result.rows[k - 1][3] / result.rows[k - 2][3]);
+  }
+  EXPECT_GT(result.rows[5][3] / result.rows[4][3], 1.0 / 3.0);
+}
+
+TEST(ConditioningStudy, TheOrthonormalBasisLosesLittleAnywhere) {
+  const StudyResult result = study_conditioning_to(4);
+  ASSERT_EQ(result.rows.size(), 48U);
+  for (const auto& row : result.rows) {
+    if (row[0] == 3.0) {
+      EXPECT_EQ(row[3], 1.0);
+      EXPECT_LT(row[5], row[1] < 1000.0 ? 6.0 : 8.0);
+    }
+    // The Gram matrix of monomials reaches 1e15 at n = 3, ten half-widths off the origin (theory of record).
+    if (row[0] == 0.0 && row[1] == 10.0 && row[2] == 3.0) {
+      EXPECT_GT(row[3], 1e12);
+    }
   }
 }
 
