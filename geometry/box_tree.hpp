@@ -1,6 +1,8 @@
 // A tree of boxes: which parts of two surfaces can be near each other.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -45,6 +47,70 @@ class BoxTree {
   std::vector<Node> nodes_;
   std::vector<int> items_;
 };
+
+/// The boxes of one tree for questions about points: up to four boxes a node, compared with a point at once.
+/// Constant after construction.
+class PackedBoxTree {
+ public:
+  /// @throws std::invalid_argument for a tree with more than one box in a leaf.
+  explicit PackedBoxTree(const BoxTree& tree);
+
+  /// Calls visit(position in tree.items()) for all boxes that are not certainly farther from a point than
+  /// bound(), a squared distance that may shrink from call to call, nearer ones first by and large.
+  template <class Bound, class Visit>
+  void for_each_near(const Eigen::Vector3d& x, Bound bound, Visit visit) const;
+
+ private:
+  static constexpr int width = 4;
+  using Lanes = Eigen::Array<double, width, 1>;
+  struct Node {
+    std::array<Lanes, 3> low, high;   ///< by axis
+    std::array<int, width> children;  ///< a node, or -1 - a position in tree.items()
+    int count = 0;                    ///< of its boxes; the rest are points at the origin
+  };
+
+  [[nodiscard]] static Lanes squared_distances(const Node& node, const Eigen::Vector3d& x) {
+    Lanes sum = Lanes::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double at = x[static_cast<Eigen::Index>(i)];
+      sum += (node.low[i] - at).max(at - node.high[i]).max(0.0).square();
+    }
+    return sum;
+  }
+
+  std::vector<Node> nodes_;
+};
+
+template <class Bound, class Visit>
+void PackedBoxTree::for_each_near(const Eigen::Vector3d& x, Bound bound, Visit visit) const {
+  struct Open {
+    double distance;
+    int child;
+  };
+  if (nodes_.empty()) return;
+  std::array<Open, 128> stack;  // the tree is balanced: three entries a level, and one
+  std::size_t size = 0;
+  stack[size++] = {0.0, 0};
+  while (size > 0) {
+    const Open open = stack[--size];
+    if (is_certainly_farther(open.distance, bound())) continue;
+    if (open.child < 0) {
+      visit(-1 - open.child);
+      continue;
+    }
+    const Node& node = nodes_[static_cast<std::size_t>(open.child)];
+    const Lanes distances = squared_distances(node, x);
+    const double limit = bound();
+    const std::size_t first = size;
+    for (int lane = 0; lane < node.count; ++lane) {
+      const double distance = distances[lane];
+      if (is_certainly_farther(distance, limit)) continue;
+      std::size_t place = size++;  // the nearest last
+      for (; place > first && stack[place - 1].distance < distance; --place) stack[place] = stack[place - 1];
+      stack[place] = {distance, node.children[static_cast<std::size_t>(lane)]};
+    }
+  }
+}
 
 /// Calls visit(item of a, item of b) for all pairs that are not certainly farther apart than bound(), a
 /// squared distance that may shrink from call to call, nearer ones first by and large. Ends when a call

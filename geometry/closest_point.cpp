@@ -4,7 +4,8 @@
 //   distance <= |p| + 16 u R.
 // Every point of the triangle is at least as far along g = p as its lowest corner, whatever g is:
 //   distance >= min(g.a, g.b, g.c) / |g| - 16 u R.
-// Rounding of the two right sides themselves is below 8 u R, for which the factor is doubled.
+// Rounding of the two right sides themselves is below 8 u R, for which the factor is doubled. Where |p|^2 is
+// not a normal number, |p| errs by less than 2^-510, far below u R, and the second bound is not used.
 #include "geometry/closest_point.hpp"
 
 #include <Eigen/Geometry>
@@ -26,6 +27,10 @@ namespace ashlar {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The bounds are made of polynomials of degree 4, and of quotients that are watched where they could
+// underflow.
+constexpr int bounds_degree = 4;
 
 // Parts of a triangle: corners 0 to 2, sides 3 to 5 (side k from corner k - 3 to the next one), inner part 6.
 constexpr int first_side = 3, inner_part = 6, part_count = 7;
@@ -60,7 +65,12 @@ RationalVector rational_difference(const Vector3& p, const Vector3& q) {
 class ClosestPointFinder::Surface {
  public:
   explicit Surface(Polyhedron solid)
-      : solid_(std::move(solid)), features_(solid_), tree_(boxes(solid_.mesh())), corners_(), parts_() {
+      : solid_(std::move(solid)),
+        features_(solid_),
+        tree_(boxes(solid_.mesh()), 1),
+        packed_(tree_),
+        corners_(),
+        parts_() {
     const TriangleMesh& mesh = solid_.mesh();
     for (const Vector3& p : mesh.points)
       for (int i = 0; i < 3; ++i) range_.include(p[i]);
@@ -86,8 +96,8 @@ class ClosestPointFinder::Surface {
     NumericRange range = range_;
     for (int i = 0; i < 3; ++i) range.include(x[i]);
     PredicateLadder ladder;
-    ladder.floating = range.safe();
-    std::vector<Candidate> candidates = ladder.floating ? near_triangles(x) : all_triangles();
+    ladder.open(range);
+    std::vector<Candidate> candidates = ladder.allows(bounds_degree) ? near_triangles(x) : all_triangles();
     for (Candidate& c : candidates) c.part = certified_part(x, c, ladder);
     return answer(x, nearest(x, candidates), ladder);
   }
@@ -111,37 +121,15 @@ class ClosestPointFinder::Surface {
     std::vector<Candidate> candidates;
     candidates.reserve(16);
     double best = infinity;
-    struct Open {
-      int node;
-      double distance;
-    };
     const Box& all = tree_.nodes()[0].box;
     constexpr double error_units = 32.0 * TrackedNumber::unit_roundoff;
     const double error = error_units * (all.high - x).cwiseAbs().cwiseMax((all.low - x).cwiseAbs()).sum();
-    std::array<Open, 64> stack;  // the tree is balanced: one entry a level
-    std::size_t size = 0;
-    const auto squared_distance_to = [&](int node) {
-      const Box& box = tree_.nodes()[node].box;
-      return (box.low - x).cwiseMax(x - box.high).cwiseMax(0.0).squaredNorm();
-    };
-    stack[size++] = {0, 0.0};
-    while (size > 0) {
-      const Open open = stack[--size];
-      if (is_certainly_farther(open.distance, best * best)) continue;
-      const BoxTree::Node& node = tree_.nodes()[open.node];
-      if (node.children >= 0) {
-        Open nearer{node.children, squared_distance_to(node.children)},
-            farther{node.children + 1, squared_distance_to(node.children + 1)};
-        if (farther.distance < nearer.distance) std::swap(nearer, farther);
-        stack[size++] = farther;
-        stack[size++] = nearer;
-        continue;
-      }
-      for (int k = node.begin; k < node.end; ++k) {
-        const auto& [a, b, c] = corners_[k];
-        add_candidate(k, a - x, b - x, c - x, error, best, candidates);
-      }
-    }
+    packed_.for_each_near(
+        x, [&] { return best * best; },
+        [&](int k) {
+          const auto& [a, b, c] = corners_[k];
+          add_candidate(k, a - x, b - x, c - x, error, best, candidates);
+        });
     std::erase_if(candidates, [&](const Candidate& c) { return c.lower > best; });
     return candidates;
   }
@@ -149,14 +137,15 @@ class ClosestPointFinder::Surface {
   // far away.
   void add_candidate(int k, const Vector3& a, const Vector3& b, const Vector3& c, double error, double& best,
                      std::vector<Candidate>& candidates) const {
-    constexpr double rounding = 1.0 - 0x1p-49;
+    constexpr double rounding = 1.0 - 0x1p-49, smallest = std::numeric_limits<double>::min();
     const auto [part, p] = guess_nearest(a, b, c);
     const double squared = p.squaredNorm(), limit = best + error;
-    const double lowest = std::min({p.dot(a), p.dot(b), p.dot(c)});
-    if (lowest > 0.0 && lowest * lowest * rounding > limit * limit * squared) return;
+    const double lowest = std::min({p.dot(a), p.dot(b), p.dot(c)}), bound = limit * limit * squared;
+    const bool is_precise = squared > smallest && bound > smallest;
+    if (is_precise && lowest > 0.0 && lowest * lowest * rounding > bound) return;
     const double length = std::sqrt(squared);
     best = std::min(best, length + error);
-    const double lower = length > 0.0 ? lowest / length - error : 0.0;
+    const double lower = is_precise ? lowest / length - error : 0.0;
     candidates.push_back({tree_.items()[k], part, lower});
   }
 
@@ -249,7 +238,7 @@ class ClosestPointFinder::Surface {
       return side > 0 ? PointPlace::outside : side < 0 ? PointPlace::inside : PointPlace::on_surface;
     }
     const bool outside = f.dimension == 1 ? features_.edges()[f.index].convex
-                                          : features_.lies_beyond(f.index, x, ladder.floating);
+                                          : features_.lies_beyond(f.index, x, ladder.allows(6));
     return outside ? PointPlace::outside : PointPlace::inside;
   }
 
@@ -277,7 +266,7 @@ class ClosestPointFinder::Surface {
   }
   [[nodiscard]] static double squared_length(const Vector3& x, const Vector3& p,
                                              const PredicateLadder& ladder) {
-    if (ladder.floating) {
+    if (ladder.allows(2)) {
       const NumberVector<DoubleDouble> d = evaluate<DoubleDouble>({&x, &p});
       if (const auto value = rounded(dot(d, d))) return *value;
     }
@@ -299,7 +288,8 @@ class ClosestPointFinder::Surface {
 
   Polyhedron solid_;
   SolidFeatures features_;  // refers to solid_
-  BoxTree tree_;
+  BoxTree tree_;            // one triangle a leaf
+  PackedBoxTree packed_;
   NumericRange range_;
   std::vector<std::array<Vector3, 3>> corners_;                // in the order of the tree's items
   std::vector<std::array<ContactFeature, part_count>> parts_;  // by triangle

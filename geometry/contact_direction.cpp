@@ -44,10 +44,11 @@ NumberVector<N> sum(const NumberVector<N>& a, const NumberVector<N>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-// Evaluates `polynomial` (a generic function of the vectors of the directions) rung by rung.
+// Evaluates `polynomial` (a generic function of the vectors of the directions) rung by rung. `degree` is that
+// in the coordinates.
 template <class Polynomial, class... Directions>
-int decide(PredicateLadder& ladder, const Polynomial& polynomial, const Directions&... w) {
-  if (ladder.floating) {
+int decide(PredicateLadder& ladder, int degree, const Polynomial& polynomial, const Directions&... w) {
+  if (ladder.allows(degree)) {
     int sign = sign_of(polynomial(w.tracked()...));
     if (sign == unknown_sign) sign = sign_of(polynomial(w.double_double()...));
     if (sign != unknown_sign) {
@@ -218,12 +219,12 @@ const ContactDirection::ExactVector& ContactDirection::exact() const {
 
 int sign_along(const ContactDirection& w, const Difference& d, PredicateLadder& ladder) {
   return decide(
-      ladder, [&]<class N>(const NumberVector<N>& v) { return dot(v, evaluate<N>(d)); }, w);
+      ladder, w.degree() + 1, [&]<class N>(const NumberVector<N>& v) { return dot(v, evaluate<N>(d)); }, w);
 }
 
 int sign_volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
                 PredicateLadder& ladder) {
-  if (ladder.floating) {
+  if (ladder.allows(3)) {
     // The static filter of Shewchuk (1997): the error of the determinant is below (7 + 56 u) u times the same
     // sum with absolute values; 9 u covers the rounding of that sum.
     const double b0 = b[0] - a[0], b1 = b[1] - a[1], b2 = b[2] - a[2];
@@ -246,7 +247,7 @@ int sign_volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vect
 int sign_triple(const ContactDirection& w, const Difference& d1, const Difference& d2,
                 PredicateLadder& ladder) {
   return decide(
-      ladder,
+      ladder, w.degree() + 2,
       [&]<class N>(const NumberVector<N>& v) { return dot(v, cross(evaluate<N>(d1), evaluate<N>(d2))); }, w);
 }
 
@@ -254,7 +255,7 @@ SideOfLine::SideOfLine(const ContactDirection& w, const Vector3& a, const Vector
     : w_(w), a_(a), b_(b), tracked_(cross(w.tracked(), subtract_points<TrackedNumber>(b, a))) {}
 
 int SideOfLine::sign(const Vector3& x, PredicateLadder& ladder) const {
-  if (ladder.floating) {
+  if (ladder.allows(w_.degree() + 2)) {
     const int sign = sign_of(dot(tracked_, subtract_points<TrackedNumber>(x, a_)));
     if (sign != unknown_sign) {
       ++ladder.counts.filter;
@@ -270,10 +271,10 @@ CoordinatePlane coordinate_plane(const ContactDirection& w, PredicateLadder& lad
   const int largest = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
   for (const int axis : {largest, (largest + 1) % 3, (largest + 2) % 3}) {
     const int sign = decide(
-        ladder, [&]<class N>(const NumberVector<N>& u) { return axis == 0   ? u.x
-                                                                : axis == 1 ? u.y
-                                                                            : u.z; },
-        w);
+        ladder, w.degree(),
+        [&]<class N>(const NumberVector<N>& u) { return axis == 0   ? u.x
+                                                        : axis == 1 ? u.y
+                                                                    : u.z; }, w);
     if (sign != 0) return {axis, sign};
   }
   return {0, 0};
@@ -286,7 +287,7 @@ int sign_turn(const CoordinatePlane& plane, const Vector3& a, const Vector3& b, 
     return N::difference(b[i], a[i]) * N::difference(c[j], a[j]) -
            N::difference(b[j], a[j]) * N::difference(c[i], a[i]);
   };
-  if (ladder.floating) {
+  if (ladder.allows(2)) {
     int sign = sign_of(determinant(TrackedNumber()));
     if (sign == unknown_sign) sign = sign_of(determinant(DoubleDouble()));
     if (sign != unknown_sign) {
@@ -301,7 +302,7 @@ int sign_turn(const CoordinatePlane& plane, const Vector3& a, const Vector3& b, 
 int sign_projected_dot(const ContactDirection& w, const Difference& d1, const Difference& d2,
                        PredicateLadder& ladder) {
   return decide(
-      ladder,
+      ladder, 2 * w.degree() + 2,
       [&]<class N>(const NumberVector<N>& v) {
         return dot(cross(v, evaluate<N>(d1)), cross(v, evaluate<N>(d2)));
       },
@@ -311,7 +312,8 @@ int sign_projected_dot(const ContactDirection& w, const Difference& d1, const Di
 bool is_parallel(const ContactDirection& w, const Difference& d, PredicateLadder& ladder) {
   const auto component = [&](auto pick) {
     return decide(
-        ladder, [&]<class N>(const NumberVector<N>& v) { return pick(cross(v, evaluate<N>(d))); }, w);
+        ladder, w.degree() + 1,
+        [&]<class N>(const NumberVector<N>& v) { return pick(cross(v, evaluate<N>(d))); }, w);
   };
   return component([](const auto& c) { return c.x; }) == 0 &&
          component([](const auto& c) { return c.y; }) == 0 &&
@@ -320,17 +322,17 @@ bool is_parallel(const ContactDirection& w, const Difference& d, PredicateLadder
 
 bool is_zero(const ContactDirection& w, PredicateLadder& ladder) {
   return decide(
-             ladder, []<class N>(const NumberVector<N>& v) { return v.x; }, w) == 0 &&
+             ladder, w.degree(), []<class N>(const NumberVector<N>& v) { return v.x; }, w) == 0 &&
          decide(
-             ladder, []<class N>(const NumberVector<N>& v) { return v.y; }, w) == 0 &&
+             ladder, w.degree(), []<class N>(const NumberVector<N>& v) { return v.y; }, w) == 0 &&
          decide(
-             ladder, []<class N>(const NumberVector<N>& v) { return v.z; }, w) == 0;
+             ladder, w.degree(), []<class N>(const NumberVector<N>& v) { return v.z; }, w) == 0;
 }
 
 bool is_within(const ContactDirection& w, const Difference& d, double bound, bool with_length,
                PredicateLadder& ladder) {
   return decide(
-             ladder,
+             ladder, 2 * w.degree() + (with_length ? 4 : 2),
              [&]<class N>(const NumberVector<N>& v) {
                const NumberVector<N> e = evaluate<N>(d);
                const N height = dot(v, e);
@@ -343,7 +345,7 @@ bool is_within(const ContactDirection& w, const Difference& d, double bound, boo
 int compare_heights(const ContactDirection& w1, const Difference& d1, const ContactDirection& w2,
                     const Difference& d2, PredicateLadder& ladder) {
   return decide(
-      ladder,
+      ladder, 2 * w1.degree() + 2 * w2.degree() + 2,
       [&]<class N>(const NumberVector<N>& v1, const NumberVector<N>& v2) {
         const N h1 = dot(v1, evaluate<N>(d1)), h2 = dot(v2, evaluate<N>(d2));
         return h1 * h1 * dot(v2, v2) - h2 * h2 * dot(v1, v1);
@@ -376,7 +378,7 @@ int MeanDifference::compare_alignment(const ContactDirection& w1, const ContactD
     const int larger = sign_of(N(h1 * h1 * dot(v2, v2) - h2 * h2 * dot(v1, v1)));
     return larger == unknown_sign ? unknown_sign : sign * larger;
   };
-  if (ladder.floating) {
+  if (ladder.allows(2 * w1.degree() + 2 * w2.degree() + 2)) {
     int sign = compare(tracked_, w1.tracked(), w2.tracked());
     if (sign == unknown_sign) sign = compare(double_double_, w1.double_double(), w2.double_double());
     if (sign != unknown_sign) {
@@ -391,11 +393,12 @@ int MeanDifference::compare_alignment(const ContactDirection& w1, const ContactD
 bool same_direction(const ContactDirection& v, const ContactDirection& w, PredicateLadder& ladder) {
   const auto component = [&](auto pick) {
     return decide(
-        ladder,
+        ladder, v.degree() + w.degree(),
         [&]<class N>(const NumberVector<N>& a, const NumberVector<N>& b) { return pick(cross(a, b)); }, v, w);
   };
   const auto cosine = []<class N>(const NumberVector<N>& a, const NumberVector<N>& b) { return dot(a, b); };
-  return decide(ladder, cosine, v, w) > 0 && component([](const auto& c) { return c.x; }) == 0 &&
+  return decide(ladder, v.degree() + w.degree(), cosine, v, w) > 0 &&
+         component([](const auto& c) { return c.x; }) == 0 &&
          component([](const auto& c) { return c.y; }) == 0 &&
          component([](const auto& c) { return c.z; }) == 0;
 }

@@ -36,7 +36,7 @@ int apex_over(const Polyhedron& solid, int face, int from, int to) {
   const double deepest = rounding_dent_units * unit;
   range.include(deepest);
   PredicateLadder ladder;
-  ladder.floating = range.safe();
+  ladder.open(range);
   return std::all_of(solid.edges().begin(), solid.edges().end(), [&](const PolyhedronEdge& edge) {
     if (edge.convex) return true;
     const auto [from, to] = edge.vertices;

@@ -21,7 +21,7 @@ class ContactReport {
     range.include(b.range());
     range.include(resolution.distance);
     range.include(resolution.sine);
-    ladder_.floating = range.safe();
+    ladder_.open(range);
     report_.displacement = report_.normal = Vector3::Zero();
   }
 
@@ -276,7 +276,7 @@ class ContactReport {
   NumericRange range = a.range();
   range.include(b.range());
   PredicateLadder ladder;
-  ladder.floating = range.safe();
+  ladder.open(range);
   const std::vector<Support> farthest = find_farthest_separation(a, b, ladder);
   if (farthest.empty()) return std::nullopt;
   return preferred_support(farthest, a, b, ladder).entrance;

@@ -57,7 +57,7 @@ ConvexShape ConvexShape::from_triangle(const Vector3& a, const Vector3& b, const
   shape.facet_corners_ = shape.source_points_ = {0, 1, 2};
   shape.source_triangles_ = {0};
   PredicateLadder ladder;
-  ladder.floating = shape.range_.safe();
+  ladder.open(shape.range_);
   if (is_zero(triangle_normal(a, b, c), ladder)) throw std::invalid_argument("triangle has no area");
   shape.index();
   return shape;

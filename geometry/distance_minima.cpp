@@ -85,6 +85,10 @@ RationalVector times_sign(const RationalVector& v, int sign) {
   return multiple(v, Rational(sign));
 }
 
+// The images of points below 2^400 are below 2^401: no component of the direction is greater than the one
+// along which it projects. A product of two differences is below 2^804.
+constexpr int highest_bit_of_overlaps = 400;
+
 // Every question about one pair of features; pairs of different kinds are asked in the order lower feature,
 // higher feature, whichever solid has them.
 class MinimumFinder {
@@ -95,9 +99,9 @@ class MinimumFinder {
     for (const SolidFeatures* solid : {&a, &b})
       for (const Vector3& p : solid->solid().mesh().points)
         for (int i = 0; i < 3; ++i) range.include(p[i]);
-    floating_ = range.safe();
+    floating_ = range.highest_bit <= highest_bit_of_overlaps;
     if (bound.distance) range.include(*bound.distance);
-    ladder_.floating = range.safe();
+    ladder_.open(range);
   }
 
   std::vector<DistanceMinimum> find(DecisionCounts& counts) {
@@ -398,7 +402,7 @@ class MinimumFinder {
   Body a_, b_;
   MinimumBound bound_;
   PredicateLadder ladder_;
-  bool floating_ = true;
+  bool floating_ = true;                           // what FlatSetting asks
   std::array<std::vector<FeaturePair>, 5> pairs_;  // by the sum of the dimensions
   std::set<Key> closed_;                           // pairs in the closure of a higher one
   std::vector<DistanceMinimum> found_;

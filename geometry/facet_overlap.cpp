@@ -17,10 +17,12 @@ struct Coordinate {
   TrackedNumber tracked;
 };
 
-// Conversion cuts off, which loses less than a unit in the last place.
+// Conversion cuts off, which loses less than a unit in the last place, and less than the smallest number.
 Coordinate coordinate(Rational exact, bool is_double) {
   const double value = exact.get_d();
-  const double error = is_double ? 0.0 : 4.0 * TrackedNumber::unit_roundoff * std::abs(value);
+  const double error = is_double || sgn(exact) == 0 ? 0.0
+                                                    : 4.0 * TrackedNumber::unit_roundoff * std::abs(value) +
+                                                          std::numeric_limits<double>::denorm_min();
   return {std::move(exact), {value, error}};
 }
 
@@ -75,8 +77,8 @@ class PlaneSigns {
   }
 
  private:
-  // Numbers of the projection are quotients, which NumericRange does not bound: what could be underflow is
-  // left to the exact answer. Underflow of an operation loses less than 2^-1074.
+  // Numbers of the projection are quotients, which NumericRange does not keep from underflow: what could be
+  // that is left to the exact answer. Underflow of an operation loses less than 2^-1074.
   [[nodiscard]] int certain_sign(const TrackedNumber& value) const {
     constexpr double underflow = 0x1p-1000;
     if (std::abs(value.value) <= value.error * (1.0 + 0x1p-29) + underflow) return unknown_sign;

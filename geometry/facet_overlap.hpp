@@ -58,7 +58,7 @@ struct FlatSetting {
   /// Not zero. Both faces are seen with it pointing at the viewer.
   RationalVector direction;
   bool coplanar = false;  ///< both pieces are in one plane across the direction
-  bool floating = true;   ///< the coordinates are in the range of NumericRange::safe()
+  bool floating = true;   ///< no product of two coordinates overflows; underflow is allowed for
 };
 
 /// Two faces. They may lie in different planes; the projection along the direction must be one to one on

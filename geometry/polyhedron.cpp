@@ -68,7 +68,7 @@ class FaceBuilder {
     for (const Vector3& p : mesh_.points)
       for (int d = 0; d < 3; ++d) range.include(p[d]);
     PredicateLadder ladder;
-    ladder.floating = range.safe();
+    ladder.open(range);
     for (int h = 0; h < static_cast<int>(twins_.size()); ++h)
       if (twins_[h] >= h) bend_[h] = bend_[twins_[h]] = bend_over(h, twins_[h], ladder);
   }

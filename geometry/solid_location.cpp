@@ -41,7 +41,7 @@ bool is_inside(const TriangleMesh& solid, const Vector3& p) {
     for (int i = 0; i < 3; ++i) range.include(x[i]);
   for (int i = 0; i < 3; ++i) range.include(p[i]);
   PredicateLadder ladder;
-  ladder.floating = range.safe();
+  ladder.open(range);
   // Directions (1, m, m^2) lie in few planes with any one edge, so one that meets none comes soon.
   for (double m = 3.0;; ++m)
     if (const auto inside = is_inside_along(solid, p, {1.0, m, m * m}, ladder)) return *inside;

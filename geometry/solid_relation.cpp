@@ -51,7 +51,7 @@ class TrianglePairs {
     for (const TriangleMesh* mesh : {&a_.mesh, &b_.mesh})
       for (const Vector3& p : mesh->points)
         for (int i = 0; i < 3; ++i) range.include(p[i]);
-    ladder_.floating = range.safe();
+    ladder_.open(range);
   }
 
   SolidRelation relate() {
