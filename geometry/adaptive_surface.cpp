@@ -77,6 +77,17 @@ double AdaptiveSurface::motion_bound(const Eigen::Ref<const Eigen::Matrix3Xd>& b
   return bound;
 }
 
+Eigen::RowVectorXd AdaptiveSurface::largest_values(const Eigen::MatrixXd& values) const {
+  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(values.cols());
+  for (int root = 0; root < root_count_; ++root) {
+    const Eigen::MatrixXd control =
+        form_->interpolation() * values.middleRows(root * form_->size(), form_->size());
+    largest = largest.cwiseMax(control.cwiseAbs().colwise().maxCoeff());
+  }
+  // Far more than the rounding of the control points.
+  return 1.001 * largest;
+}
+
 bool AdaptiveSurface::divide(const DivisionDemand& demand) {
   place_patches();
   bool changed = false;

@@ -67,6 +67,10 @@ class AdaptiveSurface {
   [[nodiscard]] double motion_bound(const Eigen::Ref<const Eigen::Matrix3Xd>& before,
                                     const Eigen::Ref<const Eigen::Matrix3Xd>& after) const;
 
+  /// Bounds of the magnitudes of polynomials of the surface's order anywhere on it.
+  /// @param values (#domain_points, k) of k polynomials. @return (k)
+  [[nodiscard]] Eigen::RowVectorXd largest_values(const Eigen::MatrixXd& values) const;
+
   /// The triangles that are divided for their own sake: all that a division depends on beside the shape and
   /// the demand. To be given to another surface of the same solid, order and levels before its next division.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;

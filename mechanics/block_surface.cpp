@@ -9,9 +9,11 @@ BlockSurface::BlockSurface(const BlockModel& model, int levels) : model_(&model)
     adaptive_.emplace(model.solid(), model.order(), levels);
     domain_phi_ = model.basis().values(adaptive_->domain_points());
     point_phi_ = model.basis().values(adaptive_->surface().points);
+    largest_phi_ = adaptive_->largest_values(domain_phi_);
   } else {
     whole_ = whole_surface(model.solid());
     point_phi_ = model.basis().values(whole_.points);
+    largest_phi_ = point_phi_.cwiseAbs().colwise().maxCoeff();
   }
 }
 
@@ -40,6 +42,10 @@ void BlockSurface::move(const BlockState& state) {
 double BlockSurface::motion_bound(const BlockState& before, const BlockState& after) const {
   if (adaptive_) return adaptive_->motion_bound(domain_values(before), domain_values(after));
   return std::sqrt((point_phi_ * (after.position - before.position)).rowwise().squaredNorm().maxCoeff());
+}
+
+double BlockSurface::quick_motion_bound(const Eigen::MatrixX3d& change) const {
+  return largest_phi_ * change.rowwise().norm();
 }
 
 double BlockSurface::largest_speed(const BlockState& state) const {

@@ -25,6 +25,8 @@ class BlockSurface {
   /// How far any surface point can have gone between two states, m, from above.
   [[nodiscard]] double motion_bound(const BlockState& before, const BlockState& after) const;
 
+  /// The same, looser, but at the cost of a sum over the coefficients. @param change of them, (p, 3)
+  [[nodiscard]] double quick_motion_bound(const Eigen::MatrixX3d& change) const;
   /// Largest speed of the surface's points, m/s.
   [[nodiscard]] double largest_speed(const BlockState& state) const;
 
@@ -45,11 +47,12 @@ class BlockSurface {
 
   const BlockModel* model_;
   std::optional<AdaptiveSurface> adaptive_;
-  SubFaceSurface whole_;         ///< of a block that stays affine
-  Eigen::MatrixXd domain_phi_;   ///< phi at the domain points, or at the points of a whole surface
-  Eigen::MatrixXd point_phi_;    ///< phi at the surface's points
-  BlockState state_;             ///< as moved last
-  std::vector<Vector3> points_;  ///< in that state
+  SubFaceSurface whole_;            ///< of a block that stays affine
+  Eigen::MatrixXd domain_phi_;      ///< phi at the domain points, or at the points of a whole surface
+  Eigen::MatrixXd point_phi_;       ///< phi at the surface's points
+  Eigen::RowVectorXd largest_phi_;  ///< (p) no larger in magnitude is each function anywhere on the surface
+  BlockState state_;                ///< as moved last
+  std::vector<Vector3> points_;     ///< in that state
   Box box_;
 };
 

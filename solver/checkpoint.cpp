@@ -70,13 +70,18 @@ static void visit_members(Archive& archive, FinderCounts& counts) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, Box& box) {
+  archive(box.low, box.high);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, Clearance& clearance) {
   archive(clearance.distance, clearance.path);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, FinderState& state) {
-  archive(state.paths, state.clearances, state.divisions, state.counts);
+  archive(state.paths, state.boxes, state.box_paths, state.clearances, state.divisions, state.counts);
 }
 
 template <class Archive>

@@ -44,7 +44,12 @@ double distance_bound(const PlacedSurface& a, const PlacedSurface& b) {
 }  // namespace
 
 ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings)
-    : settings_(settings), paths_(blocks.size(), 0.0), checked_motion_(blocks.size(), 0.0) {
+    : settings_(settings),
+      placed_(blocks.size()),
+      boxes_(blocks.size()),
+      box_paths_(blocks.size(), 0.0),
+      paths_(blocks.size(), 0.0),
+      checked_motion_(blocks.size(), 0.0) {
   surfaces_.reserve(blocks.size());
   for (const BlockModel& block : blocks) {
     surfaces_.emplace_back(block, settings.subdivisions);
@@ -52,32 +57,65 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
   }
 }
 
-double ContactFinder::expected_motion(int block, const BlockState& state, double step) const {
-  if (!moving_[at(block)]) return 0.0;
-  return step * surfaces_[at(block)].largest_speed(state) + 0.5 * step * step * settings_.gravity.norm();
+ExpectedMotion ContactFinder::expected_motion(const std::vector<BlockState>& states, double step) const {
+  const double fall = 0.5 * step * step * settings_.gravity.norm();
+  ExpectedMotion motion;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    const double speed = moving_[k] ? surfaces_[k].quick_motion_bound(states[k].velocity) : 0.0;
+    motion.loose.push_back(moving_[k] ? step * speed + fall : 0.0);
+  }
+  motion.closer = [this, &states, step, fall](int block) {
+    return moving_[at(block)] ? step * surfaces_[at(block)].largest_speed(states[at(block)]) + fall : 0.0;
+  };
+  return motion;
 }
 
-void ContactFinder::place(const std::vector<BlockState>& states, const std::vector<double>& motion) {
-  std::vector<Box> boxes;
+Box ContactFinder::loose_box(int block) const {
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  const Box& box = boxes_[at(block)];
+  if (box.low.x() > box.high.x()) return {Vector3::Constant(-everywhere), Vector3::Constant(everywhere)};
+  return box.grown(paths_[at(block)] - box_paths_[at(block)]);
+}
+
+void ContactFinder::look_at(int block, const BlockState& state) {
+  surfaces_[at(block)].move(state);
+  boxes_[at(block)] = surfaces_[at(block)].box();
+  box_paths_[at(block)] = paths_[at(block)];
+}
+
+void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedMotion& motion) {
+  std::vector<Box> loose;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k)
+    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
+  std::vector<bool> near(surfaces_.size(), false);
+  const auto can_meet = [&](const PairKey& pair) { return moving_[at(pair[0])] || moving_[at(pair[1])]; };
+  for (const PairKey& pair : meeting_boxes(loose)) {
+    if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
+  }
+  std::vector<Box> boxes(surfaces_.size());
+  motion_.assign(surfaces_.size(), 0.0);
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    surfaces_[k].move(states[k]);
-    boxes.push_back(surfaces_[k].box().grown(motion[k] + settings_.contact_distance));
+    if (!near[k]) continue;
+    look_at(static_cast<int>(k), states[k]);
+    motion_[k] = motion.closer(static_cast<int>(k));
+    boxes[k] = boxes_[k].grown(motion_[k] + settings_.contact_distance);
   }
   candidates_.clear();
   std::vector<std::vector<Box>> neighbours(surfaces_.size());
-  for (const auto& [a, b] : meeting_boxes(boxes)) {
-    if (!moving_[at(a)] && !moving_[at(b)]) continue;
-    candidates_.push_back({a, b});
-    neighbours[at(a)].push_back(boxes[at(b)]);
-    neighbours[at(b)].push_back(boxes[at(a)]);
+  for (const PairKey& pair : meeting_boxes(boxes)) {
+    if (!can_meet(pair)) continue;
+    candidates_.push_back(pair);
+    neighbours[at(pair[0])].push_back(boxes[at(pair[1])]);
+    neighbours[at(pair[1])].push_back(boxes[at(pair[0])]);
   }
-  placed_.clear();
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    placed_[k].reset();
+    if (!near[k]) continue;
     if (surfaces_[k].divide({settings_.chord_tolerance, neighbours[k]})) ++counts_.divisions;
     const std::size_t cells = surfaces_[k].surface().cells.size();
     if (cells >= static_cast<std::size_t>(AdaptiveSurface::max_cells)) ++counts_.divisions_at_limit;
+    if (!neighbours[k].empty()) placed_[k] = surfaces_[k].placed();
   }
-  for (const BlockSurface& surface : surfaces_) placed_.push_back(surface.placed());
 }
 
 bool ContactFinder::known_apart(const PairKey& pair, double reach) const {
@@ -88,13 +126,13 @@ bool ContactFinder::known_apart(const PairKey& pair, double reach) const {
 }
 
 void ContactFinder::note_clearance(const PairKey& pair) {
-  const double bound = distance_bound(placed_[at(pair[0])], placed_[at(pair[1])]);
+  const double bound = distance_bound(placed(pair[0]), placed(pair[1]));
   // Rounding of sums of paths is far below a part in a million of the distance.
   clearances_[pair] = {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
 }
 
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,
-                                               const std::vector<double>& motion,
+                                               const ExpectedMotion& motion,
                                                const std::function<double(int, int)>& deepest) {
   place(states, motion);
   const std::size_t all = surfaces_.size() * (surfaces_.size() - 1) / 2;
@@ -102,7 +140,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   std::vector<FoundContacts> searched;
   std::vector<ContactLimits> limits;
   for (const PairKey& pair : candidates_) {
-    const double both = motion[at(pair[0])] + motion[at(pair[1])];
+    const double both = motion_[at(pair[0])] + motion_[at(pair[1])];
     if (known_apart(pair, settings_.contact_distance + both)) {
       ++counts_.block_pairs_far;
       continue;
@@ -114,7 +152,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   counts_.block_pairs_tested += searched.size();
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
     const auto& [a, b] = searched[k].blocks;
-    searched[k].contacts = find_contacts(placed_[at(a)], placed_[at(b)], limits[k]);
+    searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
   });
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
@@ -134,21 +172,37 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
                                                        const std::vector<BlockState>& after,
                                                        const std::vector<FoundContacts>& found) {
   const double tolerance = settings_.passing_share * settings_.contact_distance;
-  std::vector<std::vector<Vector3>> ends(surfaces_.size());
   std::vector<Box> swept;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    checked_motion_[k] = moving_[k] ? surfaces_[k].motion_bound(before[k], after[k]) : 0.0;
-    swept.push_back(surfaces_[k].box().grown(checked_motion_[k]));
+    checked_motion_[k] =
+        moving_[k] ? surfaces_[k].quick_motion_bound(after[k].position - before[k].position) : 0.0;
+    swept.push_back(loose_box(static_cast<int>(k)).grown(checked_motion_[k]));
   }
-  std::vector<PairKey> pairs;
-  for (const PairKey& pair : meeting_boxes(swept)) {
-    const double both = checked_motion_[at(pair[0])] + checked_motion_[at(pair[1])];
-    if (both <= tolerance || known_apart(pair, both)) continue;
-    pairs.push_back(pair);
+  const auto both = [&](const PairKey& pair) {
+    return checked_motion_[at(pair[0])] + checked_motion_[at(pair[1])];
+  };
+  std::vector<PairKey> pairs = meeting_boxes(swept);
+  std::erase_if(
+      pairs, [&](const PairKey& pair) { return both(pair) <= tolerance || known_apart(pair, both(pair)); });
+  // What is left is looked at with the true surfaces and their true motion.
+  std::vector<std::vector<Vector3>> ends(surfaces_.size());
+  for (const PairKey& pair : pairs) {
     for (const int block : pair) {
-      if (ends[at(block)].empty()) ends[at(block)] = surfaces_[at(block)].points(after[at(block)]);
+      if (!ends[at(block)].empty()) continue;
+      if (!placed_[at(block)]) {
+        look_at(block, before[at(block)]);
+        placed_[at(block)] = surfaces_[at(block)].placed();
+      }
+      if (moving_[at(block)])
+        checked_motion_[at(block)] = surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
+      ends[at(block)] = surfaces_[at(block)].points(after[at(block)]);
     }
   }
+  std::erase_if(pairs, [&](const PairKey& pair) {
+    const Box of_a = boxes_[at(pair[0])].grown(checked_motion_[at(pair[0])]);
+    const Box of_b = boxes_[at(pair[1])].grown(checked_motion_[at(pair[1])]);
+    return both(pair) <= tolerance || known_apart(pair, both(pair)) || !of_a.meets(of_b);
+  });
   counts_.motions_checked += pairs.size();
   std::vector<std::vector<Touch>> touches(pairs.size());
   parallel_for(settings_.threads, pairs.size(), [&](std::size_t k) {
@@ -161,7 +215,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
     const bool in_contact = known != found.end() && known->blocks == pairs[k];
     const MotionLimits limits{tolerance,
                               settings_.contact_distance + checked_motion_[at(a)] + checked_motion_[at(b)]};
-    touches[k] = find_touches({&placed_[at(a)], &end_a}, {&placed_[at(b)], &end_b},
+    touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
                               in_contact ? known->contacts : PairContacts{}, limits);
   });
   std::vector<PassingBlocks> passing;
@@ -179,13 +233,15 @@ void ContactFinder::accept_motion() {
 }
 
 FinderState ContactFinder::state() const {
-  FinderState state{paths_, clearances_, {}, counts_};
+  FinderState state{paths_, boxes_, box_paths_, clearances_, {}, counts_};
   for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.wanted());
   return state;
 }
 
 void ContactFinder::restore(const FinderState& state) {
   paths_ = state.paths;
+  boxes_ = state.boxes;
+  box_paths_ = state.box_paths;
   clearances_ = state.clearances;
   for (std::size_t k = 0; k < surfaces_.size() && k < state.divisions.size(); ++k)
     surfaces_[k].set_wanted(state.divisions[k]);

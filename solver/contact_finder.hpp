@@ -1,9 +1,9 @@
 // Which blocks meet, where, and whether they would pass through each other: the bodies of a scene as geometry
 // sees them from step to step.
 //
-// Work is proportional to what changes: pairs whose boxes cannot meet within the step are never looked at,
-// pairs known to be apart not again until they could have met, faces are divided only where they curve and
-// have a neighbour in reach.
+// Work is proportional to what changes: a block is not looked at while it cannot have come near another one,
+// pairs known to be apart are not searched again until they could have met, faces are divided only where they
+// curve and have a neighbour in reach.
 #pragma once
 
 #include <functional>
@@ -50,9 +50,17 @@ struct FinderCounts {
 /// What a finder has beyond its blocks (checkpoint.hpp).
 struct FinderState {
   std::vector<double> paths;
+  std::vector<Box> boxes;
+  std::vector<double> box_paths;
   std::map<std::array<int, 2>, Clearance> clearances;
   std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
   FinderCounts counts;
+};
+
+/// How far surface points of each block are expected to go in a step, m.
+struct ExpectedMotion {
+  std::vector<double> loose;          ///< (#blocks) from above, cheap
+  std::function<double(int)> closer;  ///< of a block that may be near another, at most `loose`
 };
 
 /// Keeps surfaces and clearances from step to step.
@@ -62,14 +70,13 @@ class ContactFinder {
   ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings);
 
   /// All contacts within reach at the start of a step.
-  /// @param motion (#blocks) how far surface points are expected to go in the step, m
   /// @param deepest largest penetration of a pair in the step before, m
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
-                                                const std::vector<double>& motion,
+                                                const ExpectedMotion& motion,
                                                 const std::function<double(int, int)>& deepest);
-  /// A surface as the last search had it.
+  /// The surface of a block of a found pair.
   [[nodiscard]] const PlacedSurface& placed(int block) const {
-    return placed_[static_cast<std::size_t>(block)];
+    return placed_[static_cast<std::size_t>(block)].value();
   }
 
   /// Blocks that would pass through each other on the way from the last search to new states, features that
@@ -80,8 +87,9 @@ class ContactFinder {
   /// Takes note that the motion checked last was accepted.
   void accept_motion();
 
-  /// How far points on a block's surface go in a step under their present velocity and gravity, m.
-  [[nodiscard]] double expected_motion(int block, const BlockState& state, double step) const;
+  /// How far points on the blocks' surfaces go in a step under their present velocity and gravity.
+  /// @param states must outlive the result
+  [[nodiscard]] ExpectedMotion expected_motion(const std::vector<BlockState>& states, double step) const;
   [[nodiscard]] const std::vector<BlockSurface>& surfaces() const { return surfaces_; }
   [[nodiscard]] const FinderCounts& counts() const { return counts_; }
 
@@ -91,15 +99,21 @@ class ContactFinder {
  private:
   using PairKey = std::array<int, 2>;
 
-  void place(const std::vector<BlockState>& states, const std::vector<double>& motion);
+  /// Contains a block at the start of the step, from where it was seen last and what it has gone since.
+  [[nodiscard]] Box loose_box(int block) const;
+  void look_at(int block, const BlockState& state);
+  void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
   [[nodiscard]] bool known_apart(const PairKey& pair, double reach) const;
   void note_clearance(const PairKey& pair);
 
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
   std::vector<BlockSurface> surfaces_;
-  std::vector<PlacedSurface> placed_;
+  std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
+  std::vector<Box> boxes_;              ///< true boxes when blocks were looked at last; empty: never
+  std::vector<double> box_paths_;       ///< what each block had gone until then, m
   std::vector<PairKey> candidates_;     ///< pairs whose boxes can meet in the step
+  std::vector<double> motion_;          ///< expected in the step; 0 of blocks that are not near others
   std::vector<double> paths_;           ///< what the fastest point of each block has gone so far at most, m
   std::vector<double> checked_motion_;  ///< of the motion checked last
   std::map<PairKey, Clearance> clearances_;

@@ -168,9 +168,7 @@ IslandStatus Simulation::try_step(double step, Trial& trial) {
 
 std::vector<FoundContacts> Simulation::find_contacts(double step) {
   const Stopwatch watch(seconds_.contact_search);
-  std::vector<double> motion;
-  for (std::size_t k = 0; k < blocks_.size(); ++k)
-    motion.push_back(finder_.expected_motion(static_cast<int>(k), states_[k], step));
+  const ExpectedMotion motion = finder_.expected_motion(states_, step);
   return finder_.find(states_, motion, [&](int a, int b) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest();
@@ -189,8 +187,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     counts_.contact_points += points.size();
     auto memory = memory_[blocks].recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
-    pairs.emplace_back(a, b, body_a, body_b, law_(a, b), std::move(points),
-                       std::move(memory));
+    pairs.emplace_back(a, b, body_a, body_b, law_(a, b), std::move(points), std::move(memory));
   }
   return pairs;
 }
@@ -260,8 +257,8 @@ void Simulation::accept(double step, Trial& trial) {
       const PairResponse& after = results[i].responses[n];
       const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
       const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
-      const double work =
-          (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) + (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0);
+      const double work = (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) +
+                          (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0);
       potential_work += work;
       potential_change += ContactPair::energy(after) - pair.start_energy();
       ledger_.contact += ContactPair::energy(after);

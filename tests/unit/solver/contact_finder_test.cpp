@@ -39,6 +39,10 @@ SimulationSettings settings_for_test() {
   return settings;
 }
 
+ExpectedMotion expected(const std::vector<double>& motion) {
+  return {motion, [motion](int block) { return motion[static_cast<std::size_t>(block)]; }};
+}
+
 const auto no_penetration = [](int, int) { return 0.0; };
 
 Scene cube_over_floor(double gap) {
@@ -68,7 +72,7 @@ TEST(ContactFinder, PairsKnownToBeApartAreNotSearchedUntilTheyCouldMeet) {
   Scene scene = two_diagonal_plates();
   ContactFinder finder(scene.blocks, settings_for_test());
   const std::vector<double> motion = {0.0, 0.05};
-  EXPECT_TRUE(finder.find(scene.states, motion, no_penetration).empty());
+  EXPECT_TRUE(finder.find(scene.states, expected(motion), no_penetration).empty());
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   const double down = -0.04 * std::sqrt(2.0);  // vertically, 0.04 nearer
   for (int step = 1; step <= 7; ++step) {
@@ -76,13 +80,13 @@ TEST(ContactFinder, PairsKnownToBeApartAreNotSearchedUntilTheyCouldMeet) {
     scene.move(1, {0, 0, down});
     EXPECT_TRUE(finder.check_motion(before, scene.states, {}).empty());
     finder.accept_motion();
-    EXPECT_TRUE(finder.find(scene.states, motion, no_penetration).empty());
+    EXPECT_TRUE(finder.find(scene.states, expected(motion), no_penetration).empty());
   }
   // 0.22 apart, having gone 0.4 of the 0.5: the eighth step could still not close what is left.
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   EXPECT_EQ(finder.counts().block_pairs_far, 7U);
   // With 0.3 expected it could: the pair is looked at again, and found.
-  EXPECT_EQ(finder.find(scene.states, {0.0, 0.3}, no_penetration).size(), 1U);
+  EXPECT_EQ(finder.find(scene.states, expected({0.0, 0.3}), no_penetration).size(), 1U);
   EXPECT_EQ(finder.counts().block_pairs_tested, 2U);
 }
 
@@ -94,9 +98,9 @@ TEST(ContactFinder, FindsWhatWasSkippedAsSoonAsItCouldMeet) {
   for (int step = 0; step < 200; ++step) {
     const double by = (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5) * 0.05;
     const std::vector<double> motion = {0.0, 0.05};
-    const auto found = finder.find(scene.states, motion, no_penetration);
+    const auto found = finder.find(scene.states, expected(motion), no_penetration);
     ContactFinder fresh(scene.blocks, settings_for_test());
-    EXPECT_EQ(found.size(), fresh.find(scene.states, motion, no_penetration).size());
+    EXPECT_EQ(found.size(), fresh.find(scene.states, expected(motion), no_penetration).size());
     const std::vector<BlockState> before = scene.states;
     scene.move(1, {0, 0, by});
     (void)finder.check_motion(before, scene.states, found);
@@ -107,10 +111,10 @@ TEST(ContactFinder, FindsWhatWasSkippedAsSoonAsItCouldMeet) {
 TEST(ContactFinder, GoesOnFromItsState) {
   Scene scene = two_diagonal_plates();
   ContactFinder first(scene.blocks, settings_for_test());
-  (void)first.find(scene.states, {0.0, 0.05}, no_penetration);
+  (void)first.find(scene.states, expected({0.0, 0.05}), no_penetration);
   ContactFinder second(scene.blocks, settings_for_test());
   second.restore(first.state());
-  (void)second.find(scene.states, {0.0, 0.05}, no_penetration);
+  (void)second.find(scene.states, expected({0.0, 0.05}), no_penetration);
   EXPECT_EQ(second.counts().block_pairs_tested, 1U);
   EXPECT_EQ(second.counts().block_pairs_far, 1U);
 }
@@ -123,7 +127,7 @@ TEST(ContactFinder, BlocksThatWouldPassAreReportedEarliestFirst) {
   scene.add(BlockModel(block_of("cube", Polyhedron(make_box({-0.5, -0.5, 0.1}, {0.5, 0.5, 1.1})), rock, 1)));
   ContactFinder finder(scene.blocks, settings_for_test());
   // Nothing is expected to move, so no contact is found; then the cube flies through both plates.
-  const auto found = finder.find(scene.states, {0.0, 0.0, 0.0}, no_penetration);
+  const auto found = finder.find(scene.states, expected({0.0, 0.0, 0.0}), no_penetration);
   EXPECT_TRUE(found.empty());
   const std::vector<BlockState> before = scene.states;
   scene.move(2, {0, 0, -4});
