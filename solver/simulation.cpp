@@ -121,8 +121,9 @@ StepStatus Simulation::step(double end_time) {
   Trial trial;
   trial.pairs = make_pairs(found);
   int cuts = 0;
+  int additions = 0;
   bool unsettled = false;
-  while (cuts <= settings_.max_step_cuts) {
+  while (cuts <= settings_.max_step_cuts && additions <= settings_.max_step_cuts) {
     const IslandStatus status = try_step(step, trial);
     if (status != IslandStatus::settled) {
       rejections_.push_back({time_, step,
@@ -146,6 +147,7 @@ StepStatus Simulation::step(double end_time) {
       ++cuts;
       continue;
     }
+    ++additions;
     add_contacts(passing, found);
     counts_.passing_contacts += passing.size();
     trial.pairs = make_pairs(found);
