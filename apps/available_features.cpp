@@ -16,12 +16,9 @@ struct PartialKey {
   const char* available;  ///< JSON array of the values that work; empty: the key cannot be used yet
 };
 
-constexpr std::array<PartialKey, 9> partial_keys = {{
-    {"analysis.type", R"(["dynamic"])"},
-    {"analysis.integrator", R"(["dda", "average-acceleration"])"},
+constexpr std::array<PartialKey, 6> partial_keys = {{
     {"analysis.formulation", R"(["total"])"},
     {"analysis.solver", R"(["auto", "cholmod"])"},
-    {"analysis.mass_damping", "[0.0]"},
     {"contact.augmented", "[false]"},
     {"joint.*.tied", "[false]"},
     {"material.*.elasticity", R"(["linear"])"},

@@ -42,13 +42,25 @@ BlockDefinition define_block(const Scene& scene, const SceneBlock& block, const 
   return definition;
 }
 
+Integrator integrator_of(SceneAnalysis::Integrator integrator) {
+  switch (integrator) {
+    case SceneAnalysis::Integrator::dda:
+      return Integrator::dda;
+    case SceneAnalysis::Integrator::average_acceleration:
+      return Integrator::average_acceleration;
+    case SceneAnalysis::Integrator::generalized_alpha:
+      return Integrator::generalized_alpha;
+  }
+  return Integrator::dda;
+}
+
 SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>& blocks, int threads,
                                std::vector<AutomaticChoice>& choices) {
   const AutomaticRatios ratios;
   SimulationSettings settings;
-  settings.integrator = scene.analysis.integrator == SceneAnalysis::Integrator::dda
-                            ? Integrator::dda
-                            : Integrator::average_acceleration;
+  settings.integrator = integrator_of(scene.analysis.integrator);
+  settings.spectral_radius = scene.analysis.spectral_radius;
+  settings.mass_damping = scene.analysis.mass_damping;
   settings.time_step = scene.analysis.time_step;
   settings.gravity = scene.analysis.gravity;
   settings.area_springs = scene.contact.springs == SceneContact::Springs::area;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "apps/result_folder.hpp"
 #include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
+#include "mechanics/rigid_motions.hpp"
 
 namespace ashlar {
 namespace {
@@ -67,12 +69,46 @@ int exit_status_of(RunStatus status) {
   switch (status) {
     case RunStatus::completed:
       return exit_status::done;
+    case RunStatus::equilibrium:
+    case RunStatus::moving:  // a mechanism found is an answer
+      return exit_status::done;
     case RunStatus::failed:
+    case RunStatus::not_converged:
       return exit_status::failed;
     case RunStatus::interrupted:
       return exit_status::interrupted;
   }
   return exit_status::failed;
+}
+
+/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2"
+std::string describe_motion(const Simulation& simulation) {
+  std::string text = "no equilibrium:";
+  const char* separator = " ";
+  for (const MovingBlock& moving : simulation.moving_blocks()) {
+    const auto& [x, y, z] =
+        std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
+    text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
+                        simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
+    separator = "; ";
+  }
+  return text;
+}
+
+/// A static analysis has no answer for blocks that nothing holds.
+void refuse_loose_blocks(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  for (const std::vector<int>& blocks : simulation.loose_blocks()) {
+    const BlockModel& first = simulation.blocks()[static_cast<std::size_t>(blocks.front())];
+    const std::string what =
+        blocks.size() == 1
+            ? fmt::format("block {} has no contact and its supports leave a rigid motion ({})", first.name(),
+                          describe(admissible_rigid_motions(first), first))
+            : fmt::format(
+                  "block {} and {} more touch each other, but nothing that holds them (any rigid motion)",
+                  first.name(), blocks.size() - 1);
+    diagnostics.error(scene.places.key(fmt::format("block.{}", blocks.front())),
+                      what + ", a static analysis needs a support or a contact with something that is held");
+  }
 }
 
 /// A run from its first step, or from a checkpoint, to its end.
@@ -92,7 +128,8 @@ class Run {
   RunStatus go(double start, bool quiet, std::ostream& err) {
     seconds_.setup = seconds_now() - start;
     ProgressLine progress(scene_.analysis.end_time, quiet, err);
-    const RunStatus status = take_steps(start, progress);
+    const bool is_static = scene_.analysis.type == SceneAnalysis::Type::statics;
+    const RunStatus status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
     // Before the last frame, which a run that goes on has only if it is due.
     save(start);
     folder_.add_frame(built_.simulation);
@@ -103,7 +140,7 @@ class Run {
     return status;
   }
 
-  /// Why the run failed.
+  /// Why the run failed, or what moves.
   [[nodiscard]] const std::string& message() const { return message_; }
 
  private:
@@ -119,16 +156,44 @@ class Run {
                                simulation.steps() + 1, simulation.time(), last.step, to_string(last.reason));
         return RunStatus::failed;
       }
-      const double before = seconds_now();
-      folder_.add_step(simulation);
-      progress.update(progress_of(simulation));
-      if (before - saved_at > checkpoint_interval) {
-        save(start);
-        saved_at = seconds_now();
-      }
-      seconds_.output += seconds_now() - before;
+      record_step(start, saved_at, progress);
     }
     return RunStatus::completed;
+  }
+
+  RunStatus find_equilibrium(double start, ProgressLine& progress) {
+    Simulation& simulation = built_.simulation;
+    double saved_at = seconds_now();
+    while (interrupted == 0) {
+      const int before = simulation.steps();
+      const StaticStatus status = simulation.static_step(scene_.analysis.end_time);
+      if (simulation.steps() > before) record_step(start, saved_at, progress);
+      switch (status) {
+        case StaticStatus::balancing:
+          continue;
+        case StaticStatus::equilibrium:
+          return RunStatus::equilibrium;
+        case StaticStatus::moving:
+          message_ = describe_motion(simulation);
+          return RunStatus::moving;
+        case StaticStatus::not_converged:
+          message_ = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
+                                 simulation.steps(), simulation.time());
+          return RunStatus::not_converged;
+      }
+    }
+    return RunStatus::interrupted;
+  }
+
+  void record_step(double start, double& saved_at, ProgressLine& progress) {
+    const double before = seconds_now();
+    folder_.add_step(built_.simulation);
+    progress.update(progress_of(built_.simulation));
+    if (before - saved_at > checkpoint_interval) {
+      save(start);
+      saved_at = seconds_now();
+    }
+    seconds_.output += seconds_now() - before;
   }
 
   void save(double start) {
@@ -171,6 +236,8 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const std::optional<LoadedScene> loaded = load_scene(options.scene, options.overrides, diagnostics);
   std::optional<BuiltSimulation> built;
   if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics);
+  if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+    refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
   std::optional<RunCheckpoint> earlier;
   if (built && options.resume) earlier = find_checkpoint(folder, *loaded, diagnostics);
   if (!diagnostics.empty()) {
@@ -190,6 +257,10 @@ int run_command(const RunOptions& options, std::ostream& err) {
     err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", run.message(),
                        folder.string());
   }
+  if (status == RunStatus::not_converged)
+    err << fmt::format("ashlar: error: {}; the last state is in {}\n", run.message(), folder.string());
+  if (status == RunStatus::moving && !options.quiet) err << run.message() << '\n';
+  if (status == RunStatus::equilibrium && !options.quiet) err << "equilibrium\n";
   return exit_status_of(status);
 }
 

@@ -52,6 +52,17 @@ nlohmann::ordered_json rejections_of(const Simulation& simulation) {
   return {{"count", simulation.rejections().size()}, {"reasons", reasons}, {"first", list}};
 }
 
+nlohmann::ordered_json moving_blocks_of(const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto array = [](const Vector3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
+  for (const MovingBlock& moving : simulation.moving_blocks()) {
+    list.push_back({{"block", simulation.blocks()[static_cast<std::size_t>(moving.block)].name()},
+                    {"acceleration", array(moving.acceleration)},
+                    {"angular_acceleration", array(moving.angular_acceleration)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string to_string(RunStatus status) {
@@ -62,6 +73,12 @@ std::string to_string(RunStatus status) {
       return "failed";
     case RunStatus::interrupted:
       return "interrupted";
+    case RunStatus::equilibrium:
+      return "equilibrium";
+    case RunStatus::moving:
+      return "moving";
+    case RunStatus::not_converged:
+      return "not converged";
   }
   return "unknown";
 }
@@ -73,6 +90,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["status"] = to_string(status);
   if (!message.empty()) summary["message"] = message;
   summary["title"] = scene.title;
+  if (status == RunStatus::moving) summary["moving"] = moving_blocks_of(simulation);
   summary["steps"] = simulation.steps();
   summary["time"] = simulation.time();
   summary["rejected_steps"] = rejections_of(simulation);

@@ -9,7 +9,14 @@
 namespace ashlar {
 
 /// How a run ended, as `status` in summary.json.
-enum class RunStatus { completed, failed, interrupted };
+enum class RunStatus {
+  completed,      ///< "completed": a dynamic run reached its end time
+  failed,         ///< "failed": a step could not be taken
+  interrupted,    ///< "interrupted"
+  equilibrium,    ///< "equilibrium": a static analysis found it
+  moving,         ///< "moving": a static analysis found that there is none near: blocks move
+  not_converged,  ///< "not converged": a static analysis found neither
+};
 [[nodiscard]] std::string to_string(RunStatus status);
 
 /// Wall time of the parts of a run, s; of a resumed one with what came before.

@@ -162,6 +162,16 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
         scene.places.value("analysis.time_step"),
         fmt::format("time_step is longer than the analysis ({}), at most end_time ({}) is needed",
                     analysis.time_step, analysis.end_time));
+  // Beyond this the step of generalized-alpha is not stable in contact (time_scheme.hpp).
+  constexpr double most_damping_per_step = 3.0;
+  if (analysis.integrator == SceneAnalysis::Integrator::generalized_alpha &&
+      analysis.mass_damping * analysis.time_step > most_damping_per_step)
+    diagnostics.error(
+        scene.places.value("analysis.mass_damping"),
+        fmt::format("mass_damping is too large for this time_step with generalized-alpha ({}), at "
+                    "most {} / time_step = {} is allowed",
+                    analysis.mass_damping, most_damping_per_step,
+                    most_damping_per_step / analysis.time_step));
   check_names(scene, scene.material, "material", diagnostics);
   check_names(scene, scene.block, "block", diagnostics);
   check_names(scene, scene.measure, "measure", diagnostics);

@@ -1,5 +1,6 @@
 #include "mechanics/block_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,6 +50,11 @@ Eigen::MatrixX3d BlockModel::load_force(double time) const {
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(basis_.size(), 3);
   for (std::size_t k = 0; k < loads_.size(); ++k) force += definition_.loads[k].history.at(time) * loads_[k];
   return force;
+}
+
+bool BlockModel::loads_change_between(double start, double end) const {
+  return std::any_of(definition_.loads.begin(), definition_.loads.end(),
+                     [&](const Load& load) { return load.history.changes_between(start, end); });
 }
 
 ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {

@@ -69,6 +69,8 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
   /// Loads without gravity. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
+  /// Whether any load may differ between two times.
+  [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
   /// Tangent Z' R K R' Z of the internal force in the unknowns. @return (unknowns, unknowns)

@@ -16,6 +16,10 @@ double History::at(double time) const {
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
 
+bool History::changes_between(double start, double end) const {
+  return !times.empty() && times.front() < end && times.back() > start;
+}
+
 Eigen::MatrixX3d load_coefficients(const Polyhedron& solid, const PolynomialBasis& basis, const Load& load) {
   if (const auto* point = std::get_if<Vector3>(&load.where)) {
     if (load.traction) throw std::invalid_argument("a traction needs a plane, not a point");

@@ -16,6 +16,8 @@ struct History {
   std::vector<double> times;   ///< s, increasing
   std::vector<double> values;  ///< same number
   [[nodiscard]] double at(double time) const;
+  /// Whether the factor may differ between two times.
+  [[nodiscard]] bool changes_between(double start, double end) const;
 };
 
 /// A load that keeps its direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N)

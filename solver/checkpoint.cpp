@@ -48,9 +48,15 @@ static void visit_members(Archive& archive, PairRecord& record) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, StaticState& state) {
+  archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
+          state.milestones, state.milestone_forces, state.travels, state.unbalanced);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, Ledger& ledger) {
-  archive(ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction, ledger.applied,
-          ledger.numerical, ledger.residual);
+  archive(ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction, ledger.damping,
+          ledger.applied, ledger.numerical, ledger.residual);
 }
 
 template <class Archive>
@@ -102,10 +108,11 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.memory,
-          snapshot.contact_work, snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger,
-          snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
-          snapshot.largest_penetration, snapshot.rejections, snapshot.counts, snapshot.seconds);
+  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.accelerations,
+          snapshot.memory, snapshot.contact_work, snapshot.finder, snapshot.report, snapshot.records,
+          snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
+          snapshot.largest_energy, snapshot.largest_penetration, snapshot.rejections, snapshot.counts,
+          snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -128,6 +135,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.next_step = next_step_;
   result.steps = steps_;
   result.states = states_;
+  result.accelerations = accelerations_;
   for (const auto& [blocks, memory] : memory_) {
     result.memory.push_back({blocks, memory.entries(), memory.deepest()});
   }
@@ -136,6 +144,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.report = report_;
   result.records = records_;
   result.ledger = ledger_;
+  result.statics = static_;
   result.start_balance = start_balance_;
   result.largest_step_residual = largest_step_residual_;
   result.largest_energy = largest_energy_;
@@ -157,6 +166,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   next_step_ = snapshot.next_step;
   steps_ = snapshot.steps;
   states_ = snapshot.states;
+  accelerations_ = snapshot.accelerations;
   memory_.clear();
   for (const RememberedPair& pair : snapshot.memory) {
     memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest));
@@ -166,6 +176,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   report_ = snapshot.report;
   records_ = snapshot.records;
   ledger_ = snapshot.ledger;
+  static_ = snapshot.statics;
   start_balance_ = snapshot.start_balance;
   largest_step_residual_ = snapshot.largest_step_residual;
   largest_energy_ = snapshot.largest_energy;

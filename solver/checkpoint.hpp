@@ -25,12 +25,14 @@ struct SimulationSnapshot {
   double next_step = 0.0;
   int steps = 0;
   std::vector<BlockState> states;
+  std::vector<Eigen::MatrixX3d> accelerations;
   std::vector<RememberedPair> memory;
   std::map<std::array<int, 2>, double> contact_work;
   FinderState finder;
   StepReport report;
   std::vector<PairRecord> records;
   Ledger ledger;
+  StaticState statics;
   double start_balance = 0.0;
   double largest_step_residual = 0.0;
   double largest_energy = 0.0;

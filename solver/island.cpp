@@ -17,11 +17,8 @@ std::size_t at(int index) {
 class IslandProblem {
  public:
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
-                double step, const SimulationSettings& settings)
-      : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), step_(step) {
-    inertia_ = 2.0 / (step * step);
-    averaged_ = settings.integrator == Integrator::average_acceleration;
-    elastic_share_ = averaged_ ? 0.5 : 1.0;
+                const TimeScheme& scheme, const SimulationSettings& settings)
+      : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme) {
     for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
   }
 
@@ -33,7 +30,10 @@ class IslandProblem {
   void predict() {
     for (const int index : island_.bodies) {
       BodyStep& body = bodies_[at(index)];
-      body.change = step_ * body.velocity + body.external_force / (inertia_ * body.model->material().density);
+      const double mass = scheme_.inertia * body.model->material().density;
+      body.change = body.free_change;
+      if (scheme_.from_rest) continue;
+      body.change += scheme_.force_weight / mass * body.external_force;
     }
   }
 
@@ -42,18 +42,18 @@ class IslandProblem {
     for (const int index : island_.bodies) {
       BodyStep& body = bodies_[at(index)];
       body.elastic = body.model->elastic(body.state->position +
-                                         elastic_share_ * body.model->space().expand(body.change));
+                                         scheme_.end_share * body.model->space().expand(body.change));
     }
     responses_.clear();
     for (const int pair : island_.pairs) {
       const ContactPair& contact = pairs_[at(pair)];
-      responses_.push_back(
-          contact.respond(bodies_[at(contact.a())].change, bodies_[at(contact.b())].change, averaged_));
+      responses_.push_back(contact.respond(bodies_[at(contact.a())].change, bodies_[at(contact.b())].change,
+                                           scheme_.mean_contacts));
     }
   }
 
   /// What is left of the equations of motion, by body; `settled` tells whether each is below its tolerance.
-  Eigen::VectorXd residual(const BlockMatrix& matrix, bool& settled) const {
+  Eigen::VectorXd residual(const BlockMatrix& matrix, bool& settled) {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(matrix.matrix().size);
     std::vector<double> scale(island_.bodies.size(), 0.0);
     const auto add = [&](int body, const Eigen::VectorXd& force) {
@@ -64,9 +64,9 @@ class IslandProblem {
       const BodyStep& body = bodies_[at(island_.bodies[k])];
       const int place = static_cast<int>(k);
       const double density = body.model->material().density;
-      add(place, body.external_force);
-      add(place, -body.model->space().restrict(body.elastic.force));
-      add(place, -density * inertia_ * (body.change - step_ * body.velocity));
+      add(place, scheme_.force_weight * body.external_force);
+      add(place, -scheme_.force_weight * body.model->space().restrict(body.elastic.force));
+      add(place, -density * scheme_.inertia * (body.change - body.free_change));
     }
     for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
       const ContactPair& contact = pairs_[at(island_.pairs[k])];
@@ -74,16 +74,18 @@ class IslandProblem {
       if (const int b = place(contact.b()); b >= 0) add(b, responses_[k].total_on_b());
     }
     settled = true;
+    const double tolerance =
+        scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
     for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
       const BodyStep& body = bodies_[at(island_.bodies[k])];
       const double rounding = body.roundoff_force + 8.0 * std::numeric_limits<double>::epsilon() *
-                                                        body.model->material().density * inertia_ *
-                                                        (body.change.norm() + step_ * body.velocity.norm());
+                                                        body.model->material().density * scheme_.inertia *
+                                                        (body.change.norm() + body.free_change.norm());
       const auto size = static_cast<Eigen::Index>(body.change.size());
       const double left = result.segment(matrix.offset(static_cast<int>(k)), size).norm();
+      bodies_[at(island_.bodies[k])].largest_force = scale[k];
       // Numbers that overflowed have settled nothing, and no comparison with them may say so.
-      if (!(left <= settings_.residual_tolerance * scale[k] + rounding) || !std::isfinite(scale[k]))
-        settled = false;
+      if (!(left <= tolerance * scale[k] + rounding) || !std::isfinite(scale[k])) settled = false;
     }
     return result;
   }
@@ -92,8 +94,9 @@ class IslandProblem {
     matrix.set_zero();
     for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
       const BodyStep& body = bodies_[at(island_.bodies[k])];
-      matrix.add_diagonal(static_cast<int>(k), elastic_share_ * body.model->tangent(body.elastic.rotation));
-      matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * inertia_);
+      matrix.add_diagonal(static_cast<int>(k), scheme_.force_weight * scheme_.end_share *
+                                                   body.model->tangent(body.elastic.rotation));
+      matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
     }
     for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
       const ContactPair& contact = pairs_[at(island_.pairs[k])];
@@ -120,10 +123,7 @@ class IslandProblem {
   std::vector<BodyStep>& bodies_;
   const std::vector<ContactPair>& pairs_;
   const SimulationSettings& settings_;
-  double step_;
-  double inertia_ = 0.0;        ///< 2/dt^2, 1/s^2
-  double elastic_share_ = 1.0;  ///< where in the step the elastic force is taken
-  bool averaged_ = false;
+  const TimeScheme& scheme_;
   std::map<int, int> place_;
   std::vector<PairResponse> responses_;
 };
@@ -186,9 +186,9 @@ std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vec
 }
 
 IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
-                          const std::vector<ContactPair>& pairs, double step,
+                          const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                           const SimulationSettings& settings, IslandSolvers& solvers) {
-  IslandProblem problem(island, bodies, pairs, step, settings);
+  IslandProblem problem(island, bodies, pairs, scheme, settings);
   std::vector<int> sizes;
   std::vector<std::array<int, 2>> links;
   std::vector<int> key = island.bodies;
@@ -208,7 +208,9 @@ IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
   for (result.iterations = 1; result.iterations <= settings.max_iterations; ++result.iterations) {
     bool settled = false;
     const Eigen::VectorXd right_side = problem.residual(solver.matrix, settled);
-    if (settled) {
+    // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
+    // wide.
+    if (settled && !(scheme.from_rest && result.iterations == 1)) {
       result.responses = problem.take_responses();
       return result;
     }

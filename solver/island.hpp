@@ -10,6 +10,7 @@
 #include "solver/block_matrix.hpp"
 #include "solver/contact_pair.hpp"
 #include "solver/settings.hpp"
+#include "solver/time_scheme.hpp"
 
 namespace ashlar {
 
@@ -24,10 +25,11 @@ enum class IslandStatus {
 struct BodyStep {
   const BlockModel* model = nullptr;
   const BlockState* state = nullptr;
-  Eigen::VectorXd velocity;
-  Eigen::VectorXd external_force;  ///< as the integrator takes it
+  Eigen::VectorXd free_change;     ///< where it goes without forces, see time_scheme.hpp
+  Eigen::VectorXd external_force;  ///< where the integrator takes it
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
   Eigen::VectorXd change;          ///< D, the result
+  double largest_force = 0.0;      ///< norm of the largest force that acts on it
   ElasticResponse elastic;         ///< where the integrator takes it
 };
 
@@ -71,7 +73,7 @@ struct Island {
 /// Solves one island for the changes of its bodies' unknowns.
 /// @param bodies (#blocks), those of the island are read and their results written
 [[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
-                                        const std::vector<ContactPair>& pairs, double step,
+                                        const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                                         const SimulationSettings& settings, IslandSolvers& solvers);
 
 }  // namespace ashlar

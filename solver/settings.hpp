@@ -8,18 +8,27 @@
 
 namespace ashlar {
 
-/// Both take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  with the unknown D, conserve momentum and are
-/// unconditionally stable; they differ in where F is taken.
+/// All have the unknown D, the change over the step, conserve momentum and are unconditionally stable. The
+/// first two take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  and differ in where F is taken. Equations
+/// in time_scheme.hpp.
 enum class Integrator {
   dda,  ///< F at the end of the step: Newmark beta 1/2, gamma 1 (theory.md section 5), dissipative
   average_acceleration,  ///< elastic force at the middle, others averaged: for linear systems Newmark beta
                          ///< 1/4, gamma 1/2, without dissipation; angular momentum stays for large rotations
                          ///< too
+  generalized_alpha,  ///< second order, dissipates high frequencies only, by spectral_radius; contact forces
+                      ///< are taken at the end of the step as in dda, with exact impulse. Stable
+                      ///< for contacts of any stiffness as long as mass_damping * time_step <= 3
 };
 
 /// Settings of a simulation.
 struct SimulationSettings {
   Integrator integrator = Integrator::dda;
+  /// 0 to 1, of generalized_alpha: what a step leaves of a mode of infinite frequency. 1: no dissipation
+  double spectral_radius = 0.8;
+  /// 1/s, >= 0: every block is held back by mass_damping M v, its velocity over the ground included: a block
+  /// that falls freely reaches g / mass_damping
+  double mass_damping = 0.0;
   double time_step = 1e-3;                     ///< s, > 0: the largest step
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2
 
@@ -44,6 +53,20 @@ struct SimulationSettings {
   double residual_tolerance =
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
+
+  // Of a static analysis (static_analysis.hpp):
+  /// as residual_tolerance: tighter, as soft motions make more of a force that is not balanced
+  double static_residual_tolerance = 1e-13;
+  double static_tolerance = 1e-10;  ///< what equilibrium may lack, as a share of a block's largest force
+  /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
+  /// smaller follows contacts better
+  double static_motion = 0.05;
+  double static_travel = 1.0;   ///< in block sizes: farther without coming nearer to balance is moving
+  int static_iterations = 500;  ///< at one load level; more: not converged
+  int static_cuts = 60;         ///< of one iteration; more: not converged
+  /// of the stiffest block: the inertia that stands in for stiffness where a block has none. Smaller
+  /// converges in fewer iterations, larger lets rounding move a free block less
+  double static_inertia_share = 1e-9;
 
   int threads = 1;  ///< >= 1: for finding contacts; results do not depend on it
 };

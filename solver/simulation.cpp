@@ -9,9 +9,6 @@
 namespace ashlar {
 namespace {
 
-/// Rounding of times that are sums of steps, in parts of a step: a remainder of this length is none.
-constexpr double step_rounding = 1e-9;
-
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
@@ -39,22 +36,6 @@ double roundoff_of(const BlockModel& block) {
   if (p == 0) return 0.0;
   const Eigen::VectorXd reduced = block.space().restrict(size);
   return 4.0 * std::numeric_limits<double>::epsilon() * (tangent.cwiseAbs() * reduced.cwiseAbs()).norm();
-}
-
-/// Adds contacts for blocks that would pass through each other, pairs kept in order.
-void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found) {
-  for (const PassingBlocks& blocks : passing) {
-    auto place = std::lower_bound(
-        found.begin(), found.end(), blocks.blocks,
-        [](const FoundContacts& contacts, const std::array<int, 2>& pair) { return contacts.blocks < pair; });
-    if (place == found.end() || place->blocks != blocks.blocks)
-      place = found.insert(place, FoundContacts{blocks.blocks, {}});
-    if (const auto* vertex = std::get_if<VertexContact>(&blocks.touch.contact)) {
-      place->contacts.vertices.push_back(*vertex);
-    } else {
-      place->contacts.edges.push_back(std::get<EdgeContact>(blocks.touch.contact));
-    }
-  }
 }
 
 }  // namespace
@@ -105,18 +86,12 @@ bool Simulation::reached(double end_time) const {
   return end_time - time_ <= step_rounding * settings_.time_step;
 }
 
-/// A step as tried: nothing of it is taken over before it is accepted.
-struct Simulation::Trial {
-  std::vector<ContactPair> pairs;
-  std::vector<Island> islands;
-  std::vector<BodyStep> bodies;
-  std::vector<IslandResult> results;
-};
-
 StepStatus Simulation::step(double end_time) {
   double step = next_step_;
   const double left = end_time - time_;
   if (left < step * (1.0 - step_rounding)) step = left;
+  if (settings_.integrator == Integrator::generalized_alpha && accelerations_.empty())
+    accelerations_ = smooth_accelerations();
   std::vector<FoundContacts> found = find_contacts(step);
   Trial trial;
   trial.pairs = make_pairs(found);
@@ -124,7 +99,8 @@ StepStatus Simulation::step(double end_time) {
   int additions = 0;
   bool unsettled = false;
   while (cuts <= settings_.max_step_cuts && additions <= settings_.max_step_cuts) {
-    const IslandStatus status = try_step(step, trial);
+    const TimeScheme scheme = time_scheme(settings_, step);
+    const IslandStatus status = try_step(scheme, trial);
     if (status != IslandStatus::settled) {
       rejections_.push_back({time_, step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
@@ -136,7 +112,7 @@ StepStatus Simulation::step(double end_time) {
     }
     const std::vector<PassingBlocks> passing = check_motion(trial, found);
     if (passing.empty()) {
-      accept(step, trial);
+      accept(scheme, trial);
       next_step_ = std::min(settings_.time_step, unsettled ? step : 2.0 * next_step_);
       return StepStatus::accepted;
     }
@@ -155,13 +131,28 @@ StepStatus Simulation::step(double end_time) {
   return StepStatus::too_many_cuts;
 }
 
-IslandStatus Simulation::try_step(double step, Trial& trial) {
+void Simulation::add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found) {
+  for (const PassingBlocks& blocks : passing) {
+    auto place = std::lower_bound(
+        found.begin(), found.end(), blocks.blocks,
+        [](const FoundContacts& contacts, const std::array<int, 2>& pair) { return contacts.blocks < pair; });
+    if (place == found.end() || place->blocks != blocks.blocks)
+      place = found.insert(place, FoundContacts{blocks.blocks, {}});
+    if (const auto* vertex = std::get_if<VertexContact>(&blocks.touch.contact)) {
+      place->contacts.vertices.push_back(*vertex);
+    } else {
+      place->contacts.edges.push_back(std::get<EdgeContact>(blocks.touch.contact));
+    }
+  }
+}
+
+IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   const Stopwatch watch(seconds_.solve);
   trial.islands = find_islands(moving_, trial.pairs);
-  trial.bodies = prepare_bodies(step);
+  trial.bodies = prepare_bodies(scheme);
   trial.results.clear();
   for (const Island& island : trial.islands) {
-    trial.results.push_back(solve_island(island, trial.bodies, trial.pairs, step, settings_, solvers_));
+    trial.results.push_back(solve_island(island, trial.bodies, trial.pairs, scheme, settings_, solvers_));
     counts_.open_close_iterations += static_cast<std::uint64_t>(trial.results.back().iterations);
     if (trial.results.back().status != IslandStatus::settled) return trial.results.back().status;
   }
@@ -204,7 +195,7 @@ std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
   return finder_.check_motion(states_, after, found);
 }
 
-std::vector<BodyStep> Simulation::prepare_bodies(double step) const {
+std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const {
   std::vector<BodyStep> bodies(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockModel& block = blocks_[k];
@@ -213,41 +204,79 @@ std::vector<BodyStep> Simulation::prepare_bodies(double step) const {
     body.state = &states_[k];
     body.roundoff_force = roundoff_force_[k];
     if (block.fixed()) continue;
-    body.velocity = block.space().restrict(states_[k].velocity);
-    Eigen::MatrixX3d force = block.external_force(settings_.gravity, time_ + step);
-    if (settings_.integrator == Integrator::average_acceleration) {
-      force = 0.5 * (force + block.external_force(settings_.gravity, time_));
+    const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
+    body.free_change = block.space().restrict(
+        scheme.free_change(still, states_[k].velocity, accelerations_.empty() ? still : accelerations_[k]));
+    Eigen::MatrixX3d force = block.external_force(settings_.gravity, time_ + scheme.step);
+    if (scheme.end_share < 1.0) {
+      force = scheme.end_share * force +
+              (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time_);
     }
     body.external_force = block.space().restrict(force);
   }
   return bodies;
 }
 
-void Simulation::accept(double step, Trial& trial) {
+std::vector<Eigen::MatrixX3d> Simulation::smooth_accelerations() const {
+  std::vector<Eigen::MatrixX3d> result;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockModel& block = blocks_[k];
+    result.emplace_back(Eigen::MatrixX3d::Zero(block.basis().size(), 3));
+    if (!moving_[k]) continue;
+    const Eigen::MatrixX3d force =
+        block.external_force(settings_.gravity, time_) - block.elastic(states_[k].position).force;
+    result.back() = block.space().expand(block.space().restrict(force)) / block.material().density -
+                    settings_.mass_damping * states_[k].velocity;
+  }
+  return result;
+}
+
+/// Takes one block on to the end of an accepted step, with its entries of the ledger. What the equations say
+/// about the work of all forces and what the kinetic energy gained differ by what the integrator takes.
+void Simulation::move_block(std::size_t k, const TimeScheme& scheme, const BodyStep& body) {
+  const BlockModel& block = blocks_[k];
+  BlockState& state = states_[k];
+  const double density = block.material().density;
+  const Eigen::MatrixX3d change = block.space().expand(body.change);
+  const bool carried = !accelerations_.empty();
+  const Eigen::MatrixX3d acceleration =
+      carried ? accelerations_[k] : Eigen::MatrixX3d::Zero(change.rows(), 3);
+  Eigen::MatrixX3d load = block.load_force(time_ + scheme.step);
+  if (scheme.end_share < 1.0)
+    load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(time_);
+  ledger_.applied += change.cwiseProduct(load).sum();
+  const Eigen::MatrixX3d damped = scheme.damped_velocity(change, state.velocity, acceleration);
+  const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
+  ledger_.damping += damping;
+  const double kinetic = block.kinetic_energy(state);
+  state.velocity = scheme.end_velocity(change, state.velocity, acceleration);
+  state.position += change;
+  const Eigen::VectorXd smooth = body.external_force - block.space().restrict(body.elastic.force);
+  const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
+                      (1.0 - scheme.force_weight) * body.change.dot(smooth) - damping;
+  ledger_.numerical += work - (block.kinetic_energy(state) - kinetic);
+  if (!carried) return;
+  accelerations_[k] = scheme.end_acceleration<Eigen::MatrixX3d>(
+      block.space().expand(smooth) / density - scheme.mass_damping * damped, acceleration);
+}
+
+void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   const auto& [pairs, islands, bodies, results] = trial;
   solvers_.drop_unused();
   finder_.accept_motion();
   const double last_residual = ledger_.residual;
-  const bool averaged = settings_.integrator == Integrator::average_acceleration;
   double potential_work = 0.0;
   double potential_change = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
-    const BlockModel& block = blocks_[k];
-    BlockState& state = states_[k];
-    const Eigen::MatrixX3d change = block.space().expand(bodies[k].change);
-    potential_work -= change.cwiseProduct(bodies[k].elastic.force).sum();
-    potential_change -= block.elastic(state.position).energy;
-    Eigen::MatrixX3d load = block.load_force(time_ + step);
-    if (averaged) load = 0.5 * (load + block.load_force(time_));
-    ledger_.applied += change.cwiseProduct(load).sum();
-    state.position += change;
-    state.velocity = (2.0 / step) * change - state.velocity;
-    potential_change += block.elastic(state.position).energy;
+    potential_work -= blocks_[k].space().expand(bodies[k].change).cwiseProduct(bodies[k].elastic.force).sum();
+    potential_change -= blocks_[k].elastic(states_[k].position).energy;
+    move_block(k, scheme, bodies[k]);
+    potential_change += blocks_[k].elastic(states_[k].position).energy;
   }
 
   report_ = StepReport{};
-  report_.step = step;
+  report_.step = scheme.step;
   records_.clear();
   ledger_.contact = 0.0;
   double friction = 0.0;
@@ -285,7 +314,7 @@ void Simulation::accept(double step, Trial& trial) {
   ledger_.friction += friction;
   ledger_.numerical -= potential_work + potential_change + friction;
 
-  time_ += step;
+  time_ += scheme.step;
   ++steps_;
   measure_energies(ledger_);
   ledger_.residual = ledger_.balance() - start_balance_;

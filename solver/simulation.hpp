@@ -15,6 +15,7 @@
 #include "solver/island.hpp"
 #include "solver/ledger.hpp"
 #include "solver/settings.hpp"
+#include "solver/static_analysis.hpp"
 
 namespace ashlar {
 
@@ -105,6 +106,16 @@ class Simulation {
   /// same steps.
   [[nodiscard]] StepStatus step(double end_time);
 
+  /// Takes one iteration of a static analysis towards equilibrium under the loads of `end_time`. Velocities
+  /// are dropped. time() is that of the loads; a report's step is the length of the dda step that the
+  /// iteration is.
+  [[nodiscard]] StaticStatus static_step(double end_time);
+  /// Blocks that a static analysis found to be moving, and others that move with them.
+  [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
+  /// Sets of blocks in contact with each other that no fixed block, contact or support keeps from moving: no
+  /// static analysis can hold them. A block alone is one of them if its supports leave any rigid motion.
+  [[nodiscard]] std::vector<std::vector<int>> loose_blocks();
+
   /// All that has changed since construction, and back (checkpoint.hpp).
   [[nodiscard]] SimulationSnapshot snapshot() const;
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.
@@ -133,19 +144,42 @@ class Simulation {
  private:
   using PairKey = std::array<int, 2>;
 
-  struct Trial;
+  /// A step as tried: nothing of it is taken over before it is accepted.
+  struct Trial {
+    std::vector<ContactPair> pairs;
+    std::vector<Island> islands;
+    std::vector<BodyStep> bodies;
+    std::vector<IslandResult> results;
+  };
+  /// Rounding of times that are sums of steps, in parts of a step: a remainder of this length is none.
+  static constexpr double step_rounding = 1e-9;
 
   [[nodiscard]] std::vector<FoundContacts> find_contacts(double step);
   [[nodiscard]] std::vector<ContactPair> make_pairs(const std::vector<FoundContacts>& found);
-  [[nodiscard]] IslandStatus try_step(double step, Trial& trial);
+  [[nodiscard]] IslandStatus try_step(const TimeScheme& scheme, Trial& trial);
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const Trial& trial,
                                                         const std::vector<FoundContacts>& found);
-  [[nodiscard]] std::vector<BodyStep> prepare_bodies(double step) const;
-  void accept(double step, Trial& trial);
+  [[nodiscard]] std::vector<BodyStep> prepare_bodies(const TimeScheme& scheme) const;
+  /// Accelerations in balance with the smooth forces of the present state.
+  [[nodiscard]] std::vector<Eigen::MatrixX3d> smooth_accelerations() const;
+  void accept(const TimeScheme& scheme, Trial& trial);
+  void move_block(std::size_t block, const TimeScheme& scheme, const BodyStep& body);
+  /// Adds contacts for blocks that would pass through each other, pairs kept in order.
+  static void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found);
   void measure_energies(Ledger& ledger) const;
+
+  // static_analysis.cpp
+  void start_load_level(double end_time);
+  [[nodiscard]] double least_inertia() const;
+  /// Largest motion of a block over what one iteration may move it.
+  [[nodiscard]] double motion_excess(const Trial& trial) const;
+  /// Takes note of what each block lacks of balance. @return whether none lacks anything
+  [[nodiscard]] bool note_balance(const TimeScheme& scheme, const Trial& trial);
 
   std::vector<BlockModel> blocks_;
   std::vector<BlockState> states_;
+  /// a of time_scheme.hpp, (p, 3) for each block; empty unless the integrator carries it on
+  std::vector<Eigen::MatrixX3d> accelerations_;
   LawOfPair law_;
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
@@ -160,6 +194,7 @@ class Simulation {
   StepReport report_;
   std::vector<PairRecord> records_;
   Ledger ledger_;
+  StaticState static_;
   double start_balance_ = 0.0;
   double largest_step_residual_ = 0.0;
   double largest_energy_ = 0.0;

@@ -135,7 +135,8 @@ TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
   ASSERT_EQ(rows.size(), 42U);  // columns, the start and 40 steps
   EXPECT_EQ(rows[0],
             "step,time,dt,tip.x,tip.y,tip.z,tip.ux,tip.uy,tip.uz,tip.vx,tip.vy,tip.vz,energy.kinetic,"
-            "energy.elastic,energy.gravity,energy.contact,energy.friction,energy.applied,energy.numerical,"
+            "energy.elastic,energy.gravity,energy.contact,energy.friction,energy.damping,energy.applied,"
+            "energy.numerical,"
             "energy.residual,momentum.x,momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,"
             "angular_momentum.z,contacts.open,contacts.locked,contacts.sliding,penetration.max,"
             "open_close.iterations");
@@ -298,6 +299,59 @@ TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
     ASSERT_EQ(run("straight", {"--set", end}), exit_status::done) << faults_;
     expect_same_results("straight", name);
   }
+}
+
+constexpr const char* static_scene_text = R"(title = "static"
+[analysis]
+type = "static"
+end_time = 1
+time_step = 1e-2
+[contact]
+friction_angle = 31
+[[material]]
+name = "rock"
+density = 2700
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "slope"
+fixed = true
+box = { min = [-6, -2, -1], max = [2, 2, 0] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+[[block]]
+name = "stone"
+material = "rock"
+box = { min = [-0.5, -0.5, 0], max = [0.5, 0.5, 1] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+)";
+
+TEST_F(RunCommand, StaticAnalysisEndsInEquilibrium) {
+  write_text(scene_, static_scene_text);
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+  ASSERT_EQ(run("out", {"--resume"}), exit_status::done) << faults_;
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+}
+
+TEST_F(RunCommand, StaticAnalysisNamesWhatMoves) {
+  write_text(scene_, static_scene_text);
+  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--set",
+                     "contact.friction_angle=20"}),
+            exit_status::done)
+      << faults_;
+  EXPECT_THAT(faults_, HasSubstr("no equilibrium: block stone moves, acceleration [-1.5"));
+  const auto summary = nlohmann::json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "moving");
+  ASSERT_EQ(summary["moving"].size(), 1U);
+  EXPECT_EQ(summary["moving"][0]["block"], "stone");
+  // g (sin 30 - cos 30 tan 20) cos 30 down the slope, towards -x
+  EXPECT_NEAR(summary["moving"][0]["acceleration"][0], -1.56994, 2e-3);
+}
+
+TEST_F(RunCommand, StaticAnalysisRefusesABlockThatNothingHolds) {
+  write_text(scene_, static_scene_text);
+  EXPECT_EQ(run("out", {"--set", "block.stone.translate=[0,0,0.5]"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(HasSubstr("block stone has no contact"), HasSubstr("any rigid motion")));
 }
 
 }  // namespace

@@ -37,6 +37,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         FaultCase{3, "time_step = 2",
                   "s.toml:3:13: error: time_step is longer than the analysis (2), at most end_time (1)"},
+        FaultCase{3, "time_step = 0.01\nintegrator = \"generalized-alpha\"\nmass_damping = 301",
+                  "s.toml:5:16: error: mass_damping is too large for this time_step with generalized-alpha "
+                  "(301), at most 3 / time_step = 300 is allowed"},
         FaultCase{7, "blocks = [\"A\", \"C\"]",
                   "s.toml:7:10: error: joint names no block (\"C\"), did you mean \"A\"?"},
         FaultCase{7, "blocks = [\"A\", \"wall*\"]", "s.toml:7:10: error: joint names no block (\"wall*\")"},

@@ -1,0 +1,180 @@
+#include "solver/static_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/automatic.hpp"
+#include "solver/simulation.hpp"
+
+namespace ashlar {
+namespace {
+
+TimeScheme static_scheme(double inertia) {
+  TimeScheme scheme;
+  scheme.inertia = inertia;
+  scheme.from_rest = true;
+  return scheme;
+}
+
+/// Root mean square of the displacement that a change of coefficients is, m.
+double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change) {
+  return change.norm() / std::sqrt(block.basis().volume());
+}
+
+std::array<int, 3> contact_states(const StepReport& report) {
+  return {report.open, report.locked, report.sliding};
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> Simulation::loose_blocks() {
+  const std::vector<ContactPair> pairs = make_pairs(find_contacts(0.0));
+  std::vector<std::vector<int>> loose;
+  for (const Island& island : find_islands(moving_, pairs)) {
+    bool held =
+        island.pairs.empty() && blocks_[static_cast<std::size_t>(island.bodies.front())].space().held();
+    for (const int index : island.pairs) {
+      const ContactPair& pair = pairs[static_cast<std::size_t>(index)];
+      for (const int block : {pair.a(), pair.b()}) {
+        const BlockModel& model = blocks_[static_cast<std::size_t>(block)];
+        held = held || model.fixed() || model.supported();
+      }
+    }
+    if (!held) loose.push_back(island.bodies);
+  }
+  return loose;
+}
+
+double Simulation::least_inertia() const {
+  double most = 0.0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k] || blocks_[k].unknowns() == 0) continue;
+    const double stiffness = blocks_[k].tangent(Eigen::Matrix3d::Identity()).diagonal().maxCoeff();
+    most = std::max(most, stiffness / blocks_[k].material().density);
+  }
+  return settings_.static_inertia_share * most;
+}
+
+void Simulation::start_load_level(double end_time) {
+  const bool changing = std::any_of(blocks_.begin(), blocks_.end(), [&](const BlockModel& block) {
+    return block.loads_change_between(time_, end_time);
+  });
+  const double next = time_ + settings_.time_step;
+  time_ = changing && next < end_time - step_rounding * settings_.time_step ? next : end_time;
+  static_ = StaticState{};
+  static_.inertia = 2.0 / (settings_.time_step * settings_.time_step);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (moving_[k]) ledger_.numerical += blocks_[k].kinetic_energy(states_[k]);
+    states_[k].velocity.setZero();
+    static_.milestones.push_back(states_[k].position);
+    static_.unbalanced.push_back(Eigen::MatrixX3d::Zero(states_[k].position.rows(), 3));
+  }
+  static_.milestone_forces.assign(blocks_.size(), std::numeric_limits<double>::infinity());
+  static_.travels.assign(blocks_.size(), 0.0);
+}
+
+StaticStatus Simulation::static_step(double end_time) {
+  if (static_.moving) return StaticStatus::moving;
+  if (static_.balanced && reached(end_time)) return StaticStatus::equilibrium;
+  if (static_.inertia == 0.0 || static_.balanced) start_load_level(end_time);
+  if (static_.iterations >= settings_.static_iterations) return StaticStatus::not_converged;
+  ++static_.iterations;
+  const double least = least_inertia();
+  std::vector<FoundContacts> found = find_contacts(0.0);
+  Trial trial;
+  trial.pairs = make_pairs(found);
+  bool cut = false;
+  for (int cuts = 0; cuts <= settings_.static_cuts; ++cuts) {
+    const TimeScheme scheme = static_scheme(std::max(static_.inertia, least));
+    const double step = std::sqrt(2.0 / scheme.inertia);
+    const IslandStatus status = try_step(scheme, trial);
+    double raise = 10.0;
+    if (status != IslandStatus::settled) {
+      rejections_.push_back({time_, step,
+                             status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
+                                                                 : RejectionReason::not_positive_definite});
+    } else if (const double excess = motion_excess(trial); excess > 1.0) {
+      raise = std::clamp(1.1 * excess, 2.0, 1e4);
+    } else if (const auto passing = check_motion(trial, found); !passing.empty()) {
+      rejections_.push_back({time_, step, RejectionReason::passing});
+      if (passing.front().touch.share <= settings_.smallest_cut) {
+        add_contacts(passing, found);
+        counts_.passing_contacts += passing.size();
+        trial.pairs = make_pairs(found);
+        raise = 1.0;
+      } else {
+        raise = 1.0 / passing.front().touch.share;
+      }
+    } else {
+      const std::array<int, 3> before = contact_states(report_);
+      const bool balanced = note_balance(scheme, trial);
+      accept(scheme, trial);
+      report_.step = step;
+      if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
+      const bool still = balanced && scheme.inertia <= least && before == contact_states(report_);
+      static_.still_iterations = still ? static_.still_iterations + 1 : 0;
+      static_.balanced = static_.still_iterations >= 2;
+      if (static_.balanced) return reached(end_time) ? StaticStatus::equilibrium : StaticStatus::balancing;
+      return static_.moving ? StaticStatus::moving : StaticStatus::balancing;
+    }
+    static_.inertia = raise * scheme.inertia;
+    cut = true;
+  }
+  return StaticStatus::not_converged;
+}
+
+double Simulation::motion_excess(const Trial& trial) const {
+  double most = 0.0;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    const double motion = mean_motion(blocks_[k], blocks_[k].space().expand(trial.bodies[k].change));
+    most = std::max(most, motion / (settings_.static_motion * block_size(blocks_[k])));
+  }
+  return most;
+}
+
+bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
+  bool balanced = true;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    const BodyStep& body = trial.bodies[k];
+    const BlockModel& block = blocks_[k];
+    static_.unbalanced[k] = scheme.inertia * block.space().expand(body.change);
+    const double lacking = block.material().density * static_.unbalanced[k].norm();
+    const Eigen::MatrixX3d position = states_[k].position + block.space().expand(body.change);
+    if (lacking <= settings_.static_tolerance * body.largest_force + body.roundoff_force) {
+      static_.travels[k] = 0.0;
+      static_.milestones[k] = position;
+      static_.milestone_forces[k] = lacking;
+      continue;
+    }
+    balanced = false;
+    if (lacking < 0.5 * static_.milestone_forces[k]) {
+      static_.milestones[k] = position;
+      static_.milestone_forces[k] = lacking;
+    }
+    static_.travels[k] = mean_motion(block, position - static_.milestones[k]) / block_size(block);
+    if (static_.travels[k] > settings_.static_travel && !block.space().held()) static_.moving = true;
+  }
+  return balanced;
+}
+
+std::vector<MovingBlock> Simulation::moving_blocks() const {
+  // Blocks that moving ones take along have travelled less; those that only give way have hardly moved.
+  constexpr double share = 0.1;
+  std::vector<MovingBlock> result;
+  for (std::size_t k = 0; k < static_.travels.size(); ++k) {
+    const BlockModel& block = blocks_[k];
+    if (!moving_[k] || block.space().held() || static_.travels[k] <= share * settings_.static_travel)
+      continue;
+    const Eigen::MatrixX3d& a = static_.unbalanced[k];
+    const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
+    const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                                       gradient(1, 0) - gradient(0, 1));
+    result.push_back({static_cast<int>(k), a.row(0) / std::sqrt(block.basis().volume()), turn});
+  }
+  return result;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,56 @@
+// Static analysis: equilibrium under the loads of a time, contacts included (theory.md section 5).
+//
+// An iteration is the dda step of blocks let go from rest: contacts are found, and
+//     F_external - F_elastic(D) + F_contact(D) - rho m D = 0,   m = 2/dt^2,
+// is solved by the open-close iteration; then all blocks move by D and lose their velocity. The first m is
+// that of the scene's time step; it falls tenfold with each iteration that settles and rises where an
+// iteration does not settle or a block would move too far at once, so that the iteration ends as a Newton
+// iteration of the static equations and begins as a motion that contacts can follow. rho m D is what
+// equilibrium still lacks.
+//
+// Equilibrium: m has fallen to its least, rho m D is below settings.static_tolerance of the largest force on
+// every block and no contact has changed its state, twice in a row, as the first time soft motions may still
+// be on their way. Moving: a block has travelled settings.static_travel of its size and what it lacks was not
+// halved on the way; then m D is its acceleration from rest, whatever m.
+//
+// Loads that change follow their histories in levels of settings.time_step, each brought to equilibrium;
+// constant ones are taken at the end time at once.
+#pragma once
+
+#include <vector>
+
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// How an iteration of a static analysis ended.
+enum class StaticStatus {
+  balancing,      ///< go on
+  equilibrium,    ///< of the loads at the end time
+  moving,         ///< no equilibrium near: Simulation::moving_blocks tells which
+  not_converged,  ///< too many iterations or cuts: see Simulation::rejections; stiffer or fewer joints may
+                  ///< help
+};
+
+/// A block that no equilibrium holds, let go from rest.
+struct MovingBlock {
+  int block;
+  Vector3 acceleration;          ///< of the centroid, m/s^2
+  Vector3 angular_acceleration;  ///< rad/s^2, of the mean rotation
+};
+
+/// What a static analysis carries from one iteration to the next.
+struct StaticState {
+  double inertia = 0.0;      ///< m of the next iteration, 1/s^2; 0 before the first
+  int iterations = 0;        ///< at the present loads
+  int still_iterations = 0;  ///< in which nothing was lacking and no contact changed, one after another
+  bool balanced = false;     ///< equilibrium at the present loads
+  bool moving = false;
+  /// For each block, where it was when what it lacks had last been halved, and how much that was.
+  std::vector<Eigen::MatrixX3d> milestones;
+  std::vector<double> milestone_forces;
+  std::vector<double> travels;               ///< from there, in parts of the block's size
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< m D of the last iteration, (p, 3)
+};
+
+}  // namespace ashlar

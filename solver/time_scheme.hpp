@@ -1,0 +1,65 @@
+// The equation one time step solves for the changes D of a block's unknowns, for every integrator:
+//
+//   w (F_external - F_elastic) + F_contact - rho m (D - D_free) = 0
+//
+// w: weight of the smooth forces, m: effective inertia, D_free: where the block goes without forces. Mass
+// damping -alpha M v is linear in D and hidden in m and D_free. F_external and F_elastic are taken
+// `end_share` of the step after its start. With v, a at the start and v', a' at the end of a step of length
+// dt:
+//
+// Newmark family (dda: beta 1/2, gamma 1, alpha_m = alpha_f = 0; generalized-alpha: Chung and Hulbert 1993)
+//   D  = dt v + dt^2 (1/2 - beta) a + beta dt^2 A         A the whole end acceleration,
+//   v' = v + dt (1 - gamma) a + gamma dt A                 A = a' + F_contact / (gamma M)
+//   (1 - alpha_m) M a' + alpha_m M a = F_external - F_elastic - alpha M v_f,   v_f = (1 - alpha_f) v' +
+//   alpha_f v so  w = gamma/(1 - alpha_m). Only smooth forces enter the acceleration that is carried on; the
+//   impulse of a contact is exactly dt F_contact with F_contact at the end of the step, as in the dda step. A
+//   jump of the contact force therefore leaves no oscillation behind, and momentum is exchanged exactly.
+// average-acceleration: D = dt (v + v')/2, M (v' - v)/dt = F - alpha M D/dt.
+// Static: rho m D stands for the inertia of a block let go from rest, in a step of length sqrt(2/m).
+#pragma once
+
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// Coefficients of D, v and a in a quantity linear in them.
+struct StepCombination {
+  double change = 0.0;        ///< of D
+  double velocity = 0.0;      ///< of v
+  double acceleration = 0.0;  ///< of a
+
+  /// @param d,v,a arrays of one shape: of coefficients or of unknowns
+  template <class Matrix>
+  [[nodiscard]] Matrix operator()(const Matrix& d, const Matrix& v, const Matrix& a) const {
+    Matrix sum = change * d + velocity * v;
+    if (acceleration != 0.0) sum += acceleration * a;
+    return sum;
+  }
+};
+
+/// One step's scheme; see the head of this file for the symbols.
+struct TimeScheme {
+  double step = 0.0;          ///< dt, s
+  double end_share = 1.0;     ///< where in the step smooth forces are taken: 0 its start, 1 its end
+  double force_weight = 1.0;  ///< w
+  double inertia = 0.0;       ///< m, 1/s^2
+  bool from_rest = false;     ///< an iteration of a static analysis
+  bool mean_contacts =
+      false;                  ///< contact forces are means over the step (MeanResponse), not those at its end
+  double mass_damping = 0.0;  ///< alpha, 1/s
+  StepCombination free_change;       ///< D_free, without D
+  StepCombination end_velocity;      ///< v'
+  StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f
+  double acceleration_memory = 0.0;  ///< alpha_m
+
+  /// a' from the acceleration that smooth forces and damping give.
+  template <class Matrix>
+  [[nodiscard]] Matrix end_acceleration(const Matrix& smooth, const Matrix& a) const {
+    return (smooth - acceleration_memory * a) / (1.0 - acceleration_memory);
+  }
+};
+
+/// The scheme of a dynamic step of length `step` > 0.
+[[nodiscard]] TimeScheme time_scheme(const SimulationSettings& settings, double step);
+
+}  // namespace ashlar

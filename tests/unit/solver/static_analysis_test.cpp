@@ -1,0 +1,185 @@
+// Static analyses whose answer statics gives: equilibrium, sliding, nothing that holds.
+#include "solver/static_analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solver/checkpoint.hpp"
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::place_of;
+using test_support::same_law;
+using test_support::tilted_box;
+
+const Material rock{2700.0, 1e10, 0.2};
+
+template <class... Definitions>
+std::vector<BlockModel> models(Definitions... definitions) {
+  std::vector<BlockModel> result;
+  (result.emplace_back(std::move(definitions)), ...);
+  return result;
+}
+
+BlockDefinition fixed_block(Polyhedron solid) {
+  BlockDefinition block = block_of("base", std::move(solid), rock, 1);
+  block.fixed = true;
+  return block;
+}
+
+StaticStatus run_static(Simulation& simulation, double end_time) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(end_time);
+  return status;
+}
+
+BlockDefinition cantilever(int order) {
+  BlockDefinition block =
+      block_of("B", Polyhedron(make_box({0, -1.5, -0.5}, {8, 1.5, 0.5})), {3600.0, 1e9, 0.2}, order);
+  block.supports.push_back({Plane{{0, 0, 0}, {1, 0, 0}}});
+  return block;
+}
+
+TEST(StaticAnalysis, CantileverComesToItsEquilibrium) {
+  for (const int order : {1, 3, 6}) {
+    for (const double time_step : {1e-4, 1.0}) {
+      SimulationSettings settings;
+      settings.time_step = time_step;
+      Simulation simulation(models(cantilever(order)), {{}}, same_law({}), settings);
+      ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+      const Eigen::MatrixX3d expected = *simulation.blocks()[0].equilibrium(settings.gravity, 1.0);
+      const Eigen::MatrixX3d reference = simulation.blocks()[0].basis().identity_map();
+      EXPECT_LT((simulation.states()[0].position - expected).norm(), 1e-9 * (expected - reference).norm());
+      EXPECT_TRUE(simulation.states()[0].velocity.isZero(0.0));
+      EXPECT_LT(simulation.steps(), 40);
+      EXPECT_LT(std::abs(simulation.ledger().residual), 1e-8 * simulation.ledger().elastic);
+    }
+  }
+}
+
+TEST(StaticAnalysis, CubeRestsOnItsBase) {
+  for (const int order : {1, 2}) {
+    SimulationSettings settings;
+    settings.subdivisions = 1;
+    Simulation simulation(models(block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, order),
+                                 fixed_block(Polyhedron(make_box({-2, -2, -1}, {3, 3, 0})))),
+                          {{}, {}}, same_law({1e10, 5e9, 0.5, 0.0, 0.0, true}), settings);
+    EXPECT_TRUE(simulation.loose_blocks().empty());
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+    Vector3 force = Vector3::Zero();
+    for (std::size_t k = 0; k < simulation.contacts()[0].points.size(); ++k) {
+      const ContactPoint& point = simulation.contacts()[0].points[k];
+      const Eigen::Vector3d& parts = simulation.contacts()[0].responses[k].force;
+      force += parts[0] * point.normal + parts[1] * point.tangent_1 + parts[2] * point.tangent_2;
+    }
+    EXPECT_LT((force - Vector3(0, 0, 2700.0 * 9.81)).norm(), 1e-8 * 2700.0 * 9.81);
+    // The pressure is rho g and the springs give way by rho g / kn, but for the base that grows by Poisson's
+    // ratio times rho g / (2 E), here 2.6e-7, in both directions.
+    if (order == 1) {
+      EXPECT_NEAR(simulation.largest_penetration() / (2700.0 * 9.81 / 1e10), 1.0, 1e-6);
+    }
+  }
+}
+
+Simulation on_incline(double incline, double friction_angle) {
+  JointLaw law{1e10, 1e10, std::tan(friction_angle * std::numbers::pi / 180.0), 0.0, 0.0, true};
+  return Simulation(models(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1),
+                           fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, incline))),
+                    {{}, {}}, same_law(law), {});
+}
+
+TEST(StaticAnalysis, BlockSticksOnAnIncline) {
+  Simulation simulation = on_incline(30, 31);
+  const Vector3 start = place_of(simulation, 0, {0, 0, 0});
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+  EXPECT_TRUE(simulation.moving_blocks().empty());
+  // The springs of 1e10 N/m carry m g: what the block gives way is of the size of m g / k.
+  EXPECT_LT((place_of(simulation, 0, {0, 0, 0}) - start).norm(), 10.0 * 2700.0 * 9.81 / 1e10);
+}
+
+TEST(StaticAnalysis, BlockSlidesOnAnIncline) {
+  for (const double friction_angle : {0.0, 20.0, 29.0}) {
+    Simulation simulation = on_incline(30, friction_angle);
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+    const auto moving = simulation.moving_blocks();
+    ASSERT_EQ(moving.size(), 1U);
+    EXPECT_EQ(moving[0].block, 0);
+    // a = g (sin 30 - cos 30 tan phi) down the slope, which goes down towards -x
+    const double degree = std::numbers::pi / 180.0;
+    const double size = 9.81 * (0.5 - std::cos(30 * degree) * std::tan(friction_angle * degree));
+    const Vector3 expected = size * Vector3(-std::cos(30 * degree), 0, -0.5);
+    EXPECT_LT((moving[0].acceleration - expected).norm(), 1e-3 * size) << moving[0].acceleration.transpose();
+    EXPECT_EQ(simulation.static_step(1.0), StaticStatus::moving);
+  }
+}
+
+TEST(StaticAnalysis, TallBlockTopples) {
+  // Base 1, height 3 on an incline of 30 degrees: the weight acts outside the base, as tan 30 > 1/3.
+  JointLaw law{1e10, 1e10, std::tan(50 * std::numbers::pi / 180.0), 0.0, 0.0, true};
+  Simulation simulation(models(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 3}, 30), rock, 1),
+                               fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, 30))),
+                        {{}, {}}, same_law(law), {});
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+  ASSERT_EQ(simulation.moving_blocks().size(), 1U);
+  // It turns over its lower edge, from +z towards -x: about -y.
+  EXPECT_LT(simulation.moving_blocks()[0].angular_acceleration.y(), -0.1);
+}
+
+TEST(StaticAnalysis, LoadsThatChangeAreFollowed) {
+  // A block pushed along its base by a tenth of its weight and let go again: friction 0.5 holds it all the
+  // time.
+  BlockDefinition stone = block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1);
+  Load push;
+  push.where = Plane{{0, 0, 0}, {1, 0, 0}};
+  push.vector = {0.1 * 2700 * 9.81, 0, 0};
+  push.history = {{0.0, 0.5, 1.0}, {0.0, 1.0, 0.0}};
+  stone.loads.push_back(push);
+  SimulationSettings settings;
+  settings.time_step = 0.125;
+  Simulation simulation(models(std::move(stone), fixed_block(Polyhedron(make_box({-2, -2, -1}, {3, 3, 0})))),
+                        {{}, {}}, same_law({1e10, 5e9, 0.5, 0.0, 0.0, true}), settings);
+  std::vector<double> times;
+  StaticStatus status = StaticStatus::balancing;
+  double most = 0.0;
+  while (status == StaticStatus::balancing) {
+    status = simulation.static_step(1.0);
+    if (times.empty() || times.back() != simulation.time()) times.push_back(simulation.time());
+    if (simulation.time() == 0.5) most = place_of(simulation, 0, {0.5, 0.5, 0.0}).x() - 0.5;
+  }
+  EXPECT_EQ(status, StaticStatus::equilibrium);
+  EXPECT_EQ(times, (std::vector<double>{0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0}));
+  // the springs have a stiffness of 5e9 N/m along the base
+  EXPECT_NEAR(most / (0.1 * 2700 * 9.81 / 5e9), 1.0, 1e-5);
+  EXPECT_NEAR(place_of(simulation, 0, {0.5, 0.5, 0.0}).x(), 0.5, 1e-9 * most + 1e-12);
+}
+
+TEST(StaticAnalysis, GoesOnFromASnapshotBitForBit) {
+  Simulation whole = on_incline(30, 20);
+  Simulation part = on_incline(30, 20);
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(whole.static_step(1.0), StaticStatus::balancing);
+    EXPECT_EQ(part.static_step(1.0), StaticStatus::balancing);
+  }
+  Simulation resumed = on_incline(30, 20);
+  resumed.restore(snapshot_from_bytes(to_bytes(part.snapshot())));
+  EXPECT_EQ(run_static(whole, 1.0), StaticStatus::moving);
+  EXPECT_EQ(run_static(resumed, 1.0), StaticStatus::moving);
+  EXPECT_EQ(whole.steps(), resumed.steps());
+  EXPECT_EQ(whole.states()[0].position, resumed.states()[0].position);
+}
+
+TEST(StaticAnalysis, BlocksThatNothingHoldsAreNamed) {
+  BlockDefinition guided = block_of("G", Polyhedron(make_box({20, 0, 0}, {21, 1, 1})), rock, 1);
+  guided.supports.push_back({Plane{{20, 0, 0}, {1, 0, 0}}, {false, true, true}});
+  BlockDefinition held = cantilever(2);
+  Simulation simulation(models(block_of("A", Polyhedron(make_box({40, 0, 0}, {41, 1, 1})), rock, 1), held,
+                               guided, block_of("C", Polyhedron(make_box({40, 0, 1}, {41, 1, 2})), rock, 1),
+                               block_of("D", Polyhedron(make_box({7, 0, 0.5}, {7.5, 0.5, 1})), rock, 1)),
+                        {{}, {}, {}, {}, {}}, same_law({1e10, 5e9, 0.5, 0.0, 0.0, true}), {});
+  EXPECT_EQ(simulation.loose_blocks(), (std::vector<std::vector<int>>{{0, 3}, {2}}));
+}
+
+}  // namespace
+}  // namespace ashlar
