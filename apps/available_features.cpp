@@ -16,12 +16,11 @@ struct PartialKey {
   const char* available;  ///< JSON array of the values that work; empty: the key cannot be used yet
 };
 
-constexpr std::array<PartialKey, 6> partial_keys = {{
+constexpr std::array<PartialKey, 5> partial_keys = {{
     {"analysis.formulation", R"(["total"])"},
     {"analysis.solver", R"(["auto", "cholmod"])"},
     {"contact.augmented", "[false]"},
     {"joint.*.tied", "[false]"},
-    {"material.*.elasticity", R"(["linear"])"},
     {"block.*.fix.*.displacement_history", "[]"},
 }};
 

@@ -27,7 +27,10 @@ BlockDefinition define_block(const Scene& scene, const SceneBlock& block, const 
   definition.order = block.order;
   definition.fixed = block.fixed;
   if (const SceneMaterial* material = find_material(scene, block.material)) {
-    definition.material = {material->density, material->young_modulus, material->poisson_ratio};
+    definition.material = {material->density, material->young_modulus, material->poisson_ratio,
+                           material->elasticity == SceneMaterial::Elasticity::linear
+                               ? Elasticity::linear
+                               : Elasticity::st_venant_kirchhoff};
   }
   for (const SceneFix& fix : block.fix) definition.supports.push_back({place_of(fix.where), fix.components});
   for (const SceneLoad& load : block.load) {

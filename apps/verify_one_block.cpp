@@ -282,7 +282,53 @@ std::vector<VerificationCheck> torsion_bar() {
                          torsional_constant(2 * a, a, 6) / (2 * a * std::pow(a, 3)), 0.22868, 0.01)};
 }
 
-constexpr std::array<VerificationCase, 7> cases = {{
+/// A slender strip clamped at x = 0, bent by a couple of two forces +-F x that keep their direction, at the
+/// upper and the lower edge of its end. No force is left over, so the moment is the same all along: M = F h
+/// cos(angle of the end), and the strip is an arc of radius E I / M: angle = F h L cos(angle) / (E I). Such a
+/// couple cannot turn the end beyond 90 degrees; one that could would have to follow it, which loads do not.
+std::vector<VerificationCheck> large_rotation_cantilever() {
+  const double length = 10.0, height = 0.25, modulus = 1e9;
+  const double stiffness = modulus * std::pow(height, 4) / 12.0;
+  std::vector<VerificationCheck> checks;
+  for (const double degrees : {30.0, 60.0}) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const double force = stiffness * angle / (height * length * std::cos(angle));
+    for (const Placement& placement : placements()) {
+      const Polyhedron strip(
+          make_box({0, -0.5 * height, -0.5 * height}, {length, 0.5 * height, 0.5 * height}));
+      BlockDefinition definition = define_block(placed(strip, placement.turn, placement.shift),
+                                                {2000, modulus, 0.0, Elasticity::st_venant_kirchhoff}, 4);
+      const auto place = [&](const Vector3& point) {
+        return Vector3(placement.turn * point + placement.shift);
+      };
+      definition.supports.push_back({Plane{place({0, 0, 0}), placement.turn * Vector3(-1, 0, 0)}});
+      for (const double side : {-1.0, 1.0}) {
+        definition.loads.push_back({place({length, 0, 0.5 * side * height}),
+                                    false,
+                                    placement.turn * Vector3(-side * force, 0, 0),
+                                    {}});
+      }
+      const BlockModel block(std::move(definition));
+      const Eigen::MatrixX3d position = rest_position(block, Vector3::Zero());
+      const Vector3 point = place({length, 0, 0});
+      const Vector3 end =
+          placement.turn.transpose() * (position.transpose() * block.basis().values(point) - placement.shift);
+      const Vector3 along = placement.turn.transpose() * position.transpose() *
+                            block.basis().gradients(point) * placement.turn.col(0);
+      const double radius = length / angle;
+      const auto add = [&](const char* what, double measured, double reference) {
+        checks.push_back(check_relative(fmt::format("{}, {} degrees, n = 4{}", what, degrees, placement.name),
+                                        measured, reference, 1e-2));
+      };
+      add("rotation of the end", std::atan2(along.z(), along.x()), angle);
+      add("x of the end", end.x(), radius * std::sin(angle));
+      add("z of the end", end.z(), radius * (1.0 - std::cos(angle)));
+    }
+  }
+  return checks;
+}
+
+constexpr std::array<VerificationCase, 8> cases = {{
     {"stress-patch", "uniform traction on polyhedra of order 1 to 8 gives uniform stress", stress_patch},
     {"pure-bending", "the stress of pure bending, and its equilibrium", pure_bending},
     {"self-weight-column", "a column settles under its own weight", self_weight_column},
@@ -291,6 +337,8 @@ constexpr std::array<VerificationCase, 7> cases = {{
     {"cantilever-self-weight", "deflection of the cantilever under its own weight", cantilever_self_weight},
     {"cantilever-frequencies", "first natural frequency of the cantilever", cantilever_frequencies},
     {"torsion-bar", "torsional stiffness of rectangular bars", torsion_bar},
+    {"large-rotation-cantilever", "a slender strip bent to an arc by a couple at its end",
+     large_rotation_cantilever},
 }};
 
 }  // namespace

@@ -15,6 +15,8 @@ BlockModel::BlockModel(BlockDefinition definition)
   mean_gradients_ = mean_gradients(basis_);
   stiffness_ = elastic_stiffness(basis_, material());
   if (!corotational()) reduced_stiffness_ = space_.restrict(stiffness_);
+  if (material().elasticity == Elasticity::st_venant_kirchhoff)
+    large_ = std::make_shared<const StVenantKirchhoff>(solid(), basis_, material());
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
 }
 
@@ -26,17 +28,6 @@ Eigen::MatrixX3d BlockModel::rigid_velocity(const Vector3& velocity, const Vecto
   Eigen::Matrix3d spin;
   for (int k = 0; k < 3; ++k) spin.col(k) = angular_velocity.cross(Vector3::Unit(k));
   return space_.expand(space_.restrict(basis_.linear_field(velocity, spin)));
-}
-
-std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, double time) const {
-  if (fixed()) return basis_.identity_map();
-  if (!space_.held()) return std::nullopt;
-  const Eigen::LLT<Eigen::MatrixXd> factor(reduced_stiffness_);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  const Eigen::VectorXd force = space_.restrict(external_force(gravity, time));
-  Eigen::VectorXd y = factor.solve(force);
-  y += factor.solve(force - reduced_stiffness_ * y);
-  return Eigen::MatrixX3d(basis_.identity_map() + space_.expand(y));
 }
 
 Eigen::MatrixX3d BlockModel::external_force(const Vector3& gravity, double time) const {
@@ -58,11 +49,17 @@ bool BlockModel::loads_change_between(double start, double end) const {
 }
 
 ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
+  if (large_) return large_->respond(position);
   return elastic_response(stiffness_, mean_gradients_, basis_.identity_map(), position, corotational());
 }
 
 Eigen::MatrixXd BlockModel::tangent(const Eigen::Matrix3d& rotation) const {
   return corotational() ? space_.restrict(rotated_stiffness(stiffness_, rotation)) : reduced_stiffness_;
+}
+
+Eigen::MatrixXd BlockModel::tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
+                                    bool positive) const {
+  return large_ ? space_.restrict(large_->tangent(position, positive)) : tangent(elastic.rotation);
 }
 
 Vector3 BlockModel::momentum(const BlockState& state) const {
@@ -89,6 +86,8 @@ double BlockModel::gravity_energy(const BlockState& state, const Vector3& gravit
 
 Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point) const {
   if (fixed()) return Eigen::Matrix3d::Zero();
+  if (large_)
+    return st_venant_kirchhoff_stress(material(), state.position.transpose() * basis_.gradients(point));
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   if (corotational()) rotation = polar_decomposition(state.position.transpose() * mean_gradients_).rotation;
   const Eigen::MatrixX3d deformation = state.position * rotation - basis_.identity_map();

@@ -13,6 +13,7 @@
 #include "mechanics/elasticity.hpp"
 #include "mechanics/loads.hpp"
 #include "mechanics/material.hpp"
+#include "mechanics/st_venant_kirchhoff.hpp"
 #include "mechanics/supports.hpp"
 
 namespace ashlar {
@@ -51,7 +52,7 @@ class BlockModel {
   [[nodiscard]] const AdmissibleSpace& space() const { return space_; }
   /// 0 for fixed blocks.
   [[nodiscard]] int unknowns() const { return fixed() ? 0 : space_.unknowns(); }
-  /// True if the elastic frame turns with the block (theory.md section 4).
+  /// True if the frame of linear elasticity turns with the block (theory.md section 4).
   [[nodiscard]] bool corotational() const { return space_.can_turn(); }
   [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
 
@@ -62,7 +63,8 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixX3d rigid_velocity(const Vector3& velocity,
                                                 const Vector3& angular_velocity) const;
   /// Equilibrium of a block whose supports leave no rigid motion under gravity and its loads at a time,
-  /// contacts off. Empty if the supports leave a rigid motion.
+  /// contacts off. Empty if the supports leave a rigid motion, or a St.-Venant-Kirchhoff block under its load
+  /// finds none.
   [[nodiscard]] std::optional<Eigen::MatrixX3d> equilibrium(const Vector3& gravity, double time) const;
 
   /// Gravity and loads at a time. @return (p, 3), N m^-3/2
@@ -73,8 +75,16 @@ class BlockModel {
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
-  /// Tangent Z' R K R' Z of the internal force in the unknowns. @return (unknowns, unknowns)
+  /// Tangent Z' R K R' Z of the internal force in the unknowns; of St.-Venant-Kirchhoff blocks the one of the
+  /// undeformed block, turned. @return (unknowns, unknowns)
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::Matrix3d& rotation) const;
+
+  /// Tangent of the internal force at a configuration, in the unknowns. @param elastic its response
+  /// @param positive leave out what may make it indefinite. @return (unknowns, unknowns), symmetric
+  [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
+                                        bool positive = false) const;
+  /// Size of the rounding errors of the internal force of a block at rest, in the norm of the unknowns.
+  [[nodiscard]] double force_rounding() const;
 
   /// Momentum and angular momentum about the origin, kg m/s and kg m^2/s.
   [[nodiscard]] Vector3 momentum(const BlockState& state) const;
@@ -91,8 +101,9 @@ class BlockModel {
   PolynomialBasis basis_;
   AdmissibleSpace space_;
   Eigen::MatrixX3d mean_gradients_;
-  Eigen::MatrixXd stiffness_;            ///< K, (3p, 3p); empty for fixed blocks
-  Eigen::MatrixXd reduced_stiffness_;    ///< Z' K Z of a block that cannot turn
+  Eigen::MatrixXd stiffness_;                       ///< K, (3p, 3p); empty for fixed blocks
+  Eigen::MatrixXd reduced_stiffness_;               ///< Z' K Z of a block that cannot turn
+  std::shared_ptr<const StVenantKirchhoff> large_;  ///< null for linear elasticity
   std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
 };
 

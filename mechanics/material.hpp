@@ -3,11 +3,18 @@
 
 namespace ashlar {
 
+/// How stress follows from deformation (theory.md section 4).
+enum class Elasticity {
+  linear,              ///< Hooke's law in a frame that turns with the block: small strains and bending
+  st_venant_kirchhoff  ///< Hooke's law between Green strain and second Piola-Kirchhoff stress: large bending
+};
+
 /// Isotropic elastic rock. Valid: density > 0, young_modulus > 0, 0 <= poisson_ratio < 0.5.
 struct Material {
   double density = 0.0;        ///< kg/m^3
   double young_modulus = 0.0;  ///< Pa
   double poisson_ratio = 0.0;  ///< 1
+  Elasticity elasticity = Elasticity::linear;
 
   /// First Lame constant, Pa.
   [[nodiscard]] double lame_lambda() const {

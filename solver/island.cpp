@@ -37,12 +37,16 @@ class IslandProblem {
     }
   }
 
+  /// Where the elastic force of a body is taken.
+  [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const {
+    return body.state->position + scheme_.end_share * body.model->space().expand(body.change);
+  }
+
   /// Elastic and contact responses at the present changes.
   void respond() {
     for (const int index : island_.bodies) {
       BodyStep& body = bodies_[at(index)];
-      body.elastic = body.model->elastic(body.state->position +
-                                         scheme_.end_share * body.model->space().expand(body.change));
+      body.elastic = body.model->elastic(taken_at(body));
     }
     responses_.clear();
     for (const int pair : island_.pairs) {
@@ -90,12 +94,14 @@ class IslandProblem {
     return result;
   }
 
-  void assemble(BlockMatrix& matrix) const {
+  /// @param positive leaves out what may make elastic tangents indefinite
+  void assemble(BlockMatrix& matrix, bool positive) const {
     matrix.set_zero();
     for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
       const BodyStep& body = bodies_[at(island_.bodies[k])];
-      matrix.add_diagonal(static_cast<int>(k), scheme_.force_weight * scheme_.end_share *
-                                                   body.model->tangent(body.elastic.rotation));
+      matrix.add_diagonal(static_cast<int>(k),
+                          scheme_.force_weight * scheme_.end_share *
+                              body.model->tangent(taken_at(body), body.elastic, positive));
       matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
     }
     for (std::size_t k = 0; k < island_.pairs.size(); ++k) {
@@ -214,8 +220,14 @@ IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
       result.responses = problem.take_responses();
       return result;
     }
-    problem.assemble(solver.matrix);
-    if (solver.factor.factorize(solver.matrix.matrix()) != FactorStatus::success) {
+    problem.assemble(solver.matrix, false);
+    FactorStatus factored = solver.factor.factorize(solver.matrix.matrix());
+    if (factored == FactorStatus::not_positive_definite) {
+      // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
+      problem.assemble(solver.matrix, true);
+      factored = solver.factor.factorize(solver.matrix.matrix());
+    }
+    if (factored != FactorStatus::success) {
       result.status = IslandStatus::not_positive_definite;
       return result;
     }

@@ -26,18 +26,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// Size of the rounding errors in the internal force K (R' q - q0) of a block at rest.
-double roundoff_of(const BlockModel& block) {
-  const Eigen::Index p = block.basis().size();
-  const Eigen::MatrixXd tangent = block.tangent(Eigen::Matrix3d::Identity());
-  // The mean position drops out of K exactly, so only the linear coefficients carry rounding errors.
-  Eigen::MatrixX3d size = block.basis().identity_map().cwiseAbs();
-  size.row(0).setZero();
-  if (p == 0) return 0.0;
-  const Eigen::VectorXd reduced = block.space().restrict(size);
-  return 4.0 * std::numeric_limits<double>::epsilon() * (tangent.cwiseAbs() * reduced.cwiseAbs()).norm();
-}
-
 }  // namespace
 
 std::string to_string(RejectionReason reason) {
@@ -63,7 +51,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     const BlockModel& block = blocks_[k];
     states_.push_back(block.initial_state());
     moving_.push_back(!block.fixed());
-    roundoff_force_.push_back(block.fixed() ? 0.0 : roundoff_of(block));
+    roundoff_force_.push_back(block.fixed() ? 0.0 : block.force_rounding());
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
   }

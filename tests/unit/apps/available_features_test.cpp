@@ -39,8 +39,6 @@ INSTANTIATE_TEST_SUITE_P(
                   "s.toml:5:13: error: not available in this version (augmented = true)"},
         FaultCase{6, "[[joint]]\ntied = true",
                   "s.toml:7:8: error: not available in this version (tied = true)"},
-        FaultCase{8, "[[material]]\nelasticity = \"st-venant-kirchhoff\"",
-                  "s.toml:9:14: error: not available in this version"},
         FaultCase{22, "point = [0, 0, 0]\ndisplacement_history = [[0, 0, 0, 0]]",
                   "s.toml:23:1: error: not available in this version (displacement_history), leave it out"}));
 
