@@ -69,10 +69,11 @@ std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measu
     }
   }
   for (const char* name :
-       {"energy.kinetic", "energy.elastic", "energy.gravity", "energy.contact", "energy.friction",
-        "energy.damping", "energy.applied", "energy.numerical", "energy.residual", "momentum.x", "momentum.y", "momentum.z",
-        "angular_momentum.x", "angular_momentum.y", "angular_momentum.z", "contacts.open", "contacts.locked",
-        "contacts.sliding", "penetration.max", "open_close.iterations"}) {
+       {"energy.kinetic",     "energy.elastic",     "energy.gravity",     "energy.contact",
+        "energy.friction",    "energy.damping",     "energy.applied",     "energy.numerical",
+        "energy.residual",    "momentum.x",         "momentum.y",         "momentum.z",
+        "angular_momentum.x", "angular_momentum.y", "angular_momentum.z", "contacts.open",
+        "contacts.locked",    "contacts.sliding",   "penetration.max",    "open_close.iterations"}) {
     columns.emplace_back(name);
   }
   return columns;
@@ -90,8 +91,9 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
     append(values, state.velocity.transpose() * phi);
   }
   const Ledger& ledger = simulation.ledger();
-  values.insert(values.end(), {ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact,
-                               ledger.friction, ledger.damping, ledger.applied, ledger.numerical, ledger.residual});
+  values.insert(values.end(),
+                {ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction,
+                 ledger.damping, ledger.applied, ledger.numerical, ledger.residual});
   append(values, simulation.momentum());
   append(values, simulation.angular_momentum());
   for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
