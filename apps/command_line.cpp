@@ -21,9 +21,9 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 6> commands = {declare_run_command, declare_check_command,
+constexpr std::array<CommandDeclaration, 6> commands = {declare_run_command,      declare_check_command,
                                                         declare_contacts_command, declare_integrate_command,
-                                                        declare_verify_command, declare_study_command};
+                                                        declare_verify_command,   declare_study_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

@@ -150,7 +150,8 @@ TriangleRule triangle_rule(int degree) {
 }
 
 VolumeRule volume_rule(const TriangleMesh& mesh, const Vector3& apex, int degree) {
-  // A point of the tetrahedron is apex + u (p - apex), p on the triangle; u^2 of the Jacobian takes two degrees.
+  // A point of the tetrahedron is apex + u (p - apex), p on the triangle; u^2 of the Jacobian takes two
+  // degrees.
   const SegmentRule height = gauss_legendre(degree / 2 + 2);
   const TriangleRule base = triangle_rule(degree);
   VolumeRule rule;

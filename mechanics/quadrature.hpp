@@ -54,7 +54,8 @@ struct VolumeRule {
   std::vector<Vector3> points;
   std::vector<double> weights;
 };
-/// @param mesh closed, outward triangles. @param apex of the tetrahedra, near the solid. @param degree 0 to 100
+/// @param mesh closed, outward triangles. @param apex of the tetrahedra, near the solid. @param degree 0 to
+/// 100
 [[nodiscard]] VolumeRule volume_rule(const TriangleMesh& mesh, const Vector3& apex, int degree);
 
 }  // namespace ashlar
