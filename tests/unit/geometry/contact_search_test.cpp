@@ -9,6 +9,7 @@
 
 #include "geometry/box_pairs.hpp"
 #include "geometry/shapes.hpp"
+#include "support/placed_bodies.hpp"
 #include "support/sample_solids.hpp"
 
 namespace ashlar {
@@ -16,21 +17,8 @@ namespace {
 
 const ContactLimits limits{0.02, 0.02, 10.0 * std::numbers::pi / 180.0};
 
-struct Body {
-  Polyhedron solid;
-  SubFaceSurface surface;
-  PlacedSurface placed;
-  explicit Body(Polyhedron polyhedron, int levels = -1)
-      : solid(std::move(polyhedron)),
-        surface(levels < 0 ? whole_surface(solid) : divide_surface(solid, levels)),
-        placed(surface, surface.points) {}
-  Body(const Body&) = delete;
-  Body& operator=(const Body&) = delete;
-};
-
-Polyhedron box(const Vector3& low, const Vector3& high) {
-  return Polyhedron(make_box(low, high));
-}
+using Body = test_support::PlacedBody;
+using test_support::box;
 
 Polyhedron moved(const Polyhedron& solid, const Eigen::AngleAxisd& turn, const Vector3& shift) {
   std::vector<Vector3> points;

@@ -7,27 +7,15 @@
 #include <cmath>
 
 #include "geometry/shapes.hpp"
+#include "support/placed_bodies.hpp"
 
 namespace ashlar {
 namespace {
 
 const ContactLimits limits{0.01, 0.01, 0.1};
 
-struct Body {
-  Polyhedron solid;
-  SubFaceSurface surface;
-  PlacedSurface placed;
-  explicit Body(Polyhedron polyhedron, int levels = -1)
-      : solid(std::move(polyhedron)),
-        surface(levels < 0 ? whole_surface(solid) : divide_surface(solid, levels)),
-        placed(surface, surface.points) {}
-  Body(const Body&) = delete;
-  Body& operator=(const Body&) = delete;
-};
-
-Polyhedron box(const Vector3& low, const Vector3& high) {
-  return Polyhedron(make_box(low, high));
-}
+using Body = test_support::PlacedBody;
+using test_support::box;
 
 /// A square frame 0 to 6 with a hole 2 to 4, from z = 0 to 1.
 Polyhedron frame() {
