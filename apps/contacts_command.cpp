@@ -17,7 +17,7 @@
 
 #include "apps/contact_report_json.hpp"
 #include "apps/diagnostics.hpp"
-#include "geometry/mesh_io.hpp"
+#include "apps/mesh_loading.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -50,21 +50,10 @@ struct LoadedBody {
 
 LoadedBody load_body(const std::string& path, const std::filesystem::path& file) {
   LoadedBody loaded;
-  try {
-    TriangleMesh mesh = read_mesh(file);
-    try {
-      // A copy is kept only where all defects have to be listed.
-      loaded.body.emplace(Polyhedron(std::move(mesh)));
-    } catch (const MeshError&) {
-      for (const MeshDefect& defect : Polyhedron::find_defects(read_mesh(file), listed_mesh_defects)) {
-        loaded.faults.push_back(fault_at(
-            path, 0, 0,
-            fmt::format("{}: {}, a mesh must bound a solid", to_string(defect.kind), defect.element)));
-      }
-    }
-  } catch (const MeshFileError& error) {
-    loaded.faults.push_back(fault_at(path, error.line(), error.column(), error.what()));
-  }
+  Diagnostics diagnostics;
+  if (std::optional<Polyhedron> solid = load_solid(path, file, diagnostics))
+    loaded.body.emplace(std::move(*solid));
+  loaded.faults = diagnostics.sorted();
   return loaded;
 }
 

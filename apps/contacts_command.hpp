@@ -10,9 +10,6 @@
 
 namespace ashlar {
 
-/// Defects of one kind that are listed of one mesh.
-inline constexpr std::size_t listed_mesh_defects = 100;
-
 struct ContactsOptions {
   std::string a, b;                  ///< mesh files; not with pairs
   std::optional<std::string> pairs;  ///< file with a line `A B` for each pair

@@ -11,7 +11,7 @@
 namespace ashlar {
 
 /// Defects of one kind that are listed of one mesh.
-inline constexpr std::size_t listed_solid_defects = 100;
+inline constexpr std::size_t listed_mesh_defects = 100;
 
 /// @param name the file as the user named it. @return none if there were faults, which are added
 [[nodiscard]] std::optional<Polyhedron> load_solid(const std::string& name, const std::filesystem::path& file,

@@ -58,6 +58,7 @@ AdaptiveSurface::Node AdaptiveSurface::make_node(int face, const std::array<int,
 
 void AdaptiveSurface::move(const Eigen::Ref<const Eigen::Matrix3Xd>& values) {
   root_patches_.clear();
+  cell_shapes_.clear();  // those of the shape before would be in the wrong place
   box_ = Box{};
   for (int root = 0; root < root_count_; ++root) {
     root_patches_.emplace_back(*form_, values.middleCols(root * form_->size(), form_->size()));
