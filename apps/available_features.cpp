@@ -16,8 +16,7 @@ struct PartialKey {
   const char* available;  ///< JSON array of the values that work; empty: the key cannot be used yet
 };
 
-constexpr std::array<PartialKey, 5> partial_keys = {{
-    {"analysis.formulation", R"(["total"])"},
+constexpr std::array<PartialKey, 4> partial_keys = {{
     {"analysis.solver", R"(["auto", "cholmod"])"},
     {"contact.augmented", "[false]"},
     {"joint.*.tied", "[false]"},

@@ -15,7 +15,7 @@ namespace ashlar {
 namespace {
 
 template <class Where>
-std::variant<Plane, Vector3> place_of(const Where& where) {
+BlockPlace place_of(const Where& where) {
   if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};
   return std::get<Vector3>(where);
 }
@@ -26,6 +26,13 @@ BlockDefinition define_block(const Scene& scene, const SceneBlock& block, const 
   definition.solid = std::make_shared<const Polyhedron>(solid);
   definition.order = block.order;
   definition.fixed = block.fixed;
+  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
+    definition.formulation = Formulation::incremental;
+    definition.sub_face_levels = scene.contact.subdivisions.value_or(definition.sub_face_levels);
+    for (const SceneMeasure& measure : scene.measure) {
+      if (measure.block == block.name) definition.followed.push_back(measure.point);
+    }
+  }
   if (const SceneMaterial* material = find_material(scene, block.material)) {
     definition.material = {material->density, material->young_modulus, material->poisson_ratio,
                            material->elasticity == SceneMaterial::Elasticity::linear
@@ -82,7 +89,7 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   settings.contact_angle =
       choose(scene.contact.angle, ratios.angle_degrees, "contact.angle", "deg") * std::numbers::pi / 180.0;
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
-    return !block.fixed() && block.order() >= 2;
+    return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
   });
   settings.subdivisions = scene.contact.subdivisions.value_or(0);
   if (curved && !scene.contact.subdivisions) {

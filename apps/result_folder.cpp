@@ -54,6 +54,11 @@ void append(std::vector<double>& values, const Vector3& vector) {
   values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
 }
 
+/// xx, yy, zz, xy, yz, xz
+void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {
+  values.insert(values.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
+}
+
 constexpr const char* contact_columns =
     "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
     "normal_force.y,"
@@ -76,19 +81,23 @@ std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measu
         "contacts.locked",    "contacts.sliding",   "penetration.max",    "open_close.iterations"}) {
     columns.emplace_back(name);
   }
+  for (const MeasuredPoint& measure : measures) {
+    for (const char* part : {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"})
+      columns.push_back(measure.name + part);
+  }
   return columns;
 }
 
 std::vector<double> history_row(const Simulation& simulation, const std::vector<MeasuredPoint>& measures) {
   const StepReport& report = simulation.report();
   std::vector<double> values = {simulation.time(), report.step};
+  std::vector<PointMotion> motions;
   for (const MeasuredPoint& measure : measures) {
-    const BlockState& state = simulation.states()[at(measure.block)];
-    const PolynomialBasis& basis = simulation.blocks()[at(measure.block)].basis();
-    const Eigen::VectorXd phi = basis.values(measure.point);
-    append(values, state.position.transpose() * phi);
-    append(values, (state.position - basis.identity_map()).transpose() * phi);
-    append(values, state.velocity.transpose() * phi);
+    const PointMotion motion = motions.emplace_back(simulation.blocks()[at(measure.block)].motion_of(
+        simulation.states()[at(measure.block)], measure.point));
+    append(values, motion.place);
+    append(values, motion.displacement);
+    append(values, motion.velocity);
   }
   const Ledger& ledger = simulation.ledger();
   values.insert(values.end(),
@@ -99,22 +108,25 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
   values.push_back(report.penetration);
   values.push_back(report.iterations);
+  for (const PointMotion& motion : motions) append_stress(values, motion.stress);
   return values;
 }
 
-std::vector<DrawnSurface> drawn_surfaces(const std::vector<BlockModel>& blocks) {
+std::vector<SubFaceSurface> drawn_surfaces(const std::vector<BlockModel>& blocks) {
   constexpr int levels = 2;
-  std::vector<DrawnSurface> surfaces;
+  std::vector<SubFaceSurface> surfaces;
   for (const BlockModel& block : blocks) {
+    if (block.incremental() != nullptr) {
+      surfaces.push_back(block.incremental()->surface());
+      continue;
+    }
     const bool curves = block.order() >= 2 && !block.fixed();
-    SubFaceSurface surface = curves ? divide_surface(block.solid(), levels) : whole_surface(block.solid());
-    Eigen::MatrixXd phi = block.basis().values(surface.points);
-    surfaces.push_back({std::move(surface), std::move(phi)});
+    surfaces.push_back(curves ? divide_surface(block.solid(), levels) : whole_surface(block.solid()));
   }
   return surfaces;
 }
 
-UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<DrawnSurface>& surfaces,
+UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<SubFaceSurface>& surfaces,
                              const SceneOutput::Fields& fields) {
   UnstructuredGrid grid;
   std::vector<double> displacement;
@@ -126,17 +138,14 @@ UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<Dra
   for (int b = 0; b < static_cast<int>(simulation.blocks().size()); ++b) {
     const BlockModel& block = simulation.blocks()[at(b)];
     const BlockState& state = simulation.states()[at(b)];
-    const auto& [surface, phi] = surfaces[at(b)];
+    const SubFaceSurface& surface = surfaces[at(b)];
     const int first = static_cast<int>(grid.points.size());
-    const auto places = placed_points(phi, state);
-    const Eigen::MatrixX3d velocities = phi * state.velocity;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      grid.points.push_back(places[k]);
-      append(displacement, places[k] - surface.points[k]);
-      append(velocity, velocities.row(static_cast<Eigen::Index>(k)));
-      if (!fields.stress) continue;
-      const Eigen::Matrix3d s = block.stress(state, surface.points[k]);
-      stress.insert(stress.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
+    for (const Vector3& point : surface.points) {
+      const PointMotion motion = block.motion_of(state, point);
+      grid.points.push_back(motion.place);
+      append(displacement, motion.displacement);
+      append(velocity, motion.velocity);
+      if (fields.stress) append_stress(stress, motion.stress);
     }
     for (const SurfaceCell& cell : surface.cells) {
       std::vector<int> corners;

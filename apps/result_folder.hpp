@@ -21,7 +21,8 @@ struct MeasuredPoint {
   Vector3 point;  ///< reference coordinates, m
 };
 
-/// Names of the columns of history.csv, the step first.
+/// Names of the columns of history.csv, the step first; stresses of measured points (sxx, syy, szz, sxy, syz,
+/// sxz; Pa, tension positive) last.
 [[nodiscard]] std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures);
 
 /// The values after the step, in the order of history_columns.
@@ -29,17 +30,13 @@ struct MeasuredPoint {
                                               const std::vector<MeasuredPoint>& measures);
 
 /// The surface a block is drawn with: whole faces of a block that stays affine, evenly divided ones of a
-/// block that may curve, wherever contacts need sub-faces or not.
-struct DrawnSurface {
-  SubFaceSurface surface;
-  Eigen::MatrixXd phi;  ///< (#points, p)
-};
-[[nodiscard]] std::vector<DrawnSurface> drawn_surfaces(const std::vector<BlockModel>& blocks);
+/// block that may curve, wherever contacts need sub-faces or not, the fixed ones of an incremental block.
+[[nodiscard]] std::vector<SubFaceSurface> drawn_surfaces(const std::vector<BlockModel>& blocks);
 
 /// All blocks at the present time. Point data: those of displacement, velocity and stress (xx, yy, zz, xy,
 /// yz, xz) that are asked for. Cell data: block, order and face.
 [[nodiscard]] UnstructuredGrid block_frame(const Simulation& simulation,
-                                           const std::vector<DrawnSurface>& surfaces,
+                                           const std::vector<SubFaceSurface>& surfaces,
                                            const SceneOutput::Fields& fields);
 
 /// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
@@ -86,7 +83,7 @@ class ResultFolder {
   std::filesystem::path folder_;
   SceneOutput output_;
   std::vector<MeasuredPoint> measures_;
-  std::vector<DrawnSurface> surfaces_;
+  std::vector<SubFaceSurface> surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;
   PvdWriter contacts_;

@@ -89,6 +89,27 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
   }
 }
 
+// What the incremental formulation has no meaning for.
+void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
+  if (scene.analysis.formulation != SceneAnalysis::Formulation::incremental) return;
+  const auto refuse = [&](const std::string& key, const std::string& what) {
+    diagnostics.error(scene.places.value(key),
+                      what + ", leave it out or choose analysis.formulation = \"total\"");
+  };
+  if (scene.analysis.type == SceneAnalysis::Type::statics)
+    refuse("analysis.type", "static analysis of incremental blocks (type = \"static\")");
+  if (scene.contact.surface == SceneContact::Surface::curved && scene.places.contains("contact.surface"))
+    refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
+  if (scene.contact.chord_tolerance)
+    refuse("contact.chord_tolerance",
+           fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",
+                       *scene.contact.chord_tolerance));
+  for (std::size_t i = 0; i < scene.material.size(); ++i)
+    if (scene.material[i].elasticity == SceneMaterial::Elasticity::st_venant_kirchhoff)
+      refuse(entry_key("material", i, "elasticity"),
+             "an incremental block accumulates linear stress (\"st-venant-kirchhoff\")");
+}
+
 // A measure's name heads columns of history.csv beside those of the totals.
 void check_measure_names(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.measure.size(); ++i) {
@@ -172,6 +193,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
                     "most {} / time_step = {} is allowed",
                     analysis.mass_damping, most_damping_per_step,
                     most_damping_per_step / analysis.time_step));
+  check_formulation(scene, diagnostics);
   check_names(scene, scene.material, "material", diagnostics);
   check_names(scene, scene.block, "block", diagnostics);
   check_names(scene, scene.measure, "measure", diagnostics);

@@ -3,7 +3,9 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -239,6 +241,37 @@ Polyhedron Polyhedron::with_points(std::vector<Vector3> points) const {
   }
   for (PolyhedronFace& face : moved.faces_) face.normal = area_direction(moved.mesh_, face.triangles);
   return moved;
+}
+
+Polyhedron Polyhedron::with_triangles(TriangleMesh mesh, std::vector<int> face_of_triangle) const {
+  if (face_of_triangle.size() != mesh.triangles.size())
+    throw std::invalid_argument("every triangle needs the face it is a part of");
+  std::map<std::array<double, 3>, int> place;
+  for (std::size_t k = 0; k < mesh.points.size(); ++k) {
+    const Vector3& point = mesh.points[k];
+    place.emplace(std::array{point.x(), point.y(), point.z()}, static_cast<int>(k));
+  }
+  const auto moved_index = [&](int corner) {
+    const Vector3& point = mesh_.points[corner];
+    const auto found = place.find({point.x(), point.y(), point.z()});
+    if (found == place.end()) throw std::invalid_argument("a corner of the solid is not a point of the mesh");
+    return found->second;
+  };
+  Polyhedron result = *this;
+  for (PolyhedronFace& face : result.faces_) {
+    face.triangles.clear();
+    for (auto& loop : face.loops) std::transform(loop.begin(), loop.end(), loop.begin(), moved_index);
+  }
+  for (std::size_t t = 0; t < face_of_triangle.size(); ++t)
+    result.faces_.at(face_of_triangle[t]).triangles.push_back(static_cast<int>(t));
+  for (PolyhedronEdge& edge : result.edges_) {
+    for (int& vertex : edge.vertices) vertex = moved_index(vertex);
+  }
+  for (int& corner : result.corners_) corner = moved_index(corner);
+  std::sort(result.corners_.begin(), result.corners_.end());
+  result.mesh_ = std::move(mesh);
+  result.face_of_triangle_ = std::move(face_of_triangle);
+  return result;
 }
 
 }  // namespace ashlar

@@ -57,11 +57,18 @@ class Polyhedron {
 
   /// The same solid with its points moved and its faces, edges and corners kept as they are: a placed copy of
   /// an exactly modelled shape keeps its flat faces although rounding tilts their triangles by an ulp.
-  /// @param points (#points), m. Rotations, translations and positive scalings only; volume and normals are
-  /// updated.
+  /// @param points (#points), m: rotated, translated, scaled, or of a block that deformed, whose faces are
+  /// then no longer planar; volume and normals are updated.
   /// @throws std::invalid_argument if the number of points differs, a value is not finite, or the volume is
   /// no longer positive and finite.
   [[nodiscard]] Polyhedron with_points(std::vector<Vector3> points) const;
+
+  /// The same solid with its faces covered by other triangles; faces, edges and corners are kept, so that
+  /// midpoints that rounding puts an ulp off a face make no new faces.
+  /// @param mesh its points contain every corner bit for bit; closed, outward
+  /// @param face_of_triangle (#triangles) indices into faces()
+  /// @throws std::invalid_argument if a corner is missing or the sizes differ
+  [[nodiscard]] Polyhedron with_triangles(TriangleMesh mesh, std::vector<int> face_of_triangle) const;
 
  private:
   TriangleMesh mesh_;

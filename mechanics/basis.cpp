@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "mechanics/quadrature.hpp"
 #include "mechanics/simplex_moments.hpp"
 
 namespace ashlar {
@@ -359,6 +360,20 @@ Eigen::MatrixXd PolynomialBasis::values(const std::vector<Vector3>& points) cons
     ++k;
   }
   return phi;
+}
+
+std::vector<Vector3> PolynomialBasis::sample_points() const {
+  const SegmentRule rule = gauss_legendre(order_ + 1);
+  std::vector<Vector3> points;
+  for (const double u : rule.points) {
+    for (const double v : rule.points) {
+      for (const double w : rule.points) {
+        const Vector3 xi = 2.0 * Vector3(u, v, w) - Vector3::Ones();
+        points.emplace_back(center_ + axes_ * (middle_ + half_size_.cwiseProduct(xi)));
+      }
+    }
+  }
+  return points;
 }
 
 Eigen::MatrixX3d PolynomialBasis::gradients(const Vector3& point) const {

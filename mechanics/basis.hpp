@@ -51,6 +51,10 @@ class PolynomialBasis {
   /// phi at many points. @return (#points, p), m^-3/2
   [[nodiscard]] Eigen::MatrixXd values(const std::vector<Vector3>& points) const;
 
+  /// Points that determine a polynomial of this order well: Gauss points of the box along the principal axes.
+  /// @return ((order + 1)^3), m
+  [[nodiscard]] std::vector<Vector3> sample_points() const;
+
   /// Gradients of phi at a material point. @return (p, 3), m^-5/2
   [[nodiscard]] Eigen::MatrixX3d gradients(const Vector3& point) const;
 

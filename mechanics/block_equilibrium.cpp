@@ -65,7 +65,8 @@ bool balance(const BlockModel& block, const Eigen::VectorXd& force, double round
 std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, double time) const {
   if (fixed()) return basis_.identity_map();
   if (!space_.held()) return std::nullopt;
-  const Eigen::VectorXd force = space_.restrict(external_force(gravity, time));
+  Eigen::VectorXd force = space_.restrict(external_force(gravity, time));
+  if (form_) force -= space_.restrict(elastic(basis_.identity_map()).force);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns());
   if (material().elasticity == Elasticity::linear) {
     const Eigen::LLT<Eigen::MatrixXd> factor(reduced_stiffness_);

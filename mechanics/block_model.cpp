@@ -5,11 +5,31 @@
 #include <utility>
 
 namespace ashlar {
+namespace {
+
+std::shared_ptr<const IncrementalForm> form_of(const BlockDefinition& definition) {
+  if (definition.fixed || definition.formulation == Formulation::total) return nullptr;
+  return std::make_shared<const IncrementalForm>(definition);
+}
+
+}  // namespace
 
 BlockModel::BlockModel(BlockDefinition definition)
+    : BlockModel([&] {
+        const auto form = form_of(definition);
+        if (!form) return BlockModel(std::move(definition), nullptr, {});
+        CarriedShape start = form->start();
+        BlockDefinition now = form->definition_at(start);
+        return BlockModel(std::move(now), form, std::move(start));
+      }()) {}
+
+BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form,
+                       CarriedShape carried)
     : definition_(std::move(definition)),
       basis_(*definition_.solid, definition_.fixed ? 1 : definition_.order),
-      space_(basis_.size()) {
+      space_(basis_.size()),
+      form_(std::move(form)),
+      carried_(std::move(carried)) {
   if (fixed()) return;
   space_ = AdmissibleSpace(solid(), basis_, definition_.supports);
   mean_gradients_ = mean_gradients(basis_);
@@ -18,6 +38,37 @@ BlockModel::BlockModel(BlockDefinition definition)
   if (material().elasticity == Elasticity::st_venant_kirchhoff)
     large_ = std::make_shared<const StVenantKirchhoff>(solid(), basis_, material());
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
+}
+
+BlockModel BlockModel::with_shape(CarriedShape shape) const {
+  BlockDefinition now = form_->definition_at(shape);
+  return {std::move(now), form_, std::move(shape)};
+}
+
+CarriedBlock BlockModel::carried_on(const Eigen::MatrixX3d& position) const {
+  const Eigen::MatrixX3d change = position - basis_.identity_map();
+  CarriedShape shape = carried_;
+  const auto move = [&](std::vector<Vector3>& points) {
+    if (points.empty()) return;
+    const Eigen::MatrixX3d motion = basis_.values(points) * change;
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] += motion.row(static_cast<Eigen::Index>(k));
+  };
+  move(shape.points);
+  move(shape.followed);
+  CarriedBlock next{with_shape(std::move(shape)), {}};
+  Vector3 shift = next.model.basis().centroid() - basis_.centroid();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space_.free_along(axis)) shift[axis] = 0.0;
+  }
+  next.re_expansion = re_expansion(basis_, next.model.basis(), shift);
+  next.model.carried_.stress =
+      next.re_expansion * (carried_.stress + added_stress(basis_, material(), change));
+  return next;
+}
+
+Eigen::MatrixX3d CarriedBlock::taken_over(const Eigen::MatrixX3d& field) const {
+  const Eigen::MatrixX3d moved = re_expansion * field;
+  return model.space().expand(model.space().restrict(moved));
 }
 
 BlockState BlockModel::initial_state() const {
@@ -50,6 +101,8 @@ bool BlockModel::loads_change_between(double start, double end) const {
 
 ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
   if (large_) return large_->respond(position);
+  if (form_)
+    return incremental_response(basis_, material(), carried_.stress, position - basis_.identity_map());
   return elastic_response(stiffness_, mean_gradients_, basis_.identity_map(), position, corotational());
 }
 
@@ -86,12 +139,24 @@ double BlockModel::gravity_energy(const BlockState& state, const Vector3& gravit
 
 Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point) const {
   if (fixed()) return Eigen::Matrix3d::Zero();
+  if (form_) {
+    const Eigen::MatrixX3d change = state.position - basis_.identity_map();
+    return incremental_stress(basis_, carried_.stress + added_stress(basis_, material(), change), point);
+  }
   if (large_)
     return st_venant_kirchhoff_stress(material(), state.position.transpose() * basis_.gradients(point));
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   if (corotational()) rotation = polar_decomposition(state.position.transpose() * mean_gradients_).rotation;
   const Eigen::MatrixX3d deformation = state.position * rotation - basis_.identity_map();
   return linear_stress(material(), deformation.transpose() * basis_.gradients(point), rotation);
+}
+
+PointMotion BlockModel::motion_of(const BlockState& state, const Vector3& reference) const {
+  const Vector3& start = form_ ? form_->place(carried_, reference) : reference;
+  const Eigen::VectorXd phi = basis_.values(start);
+  const Vector3 moved = (state.position - basis_.identity_map()).transpose() * phi;
+  return {form_ ? Vector3(start + moved) : Vector3(state.position.transpose() * phi),
+          moved + (start - reference), state.velocity.transpose() * phi, stress(state, start)};
 }
 
 }  // namespace ashlar

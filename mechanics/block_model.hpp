@@ -1,7 +1,9 @@
 // A block: what never changes (BlockModel) and what a step changes (BlockState). A step is a function of
 // both.
 //
-//   x(X, t) = sum_a phi_a(X) q_a(t)      total formulation, theory.md section 1
+//   x(X, t) = sum_a phi_a(X) q_a(t)      theory.md section 1
+// In the total formulation X is the placed, undeformed block. In the incremental one X is the block at the
+// start of the step: each step has a model of its own (carried_on), with q at the identity map in between.
 // Coefficient arrays are (p, 3), see elasticity.hpp.
 #pragma once
 
@@ -10,24 +12,13 @@
 #include <string>
 
 #include "mechanics/basis.hpp"
+#include "mechanics/block_definition.hpp"
 #include "mechanics/elasticity.hpp"
-#include "mechanics/loads.hpp"
-#include "mechanics/material.hpp"
+#include "mechanics/incremental_block.hpp"
 #include "mechanics/st_venant_kirchhoff.hpp"
 #include "mechanics/supports.hpp"
 
 namespace ashlar {
-
-/// Everything a user says about a block.
-struct BlockDefinition {
-  std::string name;
-  std::shared_ptr<const Polyhedron> solid;  ///< placed reference shape, m
-  Material material;
-  int order = 1;
-  bool fixed = false;  ///< never moves, has no unknowns; material is not used
-  std::vector<BlockSupport> supports;
-  std::vector<Load> loads;
-};
 
 /// Coefficients of position and velocity.
 struct BlockState {
@@ -35,12 +26,32 @@ struct BlockState {
   Eigen::MatrixX3d velocity;  ///< dq/dt
 };
 
+/// A material point in some state.
+struct PointMotion {
+  Vector3 place;           ///< m
+  Vector3 displacement;    ///< from the placed, undeformed block, m
+  Vector3 velocity;        ///< m/s
+  Eigen::Matrix3d stress;  ///< Cauchy, Pa, tension positive
+};
+
+struct CarriedBlock;
+
 /// Constant after construction.
 class BlockModel {
  public:
-  /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace and
-  /// load_coefficients do
+  /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
+  /// load_coefficients and IncrementalForm do
   explicit BlockModel(BlockDefinition definition);
+
+  /// Null for blocks of the total formulation.
+  [[nodiscard]] const IncrementalForm* incremental() const { return form_.get(); }
+  /// Of an incremental block, at the start of the step.
+  [[nodiscard]] const CarriedShape& carried() const { return carried_; }
+  /// The model of the next step of an incremental block. @param position at the end of this one
+  /// @throws std::exception if the shape can be no block any more
+  [[nodiscard]] CarriedBlock carried_on(const Eigen::MatrixX3d& position) const;
+  /// An incremental block with another shape.
+  [[nodiscard]] BlockModel with_shape(CarriedShape shape) const;
 
   [[nodiscard]] const std::string& name() const { return definition_.name; }
   [[nodiscard]] const Polyhedron& solid() const { return *definition_.solid; }
@@ -53,7 +64,7 @@ class BlockModel {
   /// 0 for fixed blocks.
   [[nodiscard]] int unknowns() const { return fixed() ? 0 : space_.unknowns(); }
   /// True if the frame of linear elasticity turns with the block (theory.md section 4).
-  [[nodiscard]] bool corotational() const { return space_.can_turn(); }
+  [[nodiscard]] bool corotational() const { return !form_ && space_.can_turn(); }
   [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
 
   /// Undeformed and at rest.
@@ -63,8 +74,8 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixX3d rigid_velocity(const Vector3& velocity,
                                                 const Vector3& angular_velocity) const;
   /// Equilibrium of a block whose supports leave no rigid motion under gravity and its loads at a time,
-  /// contacts off. Empty if the supports leave a rigid motion, or a St.-Venant-Kirchhoff block under its load
-  /// finds none.
+  /// contacts off; of an incremental block that of a step, which ends a little off it. Empty if the supports
+  /// leave a rigid motion, or a St.-Venant-Kirchhoff block under its load finds none.
   [[nodiscard]] std::optional<Eigen::MatrixX3d> equilibrium(const Vector3& gravity, double time) const;
 
   /// Gravity and loads at a time. @return (p, 3), N m^-3/2
@@ -95,8 +106,13 @@ class BlockModel {
   [[nodiscard]] double gravity_energy(const BlockState& state, const Vector3& gravity) const;
   /// Cauchy stress at a material point, Pa, tension positive.
   [[nodiscard]] Eigen::Matrix3d stress(const BlockState& state, const Vector3& point) const;
+  /// What a point of the placed, undeformed block does. @param reference m; of an incremental block one of
+  /// those that IncrementalForm::place knows
+  [[nodiscard]] PointMotion motion_of(const BlockState& state, const Vector3& reference) const;
 
  private:
+  BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form, CarriedShape carried);
+
   BlockDefinition definition_;
   PolynomialBasis basis_;
   AdmissibleSpace space_;
@@ -105,6 +121,17 @@ class BlockModel {
   Eigen::MatrixXd reduced_stiffness_;               ///< Z' K Z of a block that cannot turn
   std::shared_ptr<const StVenantKirchhoff> large_;  ///< null for linear elasticity
   std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
+  std::shared_ptr<const IncrementalForm> form_;
+  CarriedShape carried_;
+};
+
+/// The next step of an incremental block.
+struct CarriedBlock {
+  BlockModel model;
+  Eigen::MatrixXd re_expansion;  ///< (p, p)
+
+  /// A velocity or acceleration taken over, within what the supports allow. @param field (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d taken_over(const Eigen::MatrixX3d& field) const;
 };
 
 }  // namespace ashlar

@@ -5,7 +5,10 @@
 namespace ashlar {
 
 BlockSurface::BlockSurface(const BlockModel& model, int levels) : model_(&model) {
-  if (model.order() >= 2 && !model.fixed()) {
+  if (model.incremental() != nullptr) {
+    whole_ = model.incremental()->surface();
+    start_step();
+  } else if (model.order() >= 2 && !model.fixed()) {
     adaptive_.emplace(model.solid(), model.order(), levels);
     domain_phi_ = model.basis().values(adaptive_->domain_points());
     point_phi_ = model.basis().values(adaptive_->surface().points);
@@ -15,6 +18,12 @@ BlockSurface::BlockSurface(const BlockModel& model, int levels) : model_(&model)
     point_phi_ = model.basis().values(whole_.points);
     largest_phi_ = point_phi_.cwiseAbs().colwise().maxCoeff();
   }
+}
+
+void BlockSurface::start_step() {
+  whole_.points = model_->carried().points;
+  point_phi_ = model_->basis().values(whole_.points);
+  largest_phi_ = point_phi_.cwiseAbs().colwise().maxCoeff();
 }
 
 const SubFaceSurface& BlockSurface::surface() const {

@@ -1,5 +1,5 @@
 // The surface of a block as its motion places it: whole faces of a block that stays affine, adaptive
-// sub-faces of one that curves.
+// sub-faces of one that curves, the fixed division of an incremental one.
 #pragma once
 
 #include <memory>
@@ -18,6 +18,8 @@ class BlockSurface {
   /// start from
   BlockSurface(const BlockModel& model, int levels);
 
+  /// Takes over the coordinates of a new step of an incremental block.
+  void start_step();
   /// Takes the block's present shape.
   void move(const BlockState& state);
   /// Contains the true surface as moved last.
@@ -47,7 +49,7 @@ class BlockSurface {
 
   const BlockModel* model_;
   std::optional<AdaptiveSurface> adaptive_;
-  SubFaceSurface whole_;            ///< of a block that stays affine
+  SubFaceSurface whole_;            ///< of a block that stays affine or is incremental
   Eigen::MatrixXd domain_phi_;      ///< phi at the domain points, or at the points of a whole surface
   Eigen::MatrixXd point_phi_;       ///< phi at the surface's points
   Eigen::RowVectorXd largest_phi_;  ///< (p) no larger in magnitude is each function anywhere on the surface

@@ -43,4 +43,8 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   deepest_ = deepest;
 }
 
+void ContactMemory::carry(const std::function<Vector3(const Vector3&)>& moved) {
+  for (Entry& entry : entries_) entry.material_a = moved(entry.material_a);
+}
+
 }  // namespace ashlar

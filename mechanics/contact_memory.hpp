@@ -3,6 +3,7 @@
 // one between the same faces.
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,9 @@ class ContactMemory {
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest);
+
+  /// Moves the remembered points of block a, whose material coordinates are those of a step's start.
+  void carry(const std::function<Vector3(const Vector3&)>& moved);
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }

@@ -38,6 +38,17 @@ std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane) {
   return result;
 }
 
+std::vector<int> faces_at(const Polyhedron& solid, const BlockPlace& place) {
+  if (const auto* plane = std::get_if<Plane>(&place)) return faces_in_plane(solid, *plane);
+  const auto* list = std::get_if<FaceList>(&place);
+  if (list == nullptr) return {};
+  for (const int face : list->faces) {
+    if (face < 0 || face >= static_cast<int>(solid.faces().size()))
+      throw std::invalid_argument("a face index is not one of the solid");
+  }
+  return list->faces;
+}
+
 SurfaceRule surface_rule(const Polyhedron& solid, const std::vector<int>& faces, int degree) {
   const TriangleRule rule = triangle_rule(degree);
   SurfaceRule result;

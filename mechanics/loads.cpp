@@ -25,7 +25,7 @@ Eigen::MatrixX3d load_coefficients(const Polyhedron& solid, const PolynomialBasi
     if (load.traction) throw std::invalid_argument("a traction needs a plane, not a point");
     return basis.values(*point) * load.vector.transpose();
   }
-  const auto faces = faces_in_plane(solid, std::get<Plane>(load.where));
+  const auto faces = faces_at(solid, load.where);
   if (faces.empty()) throw std::invalid_argument("no face of the block lies in the load's plane");
   const SurfaceRule rule = surface_rule(solid, faces, basis.order());
   const Eigen::Map<const Eigen::VectorXd> weights(rule.weights.data(),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <variant>
 #include <vector>
 
 #include "mechanics/basis.hpp"
@@ -23,8 +22,8 @@ struct History {
 /// A load that keeps its direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N)
 /// spread evenly over them, or a force (N) at a material point.
 struct Load {
-  std::variant<Plane, Vector3> where;  ///< reference coordinates, m
-  bool traction = true;                ///< of a plane: Pa; false: N in all
+  BlockPlace where;      ///< reference coordinates, m
+  bool traction = true;  ///< of a plane: Pa; false: N in all
   Vector3 vector = Vector3::Zero();
   History history;
 };

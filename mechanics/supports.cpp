@@ -19,7 +19,7 @@ Eigen::MatrixXd conditions(const Polyhedron& solid, const PolynomialBasis& basis
       points.push_back(*point);
       continue;
     }
-    const auto faces = faces_in_plane(solid, std::get<Plane>(support.where));
+    const auto faces = faces_at(solid, support.where);
     if (faces.empty()) throw std::invalid_argument("no face of the block lies in the support's plane");
     // A polynomial of order n that vanishes at the points of a rule of degree 2n vanishes on the face.
     const SurfaceRule rule = surface_rule(solid, faces, 2 * basis.order());

@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <array>
-#include <variant>
 #include <vector>
 
 #include "mechanics/basis.hpp"
@@ -13,9 +12,9 @@
 
 namespace ashlar {
 
-/// A support: all faces in a plane, or one material point; chosen components of its displacement are zero.
+/// A support of faces or of one material point; chosen components of its displacement are zero.
 struct BlockSupport {
-  std::variant<Plane, Vector3> where;  ///< reference coordinates, m
+  BlockPlace where;  ///< reference coordinates, m
   std::array<bool, 3> components = {true, true, true};
 };
 
@@ -33,6 +32,10 @@ class AdmissibleSpace {
   [[nodiscard]] int unknowns() const;
   /// True if nothing is supported: Z = I.
   [[nodiscard]] bool free() const { return free_; }
+  /// True if no support holds this component of the displacement anywhere. @param axis 0 to 2
+  [[nodiscard]] bool free_along(int axis) const {
+    return columns(static_cast<std::size_t>(axis)) == functions_;
+  }
   /// True if no rigid motion is admissible: the block can rest under any load.
   [[nodiscard]] bool held() const { return held_; }
   /// True if some rigid motion that turns the block is admissible; false calls for small-displacement theory.

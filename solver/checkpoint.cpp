@@ -12,6 +12,11 @@ static void visit_members(Archive& archive, BlockState& state) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, CarriedShape& shape) {
+  archive(shape.points, shape.followed, shape.stress);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
   archive(memory.slip, memory.state, memory.intact);
 }
@@ -108,11 +113,11 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.accelerations,
-          snapshot.memory, snapshot.contact_work, snapshot.finder, snapshot.report, snapshot.records,
-          snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
-          snapshot.largest_energy, snapshot.largest_penetration, snapshot.rejections, snapshot.counts,
-          snapshot.seconds);
+  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.carried,
+          snapshot.accelerations, snapshot.memory, snapshot.contact_work, snapshot.finder, snapshot.report,
+          snapshot.records, snapshot.ledger, snapshot.statics, snapshot.start_balance,
+          snapshot.largest_step_residual, snapshot.largest_energy, snapshot.largest_penetration,
+          snapshot.rejections, snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -135,6 +140,10 @@ SimulationSnapshot Simulation::snapshot() const {
   result.next_step = next_step_;
   result.steps = steps_;
   result.states = states_;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (blocks_[k].incremental() != nullptr)
+      result.carried.emplace(static_cast<int>(k), blocks_[k].carried());
+  }
   result.accelerations = accelerations_;
   for (const auto& [blocks, memory] : memory_) {
     result.memory.push_back({blocks, memory.entries(), memory.deepest()});
@@ -159,13 +168,18 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   bool fits = snapshot.states.size() == blocks_.size();
   for (std::size_t k = 0; fits && k < blocks_.size(); ++k) {
     fits = snapshot.states[k].position.rows() == states_[k].position.rows() &&
-           snapshot.states[k].velocity.rows() == states_[k].velocity.rows();
+           snapshot.states[k].velocity.rows() == states_[k].velocity.rows() &&
+           snapshot.carried.contains(static_cast<int>(k)) == (blocks_[k].incremental() != nullptr);
   }
   if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
   time_ = snapshot.time;
   next_step_ = snapshot.next_step;
   steps_ = snapshot.steps;
   states_ = snapshot.states;
+  for (const auto& [block, shape] : snapshot.carried) {
+    blocks_[static_cast<std::size_t>(block)] = blocks_[static_cast<std::size_t>(block)].with_shape(shape);
+    finder_.start_step(block);
+  }
   accelerations_ = snapshot.accelerations;
   memory_.clear();
   for (const RememberedPair& pair : snapshot.memory) {

@@ -25,6 +25,7 @@ struct SimulationSnapshot {
   double next_step = 0.0;
   int steps = 0;
   std::vector<BlockState> states;
+  std::map<int, CarriedShape> carried;  ///< of incremental blocks
   std::vector<Eigen::MatrixX3d> accelerations;
   std::vector<RememberedPair> memory;
   std::map<std::array<int, 2>, double> contact_work;

@@ -86,6 +86,8 @@ class ContactFinder {
                                                         const std::vector<FoundContacts>& found);
   /// Takes note that the motion checked last was accepted.
   void accept_motion();
+  /// Takes over the coordinates of a new step of an incremental block.
+  void start_step(int block) { surfaces_[static_cast<std::size_t>(block)].start_step(); }
 
   /// How far points on the blocks' surfaces go in a step under their present velocity and gravity.
   /// @param states must outlive the result

@@ -54,6 +54,10 @@ struct SimulationSettings {
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
 
+  /// with which an incremental block goes to its initial equilibrium at most; a fifth of them is ample for
+  /// small deflections
+  int settling_steps = 50;
+
   // Of a static analysis (static_analysis.hpp):
   /// as residual_tolerance: tighter, as soft motions make more of a force that is not balanced
   double static_residual_tolerance = 1e-13;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace ashlar {
@@ -36,6 +37,8 @@ std::string to_string(RejectionReason reason) {
       return "system not positive definite";
     case RejectionReason::passing:
       return "blocks would have passed through each other";
+    case RejectionReason::no_shape:
+      return "an incremental block would have turned inside out";
   }
   return "unknown";
 }
@@ -55,6 +58,8 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
   }
+  // The surface of an incremental block is its sub-faces.
+  if (any_incremental()) settings_.curved_surface = false;
   measure_energies(ledger_);
   start_balance_ = ledger_.balance();
 }
@@ -62,8 +67,20 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
 void Simulation::settle_supported_blocks() {
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k] || !blocks_[k].supported()) continue;
-    if (auto position = blocks_[k].equilibrium(settings_.gravity, 0.0)) {
+    auto position = blocks_[k].equilibrium(settings_.gravity, 0.0);
+    if (!position) continue;
+    if (blocks_[k].incremental() == nullptr) {
       states_[k].position = std::move(*position);
+      continue;
+    }
+    double last = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < settings_.settling_steps; ++step) {
+      const double way = (*position - states_[k].position).norm();
+      start_carried_step(k, blocks_[k].carried_on(*position));
+      // Rounding is all that is left when steps no longer shrink.
+      if (!(way < last)) break;
+      last = way;
+      position = blocks_[k].equilibrium(settings_.gravity, 0.0);
     }
   }
   measure_energies(ledger_);
@@ -99,6 +116,12 @@ StepStatus Simulation::step(double end_time) {
       continue;
     }
     const std::vector<PassingBlocks> passing = check_motion(trial, found);
+    if (passing.empty() && !carry_blocks(trial)) {
+      rejections_.push_back({time_, step, RejectionReason::no_shape});
+      step *= 0.5;
+      ++cuts;
+      continue;
+    }
     if (passing.empty()) {
       accept(scheme, trial);
       next_step_ = std::min(settings_.time_step, unsettled ? step : 2.0 * next_step_);
@@ -248,8 +271,45 @@ void Simulation::move_block(std::size_t k, const TimeScheme& scheme, const BodyS
       block.space().expand(smooth) / density - scheme.mass_damping * damped, acceleration);
 }
 
+bool Simulation::any_incremental() const {
+  return std::any_of(blocks_.begin(), blocks_.end(),
+                     [](const BlockModel& block) { return block.incremental() != nullptr; });
+}
+
+bool Simulation::carry_blocks(Trial& trial) const {
+  trial.carried.clear();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (blocks_[k].incremental() == nullptr) continue;
+    const Eigen::MatrixX3d change = blocks_[k].space().expand(trial.bodies[k].change);
+    try {
+      trial.carried.emplace(k, blocks_[k].carried_on(states_[k].position + change));
+    } catch (const std::invalid_argument&) {
+      return false;
+    } catch (const std::domain_error&) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Simulation::start_carried_step(std::size_t k, CarriedBlock next) {
+  const Eigen::MatrixX3d change = states_[k].position - blocks_[k].basis().identity_map();
+  const int block = static_cast<int>(k);
+  for (auto pair = memory_.lower_bound({block, 0}); pair != memory_.end() && pair->first[0] == block;
+       ++pair) {
+    pair->second.carry([&](const Vector3& point) {
+      return Vector3(point + change.transpose() * blocks_[k].basis().values(point));
+    });
+  }
+  states_[k].velocity = next.taken_over(states_[k].velocity);
+  if (!accelerations_.empty()) accelerations_[k] = next.taken_over(accelerations_[k]);
+  blocks_[k] = std::move(next.model);
+  states_[k].position = blocks_[k].basis().identity_map();
+  finder_.start_step(block);
+}
+
 void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
-  const auto& [pairs, islands, bodies, results] = trial;
+  const auto& [pairs, islands, bodies, results, carried] = trial;
   solvers_.drop_unused();
   finder_.accept_motion();
   const double last_residual = ledger_.residual;
@@ -302,6 +362,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   ledger_.friction += friction;
   ledger_.numerical -= potential_work + potential_change + friction;
 
+  for (auto& [block, next] : trial.carried) start_carried_step(block, std::move(next));
   time_ += scheme.step;
   ++steps_;
   measure_energies(ledger_);

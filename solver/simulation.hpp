@@ -24,6 +24,7 @@ enum class RejectionReason {
   open_close_not_settled,  ///< reduce time_step or the stiffness of the joints
   not_positive_definite,   ///< a joint or material far too stiff for the step
   passing,                 ///< blocks would have passed through each other: cut to the first touch
+  no_shape,                ///< an incremental block would have turned inside out: reduce time_step
 };
 [[nodiscard]] std::string to_string(RejectionReason reason);
 
@@ -96,7 +97,8 @@ class Simulation {
              SimulationSettings settings);
 
   /// Moves every block whose supports leave no rigid motion to its equilibrium under gravity and the loads at
-  /// time 0, contacts off, at rest. To be called before the first step.
+  /// time 0, contacts off, at rest. To be called before the first step. Incremental blocks go there in steps,
+  /// as far as settings.settling_steps takes them.
   void settle_supported_blocks();
 
   /// Whether nothing is left up to `end_time` but the rounding of summed steps.
@@ -107,8 +109,8 @@ class Simulation {
   [[nodiscard]] StepStatus step(double end_time);
 
   /// Takes one iteration of a static analysis towards equilibrium under the loads of `end_time`. Velocities
-  /// are dropped. time() is that of the loads; a report's step is the length of the dda step that the
-  /// iteration is.
+  /// are dropped. @throws std::logic_error if a block is incremental. time() is that of the loads; a report's
+  /// step is the length of the dda step that the iteration is.
   [[nodiscard]] StaticStatus static_step(double end_time);
   /// Blocks that a static analysis found to be moving, and others that move with them.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
@@ -150,6 +152,7 @@ class Simulation {
     std::vector<Island> islands;
     std::vector<BodyStep> bodies;
     std::vector<IslandResult> results;
+    std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks
   };
   /// Rounding of times that are sums of steps, in parts of a step: a remainder of this length is none.
   static constexpr double step_rounding = 1e-9;
@@ -162,6 +165,10 @@ class Simulation {
   [[nodiscard]] std::vector<BodyStep> prepare_bodies(const TimeScheme& scheme) const;
   /// Accelerations in balance with the smooth forces of the present state.
   [[nodiscard]] std::vector<Eigen::MatrixX3d> smooth_accelerations() const;
+  [[nodiscard]] bool any_incremental() const;
+  /// Makes the next steps of incremental blocks. @return false if one would be no block any more
+  [[nodiscard]] bool carry_blocks(Trial& trial) const;
+  void start_carried_step(std::size_t block, CarriedBlock next);
   void accept(const TimeScheme& scheme, Trial& trial);
   void move_block(std::size_t block, const TimeScheme& scheme, const BodyStep& body);
   /// Adds contacts for blocks that would pass through each other, pairs kept in order.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "solver/automatic.hpp"
 #include "solver/simulation.hpp"
@@ -75,6 +76,7 @@ void Simulation::start_load_level(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time) {
+  if (any_incremental()) throw std::logic_error("incremental blocks have no static analysis");
   if (static_.moving) return StaticStatus::moving;
   if (static_.balanced && reached(end_time)) return StaticStatus::equilibrium;
   if (static_.inertia == 0.0 || static_.balanced) start_load_level(end_time);

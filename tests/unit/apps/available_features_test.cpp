@@ -32,8 +32,6 @@ TEST_P(UnavailableFeature, IsRefusedByNameAtItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, UnavailableFeature,
     ::testing::Values(
-        FaultCase{1, "[analysis]\nformulation = \"incremental\"",
-                  "s.toml:2:15: error: not available in this version"},
         FaultCase{1, "[analysis]\nsolver = \"cg\"", "s.toml:2:10: error: not available in this version"},
         FaultCase{5, "augmented = true",
                   "s.toml:5:13: error: not available in this version (augmented = true)"},
@@ -45,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(AvailableFeatures, WhatIsAvailableMayBeGiven) {
   EXPECT_THAT(refused(sample_with(1,
                                   "[analysis]\ntype = \"static\"\nintegrator = \"generalized-alpha\"\n"
-                                  "formulation = \"total\"\nsolver = \"cholmod\"\nmass_damping = 0.1")),
+                                  "formulation = \"incremental\"\nsolver = \"cholmod\"\nmass_damping = 0.1")),
               IsEmpty());
 }
 

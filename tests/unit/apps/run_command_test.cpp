@@ -139,9 +139,31 @@ TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
             "energy.numerical,"
             "energy.residual,momentum.x,momentum.y,momentum.z,angular_momentum.x,angular_momentum.y,"
             "angular_momentum.z,contacts.open,contacts.locked,contacts.sliding,penetration.max,"
-            "open_close.iterations");
+            "open_close.iterations,tip.sxx,tip.syy,tip.szz,tip.sxy,tip.syz,tip.sxz");
   EXPECT_THAT(rows[1], StartsWith("0,0,0,4,0,0,0,0,0,0,0,0,"));
   EXPECT_THAT(rows[41], StartsWith("40,0.04"));
+}
+
+TEST_F(RunCommand, HistoryEndsWithTheStressOfMeasuredPoints) {
+  // A bar clamped at x = 0 without lateral contraction, pulled by 1000 Pa: stress is that everywhere.
+  std::string bar = scene_text;
+  bar.replace(bar.find("poisson_ratio = 0.2"), 19, "poisson_ratio = 0.0");
+  bar.insert(bar.find("[[measure]]"),
+             "[[block.load]]\nplane = { point = [4, 0, 0], normal = [1, 0, 0] }\ntraction = [1000, 0, 0]\n");
+  write_text(scene_, bar);
+  for (const char* formulation : {"total", "incremental"}) {
+    ASSERT_EQ(
+        run(formulation, {"--set", "analysis.initial_state=equilibrium", "--set", "analysis.gravity=[0,0,0]",
+                          "--set", std::string("analysis.formulation=") + formulation}),
+        exit_status::done)
+        << faults_;
+    std::istringstream row(lines(std::string(formulation) + "/history.csv").at(1));
+    std::vector<double> values;
+    for (std::string value; std::getline(row, value, ',');) values.push_back(std::stod(value));
+    ASSERT_EQ(values.size(), 38U);
+    EXPECT_NEAR(values[32], 1000.0, 1e-5);
+    for (std::size_t k = 33; k < 38; ++k) EXPECT_NEAR(values[k], 0.0, 1e-5);
+  }
 }
 
 TEST_F(RunCommand, ContactsOfEveryFrameAreInTheTable) {
@@ -222,6 +244,17 @@ TEST_F(RunCommand, FailedRunSavesItsLastState) {
     EXPECT_GT(summary["rejected_steps"]["count"], 0);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint"));
   }
+}
+
+TEST_F(RunCommand, ResumedIncrementalRunIsTheRunThatNeverStopped) {
+  const std::vector<std::string> incremental = {"--set", "analysis.formulation=incremental"};
+  ASSERT_EQ(run("straight", incremental), exit_status::done) << faults_;
+  ASSERT_EQ(run("cut", {"--set", "analysis.formulation=incremental", "--set", "analysis.end_time=0.025"}),
+            exit_status::done)
+      << faults_;
+  ASSERT_EQ(run("cut", {"--resume", "--set", "analysis.formulation=incremental"}), exit_status::done)
+      << faults_;
+  expect_same_results("straight", "cut");
 }
 
 TEST_F(RunCommand, ResumedRunIsTheRunThatNeverStopped) {
