@@ -29,6 +29,7 @@ nlohmann::ordered_json counts_of(const Simulation& simulation) {
           {"searches_at_the_limit_of_sub_faces", finder.divisions_at_limit},
           {"contact_points", counts.contact_points},
           {"open_close_iterations", counts.open_close_iterations},
+          {"open_close_fallbacks", counts.open_close_fallbacks},
           {"predicates_by_filter", finder.predicates.filter},
           {"predicates_exact", finder.predicates.exact},
           {"share_of_exact_predicates",

@@ -12,28 +12,44 @@ PointLaw point_law(const JointLaw& law, double area, bool intact) {
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0};
-  const double normal = -law.normal_stiffness * gap;
-  if (normal < -law.tension || (gap > 0.0 && law.tension == 0.0)) return response;
-  response.force[0] = normal;
-  response.tangent(0, 0) = law.normal_stiffness;
-  response.energy = 0.5 * law.normal_stiffness * gap * gap;
-
-  const double limit = std::max(normal, 0.0) * law.friction + law.cohesion;
-  const double length = slip.norm();
-  if (law.shear_stiffness * length <= limit) {
+  const bool held = law.held_limit >= 0.0;
+  const double normal = law.normal_multiplier - law.normal_stiffness * gap;
+  const bool open =
+      normal < -law.tension || (gap > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
+  if (open && law.held_limit <= 0.0) return response;
+  if (!open) {
+    response.force[0] = normal;
+    response.tangent(0, 0) = law.normal_stiffness;
+    response.energy = 0.5 * law.normal_stiffness * gap * gap;
+  }
+  const double limit = held ? law.held_limit : std::max(normal, 0.0) * law.friction + law.cohesion;
+  const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;
+  const double length = trial.norm();
+  if (length <= limit) {
     response.state = ContactState::locked;
-    response.force.tail<2>() = -law.shear_stiffness * slip;
+    response.force.tail<2>() = trial;
     response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(law.shear_stiffness);
-    response.energy += 0.5 * law.shear_stiffness * length * length;
+    response.energy += 0.5 * law.shear_stiffness * slip.squaredNorm();
     return response;
   }
   response.state = ContactState::sliding;
-  const Eigen::Vector2d direction = slip / length;
-  response.force.tail<2>() = -limit * direction;
+  const Eigen::Vector2d direction = trial / length;
+  response.force.tail<2>() = limit * direction;
   response.tangent.bottomRightCorner<2, 2>() =
-      limit / length * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
-  if (law.shear_stiffness > 0.0) response.energy += 0.5 * limit * limit / law.shear_stiffness;
+      law.shear_stiffness * limit / length *
+      (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+  if (law.shear_stiffness > 0.0 && !law.augmented)
+    response.energy += 0.5 * limit * limit / law.shear_stiffness;
   return response;
+}
+
+Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response) {
+  const Eigen::Vector2d shear = response.force.tail<2>();
+  const double length = shear.norm();
+  if (response.state != ContactState::sliding || response.force[0] <= 0.0 || law.held_limit >= 0.0 ||
+      length == 0.0)
+    return Eigen::Vector2d::Zero();
+  return law.friction * law.normal_stiffness / length * shear;
 }
 
 MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
@@ -41,7 +57,7 @@ MeanResponse mean_response(const PointLaw& law, const PointResponse& start, doub
   MeanResponse mean{0.5 * (start.force + end.force), 0.5 * end.tangent};
   const bool start_open = start.state == ContactState::open;
   const bool end_open = end.state == ContactState::open;
-  if (start_open == end_open || law.tension > 0.0) return mean;
+  if (start_open == end_open || law.tension > 0.0 || law.augmented) return mean;
   // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
   const double difference = end_gap - start_gap;
   if (start_open) {
@@ -63,6 +79,7 @@ Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
     case ContactState::locked:
       return slip;
     case ContactState::sliding:
+      if (law.augmented) return Eigen::Vector2d::Zero();
       return -response.force.tail<2>() / law.shear_stiffness;
   }
   return slip;

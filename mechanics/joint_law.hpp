@@ -7,6 +7,10 @@
 //     open     g > 0, or N < -T A while the joint is intact
 //     locked   |ks s| <= max(N, 0) tan(phi) + c A     shear force on a: -ks s
 //     sliding  otherwise                              shear force on a: -(max(N, 0) tan(phi) + c A) s/|s|
+//
+// With multipliers (augmented contact) N = lambda_n - kn g and the trial shear force is lambda_s - ks s.
+// With a held limit the shear force is bounded by that limit whatever N is, also across an open gap: the
+// forces are then the gradient of a convex function of (g, s), which Coulomb's law has not.
 #pragma once
 
 #include <Eigen/Dense>
@@ -32,11 +36,15 @@ struct JointLaw {
 
 /// One point's constants within a step.
 struct PointLaw {
-  double normal_stiffness;  ///< kn, N/m
-  double shear_stiffness;   ///< ks, N/m
-  double friction;          ///< tan(phi)
-  double cohesion;          ///< c A of an intact joint, else 0, N
-  double tension;           ///< T A of an intact joint, else 0, N
+  double normal_stiffness;   ///< kn, N/m
+  double shear_stiffness;    ///< ks, N/m
+  double friction;           ///< tan(phi)
+  double cohesion;           ///< c A of an intact joint, else 0, N
+  double tension;            ///< T A of an intact joint, else 0, N; infinity: a joint that must not break now
+  double held_limit = -1.0;  ///< N; >= 0: the bound of the shear force, whatever the normal force is
+  bool augmented = false;    ///< a sliding point keeps no elastic slip: its force is the next multiplier
+  double normal_multiplier = 0.0;                              ///< lambda_n, N
+  Eigen::Vector2d shear_multiplier = Eigen::Vector2d::Zero();  ///< lambda_s, N
 };
 
 /// @param area tributary area of the point, m^2. @param intact false once the joint has failed
@@ -55,6 +63,10 @@ struct PointResponse {
 /// @param gap m; @param slip trial slip (2), m, as if locked
 [[nodiscard]] PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip);
 
+/// -d (shear force) / d g of a sliding point under Coulomb's law, which PointResponse::tangent leaves out;
+/// zero of others.
+[[nodiscard]] Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response);
+
 /// Force and tangent that act over a whole step, from the responses at its start and end, such that the work
 /// of the normal force is the change of the spring's energy exactly, also when the point opens or closes on
 /// the way (a discrete gradient); shear forces are averaged. The tangent is the derivative by the end of the
@@ -68,7 +80,7 @@ struct MeanResponse {
                                          const PointResponse& end, double end_gap);
 
 /// The elastic slip that is left after a step with this trial slip: the spring of a sliding point stays at
-/// the limit.
+/// the limit, that of an augmented one is taken over by the multiplier.
 [[nodiscard]] Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
                                            const Eigen::Vector2d& slip);
 

@@ -102,8 +102,8 @@ static void visit_members(Archive& archive, FactorCounts& counts) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationCounts& counts) {
-  archive(counts.finder, counts.contact_points, counts.open_close_iterations, counts.passing_contacts,
-          counts.factors);
+  archive(counts.finder, counts.contact_points, counts.open_close_iterations, counts.open_close_fallbacks,
+          counts.passing_contacts, counts.factors);
 }
 
 template <class Archive>

@@ -81,16 +81,17 @@ Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::V
   return result;
 }
 
-PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged) const {
+PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
+                                  const std::vector<PointLaw>& laws) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   PairResponse response;
   Eigen::VectorXd forces(place.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    const PointResponse end = point_response(laws_[k], place(0, column), place.col(column).tail<2>());
+    const PointResponse end = point_response(laws[k], place(0, column), place.col(column).tail<2>());
     response.points.push_back(end);
     response.means.push_back(
-        averaged ? mean_response(laws_[k], start_responses_[k], start_(0, column), end, place(0, column))
+        averaged ? mean_response(laws[k], start_responses_[k], start_(0, column), end, place(0, column))
                  : MeanResponse{end.force, end.tangent});
     forces.segment<3>(3 * column) = response.means.back().force;
   }
@@ -151,6 +152,29 @@ ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
   return tangent;
 }
 
+Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response, bool averaged,
+                                                const std::vector<PointLaw>& laws) {
+  Eigen::Matrix2Xd result(2, static_cast<Eigen::Index>(laws.size()));
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    result.col(static_cast<Eigen::Index>(k)) =
+        (averaged ? 0.5 : 1.0) * sliding_coupling(laws[k], response.points[k]);
+  return result;
+}
+
+void ContactPair::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da,
+                               const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
+                               Eigen::Ref<Eigen::VectorXd> to_b) const {
+  for (Eigen::Index k = 0; k < couplings.cols(); ++k) {
+    if (couplings.col(k).isZero(0.0)) continue;
+    double opening = 0.0;
+    if (da.size() > 0) opening += rows_a_.row(3 * k).dot(da);
+    if (db.size() > 0) opening -= rows_b_.row(3 * k).dot(db);
+    const Eigen::Vector2d force = opening * couplings.col(k);
+    if (da.size() > 0) to_a += rows_a_.middleRows<2>(3 * k + 1).transpose() * force;
+    if (db.size() > 0) to_b -= rows_b_.middleRows<2>(3 * k + 1).transpose() * force;
+  }
+}
+
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   std::vector<double> result;
@@ -158,32 +182,35 @@ std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::Ve
   return result;
 }
 
-std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response, const Eigen::VectorXd& ya,
+std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
+                                                   const std::vector<PointLaw>& laws,
+                                                   const Eigen::VectorXd& ya,
                                                    const Eigen::VectorXd& yb) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   std::vector<PointMemory> result;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
     const Eigen::Vector2d slip =
-        elastic_slip(laws_[k], point, place.col(static_cast<Eigen::Index>(k)).tail<2>());
+        elastic_slip(laws[k], point, place.col(static_cast<Eigen::Index>(k)).tail<2>());
     PointMemory memory;
     memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
     memory.state = point.state;
-    memory.intact = memory_[k].intact && point.state == ContactState::locked;
+    const bool broken = laws_[k].tension > 0.0 && laws[k].tension == 0.0;
+    memory.intact = memory_[k].intact && point.state == ContactState::locked && !broken;
     result.push_back(memory);
   }
   return result;
 }
 
-double ContactPair::friction_work(const PairResponse& response, const Eigen::VectorXd& ya,
-                                  const Eigen::VectorXd& yb) const {
+double ContactPair::friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                  const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   double work = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
     if (point.state != ContactState::sliding) continue;
     const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
-    work += point.force.tail<2>().dot(elastic_slip(laws_[k], point, slip) - slip);
+    work += point.force.tail<2>().dot(elastic_slip(laws[k], point, slip) - slip);
   }
   return work;
 }

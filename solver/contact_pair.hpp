@@ -47,9 +47,17 @@ class ContactPair {
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
 
+  /// Laws of the points at the start of the step.
+  [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
+
   /// @param averaged false: forces are those at the end of the step; true: see MeanResponse
+  /// @param laws of the points, as an open-close iteration has them
+  [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
+                                     const std::vector<PointLaw>& laws) const;
   [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                                     bool averaged) const;
+                                     bool averaged) const {
+    return respond(ya, yb, averaged, laws_);
+  }
   /// Spring energy at the start of the step, J.
   [[nodiscard]] double start_energy() const;
 
@@ -62,14 +70,25 @@ class ContactPair {
   };
   [[nodiscard]] Tangent tangent(const PairResponse& response) const;
 
+  /// -d (shear force) / d gap of every point (sliding_coupling), halved where forces are means. @return (2,
+  /// #)
+  [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response, bool averaged,
+                                                          const std::vector<PointLaw>& laws);
+  /// Adds to the forces of a and b what the couplings make of changes of the unknowns: the part of the
+  /// Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks.
+  void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
+                    Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
+
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
-  /// Memory after an accepted step.
-  [[nodiscard]] std::vector<PointMemory> memory_after(const PairResponse& response, const Eigen::VectorXd& ya,
+  /// Memory after an accepted step. @param laws that gave the response
+  [[nodiscard]] std::vector<PointMemory> memory_after(const PairResponse& response,
+                                                      const std::vector<PointLaw>& laws,
+                                                      const Eigen::VectorXd& ya,
                                                       const Eigen::VectorXd& yb) const;
   /// Work that sliding takes in the step, J, >= 0.
-  [[nodiscard]] double friction_work(const PairResponse& response, const Eigen::VectorXd& ya,
-                                     const Eigen::VectorXd& yb) const;
+  [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                     const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Spring energy at the end of the step, J.
   [[nodiscard]] static double energy(const PairResponse& response);
 

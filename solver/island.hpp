@@ -1,7 +1,5 @@
 // Islands: sets of blocks that touch each other. Each is solved on its own by an open-close iteration
-// (theory.md section 8) that is a Newton iteration at the same time: with the states of all contact points
-// and the elastic frames of all blocks taken from the last guess it solves a linear system, until states and
-// forces no longer change.
+// (open_close.hpp).
 #pragma once
 
 #include <map>
@@ -17,7 +15,7 @@ namespace ashlar {
 /// How an open-close iteration ended.
 enum class IslandStatus {
   settled,
-  not_settled,            ///< states or forces kept changing: cut the step
+  not_settled,            ///< not even the fallback balanced the forces: cut the step
   not_positive_definite,  ///< the system could not be factorised: cut the step
 };
 
@@ -36,8 +34,10 @@ struct BodyStep {
 /// Result of one island.
 struct IslandResult {
   IslandStatus status = IslandStatus::settled;
-  int iterations = 0;
-  std::vector<PairResponse> responses;  ///< of the island's pairs, at the end of the step
+  int iterations = 0;                       ///< guesses that were balanced or found not to be
+  int fallbacks = 0;                        ///< times the fallback was needed
+  std::vector<PairResponse> responses;      ///< of the island's pairs, at the end of the step
+  std::vector<std::vector<PointLaw>> laws;  ///< of their points: broken joints, multipliers
 };
 
 /// Factorisations that are kept from step to step, by the blocks and pairs of an island.

@@ -48,8 +48,19 @@ struct SimulationSettings {
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
   double smallest_cut = 0.01;
 
-  int max_iterations = 40;       ///< of an open-close iteration; more: the step is cut
-  int undamped_iterations = 12;  ///< after these, changes are halved, which breaks most cycles
+  // Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
+  // where the others are exceeded the step is cut.
+  int newton_iterations = 16;
+  double newton_overshoot = 0.3;   ///< 0 to 1: work along a change that may be undone by going all its way
+  int newton_patience = 3;         ///< iterations that do not halve what is left, one after another
+  int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
+  double krylov_tolerance = 1e-8;  ///< 0 to 1: larger, and Newton takes more iterations
+  int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
+  int minimiser_iterations = 60;   ///< of one pass
+  double minimiser_share = 1e-2;   ///< of what is left under Coulomb's law: how well one pass is solved
+  int line_search_steps = 30;
+  double line_search_tolerance = 0.05;  ///< of the work at the start of a line
+  double least_relaxation = 0.1;        ///< 0 to 1: smallest share of a change of bounds that is taken
   double residual_tolerance =
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed

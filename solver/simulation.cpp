@@ -165,6 +165,7 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   for (const Island& island : trial.islands) {
     trial.results.push_back(solve_island(island, trial.bodies, trial.pairs, scheme, settings_, solvers_));
     counts_.open_close_iterations += static_cast<std::uint64_t>(trial.results.back().iterations);
+    counts_.open_close_fallbacks += static_cast<std::uint64_t>(trial.results.back().fallbacks);
     if (trial.results.back().status != IslandStatus::settled) return trial.results.back().status;
   }
   return IslandStatus::settled;
@@ -334,6 +335,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
     for (std::size_t n = 0; n < islands[i].pairs.size(); ++n) {
       const ContactPair& pair = pairs[at(islands[i].pairs[n])];
       const PairResponse& after = results[i].responses[n];
+      const std::vector<PointLaw>& laws = results[i].laws[n];
       const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
       const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
       const double work = (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) +
@@ -341,7 +343,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       potential_work += work;
       potential_change += ContactPair::energy(after) - pair.start_energy();
       ledger_.contact += ContactPair::energy(after);
-      friction += pair.friction_work(after, ya, yb);
+      friction += pair.friction_work(after, laws, ya, yb);
       auto gaps = pair.gaps(ya, yb);
       double deepest = 0.0;
       for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -353,7 +355,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
         deepest = std::max(deepest, -gaps[k]);
       }
       report_.penetration = std::max(report_.penetration, deepest);
-      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, ya, yb), deepest);
+      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest);
       records_.push_back({pair.a(), pair.b(), pair.points(), after.points, std::move(gaps),
                           contact_work_[{pair.a(), pair.b()}] += work});
     }

@@ -46,6 +46,7 @@ struct SimulationCounts {
   FinderCounts finder;
   std::uint64_t contact_points = 0;
   std::uint64_t open_close_iterations = 0;
+  std::uint64_t open_close_fallbacks = 0;  ///< times Newton went round in circles (open_close.hpp)
   std::uint64_t passing_contacts =
       0;  ///< contacts added because blocks at rest on each other's rim would pass
   FactorCounts factors;

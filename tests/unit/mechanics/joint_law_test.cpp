@@ -71,6 +71,59 @@ TEST(JointLaw, SlidingTangentIsTheDerivativeAtConstantNormalForce) {
       slip, -response.tangent.bottomRightCorner<2, 2>(), 1e-9, 1e-6);
 }
 
+TEST(JointLaw, CouplingIsWhatTheTangentLeavesOut) {
+  const PointLaw point = point_law(law, 0.1, false);
+  const Eigen::Vector3d place(-1e-5, 3e-5, -7e-5);
+  const PointResponse response = point_response(point, place[0], place.tail<2>());
+  Eigen::Matrix3d whole = response.tangent;
+  whole.col(0).tail<2>() += sliding_coupling(point, response);
+  test_support::expect_derivative(
+      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        return point_response(point, x[0], x.tail<2>()).force;
+      },
+      place, -whole, 1e-9, 1e-6);
+  const PointResponse locked = point_response(point, -1e-5, {1e-6, 0});
+  EXPECT_TRUE(sliding_coupling(point, locked).isZero(0.0));
+}
+
+TEST(JointLaw, AHeldLimitActsWhateverTheNormalForce) {
+  PointLaw point = point_law(law, 0.1, false);
+  point.held_limit = 100.0;  // N, at ks A = 1e8 N/m reached at 1e-6 m
+  for (const double gap : {-1e-5, 1.0}) {
+    const PointResponse sliding = point_response(point, gap, {3e-5, 4e-5});
+    EXPECT_EQ(sliding.state, ContactState::sliding);
+    EXPECT_NEAR(sliding.force[0], gap < 0.0 ? 2000.0 : 0.0, 1e-9);
+    EXPECT_NEAR(sliding.force[1], -60.0, 1e-12);
+    EXPECT_NEAR(sliding.force[2], -80.0, 1e-12);
+    EXPECT_TRUE(sliding_coupling(point, sliding).isZero(0.0));
+    const PointResponse locked = point_response(point, gap, {0.9e-6, 0});
+    EXPECT_EQ(locked.state, ContactState::locked);
+    EXPECT_NEAR(locked.force[1], -90.0, 1e-12);
+  }
+  point.held_limit = 0.0;
+  EXPECT_EQ(point_response(point, 1.0, {3e-5, 4e-5}).state, ContactState::open);
+}
+
+TEST(JointLaw, MultipliersAddToTheSprings) {
+  PointLaw point = point_law(law, 0.1, false);
+  point.augmented = true;
+  point.normal_multiplier = 500.0;
+  point.shear_multiplier = {200.0, 0.0};
+  // N = 500 + 2000 N, limit 1250 N; shear 200 - 1e8 * 1e-6 = 100 N.
+  const PointResponse locked = point_response(point, -1e-5, {1e-6, 0});
+  EXPECT_EQ(locked.state, ContactState::locked);
+  EXPECT_NEAR(locked.force[0], 2500.0, 1e-9);
+  EXPECT_NEAR(locked.force[1], 100.0, 1e-9);
+  // N = 500 - 400 N across a gap of 2e-6 m.
+  EXPECT_NEAR(point_response(point, 2e-6, {1.5e-6, 0}).force[0], 100.0, 1e-9);
+  EXPECT_EQ(point_response(point, 2.6e-6, {0, 0}).state, ContactState::open);
+  const Eigen::Vector2d far(-5e-5, 0.0);
+  const PointResponse sliding = point_response(point, -1e-5, far);
+  EXPECT_EQ(sliding.state, ContactState::sliding);
+  EXPECT_NEAR(sliding.force[1], 1250.0, 1e-9);
+  EXPECT_TRUE(elastic_slip(point, sliding, far).isZero(0.0));
+}
+
 TEST(JointLaw, MeanForceDoesExactlyTheWorkOfTheSpring) {
   const PointLaw point = point_law(law, 0.1, false);
   for (const auto& [g0, g1] :

@@ -1,0 +1,22 @@
+// Linear systems given by what a matrix does to a vector (Saad and Schultz 1986), for those that are near the
+// identity: a handful of iterations, no restart.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace ashlar {
+
+/// Outcome of a GMRES iteration.
+struct KrylovSolution {
+  Eigen::VectorXd x;
+  bool converged = false;  ///< false: x is the best of the iterations allowed
+  int iterations = 0;
+};
+
+/// Minimises |b - A x| over growing Krylov spaces from x = 0.
+/// @param times A x; @param tolerance of |b - A x| / |b|; @param most iterations, each one product
+[[nodiscard]] KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& times,
+                                   const Eigen::VectorXd& right_side, double tolerance, int most);
+
+}  // namespace ashlar

@@ -1,0 +1,197 @@
+#include "solver/island_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/gmres.hpp"
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+}  // namespace
+
+IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies,
+                             const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                             const SimulationSettings& settings, IslandSolvers::Entry& solver)
+    : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme), solver_(solver) {
+  for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
+  for (const int pair : island.pairs) laws_.push_back(pairs[at(pair)].laws());
+}
+
+int IslandProblem::place(int block) const {
+  const auto found = place_.find(block);
+  return found == place_.end() ? -1 : found->second;
+}
+
+const ContactPair& IslandProblem::pair(std::size_t k) const {
+  return pairs_[at(island_.pairs[k])];
+}
+
+void IslandProblem::predict() {
+  for (const int index : island_.bodies) {
+    BodyStep& body = bodies_[at(index)];
+    const double mass = scheme_.inertia * body.model->material().density;
+    body.change = body.free_change;
+    if (scheme_.from_rest) continue;
+    body.change += scheme_.force_weight / mass * body.external_force;
+  }
+}
+
+/// Where the elastic force of a body is taken.
+Eigen::MatrixX3d IslandProblem::taken_at(const BodyStep& body) const {
+  return body.state->position + scheme_.end_share * body.model->space().expand(body.change);
+}
+
+void IslandProblem::respond() {
+  for (const int index : island_.bodies) {
+    BodyStep& body = bodies_[at(index)];
+    body.elastic = body.model->elastic(taken_at(body));
+  }
+  responses_.clear();
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    responses_.push_back(pair(k).respond(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change,
+                                         scheme_.mean_contacts, laws_[k]));
+  }
+}
+
+Balance IslandProblem::balance() const {
+  Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size), 0.0};
+  std::vector<double> scale(island_.bodies.size(), 0.0);
+  const auto add = [&](int body, const Eigen::VectorXd& force) {
+    result.left.segment(solver_.matrix.offset(body), force.size()) += force;
+    scale[at(body)] = std::max(scale[at(body)], force.norm());
+  };
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    const BodyStep& body = bodies_[at(island_.bodies[k])];
+    const int place = static_cast<int>(k);
+    const double density = body.model->material().density;
+    add(place, scheme_.force_weight * body.external_force);
+    add(place, -scheme_.force_weight * body.model->space().restrict(body.elastic.force));
+    add(place, -density * scheme_.inertia * (body.change - body.free_change));
+  }
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    if (const int a = place(pair(k).a()); a >= 0) add(a, responses_[k].total_on_a());
+    if (const int b = place(pair(k).b()); b >= 0) add(b, responses_[k].total_on_b());
+  }
+  const double tolerance =
+      scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    const double rounding = body.roundoff_force + 8.0 * std::numeric_limits<double>::epsilon() *
+                                                      body.model->material().density * scheme_.inertia *
+                                                      (body.change.norm() + body.free_change.norm());
+    const double left =
+        result.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.change.size()).norm();
+    body.largest_force = scale[k];
+    if (left == 0.0) continue;
+    const double share = left / (tolerance * scale[k] + rounding);
+    // Numbers that overflowed have settled nothing, and no comparison with them may say so.
+    result.worst = std::isfinite(share) && std::isfinite(scale[k]) ? std::max(result.worst, share)
+                                                                   : std::numeric_limits<double>::infinity();
+  }
+  return result;
+}
+
+void IslandProblem::assemble(bool positive) {
+  BlockMatrix& matrix = solver_.matrix;
+  matrix.set_zero();
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    const BodyStep& body = bodies_[at(island_.bodies[k])];
+    matrix.add_diagonal(static_cast<int>(k), scheme_.force_weight * scheme_.end_share *
+                                                 body.model->tangent(taken_at(body), body.elastic, positive));
+    matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
+  }
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    const ContactPair::Tangent tangent = pair(k).tangent(responses_[k]);
+    const int a = place(pair(k).a());
+    const int b = place(pair(k).b());
+    if (a >= 0) matrix.add_diagonal(a, tangent.aa);
+    if (b >= 0) matrix.add_diagonal(b, tangent.bb);
+    if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
+  }
+}
+
+FactorStatus IslandProblem::factorize() {
+  assemble(false);
+  const FactorStatus status = solver_.factor.factorize(solver_.matrix.matrix());
+  if (status != FactorStatus::not_positive_definite) return status;
+  // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
+  assemble(true);
+  return solver_.factor.factorize(solver_.matrix.matrix());
+}
+
+Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block) const {
+  const int place_of_block = place(block);
+  if (place_of_block < 0) return {};
+  return of_island.segment(solver_.matrix.offset(place_of_block), bodies_[at(block)].change.size());
+}
+
+Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool coupled) {
+  std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>> couplings;
+  for (std::size_t k = 0; coupled && k < pairs(); ++k) {
+    Eigen::Matrix2Xd found = ContactPair::sliding_couplings(responses_[k], scheme_.mean_contacts, laws_[k]);
+    if (!found.isZero(0.0)) couplings.emplace_back(k, std::move(found));
+  }
+  if (couplings.empty()) return solver_.factor.solve(right_side);
+  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
+    Eigen::VectorXd nothing;
+    for (const auto& [k, coupling] : couplings) {
+      const int a = place(pair(k).a());
+      const int b = place(pair(k).b());
+      const Eigen::VectorXd of_a = part(x, pair(k).a());
+      const Eigen::VectorXd of_b = part(x, pair(k).b());
+      pair(k).add_coupling(
+          coupling, of_a, of_b,
+          a < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
+                : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(a), of_a.size())),
+          b < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
+                : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(b), of_b.size())));
+    }
+    return x + solver_.factor.solve(force);
+  };
+  return gmres(times, solver_.factor.solve(right_side), settings_.krylov_tolerance,
+               settings_.krylov_iterations)
+      .x;
+}
+
+void IslandProblem::apply(const Eigen::VectorXd& change, double share) {
+  for (const int index : island_.bodies) bodies_[at(index)].change += share * part(change, index);
+}
+
+std::vector<Eigen::VectorXd> IslandProblem::guess() const {
+  std::vector<Eigen::VectorXd> result;
+  for (const int index : island_.bodies) result.push_back(bodies_[at(index)].change);
+  return result;
+}
+
+void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
+  for (std::size_t k = 0; k < guess.size(); ++k) bodies_[at(island_.bodies[k])].change = guess[k];
+}
+
+std::vector<ContactState> IslandProblem::states() const {
+  std::vector<ContactState> result;
+  for (const PairResponse& response : responses_) {
+    for (const PointResponse& point : response.points) result.push_back(point.state);
+  }
+  return result;
+}
+
+std::vector<std::vector<double>> IslandProblem::gaps() const {
+  std::vector<std::vector<double>> result;
+  for (std::size_t k = 0; k < pairs(); ++k)
+    result.push_back(pair(k).gaps(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change));
+  return result;
+}
+
+void IslandProblem::hand_over(IslandResult& result) {
+  result.responses = std::move(responses_);
+  result.laws = std::move(laws_);
+}
+
+}  // namespace ashlar

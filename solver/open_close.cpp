@@ -1,0 +1,235 @@
+#include "solver/open_close.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ashlar {
+namespace {
+
+enum class Outcome {
+  settled,
+  stalled,   ///< states came back, or what is left does not fall
+  singular,  ///< the system could not be factorised
+};
+
+class OpenClose {
+ public:
+  OpenClose(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result)
+      : problem_(problem), settings_(settings), result_(result) {}
+
+  Outcome run() {
+    bond();
+    problem_.predict();
+    problem_.respond();
+    for (;;) {
+      Outcome outcome = newton(settings_.newton_iterations, false);
+      if (outcome == Outcome::stalled) {
+        ++result_.fallbacks;
+        outcome = minimise();
+      }
+      if (outcome != Outcome::settled) return outcome;
+      if (!break_joints()) return outcome;
+      problem_.respond();
+    }
+  }
+
+ private:
+  /// Joints with tensile strength do not break before what pulls at them is balanced.
+  void bond() {
+    for (auto& laws : problem_.laws()) {
+      strengths_.emplace_back();
+      for (PointLaw& law : laws) {
+        strengths_.back().push_back(law.tension);
+        if (law.tension > 0.0) law.tension = std::numeric_limits<double>::infinity();
+      }
+    }
+  }
+
+  /// Breaks the joints with at least half of the largest overstress; false if none is overstressed.
+  bool break_joints() {
+    double most = 0.0;
+    const auto excess = [&](std::size_t pair, std::size_t point) {
+      return std::isinf(problem_.laws()[pair][point].tension)
+                 ? -problem_.responses()[pair].points[point].force[0] - strengths_[pair][point]
+                 : 0.0;
+    };
+    for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
+      for (std::size_t k = 0; k < strengths_[pair].size(); ++k) most = std::max(most, excess(pair, k));
+    }
+    if (!(most > 0.0)) return false;
+    for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
+      for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
+        if (excess(pair, k) < 0.5 * most) continue;
+        problem_.laws()[pair][k].tension = 0.0;
+        problem_.laws()[pair][k].cohesion = 0.0;
+      }
+    }
+    return true;
+  }
+
+  /// One linear system and its factor. @return false if there is none
+  bool direction(const Balance& balance, bool coupled, Eigen::VectorXd& change) {
+    if (problem_.factorize() != FactorStatus::success) return false;
+    change = problem_.solve(balance.left, coupled);
+    return true;
+  }
+
+  /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
+  Outcome newton(int most, bool closing) {
+    std::vector<std::vector<ContactState>> seen;
+    least_ = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
+    for (int k = 1; k <= most; ++k) {
+      ++result_.iterations;
+      const Balance balance = problem_.balance();
+      // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
+      // wide.
+      if (balance.settled() && !(problem_.scheme().from_rest && result_.iterations == 1))
+        return Outcome::settled;
+      // Slip that turns round leaves the states as they are.
+      without_gain = balance.worst < 0.5 * least_ ? 0 : without_gain + 1;
+      if (!std::isfinite(balance.worst) || without_gain > (closing ? 0 : settings_.newton_patience))
+        return Outcome::stalled;
+      if (balance.worst < least_) {
+        least_ = balance.worst;
+        if (!closing) best_ = problem_.guess();
+      }
+      std::vector<ContactState> states = problem_.states();
+      if (std::find(seen.begin(), seen.end(), states) != seen.end() && states != seen.back())
+        return Outcome::stalled;
+      seen.push_back(std::move(states));
+      Eigen::VectorXd change;
+      if (!direction(balance, true, change)) return Outcome::singular;
+      if (closing) {
+        problem_.apply(change, 1.0);
+        problem_.respond();
+      } else {
+        search(change, balance.left.dot(change), settings_.newton_overshoot, 1.0);
+      }
+    }
+    return Outcome::stalled;
+  }
+
+  /// Bounds of the shear forces that the last responses imply.
+  [[nodiscard]] std::vector<double> bounds() {
+    std::vector<double> result;
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
+        const PointLaw& law = problem_.laws()[pair][k];
+        const PointResponse& point = problem_.responses()[pair].points[k];
+        result.push_back(std::max(point.force[0], 0.0) * law.friction + law.cohesion);
+      }
+    }
+    return result;
+  }
+
+  void hold(const std::vector<double>& limits) {
+    std::size_t n = 0;
+    for (auto& laws : problem_.laws()) {
+      for (PointLaw& law : laws) law.held_limit = limits[n++];
+    }
+    problem_.respond();
+  }
+
+  void release() {
+    for (auto& laws : problem_.laws()) {
+      for (PointLaw& law : laws) law.held_limit = -1.0;
+    }
+    problem_.respond();
+  }
+
+  Outcome minimise() {
+    problem_.set_guess(best_);
+    problem_.respond();
+    std::vector<double> limits = bounds();
+    double share = 1.0;
+    double last_change = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < settings_.fallback_passes; ++pass) {
+      hold(limits);
+      // A minimum need not be met better than its bounds are known; newton() sees to the rest.
+      const double target = std::max(1.0, settings_.minimiser_share * least_);
+      if (const Outcome inner = minimise_held(target); inner != Outcome::settled) return inner;
+      release();
+      const std::vector<Eigen::VectorXd> guess = problem_.guess();
+      const std::vector<double> next = bounds();
+      const Outcome finished = newton(settings_.newton_iterations, true);
+      if (finished == Outcome::settled) return finished;
+      problem_.set_guess(guess);
+      double change = 0.0;
+      for (std::size_t k = 0; k < next.size(); ++k) change = std::max(change, std::abs(next[k] - limits[k]));
+      if (change > 0.9 * last_change) share = std::max(0.5 * share, settings_.least_relaxation);
+      last_change = change;
+      for (std::size_t k = 0; k < next.size(); ++k) limits[k] += share * (next[k] - limits[k]);
+    }
+    return Outcome::stalled;
+  }
+
+  /// The minimum with the present bounds held. @param target of Balance::worst
+  Outcome minimise_held(double target) {
+    for (int k = 0; k < settings_.minimiser_iterations; ++k) {
+      ++result_.iterations;
+      const Balance balance = problem_.balance();
+      if (balance.worst <= target) return Outcome::settled;
+      if (!std::isfinite(balance.worst)) return Outcome::stalled;
+      Eigen::VectorXd change;
+      if (!direction(balance, false, change)) return Outcome::singular;
+      search(change, balance.left.dot(change), settings_.line_search_tolerance, 16.0);
+    }
+    return Outcome::stalled;
+  }
+
+  /// Moves along a direction: by all of it, or to about where the forces do no more work along it, which for
+  /// forces with a potential is the minimum on this line.
+  /// @param work_at_start of the forces per share; none is searched for if it is not positive
+  /// @param tolerance of the work, as a share of it; @param farthest share that is looked at, >= 1
+  void search(const Eigen::VectorXd& change, double work_at_start, double tolerance, double farthest) {
+    double at = 0.0;
+    const auto work = [&](double share) {
+      problem_.apply(change, share - at);
+      at = share;
+      problem_.respond();
+      return problem_.balance().left.dot(change);
+    };
+    double low = 0.0;
+    double work_low = work_at_start;
+    double high = 1.0;
+    double work_high = work(high);
+    const double enough = tolerance * work_at_start;
+    if (!(work_at_start > 0.0)) return;
+    while (work_high > enough && high < farthest) {
+      low = high;
+      work_low = work_high;
+      high *= 2.0;
+      work_high = work(high);
+    }
+    double found = work_high;
+    for (int k = 0; k < settings_.line_search_steps && std::abs(found) > enough && work_high < 0.0; ++k) {
+      // False position, and every third time the middle: the work has kinks.
+      const double share =
+          k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * work_low / (work_low - work_high);
+      found = work(share);
+      (found > 0.0 ? low : high) = share;
+      (found > 0.0 ? work_low : work_high) = found;
+    }
+  }
+
+  IslandProblem& problem_;
+  const SimulationSettings& settings_;
+  IslandResult& result_;
+  std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
+  double least_ = 0.0;                          ///< Balance::worst of the last newton() at its best
+  std::vector<Eigen::VectorXd> best_;           ///< the guess that was the best of the first newton()
+};
+
+}  // namespace
+
+void iterate_open_close(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result) {
+  const Outcome outcome = OpenClose(problem, settings, result).run();
+  problem.hand_over(result);
+  result.status = outcome == Outcome::settled    ? IslandStatus::settled
+                  : outcome == Outcome::singular ? IslandStatus::not_positive_definite
+                                                 : IslandStatus::not_settled;
+}
+
+}  // namespace ashlar
