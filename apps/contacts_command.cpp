@@ -44,7 +44,7 @@ Diagnostic fault_at(const std::string& origin, int line, int column, std::string
 
 // A file ready for reports, or what is wrong with it.
 struct LoadedBody {
-  std::optional<ContactBody> body;
+  std::optional<ReportedSolid> body;
   std::vector<Diagnostic> faults;
 };
 

@@ -21,6 +21,7 @@ nlohmann::ordered_json counts_of(const Simulation& simulation) {
   const FinderCounts& finder = counts.finder;
   const auto predicates = static_cast<double>(finder.predicates.filter + finder.predicates.exact);
   return {{"block_pairs_tested", finder.block_pairs_tested},
+          {"convex_pairs", finder.convex_pairs},
           {"block_pairs_skipped", finder.block_pairs_skipped},
           {"block_pairs_known_apart", finder.block_pairs_far},
           {"block_pairs_followed_through_a_step", finder.motions_checked},

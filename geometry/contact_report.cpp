@@ -6,47 +6,13 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/rounded_convexity.hpp"
 #include "geometry/rounding_mode.hpp"
 #include "geometry/solid_contacts.hpp"
 
 namespace ashlar {
 
 namespace {
-
-// The third point of the triangle of a face that has the edge from -> to as a side; -1 if there is none.
-int apex_over(const Polyhedron& solid, int face, int from, int to) {
-  for (const int t : solid.faces()[face].triangles) {
-    const auto& c = solid.mesh().triangles[t];
-    for (int k = 0; k < 3; ++k)
-      if (c[k] == from && c[(k + 1) % 3] == to) return c[(k + 2) % 3];
-  }
-  return -1;
-}
-
-// True if every concave edge is no deeper than rounding of the coordinates explains.
-[[gnu::noinline]] bool is_convex_but_for_rounding(const Polyhedron& solid) {
-  const std::vector<Vector3>& x = solid.mesh().points;
-  NumericRange range;
-  double greatest = 0.0;
-  for (const Vector3& p : x) {
-    for (int i = 0; i < 3; ++i) range.include(p[i]);
-    greatest = std::max(greatest, p.cwiseAbs().maxCoeff());
-  }
-  const double unit = std::nextafter(greatest, std::numeric_limits<double>::infinity()) - greatest;
-  const double deepest = rounding_dent_units * unit;
-  range.include(deepest);
-  PredicateLadder ladder;
-  ladder.open(range);
-  return std::all_of(solid.edges().begin(), solid.edges().end(), [&](const PolyhedronEdge& edge) {
-    if (edge.convex) return true;
-    const auto [from, to] = edge.vertices;
-    const int left = apex_over(solid, edge.faces[0], from, to);
-    const int right = apex_over(solid, edge.faces[1], to, from);
-    if (left < 0 || right < 0) return false;
-    const ContactDirection w = ContactDirection::cross({&x[to], &x[from]}, {&x[right], &x[left]});
-    return !is_zero(w, ladder) && is_within(w, {&x[left], &x[from]}, deepest, false, ladder);
-  });
-}
 
 // True if the triangles of a face have all of some points.
 bool has_points(const Polyhedron& solid, int face, const std::vector<int>& points) {
@@ -72,7 +38,7 @@ Vector3 opposite(const Vector3& v) {
 }
 
 // The corner of a body that reaches farthest along a direction.
-Vector3 farthest_corner(const ContactBody& body, const Vector3& direction) {
+Vector3 farthest_corner(const ReportedSolid& body, const Vector3& direction) {
   const std::vector<Vector3>& x = body.shape()->corners();
   return *std::max_element(x.begin(), x.end(), [&](const Vector3& p, const Vector3& q) {
     return direction.dot(p) < direction.dot(q);
@@ -82,7 +48,7 @@ Vector3 farthest_corner(const ContactBody& body, const Vector3& direction) {
 // Writes the contact of one region in the features of the meshes.
 class ContactWriter {
  public:
-  ContactWriter(const ContactBody& a, const ContactBody& b, const ContactRegion& region,
+  ContactWriter(const ReportedSolid& a, const ReportedSolid& b, const ContactRegion& region,
                 const Vector3& normal)
       : a_(a), b_(b), region_(region), normal_(normal) {}
 
@@ -130,11 +96,11 @@ class ContactWriter {
     p.gap = p.plane_normal.dot(p.point - p.plane_point);
     p.foot = p.point - p.gap * p.plane_normal;
   }
-  [[nodiscard]] static Vector3 facet_corner(const ContactBody& body, const ContactFeature& facet) {
+  [[nodiscard]] static Vector3 facet_corner(const ReportedSolid& body, const ContactFeature& facet) {
     return body.shape()->corners()[body.shape()->facet(facet.index)[0]];
   }
 
-  const ContactBody &a_, &b_;
+  const ReportedSolid &a_, &b_;
   const ContactRegion& region_;
   const Vector3& normal_;
 };
@@ -148,7 +114,7 @@ ConvexReport convex_report(const ContactRegion& region, const Vector3& normal, D
 
 }  // namespace
 
-ContactBody::ContactBody(Polyhedron solid) : solid_(std::move(solid)) {
+ReportedSolid::ReportedSolid(Polyhedron solid) : solid_(std::move(solid)) {
   const NearestRounding nearest;
   is_hull_ = !solid_.convex();
   if (is_hull_ && !is_convex_but_for_rounding(solid_)) return;
@@ -159,7 +125,7 @@ ContactBody::ContactBody(Polyhedron solid) : solid_(std::move(solid)) {
   }
 }
 
-ReportedFeature ContactBody::feature(const ContactFeature& of_shape) const {
+ReportedFeature ReportedSolid::feature(const ContactFeature& of_shape) const {
   ReportedFeature feature{of_shape.dimension, -1, {}};
   if (of_shape.index < 0) return feature;
   const std::vector<int>& source = shape_->source_points();
@@ -184,7 +150,7 @@ ReportedFeature ContactBody::feature(const ContactFeature& of_shape) const {
   return feature;
 }
 
-ContactReport report_contact(const ContactBody& a, const ContactBody& b,
+ContactReport report_contact(const ReportedSolid& a, const ReportedSolid& b,
                              const std::optional<Resolution>& resolution) {
   if (a.shape() == nullptr || b.shape() == nullptr) {
     if (resolution && resolution->sine > 0.0) throw NotConvexError();

@@ -15,12 +15,6 @@
 
 namespace ashlar {
 
-/// A concave edge that is at most this many units in the last place of the mesh's greatest coordinate below
-/// its convex counterpart counts as rounding. Each of the four corners of two triangles is off by at most
-/// 2 units in each coordinate after a rotation and a translation in floating point, two of them towards and
-/// two away from the others: 2 * 2 * sqrt(3) < 7. Such meshes are marked in every report.
-inline constexpr int rounding_dent_units = 8;
-
 /// A corner, edge or face of a solid as Polyhedron numbers it.
 struct ReportedFeature {
   int dimension = -1;  ///< 0 corner, 1 edge, 2 face
@@ -90,9 +84,9 @@ struct ContactReport {
 };
 
 /// A solid made ready for reports. Constant after construction.
-class ContactBody {
+class ReportedSolid {
  public:
-  explicit ContactBody(Polyhedron solid);
+  explicit ReportedSolid(Polyhedron solid);
 
   [[nodiscard]] const Polyhedron& solid() const { return solid_; }
   /// Its exact shape, or that of its hull; null if it is not convex.
@@ -119,7 +113,7 @@ class NotConvexError : public std::invalid_argument {
 /// type.
 /// @throws NotConvexError for a resolution with an angle if one of the two is not convex;
 /// std::invalid_argument as classify_at().
-[[nodiscard]] ContactReport report_contact(const ContactBody& a, const ContactBody& b,
+[[nodiscard]] ContactReport report_contact(const ReportedSolid& a, const ReportedSolid& b,
                                            const std::optional<Resolution>& resolution = std::nullopt);
 
 }  // namespace ashlar

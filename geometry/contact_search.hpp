@@ -8,11 +8,11 @@
 // a.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "geometry/overlap_polygon.hpp"
-#include "geometry/placed_surface.hpp"
-#include "geometry/view_frame.hpp"
+#include "geometry/cell_overlap.hpp"
+#include "geometry/contact_type.hpp"
 
 namespace ashlar {
 
@@ -21,23 +21,6 @@ struct ContactLimits {
   double reach = 0.0;        ///< m, largest gap, beyond the chord bounds of curved cells
   double penetration = 0.0;  ///< m, deepest entrance that is still taken as one through this face
   double angle = 0.0;        ///< rad, how far two faces may be from parallel to meet as face-face, 0 to pi/4
-};
-
-/// A corner of an overlap polygon: where it lies in both cells (corner or side by the cell's own numbering).
-/// Which corners there are and what they are made of is exact for the given doubles; the place is rounded.
-struct OverlapCorner {
-  PlaneLocation in_a;
-  PlaneLocation in_b;
-  Eigen::Vector2d place;  ///< in the frame's plane, m
-};
-
-/// Two cells whose faces face each other.
-struct CellOverlap {
-  int cell_a;
-  int cell_b;
-  ViewFrame frame;                     ///< w is the mean direction of the two normals, out of b
-  std::vector<OverlapCorner> corners;  ///< at least 3, counter-clockwise seen against w, each once
-  std::vector<double> gaps;            ///< of the flat cells at each corner along w, m
 };
 
 /// A point of one block's surface over a cell of the other.
@@ -71,6 +54,8 @@ struct PairContacts {
   std::vector<CellOverlap> overlaps;
   std::vector<VertexContact> vertices;
   std::vector<EdgeContact> edges;
+  /// Of two convex solids as a whole (convex_search.hpp).
+  std::optional<ContactType> type;
   DecisionCounts counts;
   [[nodiscard]] bool empty() const { return overlaps.empty() && vertices.empty() && edges.empty(); }
 };

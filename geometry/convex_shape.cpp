@@ -65,7 +65,13 @@ ConvexShape ConvexShape::from_triangle(const Vector3& a, const Vector3& b, const
 
 ConvexShape ConvexShape::from_polyhedron(const Polyhedron& solid) {
   if (!solid.convex()) throw std::invalid_argument("convex shape: the solid is not convex");
-  const TriangleMesh& mesh = solid.mesh();
+  ConvexShape shape = hull_of(solid.mesh());
+  for (int f = 0; f < shape.facet_count(); ++f)
+    if (shape.source_triangles_[f] < 0) shape.source_triangles_[f] = triangle_of_face(solid, shape, f);
+  return shape;
+}
+
+ConvexShape ConvexShape::hull_of(const TriangleMesh& mesh) {
   try {
     return from_mesh(mesh);
   } catch (const std::invalid_argument&) {
@@ -74,8 +80,7 @@ ConvexShape ConvexShape::from_polyhedron(const Polyhedron& solid) {
     for (std::size_t v = 0; v < shape.corners_.size(); ++v)
       shape.source_points_[v] = static_cast<int>(
           std::find(mesh.points.begin(), mesh.points.end(), shape.corners_[v]) - mesh.points.begin());
-    for (int f = 0; f < shape.facet_count(); ++f)
-      shape.source_triangles_[f] = triangle_of_face(solid, shape, f);
+    shape.source_triangles_.assign(shape.source_triangles_.size(), -1);
     return shape;
   }
 }

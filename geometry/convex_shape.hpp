@@ -43,6 +43,11 @@ class ConvexShape {
   /// is concave beyond what flips of edges repair.
   [[nodiscard]] static ConvexShape from_mesh(const TriangleMesh& mesh);
 
+  /// As from_mesh, but what flips of edges do not repair becomes the hull of the mesh's points: for a placed
+  /// copy of a convex solid, however much its points are off their faces.
+  /// @throws std::invalid_argument if the points are coplanar or not finite.
+  [[nodiscard]] static ConvexShape hull_of(const TriangleMesh& mesh);
+
   [[nodiscard]] bool flat() const { return flat_; }
   /// (#corners), m.
   [[nodiscard]] const std::vector<Vector3>& corners() const { return corners_; }

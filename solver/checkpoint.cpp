@@ -76,7 +76,7 @@ static void visit_members(Archive& archive, DecisionCounts& counts) {
 
 template <class Archive>
 static void visit_members(Archive& archive, FinderCounts& counts) {
-  archive(counts.block_pairs_tested, counts.block_pairs_skipped, counts.block_pairs_far,
+  archive(counts.block_pairs_tested, counts.convex_pairs, counts.block_pairs_skipped, counts.block_pairs_far,
           counts.motions_checked, counts.divisions, counts.divisions_at_limit, counts.predicates);
 }
 
@@ -91,8 +91,14 @@ static void visit_members(Archive& archive, Clearance& clearance) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, EntranceName& name) {
+  archive(name.kind, name.a, name.b, name.reversed);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, FinderState& state) {
-  archive(state.paths, state.boxes, state.box_paths, state.clearances, state.divisions, state.counts);
+  archive(state.paths, state.boxes, state.box_paths, state.clearances, state.entrances, state.divisions,
+          state.counts);
 }
 
 template <class Archive>

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/box_pairs.hpp"
+#include "geometry/rounded_convexity.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -54,6 +55,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
   for (const BlockModel& block : blocks) {
     surfaces_.emplace_back(block, settings.subdivisions);
     moving_.push_back(!block.fixed());
+    convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
   }
 }
 
@@ -131,6 +133,40 @@ void ContactFinder::note_clearance(const PairKey& pair) {
   clearances_[pair] = {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
 }
 
+void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
+                                        const std::function<double(int, int)>& deepest) {
+  std::map<PairKey, EntranceName> entrances;
+  std::vector<std::size_t> open;
+  std::vector<std::optional<ConvexSurface>> hulls(surfaces_.size());
+  for (std::size_t k = 0; k < searched.size(); ++k) {
+    auto& [blocks, contacts] = searched[k];
+    if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])]) continue;
+    if (!contacts.overlaps.empty()) {
+      contacts.type = ContactType::face_face;
+      entrances.emplace(blocks, entrance_of_faces(contacts.overlaps.front()));
+      continue;
+    }
+    open.push_back(k);
+    for (const int block : blocks)
+      if (!hulls[at(block)]) hulls[at(block)].emplace(placed(block));
+  }
+  counts_.convex_pairs += open.size();
+  std::vector<std::optional<EntranceName>> settled(open.size());
+  parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
+    auto& [blocks, contacts] = searched[open[k]];
+    ContactHistory history;
+    if (const auto known = entrances_.find(blocks); known != entrances_.end())
+      history.entrance = known->second;
+    // What the last step has not left so deep was not met through that facet.
+    history.depth =
+        settings_.passing_share * settings_.contact_distance + 2.0 * deepest(blocks[0], blocks[1]);
+    settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
+  });
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (settled[k]) entrances.emplace(searched[open[k]].blocks, *settled[k]);
+  entrances_ = std::move(entrances);
+}
+
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,
                                                const ExpectedMotion& motion,
                                                const std::function<double(int, int)>& deepest) {
@@ -154,6 +190,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
     const auto& [a, b] = searched[k].blocks;
     searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
   });
+  settle_convex_pairs(searched, deepest);
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
     counts_.predicates.filter += pair.contacts.counts.filter;
@@ -233,7 +270,7 @@ void ContactFinder::accept_motion() {
 }
 
 FinderState ContactFinder::state() const {
-  FinderState state{paths_, boxes_, box_paths_, clearances_, {}, counts_};
+  FinderState state{paths_, boxes_, box_paths_, clearances_, entrances_, {}, counts_};
   for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.wanted());
   return state;
 }
@@ -243,6 +280,7 @@ void ContactFinder::restore(const FinderState& state) {
   boxes_ = state.boxes;
   box_paths_ = state.box_paths;
   clearances_ = state.clearances;
+  entrances_ = state.entrances;
   for (std::size_t k = 0; k < surfaces_.size() && k < state.divisions.size(); ++k)
     surfaces_[k].set_wanted(state.divisions[k]);
   counts_ = state.counts;

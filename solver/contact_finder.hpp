@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/convex_search.hpp"
 #include "geometry/motion_check.hpp"
 #include "mechanics/block_surface.hpp"
 #include "solver/settings.hpp"
@@ -38,6 +39,7 @@ struct Clearance {
 /// What was done and skipped.
 struct FinderCounts {
   std::uint64_t block_pairs_tested = 0;   ///< whose surfaces were searched
+  std::uint64_t convex_pairs = 0;         ///< of them, convex solids that were classified as such
   std::uint64_t block_pairs_skipped = 0;  ///< whose boxes cannot meet in the step
   std::uint64_t block_pairs_far = 0;      ///< known to be too far apart to have met since the last search
   std::uint64_t motions_checked = 0;      ///< pairs whose surfaces were followed through a step
@@ -53,6 +55,7 @@ struct FinderState {
   std::vector<Box> boxes;
   std::vector<double> box_paths;
   std::map<std::array<int, 2>, Clearance> clearances;
+  std::map<std::array<int, 2>, EntranceName> entrances;
   std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
   FinderCounts counts;
 };
@@ -107,9 +110,13 @@ class ContactFinder {
   void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
   [[nodiscard]] bool known_apart(const PairKey& pair, double reach) const;
   void note_clearance(const PairKey& pair);
+  /// Completes the contacts of pairs of convex solids, with history.
+  void settle_convex_pairs(std::vector<FoundContacts>& searched,
+                           const std::function<double(int, int)>& deepest);
 
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
+  std::vector<bool> convex_;  ///< convex solids whose faces stay flat
   std::vector<BlockSurface> surfaces_;
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
   std::vector<Box> boxes_;              ///< true boxes when blocks were looked at last; empty: never
@@ -119,6 +126,7 @@ class ContactFinder {
   std::vector<double> paths_;           ///< what the fastest point of each block has gone so far at most, m
   std::vector<double> checked_motion_;  ///< of the motion checked last
   std::map<PairKey, Clearance> clearances_;
+  std::map<PairKey, EntranceName> entrances_;  ///< history of convex pairs that are near each other
   FinderCounts counts_;
 };
 

@@ -280,10 +280,10 @@ TEST(ConvexSolids, HaveTheContactOfTheConvexClassifier) {
   std::map<ContactType, int> seen;
   for (int round = 0; round < 3000; ++round) {
     TriangleMesh mesh = lattice_hull(random);
-    const ContactBody a{Polyhedron(lattice_hull(random))};
+    const ReportedSolid a{Polyhedron(lattice_hull(random))};
     const Vector3 shift(pick(random, 5), pick(random, 4), pick(random, 2));
     for (Vector3& p : mesh.points) p += shift;
-    const ContactBody b{Polyhedron(mesh)};
+    const ReportedSolid b{Polyhedron(mesh)};
     const ContactReport expected = report_contact(a, b);
     if (expected.relation == Relation::crossing) continue;
     for (const auto& distance : {std::optional<double>(), std::optional<double>(1000.0)}) {

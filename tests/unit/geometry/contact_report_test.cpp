@@ -14,25 +14,25 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::UnorderedElementsAre;
 
-ContactBody box(const Vector3& low, const Vector3& high) {
-  return ContactBody(Polyhedron(make_box(low, high)));
+ReportedSolid box(const Vector3& low, const Vector3& high) {
+  return ReportedSolid(Polyhedron(make_box(low, high)));
 }
 
-ContactBody unit_cube(const Vector3& low = Vector3::Zero()) {
+ReportedSolid unit_cube(const Vector3& low = Vector3::Zero()) {
   return box(low, low + Vector3::Ones());
 }
 
-ContactBody hull(const std::vector<Vector3>& points) {
-  return ContactBody(Polyhedron(make_convex_hull(points)));
+ReportedSolid hull(const std::vector<Vector3>& points) {
+  return ReportedSolid(Polyhedron(make_convex_hull(points)));
 }
 
 // Lower edge along x from (-1, 0, z) to (1, 0, z), widening upwards.
-ContactBody keel(double z) {
+ReportedSolid keel(double z) {
   return hull({{-1, 0, z}, {1, 0, z}, {-1, -1, z + 2}, {-1, 1, z + 2}, {1, -1, z + 2}, {1, 1, z + 2}});
 }
 
 // Upper edge along y from (0, -1, 0) to (0, 1, 0), widening downwards.
-ContactBody ridge() {
+ReportedSolid ridge() {
   return hull({{0, -1, 0}, {0, 1, 0}, {-1, -1, -2}, {1, -1, -2}, {-1, 1, -2}, {1, 1, -2}});
 }
 
@@ -75,7 +75,7 @@ TEST(ContactReport, CubesFaceToFace) {
 
 TEST(ContactReport, EdgeLyingOnAFace) {
   // The edge of the keel from x = -1 to 1 reaches over the cube, which ends at x = 0 and 1.
-  const ContactBody a = keel(1), b = unit_cube({0, -0.5, 0});
+  const ReportedSolid a = keel(1), b = unit_cube({0, -0.5, 0});
   const ContactReport report = report_contact(a, b);
   EXPECT_EQ(report.relation, Relation::touching);
   EXPECT_EQ(report.convex->type, ContactType::edge_face);
@@ -90,7 +90,7 @@ TEST(ContactReport, EdgeLyingOnAFace) {
 }
 
 TEST(ContactReport, SkewEdgesAtADistance) {
-  const ContactBody a = keel(1), b = ridge();
+  const ReportedSolid a = keel(1), b = ridge();
   const ContactReport report = report_contact(a, b);
   EXPECT_EQ(report.relation, Relation::apart);
   EXPECT_EQ(report.squared_distance, 1.0);
@@ -135,7 +135,7 @@ TEST(ContactReport, CrossingHasADepthAndTheTranslationsThatEndIt) {
 }
 
 TEST(ContactReport, SwapExchangesTheRoles) {
-  const ContactBody a = unit_cube({0.5, 0.5, 1.5}), b = box({0, 0, 0}, {3, 3, 1});
+  const ReportedSolid a = unit_cube({0.5, 0.5, 1.5}), b = box({0, 0, 0}, {3, 3, 1});
   const ContactReport ab = report_contact(a, b), ba = report_contact(b, a);
   EXPECT_EQ(ab.relation, ba.relation);
   EXPECT_EQ(ab.squared_distance, ba.squared_distance);
@@ -160,15 +160,15 @@ TEST(ContactReport, SwapExchangesTheRoles) {
 TEST(ContactReport, ResolutionTurnsAnAlmostLevelFaceIntoAFace) {
   // The lower face of a block over a wide slab is inclined by 2^-20 in both directions.
   const double t = 0x1p-20;
-  const ContactBody a = hull({{0, 0, 1},
-                              {1, 0, 1 + t},
-                              {0, 1, 1 + t},
-                              {1, 1, 1 + 2 * t},
-                              {0, 0, 3},
-                              {1, 0, 3},
-                              {0, 1, 3},
-                              {1, 1, 3}});
-  const ContactBody b = box({-4, -4, 0}, {4, 4, 1});
+  const ReportedSolid a = hull({{0, 0, 1},
+                                {1, 0, 1 + t},
+                                {0, 1, 1 + t},
+                                {1, 1, 1 + 2 * t},
+                                {0, 0, 3},
+                                {1, 0, 3},
+                                {0, 1, 3},
+                                {1, 1, 3}});
+  const ReportedSolid b = box({-4, -4, 0}, {4, 4, 1});
   EXPECT_EQ(report_contact(a, b).convex->type, ContactType::vertex_face);
   const ContactReport coarse = report_contact(a, b, Resolution{0x1p-10, 0.0});
   EXPECT_EQ(coarse.relation, Relation::touching);
@@ -191,7 +191,7 @@ TEST(ContactReport, RotatedCubesAreTakenAsTheirHulls) {
     p = Vector3(q.x(), 8.0 / 17.0 * q.y() - 15.0 / 17.0 * q.z(), 15.0 / 17.0 * q.y() + 8.0 / 17.0 * q.z());
   }
   const Polyhedron rotated(mesh);
-  const ContactBody body(rotated);
+  const ReportedSolid body(rotated);
   ASSERT_NE(body.shape(), nullptr);
   EXPECT_EQ(body.is_hull(), !rotated.convex());
   // Every facet is named after a face of the mesh that has its corners, or after those.
@@ -224,10 +224,10 @@ TEST(ContactReport, SolidsThatAreReallyConcaveHaveNoShape) {
   EXPECT_NE(first_is_convex, Polyhedron(ridge_mesh).convex());
   for (const TriangleMesh& mesh : {valley, ridge_mesh}) {
     const Polyhedron solid(mesh);
-    EXPECT_EQ(ContactBody(solid).shape() != nullptr, solid.convex());
+    EXPECT_EQ(ReportedSolid(solid).shape() != nullptr, solid.convex());
   }
-  EXPECT_EQ(ContactBody(Polyhedron(test_support::make_dented_cube(0.5))).shape(), nullptr);
-  const ContactBody l(Polyhedron(test_support::make_l_prism()));
+  EXPECT_EQ(ReportedSolid(Polyhedron(test_support::make_dented_cube(0.5))).shape(), nullptr);
+  const ReportedSolid l(Polyhedron(test_support::make_l_prism()));
   EXPECT_FALSE(report_contact(l, unit_cube()).convex);
   EXPECT_THROW((void)report_contact(l, unit_cube(), Resolution{0.0, 0.5}), NotConvexError);
 }

@@ -1,0 +1,141 @@
+#include "geometry/convex_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "geometry/contact_report.hpp"
+#include "support/placed_bodies.hpp"
+#include "support/sample_meshes.hpp"
+
+namespace ashlar {
+namespace {
+
+using Body = test_support::PlacedBody;
+using test_support::box;
+
+const ContactLimits limits{0.02, 0.02, 10.0 * std::numbers::pi / 180.0};
+
+struct Found {
+  PairContacts contacts;
+  std::optional<EntranceName> entrance;
+};
+
+Found search(const Body& a, const Body& b, const std::optional<EntranceName>& history = std::nullopt) {
+  Found found{find_contacts(a.placed, b.placed, limits), std::nullopt};
+  if (!found.contacts.overlaps.empty()) {
+    found.entrance = entrance_of_faces(found.contacts.overlaps.front());
+    return found;
+  }
+  const ConvexSurface of_a(a.placed), of_b(b.placed);
+  found.entrance = settle_convex_contacts(of_a, of_b, {history, 0.001}, found.contacts);
+  return found;
+}
+
+Polyhedron moved(const Polyhedron& solid, const Eigen::AngleAxisd& turn, const Vector3& shift) {
+  std::vector<Vector3> points;
+  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point + shift);
+  return solid.with_points(std::move(points));
+}
+
+Polyhedron divided_box(const Vector3& low, const Vector3& high) {
+  TriangleMesh mesh = test_support::make_divided_cube(3);
+  for (Vector3& point : mesh.points) point = low + point.cwiseProduct(high - low);
+  return Polyhedron(std::move(mesh));
+}
+
+/// A square pyramid of height 1, its apex at the origin, below (1) or above (-1) its base.
+Polyhedron pyramid(double up, double half_side) {
+  std::vector<Vector3> points = {Vector3::Zero()};
+  for (const double x : {-half_side, half_side})
+    for (const double y : {-half_side, half_side}) points.emplace_back(x, y, up);
+  return Polyhedron(make_convex_hull(points));
+}
+
+TEST(ConvexSearch, TipOnTipIsHeldByTheFaceItWasOutsideOf) {
+  // The lower tip is |x|, |y| <= -z/2: its face towards x is 2x + z = 0, with normal (2, 0, 1)/sqrt(5).
+  const Body below(pyramid(-1, 0.5));
+  const Body beside(moved(pyramid(1, 0.25), Eigen::AngleAxisd::Identity(), {0.004, 0, 0.001}));
+  const Found before = search(beside, below);
+  ASSERT_TRUE(before.entrance.has_value());
+  ASSERT_EQ(before.contacts.vertices.size(), 1U);
+  EXPECT_NEAR(before.contacts.vertices[0].gap, 0.009 / std::sqrt(5.0), 1e-15);
+  // Then the upper tip is 0.0004/sqrt(5) below that face, and 0.0002/sqrt(5) below the one towards y.
+  const Body above(moved(pyramid(1, 0.25), Eigen::AngleAxisd::Identity(), {0.0003, 0.0004, -0.001}));
+  const Found met = search(above, below, before.entrance);
+  EXPECT_EQ(met.entrance, before.entrance);
+  ASSERT_EQ(met.contacts.vertices.size(), 1U);
+  EXPECT_NEAR(met.contacts.vertices[0].gap, -0.0004 / std::sqrt(5.0), 1e-15);
+  const Found forgotten = search(above, below);
+  ASSERT_EQ(forgotten.contacts.vertices.size(), 1U);
+  EXPECT_NEAR(forgotten.contacts.vertices[0].gap, -0.0002 / std::sqrt(5.0), 1e-15);
+}
+
+TEST(ConvexSearch, TipsExactlyOnTopOfEachOtherAreHeldApart) {
+  const Body below(pyramid(-1, 0.5));
+  const Body above(moved(pyramid(1, 0.25), Eigen::AngleAxisd::Identity(), {0, 0, -0.001}));
+  for (const bool swapped : {false, true}) {
+    const PairContacts contacts = (swapped ? search(below, above) : search(above, below)).contacts;
+    EXPECT_EQ(contacts.overlaps.size(), 0U);
+    ASSERT_EQ(contacts.vertices.size() + contacts.edges.size(), 1U);
+    const double gap = contacts.vertices.empty() ? contacts.edges[0].gap : contacts.vertices[0].gap;
+    EXPECT_LT(gap, 0.0);
+  }
+}
+
+TEST(ConvexSearch, DirectionsOutlastTheRoundingOfATurn) {
+  std::mt19937_64 random(20261121);
+  const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };
+  for (int round = 0; round < 200; ++round) {
+    // A tip beside an edge of a box whose faces of nine squares are bent by the rounding of a turn.
+    const Eigen::AngleAxisd turn(3.0 * number(), Vector3(number(), number(), number() + 1.5).normalized());
+    const Vector3 shift = 10.0 * Vector3(number(), number(), number());
+    const Polyhedron block = divided_box({-2, -2, -2}, {2, 2, 0});
+    const Body base(moved(block, turn, shift));
+    const auto tip_at = [&](const Vector3& place) {
+      return moved(moved(pyramid(1, 0.25), Eigen::AngleAxisd::Identity(), place), turn, shift);
+    };
+    const Body above(tip_at({1.9999, 0.3, 0.0005}));
+    const Found before = search(above, base);
+    ASSERT_TRUE(before.entrance.has_value());
+    // 0.0004 below the top, 0.0001 inside of the side.
+    const Body inside(tip_at({1.9999, 0.3, -0.0004}));
+    const Found met = search(inside, base, before.entrance);
+    EXPECT_EQ(met.entrance, before.entrance);
+    ASSERT_EQ(met.contacts.vertices.size(), 1U);
+    EXPECT_NEAR(met.contacts.vertices[0].gap, -0.0004, 1e-13);
+  }
+}
+
+TEST(ConvexSearch, TypeIsThatOfTheReportAndNoCrossingIsWithoutContact) {
+  std::mt19937_64 random(7);
+  const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };
+  int crossing = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Vector3> points_a, points_b;
+    for (int k = 0; k < 10; ++k) points_a.emplace_back(number(), number(), number());
+    for (int k = 0; k < 10; ++k) points_b.emplace_back(number(), number(), number());
+    const Polyhedron hull_a(make_convex_hull(points_a)), hull_b(make_convex_hull(points_b));
+    // Moved beyond touching along the direction of their closest points.
+    const ConvexContact start =
+        classify(ConvexShape::from_polyhedron(hull_a),
+                 ConvexShape::from_polyhedron(moved(hull_b, Eigen::AngleAxisd::Identity(), {5, 0, 0})));
+    const Vector3 nearer = Vector3(5, 0, 0) + start.displacement + 0.001 * start.normal;
+    const Body a(hull_a), b(moved(hull_b, Eigen::AngleAxisd::Identity(), nearer));
+    const Found found = search(a, b);
+    const ContactReport report = report_contact(ReportedSolid(a.solid), ReportedSolid(b.solid));
+    if (report.relation == Relation::crossing) {
+      ++crossing;
+      EXPECT_FALSE(found.contacts.empty()) << "round " << round;
+    } else if (found.contacts.type) {
+      EXPECT_EQ(found.contacts.type, report.convex->type);
+    }
+  }
+  EXPECT_GT(crossing, 150);
+}
+
+}  // namespace
+}  // namespace ashlar
