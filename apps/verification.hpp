@@ -36,5 +36,13 @@ struct VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> kinematics_cases();
 /// One block, by order.
 [[nodiscard]] std::span<const VerificationCase> one_block_cases();
+/// Contact springs at rest.
+[[nodiscard]] std::span<const VerificationCase> contact_spring_cases();
+/// Friction on slopes.
+[[nodiscard]] std::span<const VerificationCase> slope_cases();
+/// Stacks, columns and arches.
+[[nodiscard]] std::span<const VerificationCase> stack_cases();
+/// Impacts, waves and rocking.
+[[nodiscard]] std::span<const VerificationCase> impact_cases();
 
 }  // namespace ashlar

@@ -19,7 +19,8 @@ namespace {
 
 std::vector<VerificationCase> all_cases() {
   std::vector<VerificationCase> cases;
-  for (const auto& group : {kinematics_cases(), one_block_cases()})
+  for (const auto& group : {kinematics_cases(), one_block_cases(), contact_spring_cases(), slope_cases(),
+                            stack_cases(), impact_cases()})
     cases.insert(cases.end(), group.begin(), group.end());
   return cases;
 }

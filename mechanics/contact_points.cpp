@@ -184,9 +184,8 @@ class OverlapPoints {
 void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
                       bool master_is_a, const ContactPointSettings& settings,
                       std::vector<ContactPoint>& points) {
-  int degree = std::max({2, a.model->order(), b.model->order()});
-  if (a.placed->surface().divided || b.placed->surface().divided)
-    degree = std::min(degree, settings.max_quadrature_degree);
+  // A uniform pressure acts on every function exactly, however coarse the division is.
+  const int degree = std::max({2, a.model->order(), b.model->order()});
   const PolygonRule rule = polygon_rule(places_of(overlap), degree);
   const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
   for (std::size_t k = 0; k < rule.points.size(); ++k)

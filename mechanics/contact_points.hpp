@@ -48,7 +48,6 @@ struct ContactPoint {
 struct ContactPointSettings {
   bool area_springs = true;
   bool curved = true;
-  int max_quadrature_degree = 4;  ///< of the cells of divided faces, which are small against the polynomials
 };
 
 /// Current positions of a surface's points. @return (#surface.points), m

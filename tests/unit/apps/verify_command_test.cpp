@@ -26,10 +26,35 @@ Answer verify(const VerifyOptions& options) {
 TEST(VerifyCommand, ListsCasesOfRecord) {
   const Answer answer = verify({{}, true, false});
   EXPECT_EQ(answer.status, exit_status::done);
-  for (const char* name :
-       {"moments-tetrahedron", "free-fall", "spin-volume", "torque-free", "spinning-bar", "dda-damping",
-        "collision-momentum", "stress-patch", "pure-bending", "self-weight-column", "cantilever-end-load",
-        "cantilever-self-weight", "cantilever-frequencies", "torsion-bar"})
+  for (const char* name : {"moments-tetrahedron",
+                           "free-fall",
+                           "spin-volume",
+                           "torque-free",
+                           "spinning-bar",
+                           "dda-damping",
+                           "collision-momentum",
+                           "stress-patch",
+                           "pure-bending",
+                           "self-weight-column",
+                           "cantilever-end-load",
+                           "cantilever-self-weight",
+                           "cantilever-frequencies",
+                           "torsion-bar",
+                           "contact-derivatives",
+                           "contact-patch",
+                           "contact-patch-point",
+                           "resting-six-types",
+                           "incline-stick",
+                           "incline-slide",
+                           "block-slide-or-topple",
+                           "wedge",
+                           "goodman-bray",
+                           "arch",
+                           "book-stack",
+                           "bounce",
+                           "joint-wave",
+                           "rocking-block",
+                           "falling-block"})
     EXPECT_NE(answer.out.find(std::string(name) + " "), std::string::npos) << name;
 }
 

@@ -1,0 +1,75 @@
+#include "apps/verification_contacts.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace ashlar {
+
+int ContactScene::add(BlockDefinition block, const InitialMotion& motion) {
+  blocks_.emplace_back(std::move(block));
+  motions_.push_back(motion);
+  return static_cast<int>(blocks_.size()) - 1;
+}
+
+int ContactScene::add_fixed(Polyhedron solid) {
+  BlockDefinition block = define_block(std::move(solid), {}, 1);
+  block.fixed = true;
+  return add(std::move(block));
+}
+
+Simulation ContactScene::build() {
+  return {std::exchange(blocks_, {}), std::exchange(motions_, {}), [same = law](int, int) { return *same; },
+          settings};
+}
+
+Eigen::Matrix3d slope(double degrees) {
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Vector3::UnitY()).toRotationMatrix();
+}
+
+Polyhedron hull_of(const std::vector<Vector3>& points) {
+  return Polyhedron(make_convex_hull(points));
+}
+
+double tangent_of(double degrees) {
+  return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+void run_until(Simulation& simulation, double time) {
+  while (!simulation.reached(time)) {
+    if (simulation.step(time) != StepStatus::accepted) throw std::runtime_error("a step could not be taken");
+  }
+}
+
+StaticStatus find_equilibrium(Simulation& simulation, double time) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(time);
+  return status;
+}
+
+VerificationCheck check_status(std::string what, Simulation& simulation, StaticStatus expected) {
+  return check_absolute(std::move(what), find_equilibrium(simulation) == expected ? 1.0 : 0.0, 1.0, 0.0);
+}
+
+VerificationCheck check_energy(std::string what, const Simulation& simulation) {
+  return check_absolute(std::move(what), simulation.largest_step_residual() / simulation.largest_energy(),
+                        0.0, 1e-8);
+}
+
+Vector3 centroid(const Simulation& simulation, int block) {
+  const auto index = static_cast<std::size_t>(block);
+  return simulation.states()[index].position.row(0) / std::sqrt(simulation.blocks()[index].basis().volume());
+}
+
+Vector3 force_on_a(const PairRecord& record) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t k = 0; k < record.points.size(); ++k) {
+    const ContactPoint& point = record.points[k];
+    const Eigen::Vector3d& force = record.responses[k].force;
+    sum += force[0] * point.normal + force[1] * point.tangent_1 + force[2] * point.tangent_2;
+  }
+  return sum;
+}
+
+}  // namespace ashlar

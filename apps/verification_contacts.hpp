@@ -1,0 +1,60 @@
+// Scenes with contacts and what verification cases measure in them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/verification.hpp"
+#include "apps/verification_blocks.hpp"
+
+namespace ashlar {
+
+/// Blocks that are put together one by one, with one joint law for all of them.
+class ContactScene {
+ public:
+  /// Read anew in every step, so that a joint can be made weaker on the way.
+  std::shared_ptr<JointLaw> law = std::make_shared<JointLaw>(JointLaw{1e9, 1e9, 0.0, 0.0, 0.0, true});
+  SimulationSettings settings;
+
+  /// @return the block's index
+  int add(BlockDefinition block, const InitialMotion& motion = {});
+  /// A block that never moves. @return its index
+  int add_fixed(Polyhedron solid);
+  /// The scene as far as it was put together; it is empty afterwards.
+  [[nodiscard]] Simulation build();
+
+ private:
+  std::vector<BlockModel> blocks_;
+  std::vector<InitialMotion> motions_;
+};
+
+/// Rotation about the y axis that lowers the side of positive x. @param degrees of the slope that a level
+/// face becomes
+[[nodiscard]] Eigen::Matrix3d slope(double degrees);
+
+/// Convex hull of some points as a solid.
+[[nodiscard]] Polyhedron hull_of(const std::vector<Vector3>& points);
+
+/// tan of an angle in degrees.
+[[nodiscard]] double tangent_of(double degrees);
+
+/// Takes steps up to a time. @throws std::runtime_error if one cannot be taken
+void run_until(Simulation& simulation, double time);
+
+/// Iterations of a static analysis under the loads at a time until it ends.
+[[nodiscard]] StaticStatus find_equilibrium(Simulation& simulation, double time = 1.0);
+
+/// 1 if a static analysis ends with this status, else 0, to be compared with 1.
+[[nodiscard]] VerificationCheck check_status(std::string what, Simulation& simulation, StaticStatus expected);
+
+/// Largest residual of the energies in one step over the largest energy of the run.
+[[nodiscard]] VerificationCheck check_energy(std::string what, const Simulation& simulation);
+
+/// Where a block's centroid is.
+[[nodiscard]] Vector3 centroid(const Simulation& simulation, int block);
+
+/// Sum of the contact forces on the block `a` of a pair, N.
+[[nodiscard]] Vector3 force_on_a(const PairRecord& record);
+
+}  // namespace ashlar

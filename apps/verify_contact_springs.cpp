@@ -1,0 +1,292 @@
+// Cases of contact springs at rest: derivatives, uniform pressure, the six types of contact.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "apps/verification_contacts.hpp"
+#include "solver/contact_pair.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Numbers of a fixed stream, from -1 to 1.
+class Numbers {
+ public:
+  double next() { return std::ldexp(static_cast<double>(engine_() >> 11U), -52) - 1.0; }
+  Eigen::VectorXd vector(Eigen::Index size, double scale) {
+    Eigen::VectorXd result(size);
+    for (double& value : result) value = scale * next();
+    return result;
+  }
+
+ private:
+  std::mt19937_64 engine_{2010};
+};
+
+/// A contact point with any frame between points of two blocks, with a gap.
+ContactPoint some_point(Numbers& numbers, const Vector3& center_a, const Vector3& center_b, double gap) {
+  ContactPoint point{};
+  point.material_a = center_a + 0.4 * Vector3(numbers.vector(3, 1.0));
+  point.material_b = center_b + 0.4 * Vector3(numbers.vector(3, 1.0));
+  const Vector3 other = numbers.vector(3, 1.0);
+  point.normal = Vector3(numbers.vector(3, 1.0)).normalized();
+  point.tangent_1 = point.normal.cross(other).normalized();
+  point.tangent_2 = point.normal.cross(point.tangent_1);
+  point.gap = gap;
+  point.place_b = point.material_b;
+  point.place_a = point.material_b + gap * point.normal;
+  point.area = 0.7;
+  return point;
+}
+
+/// Largest difference between a matrix and central differences of a function, over the largest entry.
+double difference(const Eigen::MatrixXd& derivative, const std::function<Eigen::VectorXd(double, int)>& at,
+                  double step) {
+  Eigen::MatrixXd numeric(derivative.rows(), derivative.cols());
+  for (Eigen::Index k = 0; k < derivative.cols(); ++k) {
+    const int column = static_cast<int>(k);
+    numeric.col(k) = (at(step, column) - at(-step, column)) / (2.0 * step);
+  }
+  return (numeric - derivative).cwiseAbs().maxCoeff() / derivative.cwiseAbs().maxCoeff();
+}
+
+/// Gradient of the spring energy and Hessian blocks Kii, Kij, Kjj against differences.
+std::vector<VerificationCheck> pair_derivatives(const char* state, const JointLaw& law, double slip) {
+  Numbers numbers;
+  const Vector3 center_a(0.5, 0.5, 1.5), center_b(0.5, 0.5, 0.5);
+  const BlockModel a(define_block(Polyhedron(make_box({0, 0, 1}, {1, 1, 2})), {2500, 1e9, 0.2}, 2));
+  const BlockModel b(define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e9, 0.2}, 3));
+  BlockState state_a = a.initial_state();
+  BlockState state_b = b.initial_state();
+  std::vector<ContactPoint> points;
+  std::vector<PointMemory> memory;
+  for (int k = 0; k < 5; ++k) {
+    points.push_back(some_point(numbers, center_a, center_b, -0.01));
+    const Vector3 along = points.back().tangent_1 + numbers.next() * points.back().tangent_2;
+    memory.push_back({slip * along, ContactState::locked, true});
+  }
+  const ContactPair pair(0, 1, {&a, &state_a, nullptr}, {&b, &state_b, nullptr}, law, points, memory);
+  const Eigen::VectorXd ya = numbers.vector(a.unknowns(), 1e-4);
+  const Eigen::VectorXd yb = numbers.vector(b.unknowns(), 1e-4);
+  const PairResponse response = pair.respond(ya, yb, false);
+  const ContactPair::Tangent tangent = pair.tangent(response);
+  constexpr double step = 1e-5;
+  const auto moved = [&](bool of_a, double by, int k) {
+    Eigen::VectorXd za = ya, zb = yb;
+    (of_a ? za : zb)[k] += by;
+    return pair.respond(za, zb, false);
+  };
+  const auto forces = [&](bool of_a, bool on_a) {
+    return [&, of_a, on_a](double by, int k) -> Eigen::VectorXd {
+      const PairResponse result = moved(of_a, by, k);
+      return -(on_a ? result.force_on_a : result.force_on_b);
+    };
+  };
+  const auto check = [&](const char* what, double error) {
+    return check_absolute(fmt::format("{}, {}", state, what), error, 0.0, 1e-6);
+  };
+  std::vector<VerificationCheck> checks;
+  if (law.friction == 0.0 && law.cohesion > 1e6) {
+    const auto energy = [&](bool of_a) {
+      return [&, of_a](double by, int k) {
+        return Eigen::VectorXd::Constant(1, ContactPair::energy(moved(of_a, by, k)));
+      };
+    };
+    checks.push_back(
+        check("force on i and energy", difference(-response.force_on_a.transpose(), energy(true), step)));
+    checks.push_back(
+        check("force on j and energy", difference(-response.force_on_b.transpose(), energy(false), step)));
+  }
+  checks.push_back(check("Kii", difference(tangent.aa, forces(true, true), step)));
+  checks.push_back(check("Kij", difference(tangent.ab, forces(false, true), step)));
+  checks.push_back(check("Kji", difference(tangent.ab.transpose(), forces(true, false), step)));
+  checks.push_back(check("Kjj", difference(tangent.bb, forces(false, false), step)));
+  return checks;
+}
+
+std::vector<VerificationCheck> contact_derivatives() {
+  // Locked: the energy is quadratic. Sliding at a limit that the normal force does not change: the part of
+  // the derivative that the symmetric solution keeps.
+  auto checks = pair_derivatives("locked", {3e5, 2e5, 0.0, 1e9, 0.0, true}, 1e-3);
+  const auto sliding = pair_derivatives("sliding", {3e5, 2e5, 0.0, 10.0, 0.0, true}, 1e-2);
+  checks.insert(checks.end(), sliding.begin(), sliding.end());
+  return checks;
+}
+
+/// A box whose level face at one end is a fan of triangles about a point of it.
+Polyhedron box_with_fan(const Vector3& low, const Vector3& high, bool at_top, double x, double y) {
+  TriangleMesh mesh = make_box(low, high);
+  const double level = at_top ? high.z() : low.z();
+  const auto lies_in_face = [&](const std::array<int, 3>& triangle) {
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](int point) { return mesh.points[static_cast<std::size_t>(point)].z() == level; });
+  };
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::array<int, 2>> sides;
+  for (const auto& triangle : mesh.triangles) {
+    if (!lies_in_face(triangle)) {
+      triangles.push_back(triangle);
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<int, 2> side = {triangle[k], triangle[(k + 1) % 3]};
+      const auto opposite = std::find(sides.begin(), sides.end(), std::array<int, 2>{side[1], side[0]});
+      if (opposite == sides.end())
+        sides.push_back(side);
+      else
+        sides.erase(opposite);
+    }
+  }
+  const int center = static_cast<int>(mesh.points.size());
+  mesh.points.emplace_back(x, y, level);
+  for (const auto& [a, b] : sides) triangles.push_back({a, b, center});
+  mesh.triangles = std::move(triangles);
+  return Polyhedron(std::move(mesh));
+}
+
+struct PatchErrors {
+  double stress = std::numeric_limits<double>::infinity();  ///< largest |sigma_zz + p| / p
+  double jump = std::numeric_limits<double>::infinity();    ///< largest |gap + p / kn| kn / p
+};
+
+/// Two blocks one on the other under a uniform pressure, their sides held against widening, so that the area
+/// stays what it was: sigma_zz = -p everywhere and the springs give way by p / kn.
+PatchErrors press(double nu, int order, bool area_springs) {
+  constexpr double p = 1e6, kn = 1e9;
+  ContactScene scene;
+  *scene.law = {area_springs ? kn : kn / 4.0, 0.0, 0.0, 0.0, 0.0, area_springs};
+  scene.settings.gravity.setZero();
+  scene.settings.area_springs = area_springs;
+  scene.settings.subdivisions = 1;
+  const auto block = [&](double low, bool upper) {
+    const Vector3 from(0, 0, low), to(1, 1, low + 1.0);
+    BlockDefinition result = define_block(
+        upper ? box_with_fan(from, to, false, 0.3, 0.6) : box_with_fan(from, to, true, 0.55, 0.25),
+        {2500, 1e9, nu}, order);
+    for (const Vector3& corner : {from, to}) {
+      result.supports.push_back({Plane{corner, Vector3::UnitX()}, {true, false, false}});
+      result.supports.push_back({Plane{corner, Vector3::UnitY()}, {false, true, false}});
+    }
+    return result;
+  };
+  BlockDefinition lower = block(0.0, false);
+  lower.supports.push_back({Plane{Vector3::Zero(), Vector3::UnitZ()}, {false, false, true}});
+  BlockDefinition upper = block(1.0, true);
+  upper.loads.push_back({Plane{{0, 0, 2}, Vector3::UnitZ()}, true, {0, 0, -p}, {}});
+  scene.add(std::move(lower));
+  scene.add(std::move(upper));
+  Simulation simulation = scene.build();
+  if (find_equilibrium(simulation) != StaticStatus::equilibrium) return {};
+  PatchErrors errors{0.0, 0.0};
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (const double x : {0.0, 0.3, 1.0}) {
+      for (const double y : {0.0, 0.8}) {
+        for (const double z : {0.0, 0.4, 1.0}) {
+          const Vector3 at(x, y, z + static_cast<double>(k));
+          const double stress = simulation.blocks()[k].stress(simulation.states()[k], at)(2, 2);
+          errors.stress = std::max(errors.stress, std::abs(stress + p) / p);
+        }
+      }
+    }
+  }
+  for (const double gap : simulation.contacts().at(0).gaps)
+    errors.jump = std::max(errors.jump, std::abs(gap + p / kn) * kn / p);
+  return errors;
+}
+
+std::vector<VerificationCheck> contact_patch() {
+  std::vector<VerificationCheck> checks;
+  for (const double nu : {0.0, 0.3}) {
+    for (const int order : {1, 2, 3, 4, 6}) {
+      const PatchErrors errors = press(nu, order, true);
+      const std::string where = fmt::format("nu {}, n = {}", nu, order);
+      checks.push_back(check_absolute("stress over p, largest error, " + where, errors.stress, 0.0, 1e-9));
+      checks.push_back(check_absolute("jump over p/kn, largest error, " + where, errors.jump, 0.0, 1e-9));
+    }
+  }
+  return checks;
+}
+
+std::vector<VerificationCheck> contact_patch_point() {
+  std::vector<VerificationCheck> checks;
+  constexpr double reported = std::numeric_limits<double>::infinity();
+  for (int order = 1; order <= 4; ++order) {
+    const PatchErrors errors = press(0.3, order, false);
+    checks.push_back(check_absolute(fmt::format("stress over p, largest error, nu 0.3, n = {}", order),
+                                    errors.stress, 0.0, reported));
+  }
+  return checks;
+}
+
+/// A block that can only move up and down, and what it rests on.
+struct Rest {
+  const char* name;
+  std::vector<Vector3> upper;
+  std::vector<Vector3> lower;
+  int springs;  ///< that carry it, all upright; 0: along the faces that the edge or vertex belongs to
+};
+
+std::vector<VerificationCheck> resting_six_types() {
+  const std::vector<Vector3> box = {{-.5, -.5, 0}, {.5, -.5, 0}, {-.5, .5, 0}, {.5, .5, 0},
+                                    {-.5, -.5, 1}, {.5, -.5, 1}, {-.5, .5, 1}, {.5, .5, 1}};
+  const std::vector<Vector3> ridge = {{-.5, 0, 0},  {.5, 0, 0},   {-.5, -.5, 1},
+                                      {.5, -.5, 1}, {-.5, .5, 1}, {.5, .5, 1}};
+  const std::vector<Vector3> tip = {{0, 0, 0}, {-.5, -.5, 1}, {.5, -.5, 1}, {-.5, .5, 1}, {.5, .5, 1}};
+  const auto slab = [](double x, double y) {
+    return std::vector<Vector3>{{-2, -2, -1}, {x, -2, -1}, {-2, y, -1}, {x, y, -1},
+                                {-2, -2, 0},  {x, -2, 0},  {-2, y, 0},  {x, y, 0}};
+  };
+  const std::vector<Vector3> roof = {{0, -.5, 0},   {0, .5, 0},    {-.5, -.5, -1},
+                                     {.5, -.5, -1}, {-.5, .5, -1}, {.5, .5, -1}};
+  std::vector<VerificationCheck> checks;
+  for (const Rest& rest :
+       {Rest{"face on face", box, slab(2, 2), 4}, Rest{"edge on face", ridge, slab(2, 2), 2},
+        Rest{"vertex on face", tip, slab(2, 2), 1}, Rest{"crossed edges", ridge, roof, 1},
+        Rest{"vertex on edge", tip, slab(0, 2), 0}, Rest{"vertex on vertex", tip, slab(0, 0), 0}}) {
+    constexpr double kn = 1e7;
+    ContactScene scene;
+    *scene.law = {kn, 0.0, 0.0, 0.0, 0.0, false};
+    scene.settings.area_springs = false;
+    scene.add_fixed(hull_of(rest.lower));
+    // A ten-thousandth above, so that it comes from above whatever face the edge or vertex below belongs to.
+    std::vector<Vector3> upper = rest.upper;
+    for (Vector3& point : upper) point.z() += 1e-4;
+    BlockDefinition block = define_block(hull_of(upper), {2500, 1e9, 0.2}, 1);
+    const double level = 1.0 + 1e-4;
+    block.supports.push_back({Plane{{0, 0, level}, Vector3::UnitZ()}, {true, true, false}});
+    block.supports.push_back({upper[0], {true, true, false}});
+    scene.add(std::move(block));
+    Simulation simulation = scene.build();
+    const double weight = simulation.blocks()[1].mass() * 9.81;
+    const bool found =
+        find_equilibrium(simulation) == StaticStatus::equilibrium && !simulation.contacts().empty();
+    const double nan = std::nan("");
+    const double force = found ? -force_on_a(simulation.contacts()[0]).z() : nan;
+    checks.push_back(check_relative(fmt::format("{}: contact force, N", rest.name), force, weight, 1e-8));
+    if (rest.springs == 0) continue;
+    checks.push_back(check_relative(fmt::format("{}: penetration, m", rest.name),
+                                    found ? simulation.report().penetration : nan,
+                                    weight / (rest.springs * kn), 1e-8));
+  }
+  return checks;
+}
+
+constexpr VerificationCase cases[] = {
+    {"contact-derivatives", "contact matrices against differences of forces and energies",
+     contact_derivatives},
+    {"contact-patch", "uniform pressure through a joint, area springs", contact_patch},
+    {"contact-patch-point", "the same with point springs, error reported", contact_patch_point},
+    {"resting-six-types", "a block at rest on another by each type of contact", resting_six_types},
+};
+
+}  // namespace
+
+std::span<const VerificationCase> contact_spring_cases() {
+  return cases;
+}
+
+}  // namespace ashlar
