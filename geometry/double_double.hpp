@@ -93,6 +93,12 @@ struct DoubleDouble {
   const double first = numerator.high / denominator.high;
   DoubleDouble rest = numerator - denominator * DoubleDouble(first);
   const double second = rest.high / denominator.high;
+  // A product with the low part that underflows would lose digits no bound counts.
+  constexpr double smallest_product = 0x1p-960;
+  for (const double factor : {first, second}) {
+    const double product = denominator.low * factor;
+    if (denominator.low != 0.0 && factor != 0.0 && std::abs(product) < smallest_product) return std::nullopt;
+  }
   rest = rest - denominator * DoubleDouble(second);
   const auto [high, low] = exact_sum(first, second);
   const double remainder = std::abs(rest.high) + std::abs(rest.low) + rest.error;
