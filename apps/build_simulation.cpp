@@ -20,10 +20,14 @@ BlockPlace place_of(const Where& where) {
   return std::get<Vector3>(where);
 }
 
-BlockDefinition define_block(const Scene& scene, const SceneBlock& block, const Polyhedron& solid) {
+BlockDefinition define_block(const LoadedScene& loaded, std::size_t index) {
+  const Scene& scene = loaded.scene;
+  const SceneBlock& block = scene.block[index];
   BlockDefinition definition;
   definition.name = block.name;
-  definition.solid = std::make_shared<const Polyhedron>(solid);
+  definition.shape = loaded.shapes[index];
+  definition.solid = block.translate.isZero(0.0) ? loaded.shapes[index]
+                                                 : std::make_shared<const Polyhedron>(loaded.solids[index]);
   definition.order = block.order;
   definition.fixed = block.fixed;
   if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
@@ -150,10 +154,11 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   const Scene& scene = loaded.scene;
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions;
+  BlockPartsLibrary parts;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     try {
-      blocks.emplace_back(define_block(scene, block, loaded.solids[k]));
+      blocks.emplace_back(define_block(loaded, k), parts);
     } catch (const std::exception& error) {
       diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
                         fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));
@@ -165,7 +170,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
   JointLaws laws(scene, blocks, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
-                        std::move(choices)};
+                        std::move(choices), parts.size()};
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
     built.simulation.settle_supported_blocks();
   }

@@ -21,6 +21,7 @@ struct AutomaticChoice {
 struct BuiltSimulation {
   Simulation simulation;
   std::vector<AutomaticChoice> choices;
+  std::size_t different_blocks;  ///< that share neither basis and stiffness nor supports with others
 };
 
 /// @param threads >= 1

@@ -16,11 +16,13 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
 }
 
-nlohmann::ordered_json counts_of(const Simulation& simulation) {
+nlohmann::ordered_json counts_of(const BuiltSimulation& built) {
+  const Simulation& simulation = built.simulation;
   const SimulationCounts counts = simulation.counts();
   const FinderCounts& finder = counts.finder;
   const auto predicates = static_cast<double>(finder.predicates.filter + finder.predicates.exact);
-  return {{"block_pairs_tested", finder.block_pairs_tested},
+  return {{"different_blocks", built.different_blocks},
+          {"block_pairs_tested", finder.block_pairs_tested},
           {"convex_pairs", finder.convex_pairs},
           {"block_pairs_skipped", finder.block_pairs_skipped},
           {"block_pairs_known_apart", finder.block_pairs_far},
@@ -112,7 +114,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();
-  summary["counts"] = counts_of(simulation);
+  summary["counts"] = counts_of(built);
   nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
   for (const AutomaticChoice& choice : built.choices) {
     automatic.push_back({{"key", choice.key}, {"value", choice.value}, {"unit", choice.unit}});

@@ -10,10 +10,10 @@ namespace ashlar {
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
-  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}};
+  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}};
   check_references(loaded.scene, diagnostics);
   check_availability(loaded.scene, diagnostics);
-  std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics);
+  std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics, &loaded.shapes);
   check_placement(loaded.scene, solids, diagnostics);
   check_initial_overlap(loaded.scene, solids, diagnostics);
   if (!diagnostics.empty()) return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ namespace ashlar {
 struct LoadedScene {
   Scene scene;
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
+  /// One per scene.block, before it was translated; equal ones are one.
+  std::vector<std::shared_ptr<const Polyhedron>> shapes;
 };
 
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp.

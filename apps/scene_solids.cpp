@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "apps/scene_json.hpp"
 #include "geometry/mesh_io.hpp"
 #include "geometry/shapes.hpp"
 
@@ -47,15 +48,14 @@ Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
   return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;
 }
 
-// Scale, rotate, translate, in this order. A step that is not given leaves the points bit for bit.
-std::vector<Vector3> place_points(std::vector<Vector3> points, double scale, const SceneBlock& block) {
+// Scale, then rotate. A step that is not given leaves the points bit for bit.
+std::vector<Vector3> turned_points(std::vector<Vector3> points, double scale, const SceneBlock& block) {
   if (scale != 1.0)
     for (Vector3& point : points) point *= scale;
   if (block.rotate) {
     const Eigen::Matrix3d matrix = rotation_matrix(*block.rotate);
     for (Vector3& point : points) point = matrix * (point - block.rotate->about) + block.rotate->about;
   }
-  for (Vector3& point : points) point += block.translate;
   return points;
 }
 
@@ -109,17 +109,29 @@ struct SolidBuilder {
   }
 };
 
-Polyhedron build_solid(const Scene& scene, const SceneBlock& block) {
+// Up to translate.
+Polyhedron build_shape(const Scene& scene, const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   try {
     const Polyhedron own = std::visit(SolidBuilder{scene}, block.shape);
-    return own.with_points(place_points(own.mesh().points, mesh ? mesh->scale : 1.0, block));
+    return own.with_points(turned_points(own.mesh().points, mesh ? mesh->scale : 1.0, block));
   } catch (const MeshError& error) {
     throw ShapeError(fmt::format("shape bounds no solid ({}), a larger or rounder one is needed",
                                  describe_defects(error)));
   } catch (const std::invalid_argument& error) {
     throw ShapeError(
         fmt::format("shape cannot be built ({}), a solid of finite size is needed", error.what()));
+  }
+}
+
+Polyhedron translated(const Polyhedron& shape, const Vector3& way) {
+  std::vector<Vector3> points = shape.mesh().points;
+  for (Vector3& point : points) point += way;
+  try {
+    return shape.with_points(std::move(points));
+  } catch (const std::invalid_argument& error) {
+    throw ShapeError(
+        fmt::format("shape cannot be placed ({}), a solid of finite size is needed", error.what()));
   }
 }
 
@@ -139,13 +151,23 @@ Place shape_place(const Scene& scene, std::size_t index) {
 
 }  // namespace
 
-std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics) {
+std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics,
+                                                    std::vector<std::shared_ptr<const Polyhedron>>* shapes) {
   std::vector<std::optional<Polyhedron>> solids(scene.block.size());
+  if (shapes != nullptr) shapes->assign(scene.block.size(), nullptr);
+  const nlohmann::ordered_json json = to_json(scene);
+  std::map<std::string, std::shared_ptr<const Polyhedron>> built;  // by what the scene says of the shape
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];
     if (std::holds_alternative<std::monostate>(block.shape)) continue;
+    const auto& keys = json.at("block").at(i);
+    const std::string said = shape_key(block.shape) + keys.at(shape_key(block.shape)).dump() +
+                             (keys.contains("rotate") ? keys.at("rotate").dump() : "");
     try {
-      solids[i].emplace(build_solid(scene, block));
+      auto& shape = built[said];
+      if (!shape) shape = std::make_shared<const Polyhedron>(build_shape(scene, block));
+      solids[i].emplace(translated(*shape, block.translate));
+      if (shapes != nullptr) (*shapes)[i] = shape;
     } catch (const ShapeError& error) {
       diagnostics.error(shape_place(scene, i), error.what());
     }

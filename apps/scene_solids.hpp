@@ -2,6 +2,7 @@
 // translate.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,11 @@ namespace ashlar {
 /// they are exactly flat, so a rotated box still has six. Without rotate a box keeps exactly its corners
 /// (plus translate); turns by multiples of 90 degrees about a coordinate axis have an exact rotation matrix.
 /// A shape that bounds no solid is reported at its key, a mesh with its file and the faulty elements, and
-/// leaves an empty entry.
-[[nodiscard]] std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene,
-                                                                  Diagnostics& diagnostics);
+/// leaves an empty entry. Equal shapes are built once.
+/// @param shapes if given, (#blocks): each solid as it was before translate, shared by equal ones; null where
+/// the solid is empty
+[[nodiscard]] std::vector<std::optional<Polyhedron>> build_solids(
+    const Scene& scene, Diagnostics& diagnostics,
+    std::vector<std::shared_ptr<const Polyhedron>>* shapes = nullptr);
 
 }  // namespace ashlar

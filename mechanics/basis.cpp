@@ -225,74 +225,79 @@ std::vector<Real> multiplied(const RealMatrix& lower, const RealMatrix& inverse,
 
 }  // namespace
 
-PolynomialBasis::PolynomialBasis(const Polyhedron& solid, int order) : order_(order) {
+PolynomialBasis::PolynomialBasis(const Polyhedron& solid, int order)
+    : PolynomialBasis(std::make_shared<const Parts>(solid, order), solid.mesh().points.front()) {}
+
+PolynomialBasis::PolynomialBasis(std::shared_ptr<const Parts> parts, const Vector3& anchor)
+    : parts_(std::move(parts)),
+      anchor_(anchor),
+      centroid_(anchor + parts_->centroid),
+      identity_map_(parts_->identity_map) {
+  // The first function is 1/sqrt(V), the others have no mean.
+  identity_map_.row(0) += std::sqrt(parts_->volume) * anchor.transpose();
+}
+
+PolynomialBasis::Parts::Parts(const Polyhedron& solid, int the_order) : order(the_order) {
   if (order < 0 || order > max_order) throw std::invalid_argument("order of a basis must be 0 to 12");
   const TriangleMesh& mesh = solid.mesh();
-  Vector3 low = mesh.points.front();
-  Vector3 high = low;
-  for (const Vector3& point : mesh.points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  center_ = 0.5 * (low + high);
-
+  const Vector3& anchor = mesh.points.front();
   RealPoints points;
   for (const Vector3& point : mesh.points) {
-    std::array<Real, 3> from_center;
-    for (int axis = 0; axis < 3; ++axis) from_center[at(axis)] = Real(point[axis]) - Real(center_[axis]);
-    points.push_back(from_center);
+    std::array<Real, 3> from_anchor;
+    for (int axis = 0; axis < 3; ++axis) from_anchor[at(axis)] = Real(point[axis]) - Real(anchor[axis]);
+    points.push_back(from_anchor);
   }
   const std::vector<Real> second = monomial_moments(points, mesh, 2);
-  const Real& volume = second[0];
-  volume_ = static_cast<double>(volume);
+  const Real& exact_volume = second[0];
+  volume = static_cast<double>(exact_volume);
   std::array<Real, 3> mean;
   for (int axis = 0; axis < 3; ++axis) {
-    mean[at(axis)] = second[at(1 + axis)] / volume;
-    centroid_[axis] = static_cast<double>(Real(center_[axis]) + mean[at(axis)]);
+    mean[at(axis)] = second[at(1 + axis)] / exact_volume;
+    centroid[axis] = static_cast<double>(mean[at(axis)]);
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       std::array<int, 3> e = {0, 0, 0};
       ++e[at(i)];
       ++e[at(j)];
-      second_moment_(i, j) = static_cast<double>(second[at(monomial_index(e[0], e[1], e[2]))] -
-                                                 mean[at(i)] * mean[at(j)] * volume);
+      second_moment(i, j) = static_cast<double>(second[at(monomial_index(e[0], e[1], e[2]))] -
+                                                mean[at(i)] * mean[at(j)] * exact_volume);
     }
   }
 
-  axes_ = principal_axes(second_moment_);
+  axes = principal_axes(second_moment);
   Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 most = -least;
   for (const Vector3& point : mesh.points) {
-    const Vector3 along = axes_.transpose() * (point - center_);
+    const Vector3 along = axes.transpose() * (point - anchor);
     least = least.cwiseMin(along);
     most = most.cwiseMax(along);
   }
-  middle_ = 0.5 * (least + most);
-  half_size_ = 0.5 * (most - least);
-  RealMatrix axes(3, 3);
+  middle = 0.5 * (least + most);
+  half_size = 0.5 * (most - least);
+  RealMatrix exact_axes(3, 3);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) axes(i, j) = Real(axes_(i, j));
+    for (int j = 0; j < 3; ++j) exact_axes(i, j) = Real(axes(i, j));
   }
   for (auto& point : points) {
-    const std::array<Real, 3> from_center = point;
+    const std::array<Real, 3> from_anchor = point;
     for (int j = 0; j < 3; ++j) {
-      Real along = -Real(middle_[j]);
-      for (int i = 0; i < 3; ++i) along += axes(i, j) * from_center[at(i)];
-      point[at(j)] = along / Real(half_size_[j]);
+      Real along = -Real(middle[j]);
+      for (int i = 0; i < 3; ++i) along += exact_axes(i, j) * from_anchor[at(i)];
+      point[at(j)] = along / Real(half_size[j]);
     }
   }
   const int degree = std::max(2 * order, 2);
   std::vector<Real> scaled = monomial_moments(points, mesh, degree);
   // The axes are orthonormal but for rounding, so that the determinant of the map is not exactly that of h.
-  const Real scale = volume / scaled[0];
+  const Real scale = exact_volume / scaled[0];
   for (Real& moment : scaled) moment *= scale;
 
   const RealMatrix lower = cholesky_factor(gram_matrix(legendre_moments(scaled, degree), order));
   const RealMatrix inverse = inverse_of_lower(lower);
   const auto exponents = monomial_exponents(order);
-  constant_ = static_cast<double>(inverse(0, 0));
-  for (int k = 1; k < size(); ++k) {
+  constant = static_cast<double>(inverse(0, 0));
+  for (int k = 1; k < polynomial_count(order); ++k) {
     auto e = exponents[at(k)];
     const auto axis = static_cast<int>(std::max_element(e.begin(), e.end()) - e.begin());
     const int first = std::max(0, polynomial_count(e[0] + e[1] + e[2] - 3));
@@ -302,44 +307,44 @@ PolynomialBasis::PolynomialBasis(const Polyhedron& solid, int order) : order_(or
     Recurrence recurrence{axis, parent, first, Eigen::VectorXd(k - first),
                           static_cast<double>(weights.back())};
     for (int j = 0; j < k - first; ++j) recurrence.weights[j] = static_cast<double>(weights[at(j)]);
-    recurrences_.push_back(std::move(recurrence));
+    recurrences.push_back(std::move(recurrence));
   }
 
   std::array<Eigen::MatrixXd, 3> local_derivatives;
   for (int j = 0; j < 3; ++j) {
-    local_derivatives[at(j)] = derivative_matrix(lower, inverse, order, j) / half_size_[j];
+    local_derivatives[at(j)] = derivative_matrix(lower, inverse, order, j) / half_size[j];
   }
   for (int i = 0; i < 3; ++i) {
-    derivatives_[at(i)] = axes_(i, 0) * local_derivatives[0] + axes_(i, 1) * local_derivatives[1] +
-                          axes_(i, 2) * local_derivatives[2];
+    derivatives[at(i)] = axes(i, 0) * local_derivatives[0] + axes(i, 1) * local_derivatives[1] +
+                         axes(i, 2) * local_derivatives[2];
   }
 
-  // seed = L phi: the coefficients of a seed are a row of L. X = c + inverse(A') (m + h xi), xi = seeds 1
+  // seed = L phi: the coefficients of a seed are a row of L. X - c = inverse(A') (m + h xi), xi = seeds 1
   // to 3.
-  const RealMatrix back = axes.transpose().inverse();
-  identity_map_ = Eigen::MatrixX3d::Zero(size(), 3);
+  const RealMatrix back = exact_axes.transpose().inverse();
+  identity_map = Eigen::MatrixX3d::Zero(polynomial_count(order), 3);
   for (int i = 0; i < 3; ++i) {
     if (order == 0) {
-      identity_map_(0, i) = centroid_[i] * static_cast<double>(lower(0, 0));
+      identity_map(0, i) = centroid[i] * static_cast<double>(lower(0, 0));
       continue;
     }
-    Real constant = Real(center_[i]);
-    for (int j = 0; j < 3; ++j) constant += back(i, j) * Real(middle_[j]);
-    std::array<Real, 4> coefficients = {constant * lower(0, 0), Real(0), Real(0), Real(0)};
+    Real offset = 0;
+    for (int j = 0; j < 3; ++j) offset += back(i, j) * Real(middle[j]);
+    std::array<Real, 4> coefficients = {offset * lower(0, 0), Real(0), Real(0), Real(0)};
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k <= 1 + j; ++k)
-        coefficients[at(k)] += back(i, j) * Real(half_size_[j]) * lower(1 + j, k);
+        coefficients[at(k)] += back(i, j) * Real(half_size[j]) * lower(1 + j, k);
     }
-    for (int k = 0; k < 4; ++k) identity_map_(k, i) = static_cast<double>(coefficients[at(k)]);
+    for (int k = 0; k < 4; ++k) identity_map(k, i) = static_cast<double>(coefficients[at(k)]);
   }
 }
 
 Eigen::VectorXd PolynomialBasis::values(const Vector3& point) const {
   const Vector3 xi = local(point);
   Eigen::VectorXd phi(size());
-  phi[0] = constant_;
+  phi[0] = parts_->constant;
   Eigen::Index k = 1;
-  for (const auto& [axis, parent, first, weights, divisor] : recurrences_) {
+  for (const auto& [axis, parent, first, weights, divisor] : parts_->recurrences) {
     phi[k] = (xi[axis] * phi[parent] - weights.dot(phi.segment(first, weights.size()))) / divisor;
     ++k;
   }
@@ -351,9 +356,9 @@ Eigen::MatrixXd PolynomialBasis::values(const std::vector<Vector3>& points) cons
   Eigen::MatrixX3d xi(count, 3);
   for (Eigen::Index n = 0; n < count; ++n) xi.row(n) = local(points[static_cast<std::size_t>(n)]);
   Eigen::MatrixXd phi(count, size());
-  phi.col(0).setConstant(constant_);
+  phi.col(0).setConstant(parts_->constant);
   Eigen::Index k = 1;
-  for (const auto& [axis, parent, first, weights, divisor] : recurrences_) {
+  for (const auto& [axis, parent, first, weights, divisor] : parts_->recurrences) {
     phi.col(k) = xi.col(axis).cwiseProduct(phi.col(parent));
     phi.col(k).noalias() -= phi.middleCols(first, weights.size()) * weights;
     phi.col(k) /= divisor;
@@ -363,13 +368,13 @@ Eigen::MatrixXd PolynomialBasis::values(const std::vector<Vector3>& points) cons
 }
 
 std::vector<Vector3> PolynomialBasis::sample_points() const {
-  const SegmentRule rule = gauss_legendre(order_ + 1);
+  const SegmentRule rule = gauss_legendre(order() + 1);
   std::vector<Vector3> points;
   for (const double u : rule.points) {
     for (const double v : rule.points) {
       for (const double w : rule.points) {
         const Vector3 xi = 2.0 * Vector3(u, v, w) - Vector3::Ones();
-        points.emplace_back(center_ + axes_ * (middle_ + half_size_.cwiseProduct(xi)));
+        points.emplace_back(anchor_ + parts_->axes * (parts_->middle + parts_->half_size.cwiseProduct(xi)));
       }
     }
   }
@@ -386,7 +391,7 @@ Eigen::MatrixX3d PolynomialBasis::gradients(const Vector3& point) const {
 
 Eigen::MatrixX3d PolynomialBasis::linear_field(const Vector3& value, const Eigen::Matrix3d& gradient) const {
   Eigen::MatrixX3d coefficients = identity_map_ * gradient.transpose();
-  coefficients.row(0) += std::sqrt(volume_) * (value - gradient * centroid_).transpose();
+  coefficients.row(0) += std::sqrt(volume()) * (value - gradient * centroid_).transpose();
   return coefficients;
 }
 

@@ -1,10 +1,10 @@
 // The polynomial basis of a block (theory.md section 2): complete of order n, orthonormal on the block's own
 // volume and graded, so that the first 4, 10, 20, ... functions span the orders 1, 2, 3, ...
 //
-//   xi = (A' (X - c) - m) / h                 along the block's principal axes A, -1 to 1 in its box along
-//   them seed_k(X) = L_a(xi_1) L_b(xi_2) L_c(xi_3)  Legendre polynomials, G = integral of seed seed' dV = L
-//   L'       exact moments, Cholesky factor in 50-digit arithmetic, phi = inverse(L) seed so that  integral
-//   of phi phi' dV = I.
+//   xi = (A' (X - c) - m) / h                 c the first point of the solid; along the block's principal
+//   axes A, -1 to 1 in its box along them seed_k(X) = L_a(xi_1) L_b(xi_2) L_c(xi_3)  Legendre polynomials, G
+//   = integral of seed seed' dV = L L'       exact moments, Cholesky factor in 50-digit arithmetic, phi =
+//   inverse(L) seed so that  integral of phi phi' dV = I.
 //
 // phi is not evaluated so: where the block fills little of its box, inverse(L) is large and rounding with it.
 // Multiplied by xi_i, a function of degree d - 1 is a combination of those of degrees d, d - 1 and d - 2
@@ -17,6 +17,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "geometry/polyhedron.hpp"
@@ -35,14 +36,18 @@ class PolynomialBasis {
   /// @throws std::domain_error if the shape is too thin for this order in 50-digit arithmetic
   PolynomialBasis(const Polyhedron& solid, int order);
 
-  [[nodiscard]] int order() const { return order_; }
+  /// The basis of the same solid, moved so that its first point is at a place; all that does not depend on
+  /// the place is shared. @param anchor m
+  [[nodiscard]] PolynomialBasis moved_to(const Vector3& anchor) const { return {parts_, anchor}; }
+
+  [[nodiscard]] int order() const { return parts_->order; }
   /// p, the number of functions.
-  [[nodiscard]] int size() const { return polynomial_count(order_); }
-  [[nodiscard]] double volume() const { return volume_; }
+  [[nodiscard]] int size() const { return polynomial_count(order()); }
+  [[nodiscard]] double volume() const { return parts_->volume; }
   /// Centroid of the block, m.
   [[nodiscard]] const Vector3& centroid() const { return centroid_; }
   /// Integral of (X - centroid)(X - centroid)' dV, m^5.
-  [[nodiscard]] const Eigen::Matrix3d& second_moment() const { return second_moment_; }
+  [[nodiscard]] const Eigen::Matrix3d& second_moment() const { return parts_->second_moment; }
 
   /// phi at a material point. @param point reference coordinates, m (any point, not only inside). @return
   /// (p), m^-3/2
@@ -61,7 +66,7 @@ class PolynomialBasis {
   /// D_i with d phi / dX_i = D_i phi. @param axis 0 to 2. @return (p, p), strictly block lower triangular,
   /// 1/m
   [[nodiscard]] const Eigen::MatrixXd& derivative(int axis) const {
-    return derivatives_[static_cast<std::size_t>(axis)];
+    return parts_->derivatives[static_cast<std::size_t>(axis)];
   }
 
   /// Coefficients of the map X -> X (the undeformed block). @return (p, 3), m^5/2; zero beyond order 1
@@ -81,21 +86,32 @@ class PolynomialBasis {
     double divisor;
   };
 
+  /// All that stays when the block is translated. Places are from its first point.
+  struct Parts {
+    explicit Parts(const Polyhedron& solid, int the_order);
+
+    int order;
+    double volume = 0.0;
+    Vector3 centroid;  ///< m
+    Eigen::Matrix3d second_moment;
+    Eigen::Matrix3d axes;                 ///< A, by columns
+    Vector3 middle;                       ///< m, of the block's box along the principal axes, m
+    Vector3 half_size;                    ///< h, of that box, m
+    double constant = 0.0;                ///< phi_0
+    std::vector<Recurrence> recurrences;  ///< (p - 1), of phi_1 on
+    std::array<Eigen::MatrixXd, 3> derivatives;
+    Eigen::MatrixX3d identity_map;
+  };
+
+  PolynomialBasis(std::shared_ptr<const Parts> parts, const Vector3& anchor);
+
   [[nodiscard]] Vector3 local(const Vector3& point) const {
-    return (axes_.transpose() * (point - center_) - middle_).cwiseQuotient(half_size_);
+    return (parts_->axes.transpose() * (point - anchor_) - parts_->middle).cwiseQuotient(parts_->half_size);
   }
 
-  int order_;
-  double volume_ = 0.0;
+  std::shared_ptr<const Parts> parts_;
+  Vector3 anchor_;  ///< c, the first point of the solid, m
   Vector3 centroid_;
-  Eigen::Matrix3d second_moment_;
-  Vector3 center_;                       ///< c, of the block's box along the coordinate axes, m
-  Eigen::Matrix3d axes_;                 ///< A, by columns
-  Vector3 middle_;                       ///< m, of the block's box along the principal axes, from c, m
-  Vector3 half_size_;                    ///< h, of that box, m
-  double constant_ = 0.0;                ///< phi_0
-  std::vector<Recurrence> recurrences_;  ///< (p - 1), of phi_1 on
-  std::array<Eigen::MatrixXd, 3> derivatives_;
   Eigen::MatrixX3d identity_map_;
 };
 

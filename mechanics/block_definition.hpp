@@ -22,6 +22,8 @@ enum class Formulation {
 struct BlockDefinition {
   std::string name;
   std::shared_ptr<const Polyhedron> solid;  ///< placed reference shape, m
+  /// The solid before it was translated, m, see block_parts.hpp; null: the solid
+  std::shared_ptr<const Polyhedron> shape = nullptr;
   Material material;
   int order = 1;
   bool fixed = false;  ///< never moves, has no unknowns; material is not used

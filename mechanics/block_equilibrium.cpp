@@ -64,28 +64,28 @@ bool balance(const BlockModel& block, const Eigen::VectorXd& force, double round
 
 std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, double time) const {
   if (fixed()) return basis_.identity_map();
-  if (!space_.held()) return std::nullopt;
-  Eigen::VectorXd force = space_.restrict(external_force(gravity, time));
-  if (form_) force -= space_.restrict(elastic(basis_.identity_map()).force);
+  if (!space().held()) return std::nullopt;
+  Eigen::VectorXd force = space().restrict(external_force(gravity, time));
+  if (form_) force -= space().restrict(elastic(basis_.identity_map()).force);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns());
   if (material().elasticity == Elasticity::linear) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(reduced_stiffness_);
+    const Eigen::LLT<Eigen::MatrixXd> factor(parts_->reduced_stiffness);
     if (factor.info() != Eigen::Success) return std::nullopt;
     y = factor.solve(force);
-    y += factor.solve(force - reduced_stiffness_ * y);
+    y += factor.solve(force - parts_->reduced_stiffness * y);
   } else {
     for (int part = 1; part <= load_parts; ++part) {
       if (!balance(*this, force * part / load_parts, force_rounding(), y)) return std::nullopt;
     }
   }
-  return Eigen::MatrixX3d(basis_.identity_map() + space_.expand(y));
+  return Eigen::MatrixX3d(basis_.identity_map() + space().expand(y));
 }
 
 double BlockModel::force_rounding() const {
   // The mean position drops out of the force exactly, so only the linear coefficients carry rounding errors.
   Eigen::MatrixX3d size = basis_.identity_map().cwiseAbs();
   size.row(0).setZero();
-  const Eigen::VectorXd reduced = space_.restrict(size);
+  const Eigen::VectorXd reduced = space().restrict(size);
   return 4.0 * std::numeric_limits<double>::epsilon() *
          (tangent(Eigen::Matrix3d::Identity()).cwiseAbs() * reduced.cwiseAbs()).norm();
 }

@@ -16,33 +16,39 @@ std::shared_ptr<const IncrementalForm> form_of(const BlockDefinition& definition
 
 BlockModel::BlockModel(BlockDefinition definition)
     : BlockModel([&] {
+        BlockPartsLibrary library;
+        return BlockModel(std::move(definition), library);
+      }()) {}
+
+BlockModel::BlockModel(BlockDefinition definition, BlockPartsLibrary& library)
+    : BlockModel([&] {
         const auto form = form_of(definition);
-        if (!form) return BlockModel(std::move(definition), nullptr, {});
+        if (!form) {
+          const auto found = library.find(definition);
+          return BlockModel(std::move(definition), nullptr, {}, found);
+        }
         CarriedShape start = form->start();
         BlockDefinition now = form->definition_at(start);
-        return BlockModel(std::move(now), form, std::move(start));
+        const auto found = library.find(now);
+        return BlockModel(std::move(now), form, std::move(start), found);
       }()) {}
 
 BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form,
-                       CarriedShape carried)
+                       CarriedShape carried, const BlockPartsLibrary::Found& found)
     : definition_(std::move(definition)),
-      basis_(*definition_.solid, definition_.fixed ? 1 : definition_.order),
-      space_(basis_.size()),
+      basis_(found.basis),
+      parts_(found.parts),
       form_(std::move(form)),
       carried_(std::move(carried)) {
   if (fixed()) return;
-  space_ = AdmissibleSpace(solid(), basis_, definition_.supports);
-  mean_gradients_ = mean_gradients(basis_);
-  stiffness_ = elastic_stiffness(basis_, material());
-  if (!corotational()) reduced_stiffness_ = space_.restrict(stiffness_);
-  if (material().elasticity == Elasticity::st_venant_kirchhoff)
-    large_ = std::make_shared<const StVenantKirchhoff>(solid(), basis_, material());
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
 }
 
 BlockModel BlockModel::with_shape(CarriedShape shape) const {
   BlockDefinition now = form_->definition_at(shape);
-  return {std::move(now), form_, std::move(shape)};
+  BlockPartsLibrary library;
+  const auto found = library.find(now);
+  return {std::move(now), form_, std::move(shape), found};
 }
 
 CarriedBlock BlockModel::carried_on(const Eigen::MatrixX3d& position) const {
@@ -58,7 +64,7 @@ CarriedBlock BlockModel::carried_on(const Eigen::MatrixX3d& position) const {
   CarriedBlock next{with_shape(std::move(shape)), {}};
   Vector3 shift = next.model.basis().centroid() - basis_.centroid();
   for (int axis = 0; axis < 3; ++axis) {
-    if (!space_.free_along(axis)) shift[axis] = 0.0;
+    if (!space().free_along(axis)) shift[axis] = 0.0;
   }
   next.re_expansion = re_expansion(basis_, next.model.basis(), shift);
   next.model.carried_.stress =
@@ -78,7 +84,7 @@ BlockState BlockModel::initial_state() const {
 Eigen::MatrixX3d BlockModel::rigid_velocity(const Vector3& velocity, const Vector3& angular_velocity) const {
   Eigen::Matrix3d spin;
   for (int k = 0; k < 3; ++k) spin.col(k) = angular_velocity.cross(Vector3::Unit(k));
-  return space_.expand(space_.restrict(basis_.linear_field(velocity, spin)));
+  return space().expand(space().restrict(basis_.linear_field(velocity, spin)));
 }
 
 Eigen::MatrixX3d BlockModel::external_force(const Vector3& gravity, double time) const {
@@ -100,19 +106,22 @@ bool BlockModel::loads_change_between(double start, double end) const {
 }
 
 ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
-  if (large_) return large_->respond(position);
+  if (parts_->large) return parts_->large->respond(position);
   if (form_)
     return incremental_response(basis_, material(), carried_.stress, position - basis_.identity_map());
-  return elastic_response(stiffness_, mean_gradients_, basis_.identity_map(), position, corotational());
+  return elastic_response(parts_->stiffness, parts_->mean_gradients, basis_.identity_map(), position,
+                          corotational());
 }
 
 Eigen::MatrixXd BlockModel::tangent(const Eigen::Matrix3d& rotation) const {
-  return corotational() ? space_.restrict(rotated_stiffness(stiffness_, rotation)) : reduced_stiffness_;
+  return corotational() ? space().restrict(rotated_stiffness(parts_->stiffness, rotation))
+                        : parts_->reduced_stiffness;
 }
 
 Eigen::MatrixXd BlockModel::tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
                                     bool positive) const {
-  return large_ ? space_.restrict(large_->tangent(position, positive)) : tangent(elastic.rotation);
+  return parts_->large ? space().restrict(parts_->large->tangent(position, positive))
+                       : tangent(elastic.rotation);
 }
 
 Vector3 BlockModel::momentum(const BlockState& state) const {
@@ -143,10 +152,11 @@ Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point
     const Eigen::MatrixX3d change = state.position - basis_.identity_map();
     return incremental_stress(basis_, carried_.stress + added_stress(basis_, material(), change), point);
   }
-  if (large_)
+  if (parts_->large)
     return st_venant_kirchhoff_stress(material(), state.position.transpose() * basis_.gradients(point));
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  if (corotational()) rotation = polar_decomposition(state.position.transpose() * mean_gradients_).rotation;
+  if (corotational())
+    rotation = polar_decomposition(state.position.transpose() * parts_->mean_gradients).rotation;
   const Eigen::MatrixX3d deformation = state.position * rotation - basis_.identity_map();
   return linear_stress(material(), deformation.transpose() * basis_.gradients(point), rotation);
 }

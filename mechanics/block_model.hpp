@@ -13,6 +13,7 @@
 
 #include "mechanics/basis.hpp"
 #include "mechanics/block_definition.hpp"
+#include "mechanics/block_parts.hpp"
 #include "mechanics/elasticity.hpp"
 #include "mechanics/incremental_block.hpp"
 #include "mechanics/st_venant_kirchhoff.hpp"
@@ -42,6 +43,8 @@ class BlockModel {
   /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
   /// load_coefficients and IncrementalForm do
   explicit BlockModel(BlockDefinition definition);
+  /// The same, sharing what it can with other blocks made with the library.
+  BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
 
   /// Null for blocks of the total formulation.
   [[nodiscard]] const IncrementalForm* incremental() const { return form_.get(); }
@@ -60,11 +63,11 @@ class BlockModel {
   [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
   [[nodiscard]] int order() const { return basis_.order(); }
   [[nodiscard]] const PolynomialBasis& basis() const { return basis_; }
-  [[nodiscard]] const AdmissibleSpace& space() const { return space_; }
+  [[nodiscard]] const AdmissibleSpace& space() const { return parts_->space; }
   /// 0 for fixed blocks.
-  [[nodiscard]] int unknowns() const { return fixed() ? 0 : space_.unknowns(); }
+  [[nodiscard]] int unknowns() const { return fixed() ? 0 : space().unknowns(); }
   /// True if the frame of linear elasticity turns with the block (theory.md section 4).
-  [[nodiscard]] bool corotational() const { return !form_ && space_.can_turn(); }
+  [[nodiscard]] bool corotational() const { return !form_ && space().can_turn(); }
   [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
 
   /// Undeformed and at rest.
@@ -111,15 +114,12 @@ class BlockModel {
   [[nodiscard]] PointMotion motion_of(const BlockState& state, const Vector3& reference) const;
 
  private:
-  BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form, CarriedShape carried);
+  BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form, CarriedShape carried,
+             const BlockPartsLibrary::Found& found);
 
   BlockDefinition definition_;
   PolynomialBasis basis_;
-  AdmissibleSpace space_;
-  Eigen::MatrixX3d mean_gradients_;
-  Eigen::MatrixXd stiffness_;                       ///< K, (3p, 3p); empty for fixed blocks
-  Eigen::MatrixXd reduced_stiffness_;               ///< Z' K Z of a block that cannot turn
-  std::shared_ptr<const StVenantKirchhoff> large_;  ///< null for linear elasticity
+  std::shared_ptr<const BlockParts> parts_;
   std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
   std::shared_ptr<const IncrementalForm> form_;
   CarriedShape carried_;

@@ -38,6 +38,7 @@ Polyhedron solid_of_cells(const Polyhedron& solid, const SubFaceSurface& surface
 }  // namespace
 
 IncrementalForm::IncrementalForm(const BlockDefinition& definition) : definition_(definition) {
+  definition_.shape = nullptr;
   if (definition.material.elasticity != Elasticity::linear)
     throw std::invalid_argument("the incremental formulation needs linear elasticity");
   const Polyhedron& solid = *definition.solid;

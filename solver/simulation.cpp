@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 namespace ashlar {
@@ -270,43 +269,6 @@ void Simulation::move_block(std::size_t k, const TimeScheme& scheme, const BodyS
   if (!carried) return;
   accelerations_[k] = scheme.end_acceleration<Eigen::MatrixX3d>(
       block.space().expand(smooth) / density - scheme.mass_damping * damped, acceleration);
-}
-
-bool Simulation::any_incremental() const {
-  return std::any_of(blocks_.begin(), blocks_.end(),
-                     [](const BlockModel& block) { return block.incremental() != nullptr; });
-}
-
-bool Simulation::carry_blocks(Trial& trial) const {
-  trial.carried.clear();
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (blocks_[k].incremental() == nullptr) continue;
-    const Eigen::MatrixX3d change = blocks_[k].space().expand(trial.bodies[k].change);
-    try {
-      trial.carried.emplace(k, blocks_[k].carried_on(states_[k].position + change));
-    } catch (const std::invalid_argument&) {
-      return false;
-    } catch (const std::domain_error&) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void Simulation::start_carried_step(std::size_t k, CarriedBlock next) {
-  const Eigen::MatrixX3d change = states_[k].position - blocks_[k].basis().identity_map();
-  const int block = static_cast<int>(k);
-  for (auto pair = memory_.lower_bound({block, 0}); pair != memory_.end() && pair->first[0] == block;
-       ++pair) {
-    pair->second.carry([&](const Vector3& point) {
-      return Vector3(point + change.transpose() * blocks_[k].basis().values(point));
-    });
-  }
-  states_[k].velocity = next.taken_over(states_[k].velocity);
-  if (!accelerations_.empty()) accelerations_[k] = next.taken_over(accelerations_[k]);
-  blocks_[k] = std::move(next.model);
-  states_[k].position = blocks_[k].basis().identity_map();
-  finder_.start_step(block);
 }
 
 void Simulation::accept(const TimeScheme& scheme, Trial& trial) {

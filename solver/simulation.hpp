@@ -166,6 +166,7 @@ class Simulation {
   [[nodiscard]] std::vector<BodyStep> prepare_bodies(const TimeScheme& scheme) const;
   /// Accelerations in balance with the smooth forces of the present state.
   [[nodiscard]] std::vector<Eigen::MatrixX3d> smooth_accelerations() const;
+  // block_changes.cpp
   [[nodiscard]] bool any_incremental() const;
   /// Makes the next steps of incremental blocks. @return false if one would be no block any more
   [[nodiscard]] bool carry_blocks(Trial& trial) const;
