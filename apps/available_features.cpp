@@ -16,11 +16,9 @@ struct PartialKey {
   const char* available;  ///< JSON array of the values that work; empty: the key cannot be used yet
 };
 
-constexpr std::array<PartialKey, 4> partial_keys = {{
+constexpr std::array<PartialKey, 2> partial_keys = {{
     {"analysis.solver", R"(["auto", "cholmod"])"},
     {"contact.augmented", "[false]"},
-    {"joint.*.tied", "[false]"},
-    {"block.*.fix.*.displacement_history", "[]"},
 }};
 
 nlohmann::json::json_pointer pointer_to(std::string path) {

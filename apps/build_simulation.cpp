@@ -9,6 +9,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "apps/name_pattern.hpp"
 #include "solver/automatic.hpp"
 
 namespace ashlar {
@@ -43,7 +44,14 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index) {
                                ? Elasticity::linear
                                : Elasticity::st_venant_kirchhoff};
   }
-  for (const SceneFix& fix : block.fix) definition.supports.push_back({place_of(fix.where), fix.components});
+  for (const SceneFix& fix : block.fix) {
+    SupportHistory history;
+    for (const auto& point : fix.displacement_history) {
+      history.times.push_back(point.time);
+      history.displacements.push_back(point.displacement);
+    }
+    definition.supports.push_back({place_of(fix.where), fix.components, std::move(history)});
+  }
   for (const SceneLoad& load : block.load) {
     History history;
     for (const auto& point : load.history) {
@@ -147,6 +155,34 @@ class JointLaws {
   std::vector<JointLaw> laws_;
 };
 
+/// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key.
+void tie_joints(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  const AutomaticRatios ratios;
+  const std::vector<BlockModel>& blocks = simulation.blocks();
+  std::vector<bool> ties(scene.joint.size(), false);
+  for (std::size_t a = 0; a < blocks.size(); ++a) {
+    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
+      if (blocks[a].fixed() && blocks[b].fixed()) continue;
+      if (!joint_law_between(scene, blocks[a].name(), blocks[b].name()).tied) continue;
+      if (!simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
+                                 automatic_tie_stiffness(blocks[a], blocks[b], ratios)))
+        continue;
+      for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+        if (pattern_matches_pair(scene.joint[k].blocks, blocks[a].name(), blocks[b].name())) ties[k] = true;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    const SceneJoint& joint = scene.joint[k];
+    if (!joint.tied.value_or(false) || ties[k]) continue;
+    diagnostics.error(
+        scene.places.key(fmt::format("joint.{}.tied", k)),
+        fmt::format("tied blocks without a common face ({}, {}), blocks are tied over faces that "
+                    "lie in one plane and overlap",
+                    joint.blocks[0], joint.blocks[1]));
+  }
+}
+
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
@@ -171,6 +207,12 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   JointLaws laws(scene, blocks, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
                         std::move(choices), parts.size()};
+  try {
+    tie_joints(scene, built.simulation, diagnostics);
+  } catch (const std::invalid_argument& error) {
+    diagnostics.error(scene.places.key("analysis.formulation"), error.what());
+  }
+  if (!diagnostics.empty()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
     built.simulation.settle_supported_blocks();
   }

@@ -41,6 +41,7 @@ BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const Increme
       form_(std::move(form)),
       carried_(std::move(carried)) {
   if (fixed()) return;
+  motion_ = SupportMotion(solid(), basis_, definition_.supports);
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
 }
 
@@ -100,7 +101,17 @@ Eigen::MatrixX3d BlockModel::load_force(double time) const {
   return force;
 }
 
+Eigen::MatrixX3d BlockModel::prescribed_change(const Eigen::MatrixX3d& position, double from,
+                                               double to) const {
+  if (!driven()) return {};
+  if (form_) return motion_.at(to) - motion_.at(from);
+  // From where the supports are, so that rounding does not add up over steps.
+  const Eigen::MatrixX3d displacement = position - basis_.identity_map();
+  return motion_.at(to) - (displacement - space().expand(space().restrict(displacement)));
+}
+
 bool BlockModel::loads_change_between(double start, double end) const {
+  if (motion_.changes_between(start, end)) return true;
   return std::any_of(definition_.loads.begin(), definition_.loads.end(),
                      [&](const Load& load) { return load.history.changes_between(start, end); });
 }

@@ -17,6 +17,7 @@
 #include "mechanics/elasticity.hpp"
 #include "mechanics/incremental_block.hpp"
 #include "mechanics/st_venant_kirchhoff.hpp"
+#include "mechanics/support_motion.hpp"
 #include "mechanics/supports.hpp"
 
 namespace ashlar {
@@ -85,7 +86,13 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
   /// Loads without gravity. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
-  /// Whether any load may differ between two times.
+  /// True if a support of the block moves.
+  [[nodiscard]] bool driven() const { return motion_.moves(); }
+  /// What supports add to the position between two times, beside the motion of the unknowns. @param position
+  /// at the first one. @return (p, 3), orthogonal to all motions of the unknowns; empty if not driven
+  [[nodiscard]] Eigen::MatrixX3d prescribed_change(const Eigen::MatrixX3d& position, double from,
+                                                   double to) const;
+  /// Whether any load or support may differ between two times.
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
@@ -120,6 +127,7 @@ class BlockModel {
   BlockDefinition definition_;
   PolynomialBasis basis_;
   std::shared_ptr<const BlockParts> parts_;
+  SupportMotion motion_;
   std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
   std::shared_ptr<const IncrementalForm> form_;
   CarriedShape carried_;

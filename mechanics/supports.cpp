@@ -6,38 +6,39 @@
 namespace ashlar {
 namespace {
 
-/// Singular values below this part of the largest are conditions that repeat others.
-constexpr double rank_tolerance = 1e-10;
-
-/// Values of phi on the supports of one component, scaled to comparable sizes. @return (#conditions, p)
+/// Conditions of all supports on one component. @return (#conditions, p)
 Eigen::MatrixXd conditions(const Polyhedron& solid, const PolynomialBasis& basis,
                            const std::vector<BlockSupport>& supports, std::size_t axis) {
-  std::vector<Vector3> points;
+  Eigen::MatrixXd all(0, basis.size());
   for (const BlockSupport& support : supports) {
-    if (!support.components[axis]) continue;
-    if (const auto* point = std::get_if<Vector3>(&support.where)) {
-      points.push_back(*point);
-      continue;
-    }
-    const auto faces = faces_at(solid, support.where);
-    if (faces.empty()) throw std::invalid_argument("no face of the block lies in the support's plane");
-    // A polynomial of order n that vanishes at the points of a rule of degree 2n vanishes on the face.
-    const SurfaceRule rule = surface_rule(solid, faces, 2 * basis.order());
-    points.insert(points.end(), rule.points.begin(), rule.points.end());
+    const Eigen::MatrixXd rows = support_conditions(solid, basis, support, axis);
+    all.conservativeResize(all.rows() + rows.rows(), Eigen::NoChange);
+    all.bottomRows(rows.rows()) = rows;
   }
-  return basis.values(points) * std::sqrt(basis.volume());
+  return all;
 }
 
 /// Orthonormal basis of the null space of the conditions. @return (p, p - rank)
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& conditions, Eigen::Index functions) {
   if (conditions.rows() == 0) return Eigen::MatrixXd::Identity(functions, functions);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(conditions.transpose());
-  qr.setThreshold(rank_tolerance);
+  qr.setThreshold(support_rank_tolerance);
   const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(functions, functions);
   return q.rightCols(functions - qr.rank());
 }
 
 }  // namespace
+
+Eigen::MatrixXd support_conditions(const Polyhedron& solid, const PolynomialBasis& basis,
+                                   const BlockSupport& support, std::size_t axis) {
+  if (!support.components[axis]) return Eigen::MatrixXd(0, basis.size());
+  if (const auto* point = std::get_if<Vector3>(&support.where))
+    return basis.values(*point).transpose() * std::sqrt(basis.volume());
+  const auto faces = faces_at(solid, support.where);
+  if (faces.empty()) throw std::invalid_argument("no face of the block lies in the support's plane");
+  // A polynomial of order n that vanishes at the points of a rule of degree 2n vanishes on the face.
+  return basis.values(surface_rule(solid, faces, 2 * basis.order()).points) * std::sqrt(basis.volume());
+}
 
 AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis& basis,
                                  const std::vector<BlockSupport>& supports)
@@ -64,9 +65,10 @@ AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis&
   can_turn_ = false;
   held_ = true;
   for (int k = 0; k < 6; ++k) {
-    const bool admissible = svd.singularValues()[k] < std::sqrt(rank_tolerance);
+    const bool admissible = svd.singularValues()[k] < std::sqrt(support_rank_tolerance);
     if (admissible) held_ = false;
-    if (admissible && svd.matrixV().col(k).tail(3).norm() > std::sqrt(rank_tolerance)) can_turn_ = true;
+    if (admissible && svd.matrixV().col(k).tail(3).norm() > std::sqrt(support_rank_tolerance))
+      can_turn_ = true;
   }
 }
 

@@ -12,11 +12,29 @@
 
 namespace ashlar {
 
-/// A support of faces or of one material point; chosen components of its displacement are zero.
+/// Displacement of a support over time: linear between the points, constant before the first and after the
+/// last; none if there are none.
+struct SupportHistory {
+  std::vector<double> times;           ///< s, increasing
+  std::vector<Vector3> displacements;  ///< m, same number
+};
+
+/// A support of faces or of one material point; chosen components of its displacement are zero or follow a
+/// history.
 struct BlockSupport {
   BlockPlace where;  ///< reference coordinates, m
   std::array<bool, 3> components = {true, true, true};
+  SupportHistory history = {};  ///< of the chosen components, see support_motion.hpp
 };
+
+/// Singular values below this part of the largest are conditions that repeat others.
+inline constexpr double support_rank_tolerance = 1e-10;
+
+/// Rows that give one component of the displacement on a support, scaled to comparable sizes: basis values
+/// times sqrt(volume). Coefficients that they take to zero vanish on the support. @return (#conditions, p),
+/// none if the component is not held. @throws std::invalid_argument if a plane holds no face of the solid
+[[nodiscard]] Eigen::MatrixXd support_conditions(const Polyhedron& solid, const PolynomialBasis& basis,
+                                                 const BlockSupport& support, std::size_t axis);
 
 /// Admissible motions of one block. A free block has no matrices stored.
 class AdmissibleSpace {

@@ -19,4 +19,11 @@ double automatic_normal_stiffness(const BlockModel& a, const BlockModel& b, bool
   return ratios.normal_stiffness * modulus / size * (area_springs ? 1.0 : size * size);
 }
 
+double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b, const AutomaticRatios& ratios) {
+  const auto stiffness = [](const BlockModel& block) {
+    return block.fixed() ? 0.0 : block.material().young_modulus / block_size(block);
+  };
+  return ratios.tie_stiffness * std::max(stiffness(a), stiffness(b));
+}
+
 }  // namespace ashlar

@@ -12,6 +12,9 @@ struct AutomaticRatios {
   /// the block.
   double normal_stiffness = 20.0;
   double shear_to_normal_stiffness = 0.5;
+  /// Stiffness of tied joints times block size over Young's modulus: a joint gives way a hundred thousandth
+  /// of what the block does; stiffer costs digits.
+  double tie_stiffness = 1e5;
   double distance = 1e-3;  ///< of the smallest block's size
   double angle_degrees = 10.0;
   double chord_tolerance = 5e-3;  ///< of the smallest block's size
@@ -24,5 +27,9 @@ struct AutomaticRatios {
 /// springs N/m (the area stiffness times the smaller size squared).
 [[nodiscard]] double automatic_normal_stiffness(const BlockModel& a, const BlockModel& b, bool area_springs,
                                                 const AutomaticRatios& ratios = {});
+
+/// Stiffness of a tied joint from the stiffer material and the smaller size, Pa/m.
+[[nodiscard]] double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b,
+                                             const AutomaticRatios& ratios = {});
 
 }  // namespace ashlar

@@ -16,7 +16,7 @@ bool Simulation::carry_blocks(Trial& trial) const {
   trial.carried.clear();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (blocks_[k].incremental() == nullptr) continue;
-    const Eigen::MatrixX3d change = blocks_[k].space().expand(trial.bodies[k].change);
+    const Eigen::MatrixX3d change = trial.bodies[k].motion();
     try {
       trial.carried.emplace(k, blocks_[k].carried_on(states_[k].position + change));
     } catch (const std::invalid_argument&) {

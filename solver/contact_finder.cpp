@@ -90,7 +90,9 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
     loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
   std::vector<bool> near(surfaces_.size(), false);
-  const auto can_meet = [&](const PairKey& pair) { return moving_[at(pair[0])] || moving_[at(pair[1])]; };
+  const auto can_meet = [&](const PairKey& pair) {
+    return (moving_[at(pair[0])] || moving_[at(pair[1])]) && left_out_.count(pair) == 0;
+  };
   for (const PairKey& pair : meeting_boxes(loose)) {
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
   }
@@ -219,8 +221,9 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
     return checked_motion_[at(pair[0])] + checked_motion_[at(pair[1])];
   };
   std::vector<PairKey> pairs = meeting_boxes(swept);
-  std::erase_if(
-      pairs, [&](const PairKey& pair) { return both(pair) <= tolerance || known_apart(pair, both(pair)); });
+  std::erase_if(pairs, [&](const PairKey& pair) {
+    return left_out_.count(pair) > 0 || both(pair) <= tolerance || known_apart(pair, both(pair));
+  });
   // What is left is looked at with the true surfaces and their true motion.
   std::vector<std::vector<Vector3>> ends(surfaces_.size());
   for (const PairKey& pair : pairs) {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "geometry/convex_search.hpp"
@@ -77,6 +78,8 @@ class ContactFinder {
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
                                                 const ExpectedMotion& motion,
                                                 const std::function<double(int, int)>& deepest);
+  /// Looks for no contacts between two blocks from now on. @param a,b a < b
+  void leave_out(int a, int b) { left_out_.insert({a, b}); }
   /// The surface of a block of a found pair.
   [[nodiscard]] const PlacedSurface& placed(int block) const {
     return placed_[static_cast<std::size_t>(block)].value();
@@ -116,6 +119,7 @@ class ContactFinder {
 
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
+  std::set<PairKey> left_out_;
   std::vector<bool> convex_;  ///< convex solids whose faces stay flat
   std::vector<BlockSurface> surfaces_;
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near

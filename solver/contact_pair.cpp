@@ -1,18 +1,25 @@
 #include "solver/contact_pair.hpp"
 
+#include <limits>
 #include <utility>
 
 namespace ashlar {
 namespace {
 
-/// Rows that give the motion of material points of a block along the three directions of each contact point.
-Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactPoint>& points, bool of_a) {
+/// Values of a block's functions at its material points. @return (#points, p), empty for fixed blocks
+Eigen::MatrixXd values_at(const BlockModel& model, const std::vector<ContactPoint>& points, bool of_a) {
   if (model.fixed()) return {};
-  const auto count = static_cast<Eigen::Index>(points.size());
   std::vector<Vector3> material;
   material.reserve(points.size());
   for (const ContactPoint& point : points) material.push_back(of_a ? point.material_a : point.material_b);
-  const Eigen::MatrixXd phi = model.basis().values(material);
+  return model.basis().values(material);
+}
+
+/// Rows that give the motion of a block along the three directions of each contact point.
+Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactPoint>& points,
+                             const Eigen::MatrixXd& phi) {
+  if (model.fixed()) return {};
+  const auto count = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd rows(3 * count, model.unknowns());
   for (int direction = 0; direction < 3; ++direction) {
     Eigen::MatrixX3d directions(count, 3);
@@ -24,6 +31,48 @@ Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactP
     for (Eigen::Index k = 0; k < count; ++k) rows.row(3 * k + direction) = part.row(k);
   }
   return rows;
+}
+
+/// Coefficients of the gap of two tied blocks. @return (r, 3)
+Eigen::MatrixX3d tie_gap(const Tie& tie, const BlockState& a, const BlockState& b) {
+  return tie.a * a.position - tie.b * b.position;
+}
+
+std::vector<ContactPoint> tie_points(const Eigen::MatrixX3d& gap) {
+  std::vector<ContactPoint> points(static_cast<std::size_t>(gap.rows()));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    ContactPoint& point = points[k];
+    point.type = ContactPointType::face_face;
+    point.normal = Vector3::UnitX();
+    point.tangent_1 = Vector3::UnitY();
+    point.tangent_2 = Vector3::UnitZ();
+    point.place_a = gap.row(static_cast<Eigen::Index>(k));
+    point.place_b.setZero();
+    point.gap = point.place_a.x();
+    point.area = 1.0;
+  }
+  return points;
+}
+
+std::vector<PointMemory> tie_memory(const Eigen::MatrixX3d& gap) {
+  std::vector<PointMemory> memory(static_cast<std::size_t>(gap.rows()));
+  for (std::size_t k = 0; k < memory.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    memory[k].slip = {0.0, gap(row, 1), gap(row, 2)};
+    memory[k].state = ContactState::locked;
+    memory[k].intact = true;
+  }
+  return memory;
+}
+
+/// Springs in all directions that nothing breaks.
+JointLaw tie_law(double stiffness) {
+  JointLaw law;
+  law.normal_stiffness = law.shear_stiffness = stiffness;
+  // Far from any force, and its differences are numbers.
+  law.cohesion = 1e100;
+  law.tensile_strength = std::numeric_limits<double>::infinity();
+  return law;
 }
 
 bool is_free(const ContactBody& body) {
@@ -52,14 +101,29 @@ Eigen::VectorXd turning_force(const Eigen::MatrixX3d& start, const Eigen::Vector
 ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
                          const JointLaw& law, std::vector<ContactPoint> points,
                          std::vector<PointMemory> memory)
+    : ContactPair(a, b, body_a, body_b, law, points, std::move(memory),
+                  values_at(*body_a.model, points, true), values_at(*body_b.model, points, false), nullptr) {}
+
+ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
+                         double stiffness)
+    : ContactPair(a, b, body_a, body_b, tie_law(stiffness),
+                  tie_points(tie_gap(tie, *body_a.state, *body_b.state)),
+                  tie_memory(tie_gap(tie, *body_a.state, *body_b.state)), tie.a, tie.b, &tie) {}
+
+ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
+                         const JointLaw& law, std::vector<ContactPoint> points,
+                         std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
+                         const Eigen::MatrixXd& phi_b, const Tie* tie)
     : a_(a),
       b_(b),
       points_(std::move(points)),
       memory_(std::move(memory)),
       start_(3, static_cast<Eigen::Index>(points_.size())),
-      rows_a_(contact_rows(*body_a.model, points_, true)),
-      rows_b_(contact_rows(*body_b.model, points_, false)),
-      free_pair_(is_free(body_a) && is_free(body_b)) {
+      rows_a_(contact_rows(*body_a.model, points_, phi_a)),
+      rows_b_(contact_rows(*body_b.model, points_, phi_b)),
+      tie_(tie),
+      // The forces of a tie are along the gap, so that they have no couple worth the name.
+      free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
   if (free_pair_) {
     position_a_ = body_a.state->position;
     position_b_ = body_b.state->position;
@@ -78,7 +142,44 @@ Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::V
   Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
   if (rows_a_.size() > 0) flat.noalias() += rows_a_ * ya;
   if (rows_b_.size() > 0) flat.noalias() -= rows_b_ * yb;
+  if (prescribed_.size() > 0) result += prescribed_;
   return result;
+}
+
+void ContactPair::prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
+                            const Eigen::MatrixX3d& change_b) {
+  prescribed_.resize(3, 0);
+  if (change_a.size() == 0 && change_b.size() == 0) return;
+  prescribed_.setZero(3, start_.cols());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const ContactPoint& point = points_[k];
+    Vector3 motion = Vector3::Zero();
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto values = [&](const BlockModel& block, const Vector3& material, bool of_a) -> Eigen::VectorXd {
+      if (tied()) return (of_a ? tie_->a : tie_->b).row(row).transpose();
+      return block.basis().values(material);
+    };
+    if (change_a.size() > 0) motion += change_a.transpose() * values(a, point.material_a, true);
+    if (change_b.size() > 0) motion -= change_b.transpose() * values(b, point.material_b, false);
+    prescribed_.col(static_cast<Eigen::Index>(k)) << point.normal.dot(motion), point.tangent_1.dot(motion),
+        point.tangent_2.dot(motion);
+  }
+}
+
+double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  if (!tied() || laws_.empty()) return 0.0;
+  const auto part = [](const Eigen::MatrixXd& rows, const Eigen::VectorXd& change) {
+    return rows.size() > 0 ? rows.rowwise().squaredNorm().maxCoeff() * change.norm() : 0.0;
+  };
+  return 2.0 * std::numeric_limits<double>::epsilon() * laws_.front().normal_stiffness *
+         (part(rows_a_, ya) + part(rows_b_, yb));
+}
+
+double ContactPair::prescribed_work(const PairResponse& response) const {
+  double work = 0.0;
+  for (Eigen::Index k = 0; k < prescribed_.cols(); ++k)
+    work += prescribed_.col(k).dot(response.means[static_cast<std::size_t>(k)].force);
+  return work;
 }
 
 PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,

@@ -7,6 +7,7 @@
 
 #include "mechanics/contact_memory.hpp"
 #include "mechanics/contact_points.hpp"
+#include "mechanics/tie.hpp"
 
 namespace ashlar {
 
@@ -42,6 +43,15 @@ class ContactPair {
   ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
               std::vector<ContactPoint> points, std::vector<PointMemory> memory);
 
+  /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
+  /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
+  /// @param stiffness Pa/m
+  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
+              double stiffness);
+  [[nodiscard]] bool tied() const { return tie_ != nullptr; }
+  /// Size of the rounding errors of the forces of a tie, 0 of contacts, in the norm of a block's unknowns.
+  [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+
   [[nodiscard]] int a() const { return a_; }
   [[nodiscard]] int b() const { return b_; }
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
@@ -58,6 +68,13 @@ class ContactPair {
                                      bool averaged) const {
     return respond(ya, yb, averaged, laws_);
   }
+  /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
+  /// 3), empty: none
+  void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
+                 const Eigen::MatrixX3d& change_b);
+  /// Work of the contact forces on prescribed motion, J.
+  [[nodiscard]] double prescribed_work(const PairResponse& response) const;
+
   /// Spring energy at the start of the step, J.
   [[nodiscard]] double start_energy() const;
 
@@ -93,6 +110,10 @@ class ContactPair {
   [[nodiscard]] static double energy(const PairResponse& response);
 
  private:
+  /// With phi (#points, p) the values of the functions of a and b at the points.
+  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
+              std::vector<ContactPoint> points, std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
+              const Eigen::MatrixXd& phi_b, const Tie* tie);
   /// Sum of r x F over the points, N m. @param place as relative() returns, @param forces (3 #points) by
   /// frame
   [[nodiscard]] Vector3 couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const;
@@ -105,10 +126,12 @@ class ContactPair {
   std::vector<PointMemory> memory_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
-  Eigen::Matrix3Xd start_;  ///< gap and slip at the start of the step
+  Eigen::Matrix3Xd start_;            ///< gap and slip at the start of the step
+  Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
   Eigen::MatrixXd
       rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed
   Eigen::MatrixXd rows_b_;
+  const Tie* tie_;               ///< null for contacts
   bool free_pair_;               ///< nothing but the other block holds either
   Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step, of free pairs
   Eigen::MatrixX3d position_b_;

@@ -42,6 +42,12 @@ FactorCounts IslandSolvers::counts() const {
   return sum;
 }
 
+Eigen::MatrixX3d BodyStep::motion() const {
+  Eigen::MatrixX3d sum = model->space().expand(change);
+  if (prescribed.size() > 0) sum += prescribed;
+  return sum;
+}
+
 std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {
   std::vector<int> parent(moving.size());
   std::iota(parent.begin(), parent.end(), 0);

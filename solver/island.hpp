@@ -29,6 +29,10 @@ struct BodyStep {
   Eigen::VectorXd change;          ///< D, the result
   double largest_force = 0.0;      ///< norm of the largest force that acts on it
   ElasticResponse elastic;         ///< where the integrator takes it
+  Eigen::MatrixX3d prescribed;     ///< what supports that move add to the position, (p, 3); empty: nothing
+
+  /// Change of the position's coefficients at the present `change`. @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d motion() const;
 };
 
 /// Result of one island.

@@ -44,7 +44,7 @@ void IslandProblem::predict() {
 
 /// Where the elastic force of a body is taken.
 Eigen::MatrixX3d IslandProblem::taken_at(const BodyStep& body) const {
-  return body.state->position + scheme_.end_share * body.model->space().expand(body.change);
+  return body.state->position + scheme_.end_share * body.motion();
 }
 
 void IslandProblem::respond() {
@@ -62,6 +62,7 @@ void IslandProblem::respond() {
 Balance IslandProblem::balance() const {
   Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size), 0.0};
   std::vector<double> scale(island_.bodies.size(), 0.0);
+  std::vector<double> tie_rounding(island_.bodies.size(), 0.0);
   const auto add = [&](int body, const Eigen::VectorXd& force) {
     result.left.segment(solver_.matrix.offset(body), force.size()) += force;
     scale[at(body)] = std::max(scale[at(body)], force.norm());
@@ -75,16 +76,22 @@ Balance IslandProblem::balance() const {
     add(place, -density * scheme_.inertia * (body.change - body.free_change));
   }
   for (std::size_t k = 0; k < pairs(); ++k) {
-    if (const int a = place(pair(k).a()); a >= 0) add(a, responses_[k].total_on_a());
-    if (const int b = place(pair(k).b()); b >= 0) add(b, responses_[k].total_on_b());
+    const int a = place(pair(k).a());
+    const int b = place(pair(k).b());
+    if (a >= 0) add(a, responses_[k].total_on_a());
+    if (b >= 0) add(b, responses_[k].total_on_b());
+    const double rounding =
+        pair(k).force_rounding(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change);
+    if (a >= 0) tie_rounding[at(a)] += rounding;
+    if (b >= 0) tie_rounding[at(b)] += rounding;
   }
   const double tolerance =
       scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
-    const double rounding = body.roundoff_force + 8.0 * std::numeric_limits<double>::epsilon() *
-                                                      body.model->material().density * scheme_.inertia *
-                                                      (body.change.norm() + body.free_change.norm());
+    const double rounding = body.roundoff_force + tie_rounding[k] +
+                            8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
+                                scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
         result.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.change.size()).norm();
     body.largest_force = scale[k];

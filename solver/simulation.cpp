@@ -63,9 +63,29 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
   start_balance_ = ledger_.balance();
 }
 
+bool Simulation::tie_blocks(int a, int b, double stiffness) {
+  for (const int block : {a, b}) {
+    if (blocks_[at(block)].incremental() != nullptr)
+      throw std::invalid_argument("blocks of the incremental formulation cannot be tied");
+  }
+  finder_.leave_out(a, b);
+  const BlockModel& block_a = blocks_[at(a)];
+  const BlockModel& block_b = blocks_[at(b)];
+  Tie tie = tie_between(block_a.solid(), block_a.basis(), block_b.solid(), block_b.basis());
+  if (tie.area == 0.0) return false;
+  ties_.push_back({a, b, std::move(tie), stiffness});
+  return true;
+}
+
+bool Simulation::is_tied(std::size_t block) const {
+  const int index = static_cast<int>(block);
+  return std::any_of(ties_.begin(), ties_.end(),
+                     [&](const TiedBlocks& tie) { return tie.a == index || tie.b == index; });
+}
+
 void Simulation::settle_supported_blocks() {
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (!moving_[k] || !blocks_[k].supported()) continue;
+    if (!moving_[k] || !blocks_[k].supported() || is_tied(k)) continue;
     auto position = blocks_[k].equilibrium(settings_.gravity, 0.0);
     if (!position) continue;
     if (blocks_[k].incremental() == nullptr) {
@@ -160,6 +180,10 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   const Stopwatch watch(seconds_.solve);
   trial.islands = find_islands(moving_, trial.pairs);
   trial.bodies = prepare_bodies(scheme);
+  for (ContactPair& pair : trial.pairs) {
+    pair.prescribe(blocks_[at(pair.a())], trial.bodies[at(pair.a())].prescribed, blocks_[at(pair.b())],
+                   trial.bodies[at(pair.b())].prescribed);
+  }
   trial.results.clear();
   for (const Island& island : trial.islands) {
     trial.results.push_back(solve_island(island, trial.bodies, trial.pairs, scheme, settings_, solvers_));
@@ -172,7 +196,9 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
 
 std::vector<FoundContacts> Simulation::find_contacts(double step) {
   const Stopwatch watch(seconds_.contact_search);
-  const ExpectedMotion motion = finder_.expected_motion(states_, step);
+  const std::vector<BlockState> driven = driven_states(step);
+  const ExpectedMotion motion = driven.empty() ? finder_.expected_motion(states_, step)
+                                               : finder_.expected_motion(driven, step > 0.0 ? step : 1.0);
   return finder_.find(states_, motion, [&](int a, int b) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest();
@@ -193,6 +219,11 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
     pairs.emplace_back(a, b, body_a, body_b, law_(a, b), std::move(points), std::move(memory));
   }
+  for (const TiedBlocks& tied : ties_) {
+    pairs.emplace_back(tied.a, tied.b, ContactBody{&blocks_[at(tied.a)], &states_[at(tied.a)], nullptr},
+                       ContactBody{&blocks_[at(tied.b)], &states_[at(tied.b)], nullptr}, tied.tie,
+                       tied.stiffness);
+  }
   return pairs;
 }
 
@@ -201,7 +232,7 @@ std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
   const Stopwatch watch(seconds_.motion_check);
   std::vector<BlockState> after = states_;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (moving_[k]) after[k].position += blocks_[k].space().expand(trial.bodies[k].change);
+    if (moving_[k]) after[k].position += trial.bodies[k].motion();
   }
   return finder_.check_motion(states_, after, found);
 }
@@ -218,14 +249,29 @@ std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     body.free_change = block.space().restrict(
         scheme.free_change(still, states_[k].velocity, accelerations_.empty() ? still : accelerations_[k]));
-    Eigen::MatrixX3d force = block.external_force(settings_.gravity, time_ + scheme.step);
-    if (scheme.end_share < 1.0) {
-      force = scheme.end_share * force +
-              (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time_);
-    }
-    body.external_force = block.space().restrict(force);
+    body.external_force = block.space().restrict(external_force(block, scheme));
+    body.prescribed = block.prescribed_change(states_[k].position, time_, time_ + scheme.step);
   }
   return bodies;
+}
+
+Eigen::MatrixX3d Simulation::external_force(const BlockModel& block, const TimeScheme& scheme) const {
+  const Eigen::MatrixX3d end = block.external_force(settings_.gravity, time_ + scheme.step);
+  if (scheme.end_share >= 1.0) return end;
+  return scheme.end_share * end + (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time_);
+}
+
+std::vector<BlockState> Simulation::driven_states(double step) const {
+  std::vector<BlockState> states;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const BlockModel& block = blocks_[k];
+    const Eigen::MatrixX3d prescribed = block.prescribed_change(states_[k].position, time_, time_ + step);
+    if (prescribed.size() == 0 || prescribed.isZero(0.0)) continue;
+    if (states.empty()) states = states_;
+    states[k].velocity = block.space().expand(block.space().restrict(states_[k].velocity)) +
+                         prescribed / (step > 0.0 ? step : 1.0);
+  }
+  return states;
 }
 
 std::vector<Eigen::MatrixX3d> Simulation::smooth_accelerations() const {
@@ -249,23 +295,37 @@ void Simulation::move_block(std::size_t k, const TimeScheme& scheme, const BodyS
   BlockState& state = states_[k];
   const double density = block.material().density;
   const Eigen::MatrixX3d change = block.space().expand(body.change);
+  const bool driven = body.prescribed.size() > 0;
+  // The velocity of the unknowns; that of supports that move is orthogonal to it.
+  const Eigen::MatrixX3d velocity =
+      driven ? block.space().expand(block.space().restrict(state.velocity)) : state.velocity;
   const bool carried = !accelerations_.empty();
   const Eigen::MatrixX3d acceleration =
       carried ? accelerations_[k] : Eigen::MatrixX3d::Zero(change.rows(), 3);
   Eigen::MatrixX3d load = block.load_force(time_ + scheme.step);
   if (scheme.end_share < 1.0)
     load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(time_);
-  ledger_.applied += change.cwiseProduct(load).sum();
-  const Eigen::MatrixX3d damped = scheme.damped_velocity(change, state.velocity, acceleration);
+  ledger_.applied += body.motion().cwiseProduct(load).sum();
+  const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
   const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
   ledger_.damping += damping;
-  const double kinetic = block.kinetic_energy(state);
-  state.velocity = scheme.end_velocity(change, state.velocity, acceleration);
-  state.position += change;
+  const Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
+  const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
+  if (driven) {
+    Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
+    if (scheme.step > 0.0) rate = body.prescribed / scheme.step;
+    // Supports push against inertia and all forces but those of contacts, which accept() knows.
+    ledger_.applied += 0.5 * density * (rate.squaredNorm() - (state.velocity - velocity).squaredNorm()) +
+                       body.prescribed.cwiseProduct(body.elastic.force - external_force(block, scheme)).sum();
+    state.velocity = end_velocity + rate;
+  } else {
+    state.velocity = end_velocity;
+  }
+  state.position += body.motion();
   const Eigen::VectorXd smooth = body.external_force - block.space().restrict(body.elastic.force);
   const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
                       (1.0 - scheme.force_weight) * body.change.dot(smooth) - damping;
-  ledger_.numerical += work - (block.kinetic_energy(state) - kinetic);
+  ledger_.numerical += work - kinetic_gain;
   if (!carried) return;
   accelerations_[k] = scheme.end_acceleration<Eigen::MatrixX3d>(
       block.space().expand(smooth) / density - scheme.mass_damping * damped, acceleration);
@@ -280,7 +340,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   double potential_change = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
-    potential_work -= blocks_[k].space().expand(bodies[k].change).cwiseProduct(bodies[k].elastic.force).sum();
+    potential_work -= bodies[k].motion().cwiseProduct(bodies[k].elastic.force).sum();
     potential_change -= blocks_[k].elastic(states_[k].position).energy;
     move_block(k, scheme, bodies[k]);
     potential_change += blocks_[k].elastic(states_[k].position).energy;
@@ -301,10 +361,12 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
       const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
       const double work = (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) +
-                          (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0);
+                          (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0) + pair.prescribed_work(after);
+      ledger_.applied -= pair.prescribed_work(after);
       potential_work += work;
       potential_change += ContactPair::energy(after) - pair.start_energy();
       ledger_.contact += ContactPair::energy(after);
+      if (pair.tied()) continue;
       friction += pair.friction_work(after, laws, ya, yb);
       auto gaps = pair.gaps(ya, yb);
       double deepest = 0.0;

@@ -102,6 +102,12 @@ class Simulation {
   /// as far as settings.settling_steps takes them.
   void settle_supported_blocks();
 
+  /// Bonds two blocks over the faces they have in common (tie.hpp), and looks for no contacts between them.
+  /// To be called before settle_supported_blocks(), which leaves tied blocks as they are. @param a,b a < b
+  /// @param stiffness Pa/m. @return whether they have a common face
+  /// @throws std::invalid_argument if one of them is incremental
+  bool tie_blocks(int a, int b, double stiffness);
+
   /// Whether nothing is left up to `end_time` but the rounding of summed steps.
   [[nodiscard]] bool reached(double end_time) const;
   /// Takes one step of at most settings.time_step, and not beyond `end_time`, which is not yet reached. A
@@ -147,6 +153,14 @@ class Simulation {
  private:
   using PairKey = std::array<int, 2>;
 
+  struct TiedBlocks {
+    int a;
+    int b;
+    Tie tie;
+    double stiffness;  ///< Pa/m
+  };
+  [[nodiscard]] bool is_tied(std::size_t block) const;
+
   /// A step as tried: nothing of it is taken over before it is accepted.
   struct Trial {
     std::vector<ContactPair> pairs;
@@ -164,6 +178,11 @@ class Simulation {
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const Trial& trial,
                                                         const std::vector<FoundContacts>& found);
   [[nodiscard]] std::vector<BodyStep> prepare_bodies(const TimeScheme& scheme) const;
+  /// Gravity and loads of a block where the integrator takes them, (p, 3).
+  [[nodiscard]] Eigen::MatrixX3d external_force(const BlockModel& block, const TimeScheme& scheme) const;
+  /// States with the velocities that supports that move are about to have; empty if none moves.
+  /// @param step s; 0: as if the iteration of a static analysis took one second
+  [[nodiscard]] std::vector<BlockState> driven_states(double step) const;
   /// Accelerations in balance with the smooth forces of the present state.
   [[nodiscard]] std::vector<Eigen::MatrixX3d> smooth_accelerations() const;
   // block_changes.cpp
@@ -193,6 +212,7 @@ class Simulation {
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
   ContactFinder finder_;
+  std::vector<TiedBlocks> ties_;
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J

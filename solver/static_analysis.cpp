@@ -63,8 +63,11 @@ void Simulation::start_load_level(double end_time) {
   });
   const double next = time_ + settings_.time_step;
   time_ = changing && next < end_time - step_rounding * settings_.time_step ? next : end_time;
+  // From one equilibrium to the next, inertia would make blocks slide that supports only carry along.
+  const bool from_equilibrium = static_.balanced;
   static_ = StaticState{};
-  static_.inertia = 2.0 / (settings_.time_step * settings_.time_step);
+  if (from_equilibrium) static_.inertia = least_inertia();
+  if (static_.inertia == 0.0) static_.inertia = 2.0 / (settings_.time_step * settings_.time_step);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (moving_[k]) ledger_.numerical += blocks_[k].kinetic_energy(states_[k]);
     states_[k].velocity.setZero();
@@ -114,7 +117,8 @@ StaticStatus Simulation::static_step(double end_time) {
       accept(scheme, trial);
       report_.step = step;
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
-      const bool still = balanced && scheme.inertia <= least && before == contact_states(report_);
+      const bool still =
+          balanced && (scheme.inertia <= least || least == 0.0) && before == contact_states(report_);
       static_.still_iterations = still ? static_.still_iterations + 1 : 0;
       static_.balanced = static_.still_iterations >= 2;
       if (static_.balanced) return reached(end_time) ? StaticStatus::equilibrium : StaticStatus::balancing;
@@ -144,7 +148,7 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
     const BlockModel& block = blocks_[k];
     static_.unbalanced[k] = scheme.inertia * block.space().expand(body.change);
     const double lacking = block.material().density * static_.unbalanced[k].norm();
-    const Eigen::MatrixX3d position = states_[k].position + block.space().expand(body.change);
+    const Eigen::MatrixX3d position = states_[k].position + body.motion();
     if (lacking <= settings_.static_tolerance * body.largest_force + body.roundoff_force) {
       static_.travels[k] = 0.0;
       static_.milestones[k] = position;

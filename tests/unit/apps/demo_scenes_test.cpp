@@ -1,0 +1,50 @@
+// Every scene of data/scenes can be read, built and stepped.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "apps/build_simulation.hpp"
+#include "apps/scene_loading.hpp"
+
+namespace ashlar {
+namespace {
+
+std::vector<std::filesystem::path> scenes() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(ASHLAR_DATA_DIR) / "scenes"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class DemoScene : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(DemoScene, TakesItsFirstSteps) {
+  Diagnostics diagnostics;
+  const auto loaded = load_scene(GetParam(), {}, diagnostics);
+  std::ostringstream text;
+  diagnostics.print(text);
+  ASSERT_TRUE(loaded) << text.str();
+  EXPECT_FALSE(loaded->scene.title.empty());
+  auto built = build_simulation(*loaded, 1, diagnostics);
+  diagnostics.print(text);
+  ASSERT_TRUE(built) << text.str();
+  Simulation& simulation = built->simulation;
+  const double end_time = loaded->scene.analysis.end_time;
+  for (int k = 0; k < 5; ++k) {
+    if (loaded->scene.analysis.type == SceneAnalysis::Type::statics) {
+      EXPECT_NE(simulation.static_step(end_time), StaticStatus::not_converged);
+    } else {
+      ASSERT_EQ(simulation.step(end_time), StepStatus::accepted);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DemoScene, ::testing::ValuesIn(scenes()),
+                         [](const auto& info) { return info.param.stem().string(); });
+
+}  // namespace
+}  // namespace ashlar

@@ -1,0 +1,131 @@
+// Runs in which supports move: position, momentum and work that mechanics gives.
+#include <gtest/gtest.h>
+
+#include "solver/checkpoint.hpp"
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::place_of;
+using test_support::run_until;
+using test_support::same_law;
+
+constexpr std::array<bool, 3> all = {true, true, true};
+
+/// A box 2 x 1 x 1 of order 1 whose two ends are held in some components, the far one with a history.
+BlockDefinition bar(double density, std::array<bool, 3> components, const SupportHistory& near,
+                    const SupportHistory& far) {
+  BlockDefinition block = block_of("bar", Polyhedron(make_box({0, 0, 0}, {2, 1, 1})), {density, 1e9, 0.0}, 1);
+  block.supports.push_back({Plane{{0, 0, 0}, Vector3::UnitX()}, components, near});
+  block.supports.push_back({Plane{{2, 0, 0}, Vector3::UnitX()}, components, far});
+  return block;
+}
+
+Simulation lone(BlockDefinition block, const SimulationSettings& settings) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(block));
+  return {std::move(blocks), {{}}, same_law({}), settings};
+}
+
+TEST(DrivenSupport, StaticStretchDoesTheWorkOfItsLevels) {
+  const double stretch = 0.01, stiffness = 1e9 * 1.0 / 2.0;
+  SimulationSettings settings;
+  settings.gravity.setZero();
+  settings.time_step = 0.25;
+  Simulation simulation =
+      lone(bar(2500, all, {}, {{0.0, 1.0}, {Vector3::Zero(), {stretch, 0, 0}}}), settings);
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(1.0);
+  ASSERT_EQ(status, StaticStatus::equilibrium);
+  EXPECT_NEAR(place_of(simulation, 0, {2, 0.5, 0.5}).x(), 2.0 + stretch, 1e-13);
+  EXPECT_NEAR(place_of(simulation, 0, {1, 0.5, 0.5}).x(), 1.0 + 0.5 * stretch, 1e-13);
+  const double energy = 0.5 * stiffness * stretch * stretch;
+  EXPECT_NEAR(simulation.ledger().elastic / energy, 1.0, 1e-10);
+  // Four levels, each with the force at its end: k d^2 (1 + 2 + 3 + 4) / 16.
+  EXPECT_NEAR(simulation.ledger().applied / energy, 2.0 * 10.0 / 16.0, 1e-10);
+  EXPECT_LT(std::abs(simulation.ledger().residual), 1e-10 * energy);
+}
+
+TEST(DrivenSupport, CarriedBlockHasItsMomentumAndTheWorkForIt) {
+  const SupportHistory history{{0.0, 10.0}, {Vector3::Zero(), {20, 0, 0}}};
+  for (const Integrator integrator :
+       {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
+    SimulationSettings settings;
+    settings.integrator = integrator;
+    settings.time_step = 0.1;
+    Simulation simulation = lone(bar(2500, all, history, history), settings);
+    ASSERT_TRUE(run_until(simulation, 1.0));
+    EXPECT_NEAR(place_of(simulation, 0, {2, 1, 0}).x(), 4.0, 1e-12);
+    EXPECT_NEAR(simulation.momentum().x(), 5000.0 * 2.0, 1e-7);
+    // All of 1/2 m v^2; weight is carried by the supports without work.
+    EXPECT_NEAR(simulation.ledger().applied, 0.5 * 5000.0 * 4.0, 1e-6);
+    EXPECT_LT(std::abs(simulation.ledger().residual), 1e-6);
+    ASSERT_TRUE(run_until(simulation, 11.0));
+    EXPECT_NEAR(place_of(simulation, 0, {2, 1, 0}).x(), 22.0, 1e-11);
+    // Stopped again: the work has come back.
+    EXPECT_NEAR(simulation.momentum().x(), 0.0, 1e-6);
+    EXPECT_NEAR(simulation.ledger().applied, 0.0, 1e-6);
+  }
+}
+
+/// A belt at constant speed from a start on under a block that is laid on it.
+Simulation belt(double speed, double friction, double start = 0.0) {
+  const SupportHistory history{{start, start + 10.0}, {Vector3::Zero(), {10.0 * speed, 0, 0}}};
+  BlockDefinition base =
+      block_of("belt", Polyhedron(make_box({-4, -1, -1}, {4, 1, 0})), {1000, 1e11, 0.0}, 1);
+  for (const double z : {-1.0, 0.0})
+    base.supports.push_back({Plane{{0, 0, z}, Vector3::UnitZ()}, all, history});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(base));
+  blocks.emplace_back(
+      block_of("stone", Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 0.2})), {2500, 1e10, 0.0}, 1));
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  return {std::move(blocks), {{}, {}}, same_law({1e9, 1e9, friction, 0.0, 0.0, true}), settings};
+}
+
+TEST(DrivenSupport, BeltTakesABlockAlong) {
+  const double speed = 1.0, friction = 0.5, mass = 500.0;
+  Simulation simulation = belt(speed, friction);
+  ASSERT_TRUE(run_until(simulation, 0.1));
+  EXPECT_NEAR(simulation.blocks()[1].momentum(simulation.states()[1]).x() / (mass * friction * 9.81 * 0.1),
+              1.0, 0.01);
+  // It has the belt's speed after v / (mu g) = 0.204 s.
+  ASSERT_TRUE(run_until(simulation, 0.4));
+  EXPECT_NEAR(simulation.blocks()[1].momentum(simulation.states()[1]).x() / (mass * speed), 1.0, 1e-3);
+  // Friction took 1/2 m v^2; the belt gave as much again to the block, and what it needed itself.
+  const double energy = 0.5 * mass * speed * speed;
+  const double belt_energy = 0.5 * simulation.blocks()[0].mass() * speed * speed;
+  EXPECT_NEAR(simulation.ledger().friction / energy, 1.0, 0.01);
+  EXPECT_NEAR((simulation.ledger().applied - belt_energy) / energy, 2.0, 0.02);
+  EXPECT_LT(simulation.largest_step_residual(), 1e-8 * belt_energy);
+}
+
+TEST(DrivenSupport, GoesOnBitForBit) {
+  Simulation straight = belt(1.0, 0.5);
+  ASSERT_TRUE(run_until(straight, 0.05));
+  const std::string bytes = to_bytes(straight.snapshot());
+  ASSERT_TRUE(run_until(straight, 0.1));
+  Simulation resumed = belt(1.0, 0.5);
+  resumed.restore(snapshot_from_bytes(bytes));
+  ASSERT_TRUE(run_until(resumed, 0.1));
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(straight.states()[k].position, resumed.states()[k].position);
+    EXPECT_EQ(straight.states()[k].velocity, resumed.states()[k].velocity);
+  }
+  EXPECT_EQ(straight.ledger().applied, resumed.ledger().applied);
+}
+
+TEST(DrivenSupport, SlowBeltInStatics) {
+  // Carried along without slip: no force is needed, so that any friction will do.
+  Simulation simulation = belt(0.01, 0.1, 0.002);
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(0.012);
+  ASSERT_EQ(status, StaticStatus::equilibrium);
+  EXPECT_NEAR(place_of(simulation, 1, {0.5, 0.5, 0.2}).x(), 0.5 + 1e-4, 1e-8);
+}
+
+}  // namespace
+}  // namespace ashlar
