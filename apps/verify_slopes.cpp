@@ -180,11 +180,40 @@ std::vector<VerificationCheck> wedge() {
   return checks;
 }
 
+/// A block under a constant pressure that supports move to and fro on rigid ground. From one end to the other
+/// it goes 2 U, of which the springs give way by 2 mu N / ks before it slides against mu N.
+std::vector<VerificationCheck> cyclic_shear() {
+  constexpr double side = 2.0, p = 1e5, ks = 1e9, mu = 0.6, amplitude = 1e-3;
+  constexpr double normal = p * side * side;
+  ContactScene scene;
+  scene.settings.gravity.setZero();
+  scene.settings.time_step = 0.025;
+  *scene.law = {1e10, ks, mu, 0.0, 0.0, true};
+  scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {4, 4, 0})));
+  BlockDefinition block =
+      define_block(Polyhedron(make_box({0, 0, 0}, {side, side, 1})), {2500, 1e10, 0.0}, 1);
+  const Vector3 far(amplitude, 0, 0), none = Vector3::Zero();
+  const SupportHistory history{{0.1, 0.35, 0.85, 1.35}, {none, far, -far, far}};
+  for (const double x : {0.0, side})
+    block.supports.push_back({Plane{{x, 0, 0}, Vector3::UnitX()}, {true, true, false}, history});
+  block.loads.push_back({Plane{{0, 0, 1}, Vector3::UnitZ()}, true, {0, 0, -p}, {}});
+  scene.add(std::move(block));
+  Simulation simulation = scene.build();
+  const bool out = find_equilibrium(simulation, 0.35) == StaticStatus::equilibrium;
+  const double friction = simulation.ledger().friction;
+  const bool back = find_equilibrium(simulation, 1.35) == StaticStatus::equilibrium;
+  const double reference = 4.0 * mu * normal * (amplitude - mu * normal / (ks * side * side));
+  const double nan = std::nan("");
+  return {check_relative("work of friction in a cycle, J",
+                         out && back ? simulation.ledger().friction - friction : nan, reference, 1e-6)};
+}
+
 constexpr VerificationCase cases[] = {
     {"incline-stick", "a block held by friction for 10 s", incline_stick},
     {"incline-slide", "blocks that slide down inclines", incline_slide},
     {"block-slide-or-topple", "modes of a block on an incline", slide_or_topple},
     {"wedge", "a wedge on two planes", wedge},
+    {"cyclic-shear", "a block moved to and fro under pressure", cyclic_shear},
 };
 
 }  // namespace

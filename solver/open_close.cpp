@@ -85,7 +85,8 @@ class OpenClose {
       const Balance balance = problem_.balance();
       // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
       // wide.
-      if (balance.settled() && !(problem_.scheme().from_rest && result_.iterations == 1))
+      if (balance.settled() &&
+          (balance.left.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1)))
         return Outcome::settled;
       // Slip that turns round leaves the states as they are.
       without_gain = balance.worst < 0.5 * least_ ? 0 : without_gain + 1;
