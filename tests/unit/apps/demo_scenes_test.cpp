@@ -44,7 +44,7 @@ TEST_P(DemoScene, TakesItsFirstSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DemoScene, ::testing::ValuesIn(scenes()),
-                         [](const auto& info) { return info.param.stem().string(); });
+                         [](const auto& scene) { return scene.param.stem().string(); });
 
 }  // namespace
 }  // namespace ashlar
