@@ -12,18 +12,20 @@
 #include "apps/contacts_command.hpp"
 #include "apps/integrate_command.hpp"
 #include "apps/nearest_name.hpp"
+#include "apps/picture_command.hpp"
 #include "apps/program_version.hpp"
 #include "apps/run_options.hpp"
 #include "apps/study_command.hpp"
 #include "apps/verify_command.hpp"
+#include "apps/view_command.hpp"
 
 namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 6> commands = {declare_run_command,      declare_check_command,
-                                                        declare_contacts_command, declare_integrate_command,
-                                                        declare_verify_command,   declare_study_command};
+constexpr std::array<CommandDeclaration, 8> commands = {
+    declare_run_command,      declare_view_command,      declare_picture_command, declare_check_command,
+    declare_contacts_command, declare_integrate_command, declare_verify_command,  declare_study_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

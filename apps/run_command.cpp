@@ -14,6 +14,7 @@
 #include "apps/result_folder.hpp"
 #include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
+#include "apps/view_file.hpp"
 #include "mechanics/rigid_motions.hpp"
 
 namespace ashlar {
@@ -261,6 +262,10 @@ int run_command(const RunOptions& options, std::ostream& err) {
     err << fmt::format("ashlar: error: {}; the last state is in {}\n", run.message(), folder.string());
   if (status == RunStatus::moving && !options.quiet) err << run.message() << '\n';
   if (status == RunStatus::equilibrium && !options.quiet) err << "equilibrium\n";
+  if (options.view) {
+    (void)write_view_file(folder, folder / "view.html");
+    if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());
+  }
   return exit_status_of(status);
 }
 

@@ -21,6 +21,7 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
       ->type_name("N")
       ->check(CLI::Range(1, std::numeric_limits<int>::max(), ">= 1"));
   command->add_flag("--quiet", options->quiet, "No progress on stderr");
+  command->add_flag("--view", options->view, "Write view.html into the result folder at the end");
   command->callback([options, &context] { context.status = run_command(*options, context.err); });
 }
 

@@ -17,6 +17,7 @@ struct RunOptions {
   bool resume = false;                       ///< go on from the checkpoint in the result folder
   int threads = 0;                           ///< >= 1; 0: not given
   bool quiet = false;                        ///< no progress on stderr
+  bool view = false;                         ///< write view.html at the end
 };
 
 /// Declares `ashlar run`; it calls run_command (run_command.hpp).

@@ -131,11 +131,14 @@ void UnstructuredGrid::add_cell(VtkCellType type, std::span<const int> cell_poin
   types.push_back(type);
 }
 
-std::string to_vtu(const UnstructuredGrid& grid) {
+void validate(const UnstructuredGrid& grid) {
   check_cells(grid);
   check_arrays(grid.point_data, grid.points.size(), "point");
   check_arrays(grid.cell_data, grid.types.size(), "cell");
+}
 
+std::string to_vtu(const UnstructuredGrid& grid) {
+  validate(grid);
   VtuText text;
   add_data(text, "PointData", grid.point_data);
   add_data(text, "CellData", grid.cell_data);

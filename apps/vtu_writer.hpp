@@ -43,9 +43,11 @@ struct UnstructuredGrid {
   void add_cell(VtkCellType type, std::span<const int> cell_points);
 };
 
-/// @return the bytes of the .vtu file.
 /// @throws std::invalid_argument if a size, an offset or an index does not fit, or two arrays of the points
 /// (or of the cells) share a name.
+void validate(const UnstructuredGrid& grid);
+
+/// @return the bytes of the .vtu file. @throws as validate.
 [[nodiscard]] std::string to_vtu(const UnstructuredGrid& grid);
 
 /// Writes to_vtu(grid) atomically. @throws as to_vtu, or std::runtime_error with path and reason.

@@ -1,8 +1,11 @@
 // Text inside XML attributes.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace ashlar {
 
@@ -29,6 +32,38 @@ namespace ashlar {
     }
   }
   return escaped;
+}
+
+/// @return `text` with the entities that escape_xml writes replaced by their characters; others stay.
+[[nodiscard]] inline std::string unescape_xml(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, char>, 4> entities = {
+      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}}};
+  std::string plain;
+  plain.reserve(text.size());
+  while (!text.empty()) {
+    std::size_t taken = 1;
+    char c = text.front();
+    for (const auto& [entity, character] : entities) {
+      if (!text.starts_with(entity)) continue;
+      taken = entity.size();
+      c = character;
+    }
+    plain += c;
+    text.remove_prefix(taken);
+  }
+  return plain;
+}
+
+/// The value of an attribute of a tag, ` name="value"`, as a program of this project wrote it.
+/// @return unescaped; empty if the tag has no such attribute.
+[[nodiscard]] inline std::optional<std::string> xml_attribute(std::string_view tag, std::string_view name) {
+  const std::string start = ' ' + std::string(name) + "=\"";
+  const std::size_t found = tag.find(start);
+  if (found == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = tag.substr(found + start.size());
+  const std::size_t end = rest.find('"');
+  if (end == std::string_view::npos) return std::nullopt;
+  return unescape_xml(rest.substr(0, end));
 }
 
 }  // namespace ashlar

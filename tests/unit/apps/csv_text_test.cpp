@@ -55,5 +55,12 @@ TEST(CsvField, IsQuotedOnlyWhereNeeded) {
   EXPECT_EQ(quote_csv_field("a\nb"), "\"a\nb\"");
 }
 
+TEST(CsvLine, IsSplitAtCommasOutsideQuotes) {
+  using Fields = std::vector<std::string>;
+  EXPECT_EQ(split_csv_line("step,tip.x"), (Fields{"step", "tip.x"}));
+  EXPECT_EQ(split_csv_line(",a,"), (Fields{"", "a", ""}));
+  EXPECT_EQ(split_csv_line("\"a,b\",\"the \"\"tip\"\"\",c"), (Fields{"a,b", "the \"tip\"", "c"}));
+}
+
 }  // namespace
 }  // namespace ashlar

@@ -10,5 +10,17 @@ TEST(EscapeXml, ReplacesWhatXmlReserves) {
   EXPECT_EQ(escape_xml(""), "");
 }
 
+TEST(UnescapeXml, UndoesEscaping) {
+  EXPECT_EQ(unescape_xml("a &lt; b &amp;&amp; &quot;c&quot; &gt; d"), "a < b && \"c\" > d");
+  EXPECT_EQ(unescape_xml("&amp;lt; & &other;"), "&lt; & &other;");
+}
+
+TEST(XmlAttribute, IsFoundByItsWholeName) {
+  const char* tag = "<DataArray SubName=\"no\" Name=\"a &lt; b\" open=\"x/>";
+  EXPECT_EQ(xml_attribute(tag, "Name"), "a < b");
+  EXPECT_EQ(xml_attribute(tag, "offset"), std::nullopt);
+  EXPECT_EQ(xml_attribute(tag, "open"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace ashlar

@@ -1,0 +1,120 @@
+#include "apps/headless_browser.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace ashlar {
+namespace {
+
+std::optional<std::filesystem::path> find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    std::filesystem::path candidate = std::filesystem::path(folder) / name;
+    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return std::nullopt;
+}
+
+std::string file_url(const std::filesystem::path& path) {
+  std::string url = "file://";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/-_.~", c) != nullptr;
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return url;
+}
+
+/// What a program is started with: its standard output and errors go to files.
+class Redirections {
+ public:
+  Redirections(const std::filesystem::path& out, const std::filesystem::path& err) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    constexpr int mode = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, out.c_str(), mode, 0600);
+    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, err.c_str(), mode, 0600);
+  }
+  ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
+  Redirections(const Redirections&) = delete;
+  Redirections& operator=(const Redirections&) = delete;
+
+  [[nodiscard]] const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+};
+
+/// @return the status of waitpid.
+int run_program(const std::vector<std::string>& command, const Redirections& redirections) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  const int error =
+      ::posix_spawn(&child, command.front().c_str(), redirections.get(), nullptr, arguments.data(), environ);
+  if (error != 0) {
+    throw std::runtime_error(fmt::format("cannot start {}: {}", command.front(), std::strerror(error)));
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream input(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(input), {}};
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> find_browser() {
+  if (const char* chosen = std::getenv("ASHLAR_BROWSER")) return chosen;
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
+    if (auto found = find_program(name)) return found;
+  }
+  return std::nullopt;
+}
+
+std::string loaded_page(const std::filesystem::path& browser, const std::filesystem::path& folder,
+                        const std::filesystem::path& page, const std::string& fragment) {
+  std::vector<std::string> command = {browser.string(),
+                                      "--headless",
+                                      "--use-angle=swiftshader",
+                                      "--enable-unsafe-swiftshader",
+                                      "--disable-dev-shm-usage",
+                                      "--no-first-run",
+                                      "--disable-background-networking",
+                                      "--user-data-dir=" + (folder / "profile").string(),
+                                      "--dump-dom"};
+  // Chromium refuses to build its sandbox as root; the page is this program's own.
+  if (::geteuid() == 0) command.emplace_back("--no-sandbox");
+  command.push_back(file_url(page) + "#" + fragment);
+  const std::filesystem::path errors = folder / "errors";
+  const int status = run_program(command, {folder / "page", errors});
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    constexpr std::size_t shown = 1000;
+    const std::string text = read_file(errors);
+    throw std::runtime_error(fmt::format("{} failed: {}", browser.string(),
+                                         text.substr(text.size() - std::min(text.size(), shown))));
+  }
+  return read_file(folder / "page");
+}
+
+}  // namespace ashlar

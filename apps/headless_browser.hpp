@@ -1,0 +1,24 @@
+// Lets a browser without a window make something of a page. README.md of this folder says why pictures are
+// made this way.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace ashlar {
+
+/// A Chromium: that of the environment variable ASHLAR_BROWSER, else the first of chromium, chromium-browser
+/// and google-chrome in PATH; empty if there is none.
+[[nodiscard]] std::optional<std::filesystem::path> find_browser();
+
+/// Opens the page with software rendering and waits for it to load.
+/// @param folder an empty one for the browser's own files
+/// @param fragment what follows # in the address; letters, digits and  = & , . - _  only
+/// @return the page as its scripts left it, as HTML.
+/// @throws std::runtime_error if the browser cannot be started or fails, with the last lines it wrote.
+[[nodiscard]] std::string loaded_page(const std::filesystem::path& browser,
+                                      const std::filesystem::path& folder, const std::filesystem::path& page,
+                                      const std::string& fragment);
+
+}  // namespace ashlar

@@ -1,0 +1,150 @@
+#include "apps/picture_command.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <ostream>
+#include <system_error>
+#include <vector>
+
+#include "apps/atomic_file.hpp"
+#include "apps/base64.hpp"
+#include "apps/headless_browser.hpp"
+#include "apps/view_file.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A folder that is gone when the command ends.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ashlar-picture-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Numbers between separators; empty if the text is anything else.
+template <class T>
+std::vector<T> numbers_of(std::string_view text, char separator) {
+  std::vector<T> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    T number{};
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc{}) return {};
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    if (*next != separator) return {};
+    at = next + 1;
+  }
+}
+
+std::string check_size(const std::string& text) {
+  const std::vector<int> size = numbers_of<int>(text, 'x');
+  const auto fits = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
+  if (size.size() == 2 && fits(size[0]) && fits(size[1])) return "";
+  return fmt::format("size ({}), WIDTHxHEIGHT with 16 to 8192 pixels each is needed", text);
+}
+
+std::string check_direction(const std::string& text) {
+  const std::vector<double> direction = numbers_of<double>(text, ',');
+  const bool good = direction.size() == 3 && std::isfinite(direction[0]) && std::isfinite(direction[1]) &&
+                    std::isfinite(direction[2]) &&
+                    (direction[0] != 0.0 || direction[1] != 0.0 || direction[2] != 0.0);
+  return good ? "" : fmt::format("direction ({}), x,y,z, not all zero, is needed", text);
+}
+
+/// What stands in the page's element of that id, which holds text alone; empty without such an element.
+std::optional<std::string> text_of_element(const std::string& page, std::string_view id) {
+  const std::string start = fmt::format("<pre id=\"{}\">", id);
+  const std::size_t found = page.find(start);
+  if (found == std::string::npos) return std::nullopt;
+  const std::size_t begin = found + start.size();
+  return page.substr(begin, page.find("</pre>", begin) - begin);
+}
+
+int make_picture(const PictureOptions& options, const std::filesystem::path& browser, std::ostream& out,
+                 std::ostream& err) {
+  const ScratchFolder scratch;
+  const std::filesystem::path view = scratch.path() / "view.html";
+  const auto complain = [&](const std::string& what, int status) {
+    err << "ashlar: error: " << what << '\n';
+    return status;
+  };
+  ViewReport report;
+  try {
+    ViewOptions wanted;
+    wanted.frame = options.frame;
+    report = write_view_file(options.folder, view, wanted);
+  } catch (const std::exception& error) {
+    return complain(error.what(), exit_status::bad_input);
+  }
+  const std::size_t frame = options.frame.value_or(report.frames - 1);
+  const std::string page = loaded_page(browser, scratch.path(), view,
+                                       fmt::format("picture&frame={}&size={}&from={}&color={}", frame,
+                                                   options.size, options.from, options.color));
+  if (const auto fault = text_of_element(page, "fault")) return complain(*fault, exit_status::bad_input);
+  const auto picture = text_of_element(page, "picture");
+  if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
+  write_file_atomically(options.picture, from_base64(*picture), Durability::process);
+  out << fmt::format("picture: {} (frame {} of 0 to {})\n", options.picture.string(), frame,
+                     report.frames - 1);
+  return exit_status::done;
+}
+
+}  // namespace
+
+int picture_command(const PictureOptions& options, std::ostream& out, std::ostream& err) {
+  for (const std::string& fault : {check_size(options.size), check_direction(options.from)}) {
+    if (fault.empty()) continue;
+    err << "ashlar: error: " << fault << '\n';
+    return exit_status::bad_input;
+  }
+  const auto browser = find_browser();
+  if (!browser) {
+    err << "ashlar: error: no chromium in PATH, which draws the picture; install it or set ASHLAR_BROWSER\n";
+    return exit_status::failed;
+  }
+  return make_picture(options, *browser, out, err);
+}
+
+void declare_picture_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("picture", "Draw one frame of a run as a PNG, without a display");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<PictureOptions>();
+  command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
+  command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")
+      ->type_name("N");
+  command->add_option("--size", options->size, "Pixels (default: " + options->size + ")")->type_name("WxH");
+  command->add_option("--from", options->from, "Direction to the eye (default: " + options->from + ")")
+      ->type_name("X,Y,Z");
+  command->add_option("--color", options->color, "Colour by (default: displacement)")
+      ->type_name("FIELD")
+      ->check(CLI::IsMember({"displacement", "velocity", "von_mises", "pressure", "stress_xx", "stress_yy",
+                             "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order"}));
+  command->add_option("-o,--out", options->picture, "PNG to write")->required()->type_name("FILE");
+  command->callback(
+      [options, &context] { context.status = picture_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,23 @@
+// `ashlar view`: the results of a run as a page for the browser.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+
+#include "apps/command_line.hpp"
+
+namespace ashlar {
+
+struct ViewCommandOptions {
+  std::filesystem::path folder;               ///< result folder
+  std::optional<std::filesystem::path> page;  ///< empty: view.html in the folder
+};
+
+/// Writes the page and says where it is and what is in it.
+/// @return exit status; bad_input if the folder cannot be read.
+[[nodiscard]] int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostream& err);
+
+void declare_view_command(CLI::App& program, CommandContext& context);
+
+}  // namespace ashlar

@@ -1,0 +1,265 @@
+#include "apps/view_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/atomic_file.hpp"
+#include "apps/base64.hpp"
+#include "apps/history_table.hpp"
+#include "apps/thinned_series.hpp"
+#include "apps/view_assets.hpp"
+#include "apps/vtu_reader.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A plot is some thousand pixels wide at most.
+constexpr std::size_t most_history_rows = 2000;
+
+template <class T>
+std::string base64_of(const std::vector<T>& values) {
+  return to_base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+const DataArray* find_array(const std::vector<DataArray>& arrays, std::string_view name) {
+  const auto found =
+      std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) { return array.name == name; });
+  return found == arrays.end() ? nullptr : &*found;
+}
+
+template <class T>
+const std::vector<T>& required_values(const std::vector<DataArray>& arrays, std::string_view name) {
+  const DataArray* array = find_array(arrays, name);
+  if (array == nullptr || !std::holds_alternative<std::vector<T>>(array->values))
+    throw std::runtime_error(fmt::format("a frame has no array '{}'", name));
+  return std::get<std::vector<T>>(array->values);
+}
+
+void append_floats(std::vector<float>& floats, const std::vector<double>& values) {
+  for (const double value : values) floats.push_back(static_cast<float>(value));
+}
+
+/// What does not change from frame to frame.
+struct Surface {
+  std::vector<Vector3> reference;   ///< places less displacements, m
+  std::vector<std::int32_t> cells;  ///< block, order, face, number of corners, corners; cell after cell
+  bool velocity = false;
+  bool stress = false;
+};
+
+Surface surface_of(const UnstructuredGrid& grid) {
+  Surface surface;
+  surface.reference = grid.points;
+  if (const DataArray* array = find_array(grid.point_data, "displacement")) {
+    const auto& values = std::get<std::vector<double>>(array->values);
+    for (std::size_t i = 0; i < grid.points.size(); ++i)
+      surface.reference[i] -= Vector3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+  }
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block");
+  const auto& order = required_values<std::int32_t>(grid.cell_data, "order");
+  const auto& face = required_values<std::int32_t>(grid.cell_data, "face");
+  int start = 0;
+  for (std::size_t c = 0; c < grid.offsets.size(); ++c) {
+    const int end = grid.offsets[c];
+    surface.cells.insert(surface.cells.end(), {block[c], order[c], face[c], end - start});
+    surface.cells.insert(surface.cells.end(), grid.connectivity.begin() + start,
+                         grid.connectivity.begin() + end);
+    start = end;
+  }
+  surface.velocity = find_array(grid.point_data, "velocity") != nullptr;
+  surface.stress = find_array(grid.point_data, "stress") != nullptr;
+  return surface;
+}
+
+/// Displacements from the reference, then velocities and stresses if the run has them.
+void append_blocks(std::vector<float>& floats, const UnstructuredGrid& grid, const Surface& surface) {
+  if (grid.points.size() != surface.reference.size())
+    throw std::runtime_error("the frames have different numbers of points");
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const Vector3 displacement = grid.points[i] - surface.reference[i];
+    for (int k = 0; k < 3; ++k) floats.push_back(static_cast<float>(displacement[k]));
+  }
+  if (surface.velocity) append_floats(floats, required_values<double>(grid.point_data, "velocity"));
+  if (surface.stress) append_floats(floats, required_values<double>(grid.point_data, "stress"));
+}
+
+/// Place, force, normal, gap, area, type, state and both blocks of each contact: 15 numbers.
+void append_contacts(std::vector<float>& floats, const UnstructuredGrid& grid) {
+  const auto& data = grid.point_data;
+  const std::array vectors = {&required_values<double>(data, "force"),
+                              &required_values<double>(data, "normal")};
+  const std::array scalars = {&required_values<double>(data, "gap"), &required_values<double>(data, "area")};
+  const std::array numbers = {
+      &required_values<std::int32_t>(data, "type"), &required_values<std::int32_t>(data, "state"),
+      &required_values<std::int32_t>(data, "block_a"), &required_values<std::int32_t>(data, "block_b")};
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    for (int k = 0; k < 3; ++k) floats.push_back(static_cast<float>(grid.points[i][k]));
+    for (const auto* values : vectors) {
+      for (std::size_t k = 0; k < 3; ++k) floats.push_back(static_cast<float>((*values)[3 * i + k]));
+    }
+    for (const auto* values : scalars) floats.push_back(static_cast<float>((*values)[i]));
+    for (const auto* values : numbers) floats.push_back(static_cast<float>((*values)[i]));
+  }
+}
+
+/// "frames/blocks_0000950.vtu" is step 950.
+int step_of(const std::string& file) {
+  const std::size_t start = file.find_last_of('_');
+  return start == std::string::npos ? 0 : std::atoi(file.c_str() + start + 1);
+}
+
+struct ViewFrame {
+  Json head;         ///< index, step, time, number of contacts
+  std::string data;  ///< base64 of append_blocks and append_contacts
+};
+
+class FrameReader {
+ public:
+  explicit FrameReader(const std::filesystem::path& folder)
+      : folder_(folder),
+        blocks_(read_pvd(folder / "blocks.pvd")),
+        contacts_(read_pvd(folder / "contacts.pvd")) {
+    // A run that goes on has written one of the two first.
+    count_ = std::min(blocks_.size(), contacts_.size());
+    if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
+    surface_ = surface_of(read_vtu(folder_ / blocks_.front().file));
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+
+  [[nodiscard]] ViewFrame read(std::size_t index) const {
+    const UnstructuredGrid contacts = read_vtu(folder_ / contacts_[index].file);
+    std::vector<float> floats;
+    append_blocks(floats, read_vtu(folder_ / blocks_[index].file), surface_);
+    append_contacts(floats, contacts);
+    Json head = {{"index", index},
+                 {"step", step_of(blocks_[index].file)},
+                 {"time", blocks_[index].time},
+                 {"contacts", contacts.points.size()}};
+    return {std::move(head), base64_of(floats)};
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<PvdFrame> blocks_;
+  std::vector<PvdFrame> contacts_;
+  std::size_t count_ = 0;
+  Surface surface_;
+};
+
+Json history_json(const std::filesystem::path& folder) {
+  const HistoryTable table = read_history(folder / "history.csv", most_history_rows);
+  std::vector<float> floats;
+  for (const auto& row : table.rows) append_floats(floats, row);
+  return {{"columns", table.columns}, {"data", base64_of(floats)}};
+}
+
+Json summary_json(const std::filesystem::path& folder) {
+  std::ifstream input(folder / "summary.json");
+  if (!input) return nullptr;
+  return Json::parse(input, nullptr, false);
+}
+
+Json scene_json(const std::filesystem::path& folder, const Surface& surface) {
+  std::vector<float> reference;
+  for (const Vector3& point : surface.reference) {
+    for (int k = 0; k < 3; ++k) reference.push_back(static_cast<float>(point[k]));
+  }
+  return {{"name", std::filesystem::absolute(folder).lexically_normal().filename().string()},
+          {"points", surface.reference.size()},
+          {"reference", base64_of(reference)},
+          {"cells", base64_of(surface.cells)},
+          {"velocity", surface.velocity},
+          {"stress", surface.stress},
+          {"history", history_json(folder)},
+          {"summary", summary_json(folder)}};
+}
+
+/// JSON that cannot end the script element it stands in, whatever a name in the scene contains.
+std::string script_safe(const Json& json) {
+  std::string safe;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+/// The page with each line @NAME@ replaced by a part.
+std::string assembled(std::string_view page,
+                      const std::vector<std::pair<std::string_view, std::string_view>>& parts) {
+  std::string text;
+  for (const auto& [name, part] : parts) {
+    const std::string marker = fmt::format("@{}@\n", name);
+    const std::size_t at = page.find(marker);
+    if (at == std::string_view::npos) throw std::logic_error("view_page.html has no line " + marker);
+    text += page.substr(0, at);
+    text += part;
+    text += '\n';
+    page.remove_prefix(at + marker.size());
+  }
+  text += page;
+  return text;
+}
+
+std::string frames_text(const std::vector<ThinnedSeries<ViewFrame>::Item>& frames) {
+  std::string text;
+  for (const auto& frame : frames) text += frame.value.data + '\n';
+  return text;
+}
+
+}  // namespace
+
+ViewReport write_view_file(const std::filesystem::path& folder, const std::filesystem::path& page,
+                           const ViewOptions& options) {
+  const FrameReader reader(folder);
+  if (options.frame && *options.frame >= reader.count())
+    throw std::out_of_range(
+        fmt::format("no frame {}, the last one is {}", *options.frame, reader.count() - 1));
+  Json scene = scene_json(folder, reader.surface());
+  const ViewAssets assets = view_assets();
+  const std::size_t fixed_bytes = assets.page.size() + assets.style.size() + assets.script.size() +
+                                  assets.three.size() + assets.orbit_controls.size() + assets.chart.size() +
+                                  script_safe(scene).size();
+  constexpr std::size_t head_bytes = 100;
+  ThinnedSeries<ViewFrame> frames(options.most_bytes - std::min(fixed_bytes, options.most_bytes),
+                                  {reader.count() - 1, options.frame.value_or(0)});
+  for (std::size_t index = 0; index < reader.count(); ++index) {
+    if (!frames.wants(index)) continue;
+    ViewFrame frame = reader.read(index);
+    const std::size_t cost = frame.data.size() + head_bytes;
+    frames.add(index, std::move(frame), cost);
+  }
+  scene["frame_count"] = reader.count();
+  scene["frames"] = Json::array();
+  for (const auto& frame : frames.items()) scene["frames"].push_back(frame.value.head);
+
+  const std::string frame_lines = frames_text(frames.items());
+  const std::string scene_text = script_safe(scene);
+  const std::string text = assembled(assets.page, {{"STYLE", assets.style},
+                                                   {"THREE", assets.three},
+                                                   {"ORBIT_CONTROLS", assets.orbit_controls},
+                                                   {"CHART", assets.chart},
+                                                   {"SCENE", scene_text},
+                                                   {"FRAMES", frame_lines},
+                                                   {"SCRIPT", assets.script}});
+  write_file_atomically(page, text, Durability::process);
+  return {reader.count(), frames.items().size(), text.size()};
+}
+
+}  // namespace ashlar

@@ -1,0 +1,35 @@
+// view.html: the results of a run as one page that any browser shows, without a network or anything
+// installed.
+//
+// The page holds the libraries it needs, the surfaces and fields of the frames as base64 of 32-bit floats,
+// the history and the summary. view_page.js says how it reads them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+namespace ashlar {
+
+struct ViewOptions {
+  /// Bytes of the page that are not exceeded if it holds more than the first and the last frame: of a longer
+  /// run every second, fourth, ... frame is kept. 50 MB open in a second or two and still go by mail.
+  std::size_t most_bytes = 50'000'000;
+  std::optional<std::size_t> frame;  ///< index of a frame that is kept whatever the others do
+};
+
+/// What went into the page.
+struct ViewReport {
+  std::size_t frames = 0;       ///< of the run
+  std::size_t frames_kept = 0;  ///< in the page
+  std::size_t bytes = 0;
+};
+
+/// Reads the result folder and writes the page to `page`. A folder without summary.json (a run that goes on
+/// or was killed) is shown with block numbers for names.
+/// @throws std::runtime_error with path and reason if the folder has no frames, or a file cannot be read or
+/// written; std::out_of_range if there is no frame `options.frame`.
+ViewReport write_view_file(const std::filesystem::path& folder, const std::filesystem::path& page,
+                           const ViewOptions& options = {});
+
+}  // namespace ashlar

@@ -1,0 +1,247 @@
+"""Opens the pages of `ashlar view` in Chromium and does what a user does; skipped (77) where it is missing.
+
+Use: view_test.py ASHLAR SCENES, the program and the folder of the demo scenes.
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from browser import Browser, Picture, find_chromium
+
+WIDTH, HEIGHT = 900, 520
+HERE = pathlib.Path(__file__).parent
+
+
+class Pages:
+    """The scenes simulated and viewed once, and the browser that all tests share."""
+    browser = None
+    files = {}
+
+    @classmethod
+    def write(cls, program, scenes, folder):
+        cls.program, cls.folder = program, folder
+        for name, scene, more in (("falling", scenes / "falling_block.toml", ["--set", "analysis.end_time=0.56"]),
+                                  ("slope", HERE / "slope.toml", []), ("column", HERE / "column.toml", [])):
+            out = folder / name
+            subprocess.run([program, "run", scene, "--out", out, "--quiet", "--view", *more], check=True)
+            cls.files[name] = (out / "view.html").as_uri()
+
+
+class ViewTest(unittest.TestCase):
+    def setUp(self):
+        self.browser = Pages.browser
+        self.browser.complaints.clear()
+
+    def tearDown(self):
+        self.assertEqual(self.browser.complaints, [])
+
+    def open(self, name, wishes=""):
+        # A change of the part behind # alone does not load a page.
+        self.browser.open("about:blank")
+        self.browser.open(Pages.files[name] + wishes)
+        self.wait_for_painting()
+
+    def wait_for_painting(self):
+        """No user acts before there is something to see; plots find their size when they are painted first."""
+        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+
+    def evaluate(self, expression):
+        return self.browser.evaluate(expression)
+
+    def change(self, control, value):
+        """Sets a control as the user would and lets the page know."""
+        member = "checked" if isinstance(value, bool) else "value"
+        literal = str(value).lower() if isinstance(value, bool) else repr(value)
+        self.evaluate(f"element('{control}').{member} = {literal};"
+                      f"element('{control}').dispatchEvent(new Event('change'))")
+
+    def text(self, element_id):
+        return self.evaluate(f"element('{element_id}').innerText")
+
+    def middle_of(self, element_id, share=0.5):
+        x, y, width, height = self.evaluate(
+            f"(r => [r.x, r.y, r.width, r.height])(element('{element_id}').getBoundingClientRect())")
+        return x + share * width, y + 0.5 * height
+
+    def on_screen(self, vector):
+        """Pixel at which the page shows a THREE.Vector3, given as an expression."""
+        return self.evaluate(f"""(() => {{ const p = {vector}.clone().project(camera), c = element('canvas');
+            return [(p.x + 1) / 2 * c.clientWidth, (1 - p.y) / 2 * c.clientHeight]; }})()""")
+
+    def picked(self):
+        return dict(line.split("\t") for line in self.text("picked").splitlines())
+
+    def colours_of_blocks(self):
+        """Colours seen at the centres of the blocks."""
+        picture = Picture(self.browser.screenshot())
+        count = self.evaluate("data.blocks.length")
+        centres = [self.on_screen(f"centreOf({block})") for block in range(count)]
+        return [picture.pixel(round(x), round(y)) for x, y in centres]
+
+    def test_every_page_shows_blocks(self):
+        for name, fewest in (("falling", 0.04), ("slope", 0.04), ("column", 0.04)):
+            with self.subTest(name):
+                self.open(name)
+                self.assertTrue(self.evaluate("element('message').hidden"), "no WebGL")
+                width = int(self.evaluate("element('stage').clientWidth"))
+                pixels = Picture(self.browser.screenshot()).pixels(10, 60, width - 10, HEIGHT - 80)
+                drawn = sum(pixel != (255, 255, 255) for pixel in pixels) / len(pixels)
+                self.assertGreater(drawn, fewest)
+                self.assertGreater(len(set(pixels)), 20)
+
+    def test_slider_moves_picture_clock_and_cursor(self):
+        self.open("falling")
+        self.assertIn("t = 0 s", self.text("clock"))
+        before = self.browser.screenshot()
+        height = self.on_screen("centreOf(0)")[1]
+        plot = self.evaluate("element('plot-1').toDataURL()")
+        self.browser.click(*self.middle_of("slider", 0.9))
+        self.assertNotIn("t = 0 s", self.text("clock"))
+        self.assertNotEqual(self.browser.screenshot(), before)
+        self.assertGreater(self.on_screen("centreOf(0)")[1], height + 20, "the falling block did not go down")
+        self.assertNotEqual(self.evaluate("element('plot-1').toDataURL()"), plot)
+
+    def test_play_goes_on_and_stops(self):
+        self.open("falling")
+        self.browser.click(*self.middle_of("play"))
+        self.evaluate("new Promise(done => setInterval(() => current.frame >= 2 && done(), 5))")
+        self.browser.click(*self.middle_of("play"))
+        stopped = self.evaluate("current.frame")
+        self.assertGreaterEqual(stopped, 2)
+        self.browser.screenshot()
+        self.assertEqual(self.evaluate("current.frame"), stopped)
+
+    def test_colours_tell_fields_and_blocks_apart(self):
+        self.open("falling")
+        seen = set()
+        for field in self.evaluate("Object.keys(fields)"):
+            self.change("field", field)
+            seen.add(self.browser.screenshot())
+        self.assertEqual(len(seen), 12)  # 2 vectors, von Mises, pressure, 6 stresses, block, order
+        self.change("contact-colour", "none")
+        for field in ("block", "order"):
+            self.change("field", field)
+            first, second = self.colours_of_blocks()
+            self.assertGreater(sum(abs(a - b) for a, b in zip(first, second)), 60, field)
+
+    def test_the_least_value_has_the_first_colour(self):
+        self.open("falling")
+        self.change("field", "displacement")
+        # At the start block A has not moved and is pale yellow, #ffffd9 in its shade.
+        red, green, blue = self.colours_of_blocks()[0]
+        self.assertTrue(blue < 0.9 * red and abs(red - green) < 4, (red, green, blue))
+
+    def test_switches_change_the_picture(self):
+        self.open("falling", "#frame=55")
+        for control, value in (("sub-faces", True), ("see-through", True), ("scale", "1.5"), ("scale", "1"),
+                               ("open-contacts", True), ("contact-colour", "type"), ("forces", False)):
+            before = self.browser.screenshot()
+            self.change(control, value)
+            self.assertNotEqual(self.browser.screenshot(), before, control)
+
+    def test_a_click_shows_the_block(self):
+        for name, blocks in (("falling", [("A", "rock", "1"), ("B", "rock", "3")]),
+                             ("slope", [("slope", "-", "fixed"), ("stone", "granite", "1")]),
+                             ("column", [("lower", "granite", "2"), ("upper", "granite", "1")])):
+            self.open(name)
+            self.change("contact-colour", "none")
+            for index, (block, material, order) in enumerate(blocks):
+                with self.subTest(block):
+                    self.browser.click(*self.on_screen(f"centreOf({index})"))
+                    shown = self.picked()
+                    self.assertEqual((shown["block"], shown["material"], shown["order"]), (block, material, order))
+
+    def test_the_centre_of_a_cube_is_its_middle(self):
+        self.open("falling")
+        self.browser.click(*self.on_screen("centreOf(0)"))
+        self.assertEqual([float(x) for x in self.picked()["centre (m)"].split(", ")], [7.25, 0, 2.25])
+
+    def test_a_click_on_nothing_clears(self):
+        self.open("falling")
+        self.browser.click(*self.on_screen("centreOf(0)"))
+        self.browser.click(5, 200)
+        self.assertEqual(self.picked(), {})
+
+    def test_a_click_shows_the_contact(self):
+        self.open("slope")
+        self.browser.click(*self.middle_of("slider", 0.97))
+        self.browser.click(*self.on_screen("visibleContacts(currentFrame())[0].place"))
+        shown = self.picked()
+        self.assertEqual((shown["type"], shown["state"]), ("face-face", "sliding"))
+        self.assertEqual(set(shown["contact"].split(" on ")), {"slope", "stone"})
+        normal, shear = map(float, shown["normal, shear (N)"].split(", "))
+        self.assertGreater(normal, 0)
+        self.assertAlmostEqual(shear / normal, 0.36397, places=3)  # tan 20 degrees
+
+    def test_drag_turns_the_scene(self):
+        self.open("column")
+        before = self.browser.screenshot()
+        self.browser.drag(200, 300, 320, 300)
+        turned = self.browser.screenshot()
+        self.assertNotEqual(turned, before)
+        self.assertEqual(self.picked(), {}, "a drag is no click")
+        self.browser.click(*self.middle_of("home"))
+        self.assertNotEqual(self.browser.screenshot(), turned)
+
+    def test_history_and_summary(self):
+        self.open("falling")
+        groups = self.evaluate("[...element('plot-1-group').options].map(option => option.value)")
+        for group in ("tip: displacement", "corner: velocity", "energies", "contacts", "step size"):
+            self.assertIn(group, groups)
+            self.change("plot-1-group", group)
+            self.assertGreater(self.evaluate("plots[0].data.datasets[0].data.length"), 500, group)
+        self.assertIn("completed", self.text("summary"))
+        self.assertEqual(self.evaluate("document.title"), "Block falling on a cantilever - Ashlar")
+
+    def test_a_click_in_a_plot_shows_that_time(self):
+        self.open("falling")
+        self.evaluate("element('plot-1').scrollIntoView({block: 'center'})")
+        self.wait_for_painting()
+        left, right = self.evaluate("[plots[0].chartArea.left, plots[0].chartArea.right]")
+        x, y = self.evaluate("(r => [r.x, r.y + r.height / 2])(element('plot-1').getBoundingClientRect())")
+        self.browser.click(x + left + 0.5 * (right - left), y)
+        self.wait_for_painting()  # Chart.js answers to events with the next one
+        self.assertAlmostEqual(self.evaluate("currentFrame().time"), 0.28, delta=0.011)
+
+    def picture(self, name, *options):
+        path = Pages.folder / "picture.png"
+        path.unlink(missing_ok=True)
+        command = [Pages.program, "picture", Pages.folder / name, "-o", path, *options]
+        done = subprocess.run(command, capture_output=True, text=True)
+        return done, Picture(path.read_bytes()) if path.exists() else None
+
+    def test_picture_command(self):
+        done, picture = self.picture("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("frame 0 of 0 to 56", done.stdout)
+        self.assertEqual((picture.width, picture.height), (320, 200))
+        # Seen from the front the cube is a column of pixels above the beam's free end, and the beam fills the width.
+        pixels = [[picture.pixel(x, y) for x in range(60, 320)] for y in range(30, 200)]
+        widths = [sum(pixel != (255, 255, 255) for pixel in row) for row in pixels]
+        upper, lower = widths[:60], widths[60:]
+        self.assertGreater(max(upper), 10)
+        self.assertGreater(max(lower), 2 * max(upper))
+
+    def test_picture_of_a_field_that_was_not_written(self):
+        done, picture = self.picture("column", "--color", "velocity")
+        self.assertEqual((done.returncode, picture), (2, None))
+        self.assertIn("no velocity", done.stderr)
+
+
+if __name__ == "__main__":
+    chromium = find_chromium()
+    if chromium is None:
+        print("\n*** NOT TESTED: no chromium found, the pages of `ashlar view` were not opened in a browser ***\n",
+              file=sys.stderr)
+        sys.exit(77)
+    program, scenes = map(pathlib.Path, (sys.argv.pop(1), sys.argv.pop(1)))
+    with tempfile.TemporaryDirectory() as folder:
+        Pages.write(program, scenes, pathlib.Path(folder))
+        Pages.browser = Browser(chromium, WIDTH, HEIGHT)
+        try:
+            result = unittest.main(verbosity=2, exit=False).result
+        finally:
+            Pages.browser.close()
+    sys.exit(0 if result.wasSuccessful() else 1)

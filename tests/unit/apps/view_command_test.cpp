@@ -1,0 +1,146 @@
+// `ashlar view` from its command line to its page; what a browser makes of the page is tested in
+// tests/browser.
+#include "apps/view_command.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "apps/base64.hpp"
+#include "apps/view_file.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// A free cube that moves with (1, 0, 0) m/s and no weight: at t it has moved by t. Its name would end a
+// script.
+constexpr const char* scene_text = R"(title = "glide"
+[analysis]
+end_time = 0.5
+time_step = 0.125
+gravity = [0, 0, 0]
+[contact]
+normal_stiffness = 5e7
+shear_stiffness = 5e7
+friction_angle = 30
+[[material]]
+name = "rock"
+density = 2000
+young_modulus = 1e9
+poisson_ratio = 0.2
+[[block]]
+name = "</script><b>"
+material = "rock"
+box = { min = [0, 0, 0], max = [1, 1, 1] }
+velocity = [1, 0, 0]
+[output]
+every = 1
+)";
+
+struct ViewCommand : ::testing::Test {
+  TemporaryFolder folder;
+  std::ostringstream out;
+  std::ostringstream err;
+
+  int run(std::vector<std::string> arguments) { return run_command_line(std::move(arguments), out, err); }
+  void simulate(const std::vector<std::string>& more = {}) {
+    write_text(folder / "glide.toml", scene_text);
+    std::vector<std::string> arguments = {"run", (folder / "glide.toml").string(), "--out",
+                                          (folder / "out").string(), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ASSERT_EQ(run(arguments), exit_status::done) << err.str();
+  }
+  static std::string element(const std::string& page, const std::string& start) {
+    const std::size_t begin = page.find(start) + start.size();
+    return page.substr(begin, page.find("</script>", begin) - begin);
+  }
+  static std::string scene_of(const std::string& page) {
+    return element(page, "<script id=\"scene\" type=\"application/json\">");
+  }
+  static std::vector<float> floats(const std::string& base64) {
+    const std::string bytes = from_base64(base64);
+    std::vector<float> values(bytes.size() / sizeof(float));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+};
+
+TEST_F(ViewCommand, ThePageHoldsTheFrames) {
+  simulate();
+  ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+  EXPECT_THAT(out.str(), HasSubstr("(5 of 5 frames"));
+  const std::string page = read_text(folder / "out" / "view.html");
+  const auto scene = nlohmann::json::parse(scene_of(page));
+  EXPECT_EQ(scene["points"], 8);
+  EXPECT_EQ(scene["frames"][2]["time"], 0.25);
+  EXPECT_EQ(scene["frames"][2]["step"], 2);
+  EXPECT_EQ(scene["summary"]["scene"]["block"][0]["name"], "</script><b>");
+  EXPECT_EQ(floats(scene["reference"]).size(), 24U);
+  std::istringstream lines(element(page, "<script id=\"frames\" type=\"text/plain\">\n"));
+  std::string line;
+  for (int frame = 0; frame < 3; ++frame) std::getline(lines, line);
+  const std::vector<float> values = floats(line);
+  ASSERT_EQ(values.size(), 8U * (3 + 3 + 6));
+  for (std::size_t point = 0; point < 8; ++point) {
+    EXPECT_FLOAT_EQ(values[3 * point], 0.25F);
+    EXPECT_FLOAT_EQ(values[24 + 3 * point], 1.0F);
+  }
+}
+
+TEST_F(ViewCommand, ThePageAsksForNothingElse) {
+  simulate();
+  ASSERT_EQ(run({"view", (folder / "out").string(), "-o", (folder / "p.html").string()}), exit_status::done);
+  const std::string page = read_text(folder / "p.html");
+  for (const char* link : {" src=", "<link", "@import", "@THREE@", "@FRAMES@"})
+    EXPECT_THAT(page, Not(HasSubstr(link))) << link;
+  EXPECT_THAT(scene_of(page), Not(HasSubstr("<b>")));
+}
+
+TEST_F(ViewCommand, RunWritesItAtTheEnd) {
+  simulate({"--view"});
+  EXPECT_THAT(scene_of(read_text(folder / "out" / "view.html")), HasSubstr("completed"));
+}
+
+TEST_F(ViewCommand, LongRunsAreThinned) {
+  simulate();
+  const auto bytes_with = [&](std::size_t most) {
+    return write_view_file(folder / "out", folder / "v.html", {.most_bytes = most, .frame = {}});
+  };
+  const ViewReport all = bytes_with(50'000'000);
+  EXPECT_EQ(all.frames_kept, 5U);
+  const ViewReport fewer = bytes_with(all.bytes - 1);
+  EXPECT_EQ(fewer.frames_kept, 3U);
+  EXPECT_LT(fewer.bytes, all.bytes);
+  const ViewReport least = write_view_file(folder / "out", folder / "v.html", {.most_bytes = 0, .frame = 3});
+  EXPECT_EQ(least.frames_kept, 3U);
+  std::vector<int> indices;
+  const auto scene = nlohmann::json::parse(scene_of(read_text(folder / "v.html")));
+  for (const auto& frame : scene["frames"]) indices.push_back(frame["index"]);
+  EXPECT_THAT(indices, ElementsAre(0, 3, 4));
+}
+
+TEST_F(ViewCommand, AFolderWithoutSummaryIsShown) {
+  simulate();
+  std::filesystem::remove(folder / "out" / "summary.json");
+  EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+}
+
+TEST_F(ViewCommand, FaultsNameTheFile) {
+  EXPECT_EQ(run({"view", (folder / "none").string()}), exit_status::bad_input);
+  EXPECT_THAT(err.str(), HasSubstr("none/blocks.pvd: it cannot be opened"));
+  simulate();
+  write_text(folder / "out/frames/blocks_0000002.vtu", "");
+  EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::bad_input);
+  EXPECT_THAT(err.str(), HasSubstr("blocks_0000002.vtu"));
+}
+
+}  // namespace
+}  // namespace ashlar
