@@ -346,7 +346,7 @@ function buildContacts() {
   const geometry = new THREE.BufferGeometry();
   for (const name of ["position", "color"])
     geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * most), 3));
-  const points = new THREE.Points(geometry, new THREE.PointsMaterial({size: 8, sizeAttenuation: false,
+  const points = new THREE.Points(geometry, new THREE.PointsMaterial({size: 6, sizeAttenuation: false,
     vertexColors: THREE.VertexColors, depthTest: false, transparent: true, alphaTest: 0.5, map: discTexture()}));
   // Unit arrow along z: the shaft ends where the head begins.
   const shaft = new THREE.CylinderBufferGeometry(0.015, 0.015, 0.8, 8).rotateX(Math.PI / 2).translate(0, 0, 0.4);
@@ -392,7 +392,8 @@ function usualForce() {
   return data.usualForce;
 }
 
-/// The usual force is as long as a sixth of the scene, others are in proportion to it, up to half the scene.
+/// Forces on the first block of a contact. The usual force is as long as a sixth of the scene, others are in
+/// proportion to it, up to half the scene.
 function placeArrows(list) {
   const unit = sceneSphere.radius / 3 * current.forceScale / usualForce();
   const up = new THREE.Vector3(0, 0, 1);
@@ -537,7 +538,7 @@ function rowsOfContact(contact) {
   const shear = contact.force.clone().addScaledVector(contact.normal, -normalForce).length();
   return [["contact", data.blocks[contact.a].name + " on " + data.blocks[contact.b].name],
     ["type", CONTACT_TYPES[contact.type]], ["state", CONTACT_STATES[contact.state]],
-    ["gap (m)", short(contact.gap)], ["force (N)", vectorText(contact.force)],
+    ["gap (m)", short(contact.gap)], ["force on " + data.blocks[contact.a].name + " (N)", vectorText(contact.force)],
     ["normal, shear (N)", short(normalForce) + ", " + short(shear)],
     ["area (m²)", short(contact.area)], ["place (m)", vectorText(contact.place)]];
 }
@@ -795,6 +796,8 @@ function makePicture(wishes) {
   if (wishes.get("color") && !(wishes.get("color") in fields))
     return leaveText("fault", "the run has no " + wishes.get("color") + " (output.fields)");
   const [width, height] = wishes.get("size").split("x").map(Number);
+  const legend = element("legend");
+  legend.height = Math.min(legend.height, Math.max(height - 50, 1));
   renderer.setPixelRatio(1);
   renderer.setSize(width, height, false);
   camera.aspect = width / height;
@@ -804,7 +807,7 @@ function makePicture(wishes) {
   Object.assign(picture, {width, height});
   const context = picture.getContext("2d");
   context.drawImage(element("canvas"), 0, 0);
-  context.drawImage(element("legend"), 12, height - 312);
+  context.drawImage(legend, 12, height - legend.height - 12);
   context.font = "14px system-ui, sans-serif";
   context.fillStyle = "#222";
   context.fillText(clockText(currentFrame()), 12, 22);
