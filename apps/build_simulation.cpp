@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <type_traits>
@@ -111,48 +112,90 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   return settings;
 }
 
-/// Laws of all pairs, computed once.
+/// Laws between blocks. Memory and time to build are those of the kinds of blocks, not of pairs: blocks that
+/// the same globs match have the same joints.
 class JointLaws {
  public:
   JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks, std::vector<AutomaticChoice>& choices)
-      : count_(blocks.size()), laws_(count_ * count_) {
-    const bool area = scene.contact.springs == SceneContact::Springs::area;
-    const AutomaticRatios ratios;
+      : area_(scene.contact.springs == SceneContact::Springs::area) {
+    std::map<std::string, int> group_of_matches;
+    std::vector<std::string> examples;  // a block of each group
+    std::map<std::pair<int, StiffnessSource>, int> kinds;
+    for (const BlockModel& block : blocks) {
+      std::string matches;
+      for (const SceneJoint& joint : scene.joint) {
+        for (const std::string& pattern : joint.blocks)
+          matches += pattern_matches(pattern, block.name()) ? '1' : '0';
+      }
+      const auto [place, added] = group_of_matches.emplace(matches, static_cast<int>(examples.size()));
+      if (added) examples.push_back(block.name());
+      group_.push_back(place->second);
+      source_.push_back(stiffness_source(block));
+      ++kinds[{group_.back(), source_.back()}];
+    }
+    groups_ = examples.size();
+    for (const std::string& a : examples) {
+      for (const std::string& b : examples) laws_.push_back(joint_law_between(scene, a, b));
+    }
+    note_choices(kinds, choices);
+  }
+
+  JointLaw operator()(int a, int b) const {
+    const auto first = static_cast<std::size_t>(a);
+    const auto second = static_cast<std::size_t>(b);
+    return law(group_[first], source_[first], group_[second], source_[second]);
+  }
+
+ private:
+  [[nodiscard]] JointLaw law(int group_a, const StiffnessSource& a, int group_b,
+                             const StiffnessSource& b) const {
+    const SceneJointLaw& given = between(group_a, group_b);
+    JointLaw result;
+    result.area_springs = area_;
+    result.normal_stiffness =
+        given.normal_stiffness ? *given.normal_stiffness : automatic_normal_stiffness(a, b, area_, ratios_);
+    result.shear_stiffness =
+        given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
+    result.friction = std::tan(given.friction_angle * std::numbers::pi / 180.0);
+    result.cohesion = given.cohesion;
+    result.tensile_strength = given.tensile_strength;
+    return result;
+  }
+
+  [[nodiscard]] const SceneJointLaw& between(int group_a, int group_b) const {
+    return laws_[static_cast<std::size_t>(group_a) * groups_ + static_cast<std::size_t>(group_b)];
+  }
+
+  /// The softest and the stiffest pair whose stiffness is left to the program.
+  void note_choices(const std::map<std::pair<int, StiffnessSource>, int>& kinds,
+                    std::vector<AutomaticChoice>& choices) const {
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
-    for (std::size_t a = 0; a < count_; ++a) {
-      for (std::size_t b = a + 1; b < count_; ++b) {
-        if (blocks[a].fixed() && blocks[b].fixed()) continue;
-        const SceneJointLaw scene_law = joint_law_between(scene, blocks[a].name(), blocks[b].name());
-        JointLaw& law = laws_[a * count_ + b];
-        law.area_springs = area;
-        if (scene_law.normal_stiffness) {
-          law.normal_stiffness = *scene_law.normal_stiffness;
-        } else {
-          law.normal_stiffness = automatic_normal_stiffness(blocks[a], blocks[b], area, ratios);
-          least = std::min(least, law.normal_stiffness);
-          most = std::max(most, law.normal_stiffness);
-        }
-        law.shear_stiffness =
-            scene_law.shear_stiffness.value_or(ratios.shear_to_normal_stiffness * law.normal_stiffness);
-        law.friction = std::tan(scene_law.friction_angle * std::numbers::pi / 180.0);
-        law.cohesion = scene_law.cohesion;
-        law.tensile_strength = scene_law.tensile_strength;
+    for (auto a = kinds.begin(); a != kinds.end(); ++a) {
+      for (auto b = a; b != kinds.end(); ++b) {
+        const auto& [group_a, source_a] = a->first;
+        const auto& [group_b, source_b] = b->first;
+        const bool no_pair = a == b && a->second < 2;
+        if (no_pair || (source_a.fixed && source_b.fixed) || between(group_a, group_b).normal_stiffness)
+          continue;
+        const double stiffness = automatic_normal_stiffness(source_a, source_b, area_, ratios_);
+        least = std::min(least, stiffness);
+        most = std::max(most, stiffness);
       }
     }
-    const char* unit = area ? "Pa/m" : "N/m";
+    const char* unit = area_ ? "Pa/m" : "N/m";
     if (most > 0.0) {
       choices.push_back({"contact.normal_stiffness (softest pair)", least, unit});
       if (most > least) choices.push_back({"contact.normal_stiffness (stiffest pair)", most, unit});
     }
   }
-  JointLaw operator()(int a, int b) const {
-    return laws_[static_cast<std::size_t>(a) * count_ + static_cast<std::size_t>(b)];
-  }
 
- private:
-  std::size_t count_;
-  std::vector<JointLaw> laws_;
+  bool area_;
+  AutomaticRatios ratios_;
+  std::vector<int> group_;               ///< (#blocks) by the globs that match
+  std::vector<StiffnessSource> source_;  ///< (#blocks)
+  std::size_t groups_ = 0;
+  std::vector<SceneJointLaw> laws_;  ///< (#groups, #groups)
 };
 
 /// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key.
@@ -195,6 +238,12 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     const SceneBlock& block = scene.block[k];
     try {
       blocks.emplace_back(define_block(loaded, k), parts);
+    } catch (const OrderTooHigh& error) {
+      diagnostics.error(
+          scene.places.value(fmt::format("block.{}.order", k)),
+          fmt::format(
+              "order is too high for the shape of block {} in double precision ({}), at most {} is allowed",
+              block.name, block.order, error.highest_safe_order));
     } catch (const std::exception& error) {
       diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
                         fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));

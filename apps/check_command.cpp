@@ -4,8 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <ostream>
 
+#include "apps/build_simulation.hpp"
+#include "apps/loose_blocks.hpp"
 #include "apps/override_option.hpp"
 #include "apps/scene_loading.hpp"
 
@@ -14,7 +17,11 @@ namespace ashlar {
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   Diagnostics diagnostics;
   const std::optional<LoadedScene> loaded = load_scene(options.scene, options.overrides, diagnostics);
-  if (!loaded) {
+  std::optional<BuiltSimulation> built;
+  if (loaded) built = build_simulation(*loaded, 1, diagnostics);
+  if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+    refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  if (!diagnostics.empty()) {
     diagnostics.print(err);
     return exit_status::bad_input;
   }

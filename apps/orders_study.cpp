@@ -139,14 +139,7 @@ Eigen::MatrixX3d load_of(const SmoothField& field, const BlockModel& block, cons
 Eigen::MatrixX3d solve_free(const BlockModel& block, const Eigen::MatrixX3d& load) {
   const Eigen::Index p = block.basis().size();
   Eigen::MatrixXd stiffness = elastic_stiffness(block.basis(), block.material());
-  Eigen::MatrixXd rigid(3 * p, 6);
-  for (int mode = 0; mode < 6; ++mode) {
-    const Vector3 axis = Vector3::Unit(mode % 3);
-    Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
-    for (int k = 0; mode >= 3 && k < 3; ++k) spin.col(k) = axis.cross(Vector3::Unit(k));
-    const Eigen::MatrixX3d motion = block.basis().linear_field(mode < 3 ? axis : Vector3::Zero(), spin);
-    rigid.col(mode) = Eigen::Map<const Eigen::VectorXd>(motion.data(), 3 * p).normalized();
-  }
+  const Eigen::MatrixXd rigid = block.basis().rigid_motions(1.0).colwise().normalized();
   stiffness += stiffness.diagonal().mean() * rigid * rigid.transpose();
   const Eigen::LLT<Eigen::MatrixXd> factor(stiffness);
   Eigen::MatrixX3d solution(p, 3);

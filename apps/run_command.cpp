@@ -10,12 +10,12 @@
 
 #include "apps/atomic_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/loose_blocks.hpp"
 #include "apps/progress.hpp"
 #include "apps/result_folder.hpp"
 #include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
 #include "apps/view_file.hpp"
-#include "mechanics/rigid_motions.hpp"
 
 namespace ashlar {
 namespace {
@@ -94,22 +94,6 @@ std::string describe_motion(const Simulation& simulation) {
     separator = "; ";
   }
   return text;
-}
-
-/// A static analysis has no answer for blocks that nothing holds.
-void refuse_loose_blocks(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
-  for (const std::vector<int>& blocks : simulation.loose_blocks()) {
-    const BlockModel& first = simulation.blocks()[static_cast<std::size_t>(blocks.front())];
-    const std::string what =
-        blocks.size() == 1
-            ? fmt::format("block {} has no contact and its supports leave a rigid motion ({})", first.name(),
-                          describe(admissible_rigid_motions(first), first))
-            : fmt::format(
-                  "block {} and {} more touch each other, but nothing that holds them (any rigid motion)",
-                  first.name(), blocks.size() - 1);
-    diagnostics.error(scene.places.key(fmt::format("block.{}", blocks.front())),
-                      what + ", a static analysis needs a support or a contact with something that is held");
-  }
 }
 
 /// A run from its first step, or from a checkpoint, to its end.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "mechanics/quadrature.hpp"
 #include "mechanics/simplex_moments.hpp"
@@ -106,14 +107,19 @@ RealMatrix gram_matrix(const std::vector<Real>& legendre_moment, int order) {
   return gram;
 }
 
-RealMatrix cholesky_factor(RealMatrix matrix) {
+/// @param failed set to the first row that is no longer positive; -1: none
+RealMatrix cholesky_factor(RealMatrix matrix, Eigen::Index& failed) {
+  failed = -1;
   const Eigen::Index p = matrix.rows();
   for (Eigen::Index j = 0; j < p; ++j) {
     for (Eigen::Index k = 0; k < j; ++k) {
       const Real factor = matrix(j, k);
       for (Eigen::Index i = j; i < p; ++i) matrix(i, j) -= matrix(i, k) * factor;
     }
-    if (!(matrix(j, j) > 0)) throw std::domain_error("the block is too thin for a polynomial of this order");
+    if (!(matrix(j, j) > 0)) {
+      failed = j;
+      break;
+    }
     const Real root = sqrt(matrix(j, j));
     for (Eigen::Index i = j; i < p; ++i) matrix(i, j) /= root;
     for (Eigen::Index i = 0; i < j; ++i) matrix(i, j) = 0;
@@ -223,7 +229,29 @@ std::vector<Real> multiplied(const RealMatrix& lower, const RealMatrix& inverse,
   return result;
 }
 
+/// Legendre products at a point. @return (p)
+std::vector<Real> seed_values(const std::array<Real, 3>& xi, int order) {
+  std::array<std::vector<Real>, 3> legendre;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto& values = legendre[axis];
+    values = {Real(1), xi[axis]};
+    for (int k = 1; k < order; ++k)
+      values.push_back((Real(2 * k + 1) * xi[axis] * values[at(k)] - Real(k) * values[at(k - 1)]) /
+                       Real(k + 1));
+  }
+  std::vector<Real> seeds;
+  for (const auto& [a, b, c] : monomial_exponents(order))
+    seeds.push_back(legendre[0][at(a)] * legendre[1][at(b)] * legendre[2][at(c)]);
+  return seeds;
+}
+
 }  // namespace
+
+OrderTooHigh::OrderTooHigh(int order, int highest)
+    : std::domain_error("order " + std::to_string(order) +
+                        " is too high for this shape in double precision, " +
+                        (highest > 0 ? "at most " + std::to_string(highest) + " is safe" : "as is any")),
+      highest_safe_order(highest) {}
 
 PolynomialBasis::PolynomialBasis(const Polyhedron& solid, int order)
     : PolynomialBasis(std::make_shared<const Parts>(solid, order), solid.mesh().points.front()) {}
@@ -293,7 +321,18 @@ PolynomialBasis::Parts::Parts(const Polyhedron& solid, int the_order) : order(th
   const Real scale = exact_volume / scaled[0];
   for (Real& moment : scaled) moment *= scale;
 
-  const RealMatrix lower = cholesky_factor(gram_matrix(legendre_moments(scaled, degree), order));
+  Eigen::Index failed = -1;
+  const RealMatrix lower = cholesky_factor(gram_matrix(legendre_moments(scaled, degree), order), failed);
+  if (failed >= 0) {
+    const auto& e = monomial_exponents(order)[static_cast<std::size_t>(failed)];
+    int highest = e[0] + e[1] + e[2] - 1;
+    try {
+      if (highest > 0) (void)Parts(solid, highest);
+    } catch (const OrderTooHigh& error) {
+      highest = error.highest_safe_order;
+    }
+    throw OrderTooHigh(order, highest);
+  }
   const RealMatrix inverse = inverse_of_lower(lower);
   const auto exponents = monomial_exponents(order);
   constant = static_cast<double>(inverse(0, 0));
@@ -337,18 +376,40 @@ PolynomialBasis::Parts::Parts(const Polyhedron& solid, int the_order) : order(th
     }
     for (int k = 0; k < 4; ++k) identity_map(k, i) = static_cast<double>(coefficients[at(k)]);
   }
+
+  int worst_degree = order + 1;
+  // Points of the mesh are known exactly, in 50 digits and in double.
+  constexpr std::size_t most_points = 16;
+  const std::size_t stride = (points.size() + most_points - 1) / most_points;
+  for (std::size_t n = 0; n < points.size(); n += stride) {
+    const std::vector<Real> seeds = seed_values(points[n], order);
+    const Vector3 xi = (axes.transpose() * (mesh.points[n] - anchor) - middle).cwiseQuotient(half_size);
+    const Eigen::VectorXd rounded = values(xi);
+    for (int k = 0; k < polynomial_count(order); ++k) {
+      Real exact = 0;
+      for (int j = 0; j <= k; ++j) exact += inverse(k, j) * seeds[at(j)];
+      const double lost = std::abs(static_cast<double>(Real(rounded[k]) - exact)) * std::sqrt(volume);
+      loss = std::max(loss, lost);
+      const auto& e = exponents[at(k)];
+      if (!(lost <= allowed_loss)) worst_degree = std::min(worst_degree, e[0] + e[1] + e[2]);
+    }
+  }
+  if (worst_degree <= order) throw OrderTooHigh(order, worst_degree - 1);
 }
 
-Eigen::VectorXd PolynomialBasis::values(const Vector3& point) const {
-  const Vector3 xi = local(point);
-  Eigen::VectorXd phi(size());
-  phi[0] = parts_->constant;
+Eigen::VectorXd PolynomialBasis::Parts::values(const Vector3& xi) const {
+  Eigen::VectorXd phi(polynomial_count(order));
+  phi[0] = constant;
   Eigen::Index k = 1;
-  for (const auto& [axis, parent, first, weights, divisor] : parts_->recurrences) {
+  for (const auto& [axis, parent, first, weights, divisor] : recurrences) {
     phi[k] = (xi[axis] * phi[parent] - weights.dot(phi.segment(first, weights.size()))) / divisor;
     ++k;
   }
   return phi;
+}
+
+Eigen::VectorXd PolynomialBasis::values(const Vector3& point) const {
+  return parts_->values(local(point));
 }
 
 Eigen::MatrixXd PolynomialBasis::values(const std::vector<Vector3>& points) const {
@@ -393,6 +454,18 @@ Eigen::MatrixX3d PolynomialBasis::linear_field(const Vector3& value, const Eigen
   Eigen::MatrixX3d coefficients = identity_map_ * gradient.transpose();
   coefficients.row(0) += std::sqrt(volume()) * (value - gradient * centroid_).transpose();
   return coefficients;
+}
+
+Eigen::MatrixXd PolynomialBasis::rigid_motions(double length) const {
+  Eigen::MatrixXd motions(3 * size(), 6);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 axis = Vector3::Unit(k);
+    Eigen::Matrix3d spin;
+    for (int i = 0; i < 3; ++i) spin.col(i) = axis.cross(Vector3::Unit(i));
+    motions.col(k) = linear_field(axis, Eigen::Matrix3d::Zero()).reshaped();
+    motions.col(3 + k) = linear_field(Vector3::Zero(), spin / length).reshaped();
+  }
+  return motions;
 }
 
 }  // namespace ashlar

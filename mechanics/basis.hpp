@@ -18,6 +18,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "geometry/polyhedron.hpp"
@@ -25,15 +26,28 @@
 
 namespace ashlar {
 
+/// An order that double precision does not bear on a shape.
+struct OrderTooHigh : std::domain_error {
+  OrderTooHigh(int order, int highest);
+  int highest_safe_order;  ///< 0: not even the first
+};
+
 /// Constant after construction.
 class PolynomialBasis {
  public:
   static constexpr int max_order = 12;
+  /// What rounding may change a function by, in parts of its root mean square over the block: six digits are
+  /// left. It is measured at points of the solid against 50 digits, and orthonormality (||G - I||) goes with
+  /// it. Boxes and hulls lose 1e-15 to 1e-11 up to order 12; thin ones that are turned lose what coordinates
+  /// across them lose to cancellation (1e-11 n^2 for a thickness of 1e-5). More is lost by shapes that fill
+  /// little of the box along their principal axes, like an L of thin arms: functions that are of size 1 on
+  /// the arms are huge between them.
+  static constexpr double allowed_loss = 1e-6;
 
   /// @param solid reference shape, m
   /// @param order 0 to max_order
   /// @throws std::invalid_argument if the order is out of range
-  /// @throws std::domain_error if the shape is too thin for this order in 50-digit arithmetic
+  /// @throws OrderTooHigh if the functions lose more than allowed_loss, or do not even exist in 50 digits
   PolynomialBasis(const Polyhedron& solid, int order);
 
   /// The basis of the same solid, moved so that its first point is at a place; all that does not depend on
@@ -44,6 +58,8 @@ class PolynomialBasis {
   /// p, the number of functions.
   [[nodiscard]] int size() const { return polynomial_count(order()); }
   [[nodiscard]] double volume() const { return parts_->volume; }
+  /// Largest measured loss of any function, see allowed_loss.
+  [[nodiscard]] double loss() const { return parts_->loss; }
   /// Centroid of the block, m.
   [[nodiscard]] const Vector3& centroid() const { return centroid_; }
   /// Integral of (X - centroid)(X - centroid)' dV, m^5.
@@ -76,6 +92,10 @@ class PolynomialBasis {
   /// @param value (3), @param gradient (3, 3). @return (p, 3). An order 0 basis keeps the mean only.
   [[nodiscard]] Eigen::MatrixX3d linear_field(const Vector3& value, const Eigen::Matrix3d& gradient) const;
 
+  /// Coefficients of the six rigid motions: translations by 1 along the axes, then turns by 1/length about
+  /// axes through the centroid. @param length m. @return (3p, 6), stacked as in elasticity.hpp; order >= 1
+  [[nodiscard]] Eigen::MatrixXd rigid_motions(double length) const;
+
  private:
   /// phi_k = (xi_axis phi_parent - sum_j weights_j phi_(first + j)) / divisor
   struct Recurrence {
@@ -101,6 +121,10 @@ class PolynomialBasis {
     std::vector<Recurrence> recurrences;  ///< (p - 1), of phi_1 on
     std::array<Eigen::MatrixXd, 3> derivatives;
     Eigen::MatrixX3d identity_map;
+    double loss = 0.0;
+
+    /// phi at a point from the first one, in the coordinates of the principal axes. @return (p)
+    [[nodiscard]] Eigen::VectorXd values(const Vector3& xi) const;
   };
 
   PolynomialBasis(std::shared_ptr<const Parts> parts, const Vector3& anchor);

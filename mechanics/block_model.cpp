@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace ashlar {
@@ -43,6 +44,14 @@ BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const Increme
   if (fixed()) return;
   motion_ = SupportMotion(solid(), basis_, definition_.supports);
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
+}
+
+BlockModel BlockModel::with_order(int order) const {
+  if (fixed() || form_)
+    throw std::invalid_argument("only a moving block of the total formulation changes order");
+  BlockDefinition definition = definition_;
+  definition.order = order;
+  return BlockModel(std::move(definition));
 }
 
 BlockModel BlockModel::with_shape(CarriedShape shape) const {

@@ -47,6 +47,10 @@ class BlockModel {
   /// The same, sharing what it can with other blocks made with the library.
   BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
 
+  /// The same block of the total formulation with another order. @throws std::invalid_argument for a fixed or
+  /// incremental one
+  [[nodiscard]] BlockModel with_order(int order) const;
+
   /// Null for blocks of the total formulation.
   [[nodiscard]] const IncrementalForm* incremental() const { return form_.get(); }
   /// Of an incremental block, at the start of the step.
@@ -64,6 +68,8 @@ class BlockModel {
   [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
   [[nodiscard]] int order() const { return basis_.order(); }
   [[nodiscard]] const PolynomialBasis& basis() const { return basis_; }
+  /// What it shares with equal blocks.
+  [[nodiscard]] const std::shared_ptr<const BlockParts>& parts() const { return parts_; }
   [[nodiscard]] const AdmissibleSpace& space() const { return parts_->space; }
   /// 0 for fixed blocks.
   [[nodiscard]] int unknowns() const { return fixed() ? 0 : space().unknowns(); }

@@ -79,6 +79,16 @@ std::vector<BlockSupport> supports_of_shape(const BlockDefinition& definition) {
   return supports;
 }
 
+/// Its strain is a polynomial of order 2 (n - 1), which a shape may not bear.
+std::shared_ptr<const StVenantKirchhoff> large_strains(const Polyhedron& solid, const PolynomialBasis& basis,
+                                                       const Material& material) {
+  try {
+    return std::make_shared<const StVenantKirchhoff>(solid, basis, material);
+  } catch (const OrderTooHigh& error) {
+    throw OrderTooHigh(basis.order(), 1 + error.highest_safe_order / 2);
+  }
+}
+
 }  // namespace
 
 BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
@@ -91,7 +101,7 @@ BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
   if (!space.can_turn() || definition.formulation == Formulation::incremental)
     reduced_stiffness = space.restrict(stiffness);
   if (definition.material.elasticity == Elasticity::st_venant_kirchhoff)
-    large = std::make_shared<const StVenantKirchhoff>(solid, basis, definition.material);
+    large = large_strains(solid, basis, definition.material);
 }
 
 BlockPartsLibrary::Found BlockPartsLibrary::find(const BlockDefinition& definition) {

@@ -4,15 +4,18 @@
 
 namespace ashlar {
 
-BlockSurface::BlockSurface(const BlockModel& model, int levels) : model_(&model) {
+BlockSurface::BlockSurface(const BlockModel& model, int levels, const BlockSurface* twin) : model_(&model) {
   if (model.incremental() != nullptr) {
     whole_ = model.incremental()->surface();
     start_step();
   } else if (model.order() >= 2 && !model.fixed()) {
     adaptive_.emplace(model.solid(), model.order(), levels);
-    domain_phi_ = model.basis().values(adaptive_->domain_points());
+    domain_phi_ =
+        twin != nullptr
+            ? twin->domain_phi_
+            : std::make_shared<const Eigen::MatrixXd>(model.basis().values(adaptive_->domain_points()));
     point_phi_ = model.basis().values(adaptive_->surface().points);
-    largest_phi_ = adaptive_->largest_values(domain_phi_);
+    largest_phi_ = twin != nullptr ? twin->largest_phi_ : adaptive_->largest_values(*domain_phi_);
   } else {
     whole_ = whole_surface(model.solid());
     point_phi_ = model.basis().values(whole_.points);
@@ -31,7 +34,7 @@ const SubFaceSurface& BlockSurface::surface() const {
 }
 
 Eigen::Matrix3Xd BlockSurface::domain_values(const BlockState& state) const {
-  return (domain_phi_ * state.position).transpose();
+  return (*domain_phi_ * state.position).transpose();
 }
 
 std::vector<Vector3> BlockSurface::points(const BlockState& state) const {
@@ -58,7 +61,7 @@ double BlockSurface::quick_motion_bound(const Eigen::MatrixX3d& change) const {
 }
 
 double BlockSurface::largest_speed(const BlockState& state) const {
-  const Eigen::MatrixXd& phi = adaptive_ ? domain_phi_ : point_phi_;
+  const Eigen::MatrixXd& phi = adaptive_ ? *domain_phi_ : point_phi_;
   return std::sqrt((phi * state.velocity).rowwise().squaredNorm().maxCoeff());
 }
 

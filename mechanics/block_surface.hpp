@@ -15,8 +15,9 @@ namespace ashlar {
 class BlockSurface {
  public:
   /// @param model must outlive this. @param levels uniform levels (0 to 8) that divisions of curved faces
-  /// start from
-  BlockSurface(const BlockModel& model, int levels);
+  /// start from. @param twin of a block with the same parts and solid but for a translation, to share what
+  /// does not change; null: none
+  BlockSurface(const BlockModel& model, int levels, const BlockSurface* twin = nullptr);
 
   /// Takes over the coordinates of a new step of an incremental block.
   void start_step();
@@ -49,8 +50,9 @@ class BlockSurface {
 
   const BlockModel* model_;
   std::optional<AdaptiveSurface> adaptive_;
-  SubFaceSurface whole_;            ///< of a block that stays affine or is incremental
-  Eigen::MatrixXd domain_phi_;      ///< phi at the domain points, or at the points of a whole surface
+  SubFaceSurface whole_;  ///< of a block that stays affine or is incremental
+  /// phi at the domain points of a block that curves
+  std::shared_ptr<const Eigen::MatrixXd> domain_phi_;
   Eigen::MatrixXd point_phi_;       ///< phi at the surface's points
   Eigen::RowVectorXd largest_phi_;  ///< (p) no larger in magnitude is each function anywhere on the surface
   BlockState state_;                ///< as moved last

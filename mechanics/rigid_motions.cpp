@@ -14,12 +14,6 @@ double size_of(const BlockModel& block) {
   return std::cbrt(block.basis().volume());
 }
 
-Eigen::MatrixX3d coefficients(const BlockModel& block, const Vector3& translation, const Vector3& rotation) {
-  Eigen::Matrix3d spin;
-  for (int k = 0; k < 3; ++k) spin.col(k) = rotation.cross(Vector3::Unit(k));
-  return block.basis().linear_field(translation, spin / size_of(block));
-}
-
 /// Reduced row echelon form from the last columns on, so that rotations appear in as few rows as can be.
 void reduce_rows(Eigen::MatrixXd& rows) {
   Eigen::Index done = 0;
@@ -51,14 +45,13 @@ std::string text(const Vector3& v, double scale) {
 
 std::vector<RigidMotion> admissible_rigid_motions(const BlockModel& block) {
   if (block.fixed() || block.space().held()) return {};
-  Eigen::MatrixXd outside(3 * block.basis().size(), 6);
+  const Eigen::Index p = block.basis().size();
+  const Eigen::MatrixXd all = block.basis().rigid_motions(size_of(block));
+  Eigen::MatrixXd outside(3 * p, 6);
   for (int mode = 0; mode < 6; ++mode) {
-    const Vector3 axis = Vector3::Unit(mode % 3);
-    Eigen::MatrixX3d motion =
-        coefficients(block, mode < 3 ? axis : Vector3::Zero(), mode < 3 ? Vector3::Zero() : axis);
-    motion -= block.space().expand(block.space().restrict(motion));
-    outside.col(mode) =
-        Eigen::Map<const Eigen::VectorXd>(motion.data(), motion.size()) / std::sqrt(block.basis().volume());
+    const Eigen::MatrixX3d motion = all.col(mode).reshaped(p, 3);
+    outside.col(mode) = (motion - block.space().expand(block.space().restrict(motion))).reshaped() /
+                        std::sqrt(block.basis().volume());
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(outside, Eigen::ComputeThinU | Eigen::ComputeFullV);
   const auto kept = (svd.singularValues().array() > projection_tolerance).count();

@@ -49,17 +49,11 @@ AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis&
   }
   // Rigid motions (three translations, three rotations, of unit norm) that are admissible leave nothing when
   // projected off the admissible space.
+  const Eigen::MatrixXd motions = basis.rigid_motions(1.0).colwise().normalized();
   Eigen::MatrixXd outside(3 * functions_, 6);
   for (int mode = 0; mode < 6; ++mode) {
-    const Vector3 axis = Vector3::Unit(mode % 3);
-    Eigen::Matrix3d spin = Eigen::Matrix3d::Zero();
-    if (mode >= 3) {
-      for (int k = 0; k < 3; ++k) spin.col(k) = axis.cross(Vector3::Unit(k));
-    }
-    Eigen::MatrixX3d motion = basis.linear_field(mode < 3 ? axis : Vector3::Zero(), spin);
-    motion /= motion.norm();
-    const Eigen::MatrixX3d rest = motion - expand(restrict(motion));
-    outside.col(mode) = Eigen::Map<const Eigen::VectorXd>(rest.data(), rest.size());
+    const Eigen::MatrixX3d motion = motions.col(mode).reshaped(functions_, 3);
+    outside.col(mode) = (motion - expand(restrict(motion))).reshaped();
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(outside, Eigen::ComputeThinU | Eigen::ComputeFullV);
   can_turn_ = false;

@@ -9,13 +9,17 @@ double block_size(const BlockModel& block) {
   return std::cbrt(block.basis().volume());
 }
 
-double automatic_normal_stiffness(const BlockModel& a, const BlockModel& b, bool area_springs,
+StiffnessSource stiffness_source(const BlockModel& block) {
+  return {block_size(block), block.fixed() ? 0.0 : block.material().young_modulus, block.fixed()};
+}
+
+double automatic_normal_stiffness(const StiffnessSource& a, const StiffnessSource& b, bool area_springs,
                                   const AutomaticRatios& ratios) {
   // A fixed block is rigid, so the other one gives the modulus.
-  double modulus = std::min(a.fixed() ? b.material().young_modulus : a.material().young_modulus,
-                            b.fixed() ? a.material().young_modulus : b.material().young_modulus);
-  double size = std::min(block_size(a), block_size(b));
-  if (a.fixed() != b.fixed()) size = block_size(a.fixed() ? b : a);
+  const double modulus =
+      std::min(a.fixed ? b.young_modulus : a.young_modulus, b.fixed ? a.young_modulus : b.young_modulus);
+  double size = std::min(a.size, b.size);
+  if (a.fixed != b.fixed) size = a.fixed ? b.size : a.size;
   return ratios.normal_stiffness * modulus / size * (area_springs ? 1.0 : size * size);
 }
 

@@ -23,10 +23,19 @@ struct AutomaticRatios {
 /// Cube root of the volume, m.
 [[nodiscard]] double block_size(const BlockModel& block);
 
+/// What of a block an automatic stiffness depends on.
+struct StiffnessSource {
+  double size = 0.0;           ///< block_size, m
+  double young_modulus = 0.0;  ///< Pa; of no use if fixed
+  bool fixed = false;
+  [[nodiscard]] auto operator<=>(const StiffnessSource&) const = default;
+};
+[[nodiscard]] StiffnessSource stiffness_source(const BlockModel& block);
+
 /// Normal stiffness between two blocks from the softer material and the smaller size: Pa/m, or for point
 /// springs N/m (the area stiffness times the smaller size squared).
-[[nodiscard]] double automatic_normal_stiffness(const BlockModel& a, const BlockModel& b, bool area_springs,
-                                                const AutomaticRatios& ratios = {});
+[[nodiscard]] double automatic_normal_stiffness(const StiffnessSource& a, const StiffnessSource& b,
+                                                bool area_springs, const AutomaticRatios& ratios = {});
 
 /// Stiffness of a tied joint from the stiffer material and the smaller size, Pa/m.
 [[nodiscard]] double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b,

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mechanics/order_change.hpp"
 #include "solver/simulation.hpp"
 
 namespace ashlar {
@@ -42,6 +43,37 @@ void Simulation::start_carried_step(std::size_t k, CarriedBlock next) {
   blocks_[k] = std::move(next.model);
   states_[k].position = blocks_[k].basis().identity_map();
   finder_.start_step(block);
+  note_elastic_energy(k);
+}
+
+void Simulation::replace_model(std::size_t k, BlockModel model) {
+  blocks_[k] = std::move(model);
+  finder_.renew(static_cast<int>(k), blocks_[k]);
+  roundoff_force_[k] = blocks_[k].force_rounding();
+  // Systems are as large as their blocks' unknowns.
+  counts_.factors += solvers_.counts();
+  solvers_ = IslandSolvers();
+}
+
+DroppedByOrder Simulation::change_order(int block, int order) {
+  const auto k = static_cast<std::size_t>(block);
+  BlockModel next = blocks_.at(k).with_order(order);
+  const OrderChange changed = ashlar::change_order(blocks_[k], states_[k], next);
+  if (!accelerations_.empty()) {
+    const BlockState accelerated{states_[k].position, accelerations_[k]};
+    accelerations_[k] = ashlar::change_order(blocks_[k], accelerated, next).state.velocity;
+  }
+  const auto energy = [&] { return ledger_.kinetic + ledger_.elastic + ledger_.gravity; };
+  measure_energies(ledger_);
+  const double before = energy();
+  replace_model(k, std::move(next));
+  states_[k] = changed.state;
+  note_elastic_energy(k);
+  measure_energies(ledger_);
+  const double dropped = before - energy();
+  ledger_.numerical += dropped;
+  static_ = StaticState{};
+  return {changed.dropped_displacement, changed.dropped_velocity, dropped};
 }
 
 }  // namespace ashlar

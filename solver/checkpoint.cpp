@@ -172,12 +172,20 @@ SimulationSnapshot Simulation::snapshot() const {
 
 void Simulation::restore(const SimulationSnapshot& snapshot) {
   bool fits = snapshot.states.size() == blocks_.size();
+  std::map<std::size_t, int> orders;  // that were changed in the run
   for (std::size_t k = 0; fits && k < blocks_.size(); ++k) {
-    fits = snapshot.states[k].position.rows() == states_[k].position.rows() &&
-           snapshot.states[k].velocity.rows() == states_[k].velocity.rows() &&
-           snapshot.carried.contains(static_cast<int>(k)) == (blocks_[k].incremental() != nullptr);
+    const Eigen::Index rows = snapshot.states[k].position.rows();
+    const bool incremental = blocks_[k].incremental() != nullptr;
+    fits = snapshot.states[k].velocity.rows() == rows &&
+           snapshot.carried.contains(static_cast<int>(k)) == incremental;
+    if (rows == states_[k].position.rows()) continue;
+    int order = 1;
+    while (order < PolynomialBasis::max_order && polynomial_count(order) < rows) ++order;
+    fits = fits && polynomial_count(order) == rows && moving_[k] && !incremental;
+    orders.emplace(k, order);
   }
   if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
+  for (const auto& [k, order] : orders) replace_model(k, blocks_[k].with_order(order));
   time_ = snapshot.time;
   next_step_ = snapshot.next_step;
   steps_ = snapshot.steps;
@@ -203,6 +211,8 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   largest_penetration_ = snapshot.largest_penetration;
   rejections_ = snapshot.rejections;
   solvers_ = IslandSolvers();
+  lone_factors_ = LoneBodyFactors();
+  note_elastic_energies();
   counts_ = snapshot.counts;
   seconds_ = snapshot.seconds;
 }

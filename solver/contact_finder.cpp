@@ -52,8 +52,10 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
       paths_(blocks.size(), 0.0),
       checked_motion_(blocks.size(), 0.0) {
   surfaces_.reserve(blocks.size());
+  std::map<const BlockParts*, std::size_t> first;  // of equal blocks
   for (const BlockModel& block : blocks) {
-    surfaces_.emplace_back(block, settings.subdivisions);
+    const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
+    surfaces_.emplace_back(block, settings.subdivisions, is_first ? nullptr : &surfaces_[twin->second]);
     moving_.push_back(!block.fixed());
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
   }
@@ -270,6 +272,14 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
 
 void ContactFinder::accept_motion() {
   for (std::size_t k = 0; k < paths_.size(); ++k) paths_[k] += checked_motion_[k];
+}
+
+void ContactFinder::renew(int block, const BlockModel& model) {
+  surfaces_[at(block)] = BlockSurface(model, settings_.subdivisions);
+  placed_[at(block)].reset();
+  boxes_[at(block)] = Box{};
+  std::erase_if(clearances_,
+                [&](const auto& known) { return known.first[0] == block || known.first[1] == block; });
 }
 
 FinderState ContactFinder::state() const {

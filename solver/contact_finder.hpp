@@ -92,6 +92,8 @@ class ContactFinder {
                                                         const std::vector<FoundContacts>& found);
   /// Takes note that the motion checked last was accepted.
   void accept_motion();
+  /// Starts anew with a block whose model is another one now. @param model at the place of the old one
+  void renew(int block, const BlockModel& model);
   /// Takes over the coordinates of a new step of an incremental block.
   void start_step(int block) { surfaces_[static_cast<std::size_t>(block)].start_step(); }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace ashlar {
@@ -59,6 +60,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
   }
   // The surface of an incremental block is its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
+  note_elastic_energies();
   measure_energies(ledger_);
   start_balance_ = ledger_.balance();
 }
@@ -102,6 +104,7 @@ void Simulation::settle_supported_blocks() {
       position = blocks_[k].equilibrium(settings_.gravity, 0.0);
     }
   }
+  note_elastic_energies();
   measure_energies(ledger_);
   start_balance_ = ledger_.balance();
 }
@@ -186,7 +189,12 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   }
   trial.results.clear();
   for (const Island& island : trial.islands) {
-    trial.results.push_back(solve_island(island, trial.bodies, trial.pairs, scheme, settings_, solvers_));
+    std::optional<IslandResult> lone;
+    if (island.bodies.size() == 1 && island.pairs.empty())
+      lone = solve_lone_body(trial.bodies[at(island.bodies[0])], scheme, settings_, lone_factors_);
+    trial.results.push_back(
+        lone ? std::move(*lone)
+             : solve_island(island, trial.bodies, trial.pairs, scheme, settings_, solvers_));
     counts_.open_close_iterations += static_cast<std::uint64_t>(trial.results.back().iterations);
     counts_.open_close_fallbacks += static_cast<std::uint64_t>(trial.results.back().fallbacks);
     if (trial.results.back().status != IslandStatus::settled) return trial.results.back().status;
@@ -334,6 +342,7 @@ void Simulation::move_block(std::size_t k, const TimeScheme& scheme, const BodyS
 void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   const auto& [pairs, islands, bodies, results, carried] = trial;
   solvers_.drop_unused();
+  lone_factors_.drop_unused();
   finder_.accept_motion();
   const double last_residual = ledger_.residual;
   double potential_work = 0.0;
@@ -341,9 +350,10 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
     potential_work -= bodies[k].motion().cwiseProduct(bodies[k].elastic.force).sum();
-    potential_change -= blocks_[k].elastic(states_[k].position).energy;
+    potential_change -= elastic_energies_[k];
     move_block(k, scheme, bodies[k]);
-    potential_change += blocks_[k].elastic(states_[k].position).energy;
+    note_elastic_energy(k);
+    potential_change += elastic_energies_[k];
   }
 
   report_ = StepReport{};
@@ -399,12 +409,21 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   largest_penetration_ = std::max(largest_penetration_, report_.penetration);
 }
 
+void Simulation::note_elastic_energy(std::size_t k) {
+  if (moving_[k]) elastic_energies_[k] = blocks_[k].elastic(states_[k].position).energy;
+}
+
+void Simulation::note_elastic_energies() {
+  elastic_energies_.assign(blocks_.size(), 0.0);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) note_elastic_energy(k);
+}
+
 void Simulation::measure_energies(Ledger& ledger) const {
   ledger.kinetic = ledger.elastic = ledger.gravity = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
     ledger.kinetic += blocks_[k].kinetic_energy(states_[k]);
-    ledger.elastic += blocks_[k].elastic(states_[k].position).energy;
+    ledger.elastic += elastic_energies_[k];
     ledger.gravity += blocks_[k].gravity_energy(states_[k], settings_.gravity);
   }
 }
@@ -435,6 +454,7 @@ SimulationCounts Simulation::counts() const {
   SimulationCounts result = counts_;
   result.finder = finder_.counts();
   result.factors += solvers_.counts();
+  result.factors += lone_factors_.counts();
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "solver/contact_finder.hpp"
 #include "solver/island.hpp"
 #include "solver/ledger.hpp"
+#include "solver/lone_body.hpp"
 #include "solver/settings.hpp"
 #include "solver/static_analysis.hpp"
 
@@ -78,6 +79,13 @@ struct InitialMotion {
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
 };
 
+/// What a change of order lost.
+struct DroppedByOrder {
+  double displacement = 0.0;  ///< root of the mean square over the block, m
+  double velocity = 0.0;      ///< likewise, m/s
+  double energy = 0.0;        ///< kinetic, elastic and of gravity, J
+};
+
 /// Wall time of the parts of a step, s.
 struct PhaseSeconds {
   double contact_search = 0.0;
@@ -124,6 +132,13 @@ class Simulation {
   /// Sets of blocks in contact with each other that no fixed block, contact or support keeps from moving: no
   /// static analysis can hold them. A block alone is one of them if its supports leave any rigid motion.
   [[nodiscard]] std::vector<std::vector<int>> loose_blocks();
+
+  /// Changes the order of a moving block of the total formulation between two steps. Contacts keep their
+  /// memory; raising loses nothing, and what lowering drops of the energy is booked as numerical. A static
+  /// analysis takes up its load anew.
+  /// @throws std::invalid_argument for other blocks or an order that the block cannot have: nothing has
+  /// changed then
+  DroppedByOrder change_order(int block, int order);
 
   /// All that has changed since construction, and back (checkpoint.hpp).
   [[nodiscard]] SimulationSnapshot snapshot() const;
@@ -190,10 +205,14 @@ class Simulation {
   /// Makes the next steps of incremental blocks. @return false if one would be no block any more
   [[nodiscard]] bool carry_blocks(Trial& trial) const;
   void start_carried_step(std::size_t block, CarriedBlock next);
+  void replace_model(std::size_t block, BlockModel model);
   void accept(const TimeScheme& scheme, Trial& trial);
   void move_block(std::size_t block, const TimeScheme& scheme, const BodyStep& body);
   /// Adds contacts for blocks that would pass through each other, pairs kept in order.
   static void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found);
+  void note_elastic_energy(std::size_t block);
+  void note_elastic_energies();
+  /// Of the present state; elastic as noted.
   void measure_energies(Ledger& ledger) const;
 
   // static_analysis.cpp
@@ -216,7 +235,9 @@ class Simulation {
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
+  std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
+  LoneBodyFactors lone_factors_;
   double time_ = 0.0;
   double next_step_;  ///< s, grows back to settings_.time_step after cuts
   int steps_ = 0;

@@ -387,5 +387,73 @@ TEST_F(RunCommand, StaticAnalysisRefusesABlockThatNothingHolds) {
   EXPECT_THAT(faults_, AllOf(HasSubstr("block stone has no contact"), HasSubstr("any rigid motion")));
 }
 
+TEST_F(RunCommand, CheckNamesWhatAStaticAnalysisCannotHold) {
+  // Two points on the x axis: the beam may turn about it.
+  write_text(scene_, R"([analysis]
+type = "static"
+end_time = 1
+time_step = 1
+[[material]]
+name = "rock"
+density = 2700
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "beam"
+material = "rock"
+box = { min = [0, 0, 0], max = [4, 1, 1] }
+[[block.fix]]
+point = [0, 0, 0]
+[[block.fix]]
+point = [4, 0, 0]
+)");
+  EXPECT_EQ(command({"check", scene_.string()}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(HasSubstr(":10:1: error: block beam has no contact"),
+                             HasSubstr("rotation about [1, 0, 0] through [2, 0, 0]")));
+}
+
+TEST_F(RunCommand, OrderThatAShapeDoesNotBearIsRefusedWithTheHighestThatItDoes) {
+  write_text(folder_ / "ell.off", R"(OFF
+12 8 0
+0 0 0
+1 0 0
+1 0.001 0
+0.001 0.001 0
+0.001 1 0
+0 1 0
+0 0 0.001
+1 0 0.001
+1 0.001 0.001
+0.001 0.001 0.001
+0.001 1 0.001
+0 1 0.001
+6 5 4 3 2 1 0
+6 6 7 8 9 10 11
+4 0 1 7 6
+4 1 2 8 7
+4 2 3 9 8
+4 3 4 10 9
+4 4 5 11 10
+4 5 0 6 11
+)");
+  const auto with_order = [&](int order) {
+    std::string scene = scene_text;
+    scene.replace(scene.find("order = 2"), 9, "order = " + std::to_string(order));
+    const std::size_t box = scene.find("box = { min = [0, -0.5");
+    scene.replace(box, scene.find('\n', box) - box, "mesh = { file = \"ell.off\" }");
+    scene.erase(scene.find("[[block.fix]]"));
+    write_text(scene_, scene);
+    return command({"check", scene_.string()});
+  };
+  ASSERT_EQ(with_order(10), exit_status::bad_input);
+  const std::string place =
+      ":22:9: error: order is too high for the shape of block B in double precision (10), at most ";
+  const std::size_t found = faults_.find(place);
+  ASSERT_NE(found, std::string::npos) << faults_;
+  const int highest = std::stoi(faults_.substr(found + place.size()));
+  EXPECT_EQ(with_order(highest), exit_status::done) << faults_;
+  EXPECT_EQ(with_order(highest + 1), exit_status::bad_input);
+}
+
 }  // namespace
 }  // namespace ashlar

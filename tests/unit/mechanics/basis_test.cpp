@@ -112,5 +112,40 @@ TEST(Basis, RefusesOrdersOutOfRange) {
   EXPECT_THROW(PolynomialBasis(cube, 13), std::invalid_argument);
 }
 
+/// An L of two square arms of length 1.
+Polyhedron thin_ell(double thickness) {
+  const Polyhedron solid = test_support::l_shaped_prism();
+  std::vector<Vector3> points;
+  for (const Vector3& point : solid.mesh().points) {
+    const auto stretched = [&](double x) { return x == 2.0 ? 1.0 : x * thickness; };
+    points.emplace_back(stretched(point.x()), stretched(point.y()), point.z() * thickness);
+  }
+  return solid.with_points(std::move(points));
+}
+
+TEST(PolynomialBasis, OrdersThatAShapeDoesNotBearAreRefusedWithTheHighestThatItDoes) {
+  // Arms of a thousandth of their length fill a thousandth of their box.
+  for (const double thickness : {1e-3, 1e-6}) {
+    const Polyhedron solid = thin_ell(thickness);
+    for (const int order : {10, 12}) {
+      try {
+        const PolynomialBasis basis(solid, order);
+        FAIL() << "accepted with a loss of " << basis.loss();
+      } catch (const OrderTooHigh& error) {
+        const int highest = error.highest_safe_order;
+        ASSERT_GE(highest, 1);
+        ASSERT_LT(highest, order);
+        EXPECT_LE(PolynomialBasis(solid, highest).loss(), PolynomialBasis::allowed_loss);
+        EXPECT_THROW(PolynomialBasis(solid, highest + 1), OrderTooHigh);
+      }
+    }
+  }
+}
+
+TEST(PolynomialBasis, CompactShapesLoseNothingToSpeakOf) {
+  for (const auto& [name, solid] : test_support::sample_solids())
+    EXPECT_LT(PolynomialBasis(solid, 8).loss(), 1e-11) << name;
+}
+
 }  // namespace
 }  // namespace ashlar
