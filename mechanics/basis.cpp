@@ -324,7 +324,7 @@ PolynomialBasis::Parts::Parts(const Polyhedron& solid, int the_order) : order(th
   Eigen::Index failed = -1;
   const RealMatrix lower = cholesky_factor(gram_matrix(legendre_moments(scaled, degree), order), failed);
   if (failed >= 0) {
-    const auto& e = monomial_exponents(order)[static_cast<std::size_t>(failed)];
+    const std::array<int, 3> e = monomial_exponents(order)[static_cast<std::size_t>(failed)];
     int highest = e[0] + e[1] + e[2] - 1;
     try {
       if (highest > 0) (void)Parts(solid, highest);
