@@ -16,9 +16,8 @@ struct PartialKey {
   const char* available;  ///< JSON array of the values that work; empty: the key cannot be used yet
 };
 
-constexpr std::array<PartialKey, 2> partial_keys = {{
+constexpr std::array<PartialKey, 1> partial_keys = {{
     {"analysis.solver", R"(["auto", "cholmod"])"},
-    {"contact.augmented", "[false]"},
 }};
 
 nlohmann::json::json_pointer pointer_to(std::string path) {

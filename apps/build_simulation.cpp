@@ -101,6 +101,12 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
       choose(scene.contact.distance, ratios.distance * smallest, "contact.distance", "m");
   settings.contact_angle =
       choose(scene.contact.angle, ratios.angle_degrees, "contact.angle", "deg") * std::numbers::pi / 180.0;
+  settings.augmented = scene.contact.augmented;
+  if (settings.augmented) {
+    settings.penetration_tolerance =
+        choose(scene.contact.penetration_tolerance, ratios.penetration_tolerance * settings.contact_distance,
+               "contact.penetration_tolerance", "m");
+  }
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
     return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
   });

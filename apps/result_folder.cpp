@@ -74,11 +74,12 @@ std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measu
     }
   }
   for (const char* name :
-       {"energy.kinetic",     "energy.elastic",     "energy.gravity",     "energy.contact",
-        "energy.friction",    "energy.damping",     "energy.applied",     "energy.numerical",
-        "energy.residual",    "momentum.x",         "momentum.y",         "momentum.z",
-        "angular_momentum.x", "angular_momentum.y", "angular_momentum.z", "contacts.open",
-        "contacts.locked",    "contacts.sliding",   "penetration.max",    "open_close.iterations"}) {
+       {"energy.kinetic",        "energy.elastic",     "energy.gravity",     "energy.contact",
+        "energy.friction",       "energy.damping",     "energy.applied",     "energy.numerical",
+        "energy.residual",       "momentum.x",         "momentum.y",         "momentum.z",
+        "angular_momentum.x",    "angular_momentum.y", "angular_momentum.z", "contacts.open",
+        "contacts.locked",       "contacts.sliding",   "penetration.max",    "open_close.iterations",
+        "energy.refound_gained", "energy.refound_lost"}) {
     columns.emplace_back(name);
   }
   for (const MeasuredPoint& measure : measures) {
@@ -108,6 +109,8 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
   values.push_back(report.penetration);
   values.push_back(report.iterations);
+  values.push_back(ledger.refound_gained);
+  values.push_back(ledger.refound_lost);
   for (const PointMotion& motion : motions) append_stress(values, motion.stress);
   return values;
 }
@@ -174,6 +177,7 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
   std::vector<double> area;
   std::vector<double> normal;
   std::vector<double> force;
+  std::vector<double> traction;
   std::array<std::vector<std::int32_t>, 4> numbers;  // type, state, block_a, block_b
   for (const PairRecord& pair : simulation.contacts()) {
     for (std::size_t k = 0; k < pair.points.size(); ++k) {
@@ -185,8 +189,10 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
       gap.push_back(pair.gaps[k]);
       area.push_back(point.area);
       append(normal, point.normal);
-      append(force, response.force[0] * point.normal + response.force[1] * point.tangent_1 +
-                        response.force[2] * point.tangent_2);
+      const Vector3 whole = response.force[0] * point.normal + response.force[1] * point.tangent_1 +
+                            response.force[2] * point.tangent_2;
+      append(force, whole);
+      append(traction, whole / point.area);
       numbers[0].push_back(static_cast<std::int32_t>(point.type));
       numbers[1].push_back(static_cast<std::int32_t>(response.state));
       numbers[2].push_back(pair.a);
@@ -197,6 +203,7 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
   grid.point_data.push_back({"area", 1, {}, std::move(area)});
   grid.point_data.push_back({"normal", 3, {"x", "y", "z"}, std::move(normal)});
   grid.point_data.push_back({"force", 3, {"x", "y", "z"}, std::move(force)});
+  grid.point_data.push_back({"traction", 3, {"x", "y", "z"}, std::move(traction)});
   grid.point_data.push_back({"type", 1, {}, std::move(numbers[0])});
   grid.point_data.push_back({"state", 1, {}, std::move(numbers[1])});
   grid.point_data.push_back({"block_a", 1, {}, std::move(numbers[2])});

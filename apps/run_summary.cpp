@@ -111,6 +111,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
                              {"output", seconds.output}};
   summary["peak_memory_bytes"] = peak_memory_bytes();
   summary["penetration_max"] = simulation.largest_penetration();
+  summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},
+                               {"lost", simulation.ledger().refound_lost}};
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();

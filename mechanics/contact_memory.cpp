@@ -1,32 +1,62 @@
 #include "mechanics/contact_memory.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace ashlar {
+namespace {
+
+double area_of(const std::vector<ContactMemory::Entry>& entries) {
+  return std::accumulate(entries.begin(), entries.end(), 0.0,
+                         [](double sum, const ContactMemory::Entry& entry) { return sum + entry.area; });
+}
+
+/// A tangential vector in another tangent plane, its length kept.
+Vector3 turned(const Vector3& vector, const Vector3& normal) {
+  const Vector3 flat = vector - normal.dot(vector) * normal;
+  const double length = flat.norm();
+  return length > 0.0 ? Vector3(vector.norm() / length * flat) : flat;
+}
+
+}  // namespace
+
+ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest)
+    : entries_(std::move(entries)), deepest_(deepest), squared_reach_(area_of(entries_)) {}
+
+const ContactMemory::Entry* ContactMemory::nearest(const ContactPoint& point, bool same_faces) const {
+  constexpr double least_cosine = 0.5;
+  const Entry* found = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Entry& entry : entries_) {
+    if (same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
+                   : entry.normal.dot(point.normal) < least_cosine)
+      continue;
+    // One of the two is carried along where a contact slides: the vertex, or the slave's point.
+    const double squared_distance = std::min((entry.material_a - point.material_a).squaredNorm(),
+                                             (entry.material_b - point.material_b).squaredNorm());
+    if (squared_distance > squared_reach_ || squared_distance >= least) continue;
+    least = squared_distance;
+    found = &entry;
+  }
+  return found;
+}
 
 std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& points,
                                                double bond_distance) const {
   std::vector<PointMemory> result;
   result.reserve(points.size());
   for (const ContactPoint& point : points) {
-    const Entry* nearest = nullptr;
-    double least = std::numeric_limits<double>::infinity();
-    for (const Entry& entry : entries_) {
-      if (entry.face_a != point.face_a || entry.face_b != point.face_b) continue;
-      const double squared_distance = (entry.material_a - point.material_a).squaredNorm();
-      if (squared_distance < least) {
-        least = squared_distance;
-        nearest = &entry;
-      }
-    }
     PointMemory memory;
     memory.intact = point.gap <= bond_distance;
-    if (nearest != nullptr) {
-      memory = nearest->memory;
-      const double length = memory.slip.norm();
-      memory.slip -= point.normal.dot(memory.slip) * point.normal;
-      const double flat = memory.slip.norm();
-      if (flat > 0.0) memory.slip *= length / flat;
+    const Entry* entry = nearest(point, true);
+    const bool same_faces = entry != nullptr;
+    if (!same_faces) entry = nearest(point, false);
+    if (entry != nullptr) {
+      memory = entry->memory;
+      memory.slip = turned(memory.slip, point.normal);
+      memory.shear_multiplier = turned(memory.shear_multiplier, point.normal);
+      memory.intact = memory.intact && same_faces;
     }
     result.push_back(memory);
   }
@@ -38,13 +68,18 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   entries_.clear();
   entries_.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    entries_.push_back({points[k].material_a, points[k].face_a, points[k].face_b, memory[k]});
+    entries_.push_back({points[k].material_a, points[k].material_b, points[k].face_a, points[k].face_b,
+                        points[k].normal, points[k].area, memory[k]});
   }
   deepest_ = deepest;
+  squared_reach_ = area_of(entries_);
 }
 
-void ContactMemory::carry(const std::function<Vector3(const Vector3&)>& moved) {
-  for (Entry& entry : entries_) entry.material_a = moved(entry.material_a);
+void ContactMemory::carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved) {
+  for (Entry& entry : entries_) {
+    Vector3& material = of_a ? entry.material_a : entry.material_b;
+    material = moved(material);
+  }
 }
 
 }  // namespace ashlar

@@ -1,6 +1,7 @@
-// What contact points remember from step to step: elastic slip, state and whether the joint is still intact.
-// Memory belongs to material points, not to the step's polygons: a new point takes over from the nearest old
-// one between the same faces.
+// What contact points remember from step to step: elastic slip, state, multipliers and whether the joint is
+// still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
+// the nearest old one, nearest in the material of both blocks. Where the contact passes on to another face,
+// over an edge that is not sharp, slip goes with it; a bond does not, as new surface is not bonded.
 #pragma once
 
 #include <functional>
@@ -16,44 +17,52 @@ namespace ashlar {
 struct PointMemory {
   Vector3 slip = Vector3::Zero();  ///< elastic slip of a relative to b, in the tangent plane, m
   ContactState state = ContactState::open;
-  bool intact = false;  ///< joint strength not yet lost
+  bool intact = false;             ///< joint strength not yet lost
+  double normal_multiplier = 0.0;  ///< of augmented contact, Pa, of point springs N
+  Vector3 shear_multiplier = Vector3::Zero();
 };
 
 /// Memory of a pair of blocks.
 class ContactMemory {
  public:
-  /// One remembered point: where it is in block a's material and the faces it is between.
+  /// One remembered point: where it is in both materials, the faces it is between, how they lie.
   struct Entry {
     Vector3 material_a;
+    Vector3 material_b;
     int face_a;
     int face_b;
+    Vector3 normal;
+    double area;  ///< m^2
     PointMemory memory;
   };
 
   ContactMemory() = default;
   /// As `entries` and `deepest` of an earlier one.
-  ContactMemory(std::vector<Entry> entries, double deepest)
-      : entries_(std::move(entries)), deepest_(deepest) {}
+  ContactMemory(std::vector<Entry> entries, double deepest);
 
-  /// Memory for each of the new points: that of the nearest old point of the same faces, with the slip turned
-  /// into the new tangent plane; points without one start open, bonded by the joint's strength if their gap
-  /// is at most `bond_distance`, m (minus infinity: never).
+  /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
+  /// old point of the same faces, or, if none of those is as near as the whole contact was wide, of any faces
+  /// whose normals are within 60 degrees. Points without one start open, without slip, bonded by the joint's
+  /// strength if their gap is at most `bond_distance`, m (minus infinity: never).
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
                                                 double bond_distance) const;
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest);
 
-  /// Moves the remembered points of block a, whose material coordinates are those of a step's start.
-  void carry(const std::function<Vector3(const Vector3&)>& moved);
+  /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
+  void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:
+  [[nodiscard]] const Entry* nearest(const ContactPoint& point, bool same_faces) const;
+
   std::vector<Entry> entries_;
   double deepest_ = 0.0;
+  double squared_reach_ = 0.0;  ///< area of all entries, m^2
 };
 
 }  // namespace ashlar

@@ -32,6 +32,7 @@ struct JointLaw {
   double cohesion = 0.0;          ///< Pa
   double tensile_strength = 0.0;  ///< Pa
   bool area_springs = true;
+  bool augmented = false;  ///< multipliers take over from springs until penetration is within a tolerance
 };
 
 /// One point's constants within a step.

@@ -17,7 +17,8 @@ struct AutomaticRatios {
   double tie_stiffness = 1e5;
   double distance = 1e-3;  ///< of the smallest block's size
   double angle_degrees = 10.0;
-  double chord_tolerance = 5e-3;  ///< of the smallest block's size
+  double chord_tolerance = 5e-3;        ///< of the smallest block's size
+  double penetration_tolerance = 1e-3;  ///< of the contact distance
 };
 
 /// Cube root of the volume, m.

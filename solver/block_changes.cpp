@@ -32,9 +32,9 @@ bool Simulation::carry_blocks(Trial& trial) const {
 void Simulation::start_carried_step(std::size_t k, CarriedBlock next) {
   const Eigen::MatrixX3d change = states_[k].position - blocks_[k].basis().identity_map();
   const int block = static_cast<int>(k);
-  for (auto pair = memory_.lower_bound({block, 0}); pair != memory_.end() && pair->first[0] == block;
-       ++pair) {
-    pair->second.carry([&](const Vector3& point) {
+  for (auto& [blocks, memory] : memory_) {
+    if (blocks[0] != block && blocks[1] != block) continue;
+    memory.carry(blocks[0] == block, [&](const Vector3& point) {
       return Vector3(point + change.transpose() * blocks_[k].basis().values(point));
     });
   }

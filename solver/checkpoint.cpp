@@ -18,12 +18,13 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
-  archive(memory.slip, memory.state, memory.intact);
+  archive(memory.slip, memory.state, memory.intact, memory.normal_multiplier, memory.shear_multiplier);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, ContactMemory::Entry& entry) {
-  archive(entry.material_a, entry.face_a, entry.face_b, entry.memory);
+  archive(entry.material_a, entry.material_b, entry.face_a, entry.face_b, entry.normal, entry.area,
+          entry.memory);
 }
 
 template <class Archive>
@@ -61,7 +62,7 @@ static void visit_members(Archive& archive, StaticState& state) {
 template <class Archive>
 static void visit_members(Archive& archive, Ledger& ledger) {
   archive(ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction, ledger.damping,
-          ledger.applied, ledger.numerical, ledger.residual);
+          ledger.applied, ledger.numerical, ledger.refound_gained, ledger.refound_lost, ledger.residual);
 }
 
 template <class Archive>

@@ -122,6 +122,7 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       rows_a_(contact_rows(*body_a.model, points_, phi_a)),
       rows_b_(contact_rows(*body_b.model, points_, phi_b)),
       tie_(tie),
+      area_springs_(law.area_springs),
       // The forces of a tie are along the gap, so that they have no couple worth the name.
       free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
   if (free_pair_) {
@@ -130,6 +131,13 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
   }
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
+    if (law.augmented) {
+      const double scale = multiplier_scale(points_[k]);
+      const Vector3 shear = scale * memory_[k].shear_multiplier;
+      laws_[k].augmented = true;
+      laws_[k].normal_multiplier = scale * memory_[k].normal_multiplier;
+      laws_[k].shear_multiplier = {points_[k].tangent_1.dot(shear), points_[k].tangent_2.dot(shear)};
+    }
     start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
         points_[k].tangent_2.dot(memory_[k].slip);
     const auto start = start_.col(static_cast<Eigen::Index>(k));
@@ -298,6 +306,13 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     memory.state = point.state;
     const bool broken = laws_[k].tension > 0.0 && laws[k].tension == 0.0;
     memory.intact = memory_[k].intact && point.state == ContactState::locked && !broken;
+    if (laws[k].augmented && point.state != ContactState::open) {
+      // The slip since locking stays known, so that multipliers go on to undo it.
+      const Eigen::Vector2d shear = point.force.tail<2>() + laws_[k].shear_stiffness * slip;
+      const double scale = multiplier_scale(points_[k]);
+      memory.normal_multiplier = point.force[0] / scale;
+      memory.shear_multiplier = (shear[0] * points_[k].tangent_1 + shear[1] * points_[k].tangent_2) / scale;
+    }
     result.push_back(memory);
   }
   return result;

@@ -114,10 +114,13 @@ class ContactPair {
   ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
               std::vector<ContactPoint> points, std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
               const Eigen::MatrixXd& phi_b, const Tie* tie);
+  [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
+    return area_springs_ ? point.area : 1.0;
+  }
   /// Sum of r x F over the points, N m. @param place as relative() returns, @param forces (3 #points) by
   /// frame
   [[nodiscard]] Vector3 couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const;
-  /// Gap and trial slip of every point. @return (3, #points)
+  /// Gap and trial slip of every point, linear in the changes. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
 
   int a_;
@@ -132,6 +135,7 @@ class ContactPair {
       rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed
   Eigen::MatrixXd rows_b_;
   const Tie* tie_;               ///< null for contacts
+  bool area_springs_;            ///< multipliers are remembered per area
   bool free_pair_;               ///< nothing but the other block holds either
   Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step, of free pairs
   Eigen::MatrixX3d position_b_;

@@ -44,6 +44,7 @@ class IslandProblem {
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
   [[nodiscard]] const std::vector<PairResponse>& responses() const { return responses_; }
   [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
+  [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
   [[nodiscard]] std::vector<std::vector<double>> gaps() const;
   /// Moves responses and laws out, when the iteration has ended.

@@ -20,16 +20,19 @@ class OpenClose {
 
   Outcome run() {
     bond();
-    problem_.predict();
     problem_.respond();
-    for (;;) {
+    for (int updates = 0;;) {
       Outcome outcome = newton(settings_.newton_iterations, false);
       if (outcome == Outcome::stalled) {
         ++result_.fallbacks;
         outcome = minimise();
       }
       if (outcome != Outcome::settled) return outcome;
-      if (!break_joints()) return outcome;
+      if (!break_joints()) {
+        if (!settings_.augmented || within_tolerance()) return outcome;
+        if (++updates > settings_.multiplier_updates) return Outcome::stalled;
+        update_multipliers();
+      }
       problem_.respond();
     }
   }
@@ -66,6 +69,46 @@ class OpenClose {
       }
     }
     return true;
+  }
+
+  /// How far points are from where multipliers alone would hold them, m.
+  [[nodiscard]] double farthest() const {
+    double most = 0.0;
+    const auto gaps = problem_.gaps();
+    for (std::size_t pair = 0; pair < gaps.size(); ++pair) {
+      for (std::size_t k = 0; k < gaps[pair].size(); ++k) {
+        const PointLaw& law = problem_.laws()[pair][k];
+        const PointResponse& point = problem_.responses()[pair].points[k];
+        if (point.state == ContactState::open) continue;
+        most = std::max(most, std::abs(gaps[pair][k]));
+        if (point.state != ContactState::locked || law.shear_stiffness == 0.0) continue;
+        most = std::max(most, (law.shear_multiplier - point.force.tail<2>()).norm() / law.shear_stiffness);
+      }
+    }
+    return most;
+  }
+
+  [[nodiscard]] bool within_tolerance() {
+    const double last = farthest_;
+    farthest_ = farthest();
+    slow_ = farthest_ > settings_.slow_update * last;
+    return farthest_ <= settings_.penetration_tolerance;
+  }
+
+  /// Uzawa: the forces become the multipliers. Springs too soft to get anywhere are stiffened for this step.
+  void update_multipliers() {
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
+        PointLaw& law = problem_.laws()[pair][k];
+        const PointResponse& point = problem_.responses()[pair].points[k];
+        law.normal_multiplier = point.force[0];
+        if (point.state == ContactState::locked) law.shear_multiplier = point.force.tail<2>();
+        if (!slow_) continue;
+        constexpr double stiffer = 10.0;
+        law.normal_stiffness *= stiffer;
+        law.shear_stiffness *= stiffer;
+      }
+    }
   }
 
   /// One linear system and its factor. @return false if there is none
@@ -218,9 +261,11 @@ class OpenClose {
   IslandProblem& problem_;
   const SimulationSettings& settings_;
   IslandResult& result_;
-  std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
-  double least_ = 0.0;                          ///< Balance::worst of the last newton() at its best
-  std::vector<Eigen::VectorXd> best_;           ///< the guess that was the best of the first newton()
+  std::vector<std::vector<double>> strengths_;                 ///< tensile strength of each point, N
+  double farthest_ = std::numeric_limits<double>::infinity();  ///< farthest() at the last update
+  bool slow_ = false;                                          ///< the last update did not get far
+  double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
+  std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
 };
 
 }  // namespace

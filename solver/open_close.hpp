@@ -24,8 +24,8 @@
 
 namespace ashlar {
 
-/// Balances the equations of an island. @param result gets status, counts, responses and laws; the bodies
-/// their changes
+/// Balances the equations of an island from the changes its bodies have. @param result gets status, counts,
+/// responses and laws; the bodies their changes
 void iterate_open_close(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result);
 
 }  // namespace ashlar

@@ -63,6 +63,11 @@ struct SimulationSettings {
   double least_relaxation = 0.1;        ///< 0 to 1: smallest share of a change of bounds that is taken
   double residual_tolerance =
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
+  bool augmented = false;  ///< multipliers take over from springs until:
+  double penetration_tolerance = 1e-6;  ///< m, > 0: no contact is deeper, no locked one has slipped farther
+  int multiplier_updates = 60;          ///< in a step; more: the step is cut
+  double slow_update = 0.25;  ///< updates that leave more of the penetration raise the stiffness tenfold
+
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
 
   /// with which an incremental block goes to its initial equilibrium at most; a fifth of them is ample for

@@ -202,6 +202,18 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   return IslandStatus::settled;
 }
 
+std::map<std::array<int, 2>, double> Simulation::energies_of_last_step() const {
+  std::map<PairKey, double> energies;
+  for (const PairRecord& record : records_) {
+    for (const PointResponse& response : record.responses) energies[{record.a, record.b}] += response.energy;
+  }
+  return energies;
+}
+
+ContactBody Simulation::body_at_start(int block) const {
+  return {&blocks_[at(block)], &states_[at(block)], &finder_.placed(block)};
+}
+
 std::vector<FoundContacts> Simulation::find_contacts(double step) {
   const Stopwatch watch(seconds_.contact_search);
   const std::vector<BlockState> driven = driven_states(step);
@@ -219,13 +231,15 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
   const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface};
   for (const auto& [blocks, contacts] : found) {
     const auto& [a, b] = blocks;
-    const ContactBody body_a{&blocks_[at(a)], &states_[at(a)], &finder_.placed(a)};
-    const ContactBody body_b{&blocks_[at(b)], &states_[at(b)], &finder_.placed(b)};
+    const ContactBody body_a = body_at_start(a);
+    const ContactBody body_b = body_at_start(b);
     auto points = contact_points(body_a, body_b, contacts, point_settings);
     counts_.contact_points += points.size();
     auto memory = memory_[blocks].recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
-    pairs.emplace_back(a, b, body_a, body_b, law_(a, b), std::move(points), std::move(memory));
+    JointLaw law = law_(a, b);
+    law.augmented = settings_.augmented;
+    pairs.emplace_back(a, b, body_a, body_b, law, std::move(points), std::move(memory));
   }
   for (const TiedBlocks& tied : ties_) {
     pairs.emplace_back(tied.a, tied.b, ContactBody{&blocks_[at(tied.a)], &states_[at(tied.a)], nullptr},
@@ -356,6 +370,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
     potential_change += elastic_energies_[k];
   }
 
+  book_refound(pairs);
   report_ = StepReport{};
   report_.step = scheme.step;
   records_.clear();
@@ -416,6 +431,16 @@ void Simulation::note_elastic_energy(std::size_t k) {
 void Simulation::note_elastic_energies() {
   elastic_energies_.assign(blocks_.size(), 0.0);
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_elastic_energy(k);
+}
+
+void Simulation::book_refound(const std::vector<ContactPair>& pairs) {
+  std::map<PairKey, double> change;
+  for (const ContactPair& pair : pairs) {
+    change[{pair.a(), pair.b()}] = pair.start_energy();
+  }
+  for (const auto& [blocks, energy] : energies_of_last_step()) change[blocks] -= energy;
+  for (const auto& [blocks, energy] : change)
+    (energy > 0.0 ? ledger_.refound_gained : ledger_.refound_lost) += std::abs(energy);
 }
 
 void Simulation::measure_energies(Ledger& ledger) const {

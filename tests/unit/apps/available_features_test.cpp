@@ -32,9 +32,7 @@ TEST_P(UnavailableFeature, IsRefusedByNameAtItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, UnavailableFeature,
     ::testing::Values(FaultCase{1, "[analysis]\nsolver = \"cg\"",
-                                "s.toml:2:10: error: not available in this version"},
-                      FaultCase{5, "augmented = true",
-                                "s.toml:5:13: error: not available in this version (augmented = true)"}));
+                                "s.toml:2:10: error: not available in this version"}));
 
 TEST(AvailableFeatures, WhatIsAvailableMayBeGiven) {
   EXPECT_THAT(refused(sample_with(1,

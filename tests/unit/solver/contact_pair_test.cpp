@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "support/check_derivatives.hpp"
 #include "support/simulations.hpp"
 
@@ -150,6 +152,45 @@ TEST(ContactPair, TotalForcesHaveNoResultantAndNoTorque) {
   const double scale = torque_and_force(setting.a, ya, response.force_on_a).norm();
   EXPECT_GT(springs.head<3>().norm(), 1e-3 * scale);
   EXPECT_LT(total.norm(), 1e-12 * scale);
+}
+
+TEST(ContactPair, SlidingInACircleTakesFrictionTimesThePathOfTheSpringsFoot) {
+  // A spring of length s = mu N / ks drags its foot behind a point on a circle of radius r: the foot runs on
+  // a circle of radius sqrt(r^2 - s^2), the force along its path.
+  Setting setting = skew_setting(-1e-3);
+  setting.b = BlockModel([] {
+    BlockDefinition base = block_of("B", Polyhedron(make_box({-1, -1, 0}, {2, 2, 1})), {2000, 1e8, 0.2}, 1);
+    base.fixed = true;
+    return base;
+  }());
+  const ContactPoint point = setting.points[0];
+  const JointLaw law{2e9, 1e9, 0.5, 0.0, 0.0, true};
+  const double limit = 0.5 * 2e9 * 0.25 * 1e-3;
+  const double length = limit / (1e9 * 0.25);
+  const double radius = 4.0 * length;
+  constexpr int steps = 4000;
+  PointMemory memory;
+  double work = 0.0;
+  double turned = 0.0;
+  for (int k = 0; k < 2 * steps; ++k) {
+    const double from = 2.0 * std::numbers::pi * k / steps;
+    const double to = 2.0 * std::numbers::pi * (k + 1) / steps;
+    const Vector3 motion = radius * ((std::cos(to) - std::cos(from)) * point.tangent_1 +
+                                     (std::sin(to) - std::sin(from)) * point.tangent_2);
+    const Eigen::MatrixX3d field = setting.a.basis().linear_field(motion, Eigen::Matrix3d::Zero());
+    const Eigen::VectorXd ya = Eigen::Map<const Eigen::VectorXd>(field.data(), field.size());
+    const ContactPair pair = pair_of(setting, law, memory);
+    const PairResponse response = pair.respond(ya, {}, false);
+    // The first turn drags the spring into its steady length and direction.
+    if (k >= steps) {
+      work += pair.friction_work(response, pair.laws(), ya, {});
+      turned += memory.slip.norm() / steps;
+    }
+    memory = pair.memory_after(response, pair.laws(), ya, {})[0];
+  }
+  EXPECT_NEAR(turned, length, 1e-9 * length);
+  const double expected = limit * 2.0 * std::numbers::pi * std::sqrt(radius * radius - length * length);
+  EXPECT_NEAR(work, expected, 1e-3 * expected);
 }
 
 }  // namespace

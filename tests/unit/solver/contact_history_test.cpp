@@ -1,0 +1,163 @@
+// What contacts do over many steps: nothing creeps, nothing is lost, forces add up, energy does not come from
+// nowhere.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::place_of;
+using test_support::run_until;
+using test_support::same_law;
+using test_support::tilted_box;
+
+BlockDefinition fixed_block(Polyhedron solid) {
+  BlockDefinition block = block_of("base", std::move(solid), {2500, 1e9, 0.2}, 1);
+  block.fixed = true;
+  return block;
+}
+
+struct Stack {
+  SimulationSettings settings;
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions;
+  void add(BlockDefinition block, const InitialMotion& motion = {}) {
+    blocks.emplace_back(std::move(block));
+    motions.push_back(motion);
+  }
+  Simulation simulation(const JointLaw& law) {
+    return Simulation(std::move(blocks), std::move(motions), same_law(law), settings);
+  }
+};
+
+/// A block of an order on an incline of 30 degrees whose friction angle is 31, let go without strain.
+Simulation block_on_incline(int order, bool augmented) {
+  Stack stack;
+  stack.settings.time_step = 5e-3;
+  stack.settings.augmented = augmented;
+  stack.settings.chord_tolerance = 1e-3;
+  stack.settings.subdivisions = 0;
+  stack.add(fixed_block(tilted_box({-3, -2, -1}, {3, 2, 0}, 30.0)));
+  stack.add(block_of("block", tilted_box({-0.5, -0.4, 0}, {0.5, 0.4, 0.6}, 30.0), {2500, 1e8, 0.2}, order));
+  return stack.simulation({1e10, 5e9, std::tan(31.0 * std::numbers::pi / 180.0), 0.0, 0.0, true});
+}
+
+TEST(ContactHistory, ABlockOnAnInclineDoesNotCreep) {
+  for (const int order : {1, 2}) {
+    Simulation simulation = block_on_incline(order, false);
+    ASSERT_TRUE(run_until(simulation, 2.0));
+    const Vector3 point(0.1, 0.1, 0.3);
+    const Vector3 settled = place_of(simulation, 1, point);
+    ASSERT_TRUE(run_until(simulation, 10.0));
+    EXPECT_LT((place_of(simulation, 1, point) - settled).norm(), 1e-9) << order;
+    EXPECT_TRUE(simulation.rejections().empty());
+  }
+}
+
+TEST(ContactHistory, MultipliersHoldABlockWhateverTheSprings) {
+  // Springs so soft that the block would sink by rho g h / kn = 0.15 m.
+  for (const double stiffness : {1e5, 1e10}) {
+    Stack stack;
+    stack.settings.time_step = 5e-3;
+    stack.settings.augmented = true;
+    stack.settings.penetration_tolerance = 1e-8;
+    stack.add(fixed_block(Polyhedron(make_box({-3, -2, -1}, {3, 2, 0}))));
+    stack.add(block_of("block", Polyhedron(make_box({-0.5, -0.4, 0}, {0.5, 0.4, 0.6})), {2500, 1e8, 0.2}, 1));
+    Simulation simulation = stack.simulation({stiffness, stiffness, 0.5, 0.0, 0.0, true});
+    ASSERT_TRUE(run_until(simulation, 0.5));
+    EXPECT_LE(simulation.largest_penetration(), 1e-8) << stiffness;
+    double force = 0.0;
+    for (const PairRecord& pair : simulation.contacts()) {
+      for (std::size_t k = 0; k < pair.points.size(); ++k)
+        force += std::abs(pair.responses[k].force[0] * pair.points[k].normal.z());
+    }
+    EXPECT_NEAR(force, 2500.0 * 9.81 * 0.48, 1e-3 * 2500.0 * 9.81 * 0.48);
+  }
+}
+
+TEST(ContactHistory, MultipliersHoldABlockOnAnIncline) {
+  Simulation simulation = block_on_incline(1, true);
+  const Vector3 point(0.1, 0.1, 0.3);
+  ASSERT_TRUE(run_until(simulation, 1.0));
+  const Vector3 settled = place_of(simulation, 1, point);
+  ASSERT_TRUE(run_until(simulation, 3.0));
+  EXPECT_LT((place_of(simulation, 1, point) - settled).norm(), 1e-6);
+}
+
+TEST(ContactHistory, ForcesAreTheChangesOfMomentum) {
+  // The dda step: M (v' - v)/dt = m g + contact forces at its end.
+  Stack stack;
+  stack.settings.time_step = 1e-3;
+  stack.add(fixed_block(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0}))));
+  InitialMotion thrown;
+  thrown.velocity = {0.5, 0.2, -1.0};
+  stack.add(block_of("lower", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e9, 0.2}, 1));
+  stack.add(block_of("upper", tilted_box({0.2, 0.1, 1.05}, {0.9, 0.8, 1.6}, 3.0), {2500, 1e9, 0.2}, 2),
+            thrown);
+  Simulation simulation = stack.simulation({1e10, 5e9, 0.5, 0.0, 0.0, true});
+  double most = 0.0;
+  while (!simulation.reached(0.3)) {
+    std::vector<Vector3> before;
+    for (int k = 1; k < 3; ++k)
+      before.push_back(simulation.blocks()[static_cast<std::size_t>(k)].momentum(
+          simulation.states()[static_cast<std::size_t>(k)]));
+    ASSERT_EQ(simulation.step(0.3), StepStatus::accepted);
+    for (int k = 1; k < 3; ++k) {
+      const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(k)];
+      Vector3 force = block.mass() * Vector3(0, 0, -9.81);
+      for (const PairRecord& pair : simulation.contacts()) {
+        if (pair.a != k && pair.b != k) continue;
+        for (std::size_t n = 0; n < pair.points.size(); ++n) {
+          const ContactPoint& point = pair.points[n];
+          const Eigen::Vector3d& f = pair.responses[n].force;
+          force += (pair.a == k ? 1.0 : -1.0) *
+                   (f[0] * point.normal + f[1] * point.tangent_1 + f[2] * point.tangent_2);
+        }
+      }
+      const Vector3 change = block.momentum(simulation.states()[static_cast<std::size_t>(k)]) -
+                             before[static_cast<std::size_t>(k - 1)];
+      most = std::max(most, force.norm());
+      EXPECT_LT((change - simulation.report().step * force).norm(), 1e-9 * simulation.report().step * most);
+    }
+  }
+}
+
+TEST(ContactHistory, WhatContactsFoundAnewBringInIsBookedToTheLastJoule) {
+  // Face, edge and vertex contacts follow each other, each with another area.
+  Stack stack;
+  stack.settings.time_step = 1e-3;
+  stack.add(fixed_block(Polyhedron(make_box({-8, -8, -1}, {8, 8, 0}))));
+  InitialMotion thrown;
+  thrown.velocity = {2.0, 0.3, 0.0};
+  thrown.angular_velocity = {0.4, 5.0, -0.3};
+  stack.add(block_of("stone", tilted_box({-0.5, -0.4, 0.8}, {0.5, 0.4, 1.4}, 20.0), {2500, 1e8, 0.2}, 1),
+            thrown);
+  Simulation simulation = stack.simulation({2e9, 1e9, 0.5, 0.0, 0.0, true});
+  const auto energy = [&] {
+    const Ledger& ledger = simulation.ledger();
+    return ledger.kinetic + ledger.elastic + ledger.gravity + ledger.contact;
+  };
+  const double start = energy();
+  double gained = 0.0;
+  double lost = 0.0;
+  while (!simulation.reached(1.5)) {
+    ASSERT_EQ(simulation.step(1.5), StepStatus::accepted);
+    const Ledger& ledger = simulation.ledger();
+    EXPECT_GE(ledger.refound_gained, gained);
+    EXPECT_GE(ledger.refound_lost, lost);
+    gained = ledger.refound_gained;
+    lost = ledger.refound_lost;
+  }
+  EXPECT_GT(gained, 0.0);
+  EXPECT_GT(lost, 0.0);
+  EXPECT_LT(energy(), start);
+  EXPECT_LT(simulation.largest_step_residual(), 1e-8 * simulation.largest_energy());
+}
+
+}  // namespace
+}  // namespace ashlar
