@@ -64,8 +64,15 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   snapshot.next_step = 1e-300;
   snapshot.steps = 7;
   snapshot.states = {{Eigen::MatrixX3d::Constant(4, 3, -0.0), Eigen::MatrixX3d::Constant(4, 3, 2.5)}};
-  snapshot.memory = {
-      {{0, 1}, {{Vector3(1, 2, 3), 4, 5, {Vector3(6, 7, 8), ContactState::sliding, true}}}, 9}};
+  snapshot.memory = {{{0, 1},
+                      {{Vector3(1, 2, 3),
+                        Vector3(-1, -2, -3),
+                        4,
+                        5,
+                        Vector3(0, 0, 1),
+                        0.5,
+                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23)}}},
+                      9}};
   snapshot.contact_work = {{{0, 1}, 10.0}};
   snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
   snapshot.counts.factors.solves = 13;
@@ -80,7 +87,12 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   ASSERT_EQ(back.memory[0].entries.size(), 1U);
   const ContactMemory::Entry& entry = back.memory[0].entries[0];
   EXPECT_EQ(entry.material_a, Vector3(1, 2, 3));
+  EXPECT_EQ(entry.material_b, Vector3(-1, -2, -3));
   EXPECT_EQ(entry.face_b, 5);
+  EXPECT_EQ(entry.normal, Vector3(0, 0, 1));
+  EXPECT_EQ(entry.area, 0.5);
+  EXPECT_EQ(entry.memory.normal_multiplier, 20.0);
+  EXPECT_EQ(entry.memory.shear_multiplier, Vector3(21, 22, 23));
   EXPECT_EQ(entry.memory.slip, Vector3(6, 7, 8));
   EXPECT_EQ(entry.memory.state, ContactState::sliding);
   EXPECT_TRUE(entry.memory.intact);
