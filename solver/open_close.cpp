@@ -79,7 +79,7 @@ class OpenClose {
       for (std::size_t k = 0; k < gaps[pair].size(); ++k) {
         const PointLaw& law = problem_.laws()[pair][k];
         const PointResponse& point = problem_.responses()[pair].points[k];
-        if (point.state == ContactState::open) continue;
+        if (!law.augmented || point.state == ContactState::open) continue;
         most = std::max(most, std::abs(gaps[pair][k]));
         if (point.state != ContactState::locked || law.shear_stiffness == 0.0) continue;
         most = std::max(most, (law.shear_multiplier - point.force.tail<2>()).norm() / law.shear_stiffness);
@@ -101,6 +101,7 @@ class OpenClose {
       for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         PointLaw& law = problem_.laws()[pair][k];
         const PointResponse& point = problem_.responses()[pair].points[k];
+        if (!law.augmented) continue;
         law.normal_multiplier = point.force[0];
         if (point.state == ContactState::locked) law.shear_multiplier = point.force.tail<2>();
         if (!slow_) continue;
