@@ -29,10 +29,9 @@ TEST_P(UnavailableFeature, IsRefusedByNameAtItsPlace) {
   EXPECT_THAT(refused(sample_with(fault.line, fault.replacement)), ElementsAre(StartsWith(fault.expected)));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, UnavailableFeature,
-    ::testing::Values(FaultCase{1, "[analysis]\nsolver = \"cg\"",
-                                "s.toml:2:10: error: not available in this version"}));
+INSTANTIATE_TEST_SUITE_P(All, UnavailableFeature,
+                         ::testing::Values(FaultCase{1, "[analysis]\nsolver = \"cg\"",
+                                                     "s.toml:2:10: error: not available in this version"}));
 
 TEST(AvailableFeatures, WhatIsAvailableMayBeGiven) {
   EXPECT_THAT(refused(sample_with(1,
