@@ -21,8 +21,8 @@ Vector3 turned(const Vector3& vector, const Vector3& normal) {
 
 }  // namespace
 
-ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest)
-    : entries_(std::move(entries)), deepest_(deepest), squared_reach_(area_of(entries_)) {}
+ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held)
+    : entries_(std::move(entries)), deepest_(deepest), held_(held), squared_reach_(area_of(entries_)) {}
 
 const ContactMemory::Entry* ContactMemory::nearest(const ContactPoint& point, bool same_faces) const {
   constexpr double least_cosine = 0.5;
@@ -64,7 +64,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
 }
 
 void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
-                          double deepest) {
+                          double deepest, const SpringEnergy& held) {
   entries_.clear();
   entries_.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -72,6 +72,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
                         points[k].normal, points[k].area, memory[k]});
   }
   deepest_ = deepest;
+  held_ = held;
   squared_reach_ = area_of(entries_);
 }
 

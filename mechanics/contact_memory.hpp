@@ -10,6 +10,7 @@
 
 #include "mechanics/contact_points.hpp"
 #include "mechanics/joint_law.hpp"
+#include "mechanics/spring_energy.hpp"
 
 namespace ashlar {
 
@@ -37,8 +38,8 @@ class ContactMemory {
   };
 
   ContactMemory() = default;
-  /// As `entries` and `deepest` of an earlier one.
-  ContactMemory(std::vector<Entry> entries, double deepest);
+  /// As `entries`, `deepest` and `held` of an earlier one.
+  ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held);
 
   /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
   /// old point of the same faces, or, if none of those is as near as the whole contact was wide, of any faces
@@ -47,14 +48,18 @@ class ContactMemory {
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
                                                 double bond_distance) const;
 
-  /// Replaces what is remembered. @param deepest largest penetration of the step, m
-  void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest);
+  /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
+  /// springs at its end
+  void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
+             const SpringEnergy& held);
 
   /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
   void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
+  /// What the springs held at the end of the last step; nothing where there was no contact.
+  [[nodiscard]] const SpringEnergy& held() const { return held_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:
@@ -62,6 +67,7 @@ class ContactMemory {
 
   std::vector<Entry> entries_;
   double deepest_ = 0.0;
+  SpringEnergy held_;
   double squared_reach_ = 0.0;  ///< area of all entries, m^2
 };
 

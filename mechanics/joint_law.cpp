@@ -11,7 +11,7 @@ PointLaw point_law(const JointLaw& law, double area, bool intact) {
 }
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
-  PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0};
+  PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
   const bool held = law.held_limit >= 0.0;
   const double normal = law.normal_multiplier - law.normal_stiffness * gap;
   const bool open =
@@ -20,7 +20,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   if (!open) {
     response.force[0] = normal;
     response.tangent(0, 0) = law.normal_stiffness;
-    response.energy = 0.5 * law.normal_stiffness * gap * gap;
+    response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
   }
   const double limit = held ? law.held_limit : std::max(normal, 0.0) * law.friction + law.cohesion;
   const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;
@@ -29,7 +29,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
     response.state = ContactState::locked;
     response.force.tail<2>() = trial;
     response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(law.shear_stiffness);
-    response.energy += 0.5 * law.shear_stiffness * slip.squaredNorm();
+    response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
     return response;
   }
   response.state = ContactState::sliding;
@@ -39,7 +39,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
       law.shear_stiffness * limit / length *
       (Eigen::Matrix2d::Identity() - direction * direction.transpose());
   if (law.shear_stiffness > 0.0 && !law.augmented)
-    response.energy += 0.5 * limit * limit / law.shear_stiffness;
+    response.shear_energy = 0.5 * limit * limit / law.shear_stiffness;
   return response;
 }
 

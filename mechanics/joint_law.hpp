@@ -57,8 +57,11 @@ struct PointResponse {
   ContactState state;
   Eigen::Vector3d force;  ///< N
   Eigen::Matrix3d
-      tangent;    ///< -d force / d (g, s1, s2) with the dependence of friction on N left out; symmetric
-  double energy;  ///< of the springs, J
+      tangent;  ///< -d force / d (g, s1, s2) with the dependence of friction on N left out; symmetric
+  double normal_energy;  ///< of the normal spring, J
+  double shear_energy;   ///< of the shear spring, J
+
+  [[nodiscard]] double energy() const { return normal_energy + shear_energy; }
 };
 
 /// @param gap m; @param slip trial slip (2), m, as if locked

@@ -28,8 +28,13 @@ static void visit_members(Archive& archive, ContactMemory::Entry& entry) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, SpringEnergy& held) {
+  archive(held.normal, held.shear);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, RememberedPair& pair) {
-  archive(pair.blocks, pair.entries, pair.deepest);
+  archive(pair.blocks, pair.entries, pair.deepest, pair.held);
 }
 
 template <class Archive>
@@ -45,7 +50,7 @@ static void visit_members(Archive& archive, ContactPoint& point) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PointResponse& response) {
-  archive(response.state, response.force, response.tangent, response.energy);
+  archive(response.state, response.force, response.tangent, response.normal_energy, response.shear_energy);
 }
 
 template <class Archive>
@@ -153,7 +158,7 @@ SimulationSnapshot Simulation::snapshot() const {
   }
   result.accelerations = accelerations_;
   for (const auto& [blocks, memory] : memory_) {
-    result.memory.push_back({blocks, memory.entries(), memory.deepest()});
+    result.memory.push_back({blocks, memory.entries(), memory.deepest(), memory.held()});
   }
   result.contact_work = contact_work_;
   result.finder = finder_.state();
@@ -198,7 +203,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   accelerations_ = snapshot.accelerations;
   memory_.clear();
   for (const RememberedPair& pair : snapshot.memory) {
-    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest));
+    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest, pair.held));
   }
   contact_work_ = snapshot.contact_work;
   finder_.restore(snapshot.finder);

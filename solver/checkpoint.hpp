@@ -16,6 +16,7 @@ struct RememberedPair {
   std::array<int, 2> blocks;
   std::vector<ContactMemory::Entry> entries;
   double deepest;  ///< m
+  SpringEnergy held;
 };
 
 /// Everything that a step depends on or reports; see the members of Simulation for meaning and units. What

@@ -1,5 +1,7 @@
 #include "solver/contact_pair.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -75,6 +77,15 @@ JointLaw tie_law(double stiffness) {
   return law;
 }
 
+SpringEnergy sum_of(const std::vector<PointResponse>& points) {
+  SpringEnergy sum;
+  for (const PointResponse& point : points) {
+    sum.normal += point.normal_energy;
+    sum.shear += point.shear_energy;
+  }
+  return sum;
+}
+
 bool is_free(const ContactBody& body) {
   return !body.model->fixed() && body.model->space().free();
 }
@@ -140,9 +151,36 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
     }
     start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
         points_[k].tangent_2.dot(memory_[k].slip);
+  }
+  respond_at_start();
+}
+
+void ContactPair::respond_at_start() {
+  start_responses_.clear();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto start = start_.col(static_cast<Eigen::Index>(k));
     start_responses_.push_back(point_response(laws_[k], start[0], start.tail<2>()));
   }
+}
+
+void ContactPair::hold_at_most(const SpringEnergy& held) {
+  const bool other_forces = std::any_of(
+      laws_.begin(), laws_.end(), [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
+  if (points_.empty() || other_forces) return;
+  std::vector<double> stiffnesses;
+  for (const PointLaw& law : laws_) stiffnesses.push_back(law.normal_stiffness);
+  const Eigen::VectorXd gaps = start_.row(0);
+  rest_ = rest_gap(stiffnesses, {gaps.begin(), gaps.end()}, held.normal);
+  start_.row(0).array() -= rest_;
+  respond_at_start();
+  const double shear = sum_of(start_responses_).shear;
+  if (!(shear > held.shear)) return;
+  const double share = std::sqrt(held.shear / shear);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    auto start = start_.col(static_cast<Eigen::Index>(k));
+    start.tail<2>() = share * elastic_slip(laws_[k], start_responses_[k], start.tail<2>());
+  }
+  respond_at_start();
 }
 
 Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
@@ -287,7 +325,7 @@ void ContactPair::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::V
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   std::vector<double> result;
-  for (Eigen::Index k = 0; k < place.cols(); ++k) result.push_back(place(0, k));
+  for (Eigen::Index k = 0; k < place.cols(); ++k) result.push_back(rest_ + place(0, k));
   return result;
 }
 
@@ -332,15 +370,17 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
 }
 
 double ContactPair::start_energy() const {
-  double sum = 0.0;
-  for (const PointResponse& point : start_responses_) sum += point.energy;
-  return sum;
+  const SpringEnergy sum = sum_of(start_responses_);
+  return sum.normal + sum.shear;
+}
+
+SpringEnergy ContactPair::energies(const PairResponse& response) {
+  return sum_of(response.points);
 }
 
 double ContactPair::energy(const PairResponse& response) {
-  double sum = 0.0;
-  for (const PointResponse& point : response.points) sum += point.energy;
-  return sum;
+  const SpringEnergy sum = energies(response);
+  return sum.normal + sum.shear;
 }
 
 }  // namespace ashlar

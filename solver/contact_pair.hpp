@@ -7,6 +7,7 @@
 
 #include "mechanics/contact_memory.hpp"
 #include "mechanics/contact_points.hpp"
+#include "mechanics/spring_energy.hpp"
 #include "mechanics/tie.hpp"
 
 namespace ashlar {
@@ -68,6 +69,10 @@ class ContactPair {
                                      bool averaged) const {
     return respond(ya, yb, averaged, laws_);
   }
+  /// Takes the springs to be at rest where, found anew, they hold no more than this (spring_energy.hpp): the
+  /// rest of all normal springs is one gap, elastic slip shrinks in proportion. Pairs with multipliers or
+  /// bonds that can take tension, and tied ones, stay as they are.
+  void hold_at_most(const SpringEnergy& held);
   /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
   /// 3), empty: none
   void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
@@ -107,6 +112,7 @@ class ContactPair {
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Spring energy at the end of the step, J.
+  [[nodiscard]] static SpringEnergy energies(const PairResponse& response);
   [[nodiscard]] static double energy(const PairResponse& response);
 
  private:
@@ -120,7 +126,8 @@ class ContactPair {
   /// Sum of r x F over the points, N m. @param place as relative() returns, @param forces (3 #points) by
   /// frame
   [[nodiscard]] Vector3 couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const;
-  /// Gap and trial slip of every point, linear in the changes. @return (3, #points)
+  void respond_at_start();
+  /// Gap over the rest and trial slip of every point, linear in the changes. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
 
   int a_;
@@ -129,7 +136,8 @@ class ContactPair {
   std::vector<PointMemory> memory_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
-  Eigen::Matrix3Xd start_;            ///< gap and slip at the start of the step
+  double rest_ = 0.0;                 ///< gap at which normal springs are at rest, m, <= 0
+  Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
   Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
   Eigen::MatrixXd
       rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed

@@ -121,7 +121,7 @@ StepStatus Simulation::step(double end_time) {
     accelerations_ = smooth_accelerations();
   std::vector<FoundContacts> found = find_contacts(step);
   Trial trial;
-  trial.pairs = make_pairs(found);
+  trial.pairs = make_pairs(found, true);
   int cuts = 0;
   int additions = 0;
   bool unsettled = false;
@@ -159,7 +159,7 @@ StepStatus Simulation::step(double end_time) {
     ++additions;
     add_contacts(passing, found);
     counts_.passing_contacts += passing.size();
-    trial.pairs = make_pairs(found);
+    trial.pairs = make_pairs(found, true);
   }
   return StepStatus::too_many_cuts;
 }
@@ -205,7 +205,8 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
 std::map<std::array<int, 2>, double> Simulation::energies_of_last_step() const {
   std::map<PairKey, double> energies;
   for (const PairRecord& record : records_) {
-    for (const PointResponse& response : record.responses) energies[{record.a, record.b}] += response.energy;
+    for (const PointResponse& response : record.responses)
+      energies[{record.a, record.b}] += response.energy();
   }
   return energies;
 }
@@ -225,7 +226,7 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
   });
 }
 
-std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found) {
+std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found, bool hold_energy) {
   const Stopwatch watch(seconds_.contact_points);
   std::vector<ContactPair> pairs;
   const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface};
@@ -235,11 +236,13 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const ContactBody body_b = body_at_start(b);
     auto points = contact_points(body_a, body_b, contacts, point_settings);
     counts_.contact_points += points.size();
-    auto memory = memory_[blocks].recall(
+    const ContactMemory& known = memory_[blocks];
+    auto memory = known.recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
     pairs.emplace_back(a, b, body_a, body_b, law, std::move(points), std::move(memory));
+    if (hold_energy && steps_ > 0) pairs.back().hold_at_most(known.held());
   }
   for (const TiedBlocks& tied : ties_) {
     pairs.emplace_back(tied.a, tied.b, ContactBody{&blocks_[at(tied.a)], &states_[at(tied.a)], nullptr},
@@ -396,15 +399,16 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       auto gaps = pair.gaps(ya, yb);
       double deepest = 0.0;
       for (std::size_t k = 0; k < gaps.size(); ++k) {
-        if (after.points[k].state == ContactState::open) {
-          ++report_.open;
-          continue;
-        }
-        ++(after.points[k].state == ContactState::locked ? report_.locked : report_.sliding);
+        const ContactState state = after.points[k].state;
+        ++(state == ContactState::open     ? report_.open
+           : state == ContactState::locked ? report_.locked
+                                           : report_.sliding);
+        // Springs may be open and at rest below the surface.
         deepest = std::max(deepest, -gaps[k]);
       }
       report_.penetration = std::max(report_.penetration, deepest);
-      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest);
+      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest,
+                                         ContactPair::energies(after));
       records_.push_back({pair.a(), pair.b(), pair.points(), after.points, std::move(gaps),
                           contact_work_[{pair.a(), pair.b()}] += work});
     }

@@ -188,7 +188,9 @@ class Simulation {
   static constexpr double step_rounding = 1e-9;
 
   [[nodiscard]] std::vector<FoundContacts> find_contacts(double step);
-  [[nodiscard]] std::vector<ContactPair> make_pairs(const std::vector<FoundContacts>& found);
+  /// @param hold_energy springs found anew hold no more than at the end of the last step
+  [[nodiscard]] std::vector<ContactPair> make_pairs(const std::vector<FoundContacts>& found,
+                                                    bool hold_energy);
   [[nodiscard]] IslandStatus try_step(const TimeScheme& scheme, Trial& trial);
   [[nodiscard]] ContactBody body_at_start(int block) const;
   /// What the springs of each pair held at the end of the last step, J.

@@ -30,7 +30,7 @@ std::array<int, 3> contact_states(const StepReport& report) {
 }  // namespace
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
-  const std::vector<ContactPair> pairs = make_pairs(find_contacts(0.0));
+  const std::vector<ContactPair> pairs = make_pairs(find_contacts(0.0), false);
   std::vector<std::vector<int>> loose;
   for (const Island& island : find_islands(moving_, pairs)) {
     bool held =
@@ -88,7 +88,7 @@ StaticStatus Simulation::static_step(double end_time) {
   const double least = least_inertia();
   std::vector<FoundContacts> found = find_contacts(0.0);
   Trial trial;
-  trial.pairs = make_pairs(found);
+  trial.pairs = make_pairs(found, false);
   bool cut = false;
   for (int cuts = 0; cuts <= settings_.static_cuts; ++cuts) {
     const TimeScheme scheme = static_scheme(std::max(static_.inertia, least));
@@ -106,7 +106,7 @@ StaticStatus Simulation::static_step(double end_time) {
       if (passing.front().touch.share <= settings_.smallest_cut) {
         add_contacts(passing, found);
         counts_.passing_contacts += passing.size();
-        trial.pairs = make_pairs(found);
+        trial.pairs = make_pairs(found, false);
         raise = 1.0;
       } else {
         raise = 1.0 / passing.front().touch.share;

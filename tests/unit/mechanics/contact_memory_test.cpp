@@ -32,7 +32,7 @@ PointMemory slipped(const Vector3& slip) {
 
 TEST(ContactMemory, SlipGoesWithAVertexOverAnEdgeThatIsNotSharpAndABondDoesNot) {
   ContactMemory memory;
-  memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0);
+  memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0, {});
   // The same vertex, on a face that leans by 45 degrees about y: x turns into the plane, lengths stay.
   const PointMemory next = memory.recall({point_at({0, 0, 1}, {1.01, 0, 0}, 8, {1, 0, 1})}, never)[0];
   EXPECT_NEAR(next.slip.norm(), 5e-6, 1e-18);
@@ -44,14 +44,14 @@ TEST(ContactMemory, SlipGoesWithAVertexOverAnEdgeThatIsNotSharpAndABondDoesNot) 
 
 TEST(ContactMemory, ASharpEdgeIsAnotherContact) {
   ContactMemory memory;
-  memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0);
+  memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0, {});
   EXPECT_EQ(memory.recall({point_at({0, 0, 1}, {1, 0, -0.01}, 8, {1, 0, 0})}, never)[0].slip.norm(), 0.0);
 }
 
 TEST(ContactMemory, APointFarFromAllOldOnesStartsAnew) {
   // One point of 0.25 m^2: it speaks for half a metre about it.
   ContactMemory memory;
-  memory.store({point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})}, {slipped({1e-6, 0, 0})}, 0.0);
+  memory.store({point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})}, {slipped({1e-6, 0, 0})}, 0.0, {});
   EXPECT_EQ(memory.recall({point_at({0.4, 0, 1}, {0.4, 0, 0}, 7, {0, 0, 1})}, never)[0].slip.x(), 1e-6);
   const PointMemory far = memory.recall({point_at({0.6, 0, 1}, {0.6, 0, 0}, 7, {0, 0, 1})}, never)[0];
   EXPECT_EQ(far.slip.norm(), 0.0);
@@ -64,7 +64,7 @@ TEST(ContactMemory, ASlidingPointIsKnownByWhatItCarriesAlong) {
   ContactMemory memory;
   memory.store(
       {point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1}), point_at({0.3, 0, 1}, {0.3, 0, 0}, 7, {0, 0, 1})},
-      {slipped({1e-6, 0, 0}), slipped({2e-6, 0, 0})}, 0.0);
+      {slipped({1e-6, 0, 0}), slipped({2e-6, 0, 0})}, 0.0, {});
   const auto next = memory.recall(
       {point_at({0, 0, 1}, {0.05, 0, 0}, 7, {0, 0, 1}), point_at({0.3, 0, 1}, {0.35, 0, 0}, 7, {0, 0, 1})},
       never);

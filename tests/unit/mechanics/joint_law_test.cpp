@@ -49,7 +49,7 @@ TEST(JointLaw, ForcesAreDerivativesOfTheEnergyAndTangentsOfTheForces) {
     ASSERT_EQ(response.state, ContactState::locked);
     test_support::expect_derivative(
         [&](const Eigen::VectorXd& x) {
-          return Eigen::VectorXd::Constant(1, point_response(point, x[0], x.tail<2>()).energy);
+          return Eigen::VectorXd::Constant(1, point_response(point, x[0], x.tail<2>()).energy());
         },
         place, -response.force.transpose(), 1e-9, 1e-6);
     test_support::expect_derivative(
@@ -131,7 +131,8 @@ TEST(JointLaw, MeanForceDoesExactlyTheWorkOfTheSpring) {
     const PointResponse start = point_response(point, g0, {0, 0});
     const PointResponse end = point_response(point, g1, {0, 0});
     const MeanResponse mean = mean_response(point, start, g0, end, g1);
-    EXPECT_NEAR(mean.force[0] * (g1 - g0), start.energy - end.energy, 1e-12 * (start.energy + end.energy));
+    EXPECT_NEAR(mean.force[0] * (g1 - g0), start.energy() - end.energy(),
+                1e-12 * (start.energy() + end.energy()));
     const double from = g0;
     test_support::expect_derivative(
         [&](const Eigen::VectorXd& x) {

@@ -72,7 +72,8 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
                         Vector3(0, 0, 1),
                         0.5,
                         {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23)}}},
-                      9}};
+                      9,
+                      {24.0, 25.0}}};
   snapshot.contact_work = {{{0, 1}, 10.0}};
   snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
   snapshot.counts.factors.solves = 13;
@@ -97,6 +98,8 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.state, ContactState::sliding);
   EXPECT_TRUE(entry.memory.intact);
   EXPECT_EQ(back.memory[0].deepest, 9.0);
+  EXPECT_EQ(back.memory[0].held.normal, 24.0);
+  EXPECT_EQ(back.memory[0].held.shear, 25.0);
   EXPECT_EQ(back.contact_work.at({0, 1}), 10.0);
   ASSERT_EQ(back.rejections.size(), 1U);
   EXPECT_EQ(back.rejections[0].reason, RejectionReason::not_positive_definite);

@@ -118,6 +118,52 @@ TEST(ContactPair, MatricesAreThoseOfTheTheory) {
   EXPECT_TRUE(near(response.force_on_b, kn * point.gap * q.transpose()));
 }
 
+TEST(ContactPair, SpringsFoundDeeperThanTheyWereAreAtRestBelowTheSurface) {
+  // kn = 5e8 N/m at 2 mm holds 1000 J, ks = 2.5e8 N/m at 0.1 mm 1.25 J.
+  const Setting setting = skew_setting(-2e-3);
+  PointMemory memory;
+  memory.slip = 1e-4 * setting.points[0].tangent_1;
+  const JointLaw law{2e9, 1e9, 10.0, 0.0, 0.0, true};
+  const Eigen::VectorXd still_a = Eigen::VectorXd::Zero(setting.a.unknowns());
+  const Eigen::VectorXd still_b = Eigen::VectorXd::Zero(setting.b.unknowns());
+  ContactPair pair = pair_of(setting, law, memory);
+  EXPECT_NEAR(pair.start_energy(), 1001.25, 1e-9);
+  pair.hold_at_most(any_spring_energy);
+  EXPECT_NEAR(pair.start_energy(), 1001.25, 1e-9);
+  pair.hold_at_most({250.0, 0.3125});
+  // Half of each.
+  const PairResponse response = pair.respond(still_a, still_b, false);
+  EXPECT_NEAR(response.points[0].force[0], 5e8 * 1e-3, 1e-6);
+  EXPECT_NEAR(response.points[0].force[1], -2.5e8 * 5e-5, 1e-8);
+  EXPECT_NEAR(ContactPair::energies(response).normal, 250.0, 1e-9);
+  EXPECT_NEAR(ContactPair::energies(response).shear, 0.3125, 1e-12);
+  // The blocks have not moved.
+  EXPECT_NEAR(pair.gaps(still_a, still_b)[0], -2e-3, 1e-18);
+}
+
+TEST(ContactPair, ASlidingPairFoundAnewHoldsNoMoreShear) {
+  // N = 5e5 N after the rest has moved by half; the limit 0.1 N is 2e-4 m of slip, 5 J; 3 mm is beyond it.
+  const Setting setting = skew_setting(-2e-3);
+  PointMemory memory;
+  memory.slip = 3e-3 * setting.points[0].tangent_2;
+  ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 0.0, 0.0, true}, memory);
+  pair.hold_at_most({250.0, 1.25});
+  const PairResponse response = pair.respond(Eigen::VectorXd::Zero(setting.a.unknowns()),
+                                             Eigen::VectorXd::Zero(setting.b.unknowns()), false);
+  EXPECT_NEAR(ContactPair::energies(response).normal, 250.0, 1e-9);
+  EXPECT_NEAR(ContactPair::energies(response).shear, 1.25, 1e-11);
+  EXPECT_NEAR(response.points[0].force[2], -2.5e8 * 1e-4, 1e-7);
+}
+
+TEST(ContactPair, BondsKeepTheirRest) {
+  const Setting setting = skew_setting(-2e-3);
+  PointMemory memory;
+  memory.intact = true;
+  ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 0.0, 1e6, true}, memory);
+  pair.hold_at_most({250.0, 0.0});
+  EXPECT_NEAR(pair.start_energy(), 1000.0, 1e-9);
+}
+
 TEST(ContactPair, TotalForcesHaveNoResultantAndNoTorque) {
   // a slides on b and is deep in it: the springs' forces alone are a couple about the middle of the step.
   Setting setting = skew_setting(-1e-2);
