@@ -115,22 +115,8 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   return values;
 }
 
-std::vector<SubFaceSurface> drawn_surfaces(const std::vector<BlockModel>& blocks) {
-  constexpr int levels = 2;
-  std::vector<SubFaceSurface> surfaces;
-  for (const BlockModel& block : blocks) {
-    if (block.incremental() != nullptr) {
-      surfaces.push_back(block.incremental()->surface());
-      continue;
-    }
-    const bool curves = block.order() >= 2 && !block.fixed();
-    surfaces.push_back(curves ? divide_surface(block.solid(), levels) : whole_surface(block.solid()));
-  }
-  return surfaces;
-}
-
-UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<SubFaceSurface>& surfaces,
-                             const SceneOutput::Fields& fields) {
+UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
+                             const std::vector<DrawnSurface>& surfaces, const SceneOutput::Fields& fields) {
   UnstructuredGrid grid;
   std::vector<double> displacement;
   std::vector<double> velocity;
@@ -138,10 +124,10 @@ UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<Sub
   std::vector<std::int32_t> block_of_cell;
   std::vector<std::int32_t> order_of_cell;
   std::vector<std::int32_t> face_of_cell;
-  for (int b = 0; b < static_cast<int>(simulation.blocks().size()); ++b) {
-    const BlockModel& block = simulation.blocks()[at(b)];
-    const BlockState& state = simulation.states()[at(b)];
-    const SubFaceSurface& surface = surfaces[at(b)];
+  for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
+    const BlockModel& block = blocks[at(b)];
+    const BlockState& state = states[at(b)];
+    const DrawnSurface& surface = surfaces[at(b)];
     const int first = static_cast<int>(grid.points.size());
     for (const Vector3& point : surface.points) {
       const PointMotion motion = block.motion_of(state, point);
@@ -150,10 +136,10 @@ UnstructuredGrid block_frame(const Simulation& simulation, const std::vector<Sub
       append(velocity, motion.velocity);
       if (fields.stress) append_stress(stress, motion.stress);
     }
-    for (const SurfaceCell& cell : surface.cells) {
-      std::vector<int> corners;
-      for (const int corner : cell.corners) corners.push_back(first + corner);
-      grid.add_cell(corners.size() == 3 ? VtkCellType::triangle : VtkCellType::polygon, corners);
+    for (const DrawnSurface::Cell& cell : surface.cells) {
+      std::vector<int> points;
+      for (const int point : cell.points) points.push_back(first + point);
+      grid.add_cell(cell.type, points);
       block_of_cell.push_back(b);
       order_of_cell.push_back(block.fixed() ? 0 : block.order());
       face_of_cell.push_back(cell.face);
@@ -215,7 +201,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     : folder_(emptied(std::move(folder))),
       output_(scene.output),
       measures_(find_measures(scene)),
-      surfaces_(drawn_surfaces(simulation.blocks())),
+      surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
       history_(folder_ / "history.csv", history_columns(measures_)),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
@@ -229,7 +215,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     : folder_(std::move(folder)),
       output_(scene.output),
       measures_(find_measures(scene)),
-      surfaces_(drawn_surfaces(simulation.blocks())),
+      surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
       history_(
           HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), simulation.steps())),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
@@ -275,7 +261,8 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   last_frame_step_ = simulation.steps();
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
-  write_vtu(folder_ / blocks, block_frame(simulation, surfaces_, output_.fields));
+  write_vtu(folder_ / blocks,
+            block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields));
   write_vtu(folder_ / contacts, contact_frame(simulation));
   blocks_.add_frame(simulation.time(), blocks);
   contacts_.add_frame(simulation.time(), contacts);

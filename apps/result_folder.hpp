@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/drawn_surface.hpp"
 #include "apps/history_writer.hpp"
 #include "apps/pvd_writer.hpp"
 #include "apps/scene.hpp"
@@ -29,14 +30,11 @@ struct MeasuredPoint {
 [[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
                                               const std::vector<MeasuredPoint>& measures);
 
-/// The surface a block is drawn with: whole faces of a block that stays affine, evenly divided ones of a
-/// block that may curve, wherever contacts need sub-faces or not, the fixed ones of an incremental block.
-[[nodiscard]] std::vector<SubFaceSurface> drawn_surfaces(const std::vector<BlockModel>& blocks);
-
-/// All blocks at the present time. Point data: those of displacement, velocity and stress (xx, yy, zz, xy,
-/// yz, xz) that are asked for. Cell data: block, order and face.
-[[nodiscard]] UnstructuredGrid block_frame(const Simulation& simulation,
-                                           const std::vector<SubFaceSurface>& surfaces,
+/// All blocks in a state. Point data: those of displacement, velocity and stress (xx, yy, zz, xy, yz, xz)
+/// that are asked for. Cell data: block, order and face.
+[[nodiscard]] UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks,
+                                           const std::vector<BlockState>& states,
+                                           const std::vector<DrawnSurface>& surfaces,
                                            const SceneOutput::Fields& fields);
 
 /// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
@@ -83,7 +81,7 @@ class ResultFolder {
   std::filesystem::path folder_;
   SceneOutput output_;
   std::vector<MeasuredPoint> measures_;
-  std::vector<SubFaceSurface> surfaces_;
+  std::vector<DrawnSurface> surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;
   PvdWriter contacts_;

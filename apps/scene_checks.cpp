@@ -100,6 +100,8 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
     refuse("analysis.type", "static analysis of incremental blocks (type = \"static\")");
   if (scene.contact.surface == SceneContact::Surface::curved && scene.places.contains("contact.surface"))
     refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
+  if (scene.output.curved)
+    refuse("output.curved", "the surface of an incremental block is its flat sub-faces (true)");
   if (scene.contact.chord_tolerance)
     refuse("contact.chord_tolerance",
            fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",

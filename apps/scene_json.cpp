@@ -157,6 +157,7 @@ Json to_json(const SceneOutput& output) {
   json["fields"] = Json::array();
   for (const auto& [name, member] : field_names)
     if (output.fields.*member) json["fields"].push_back(name);
+  json["curved"] = output.curved;
   return json;
 }
 

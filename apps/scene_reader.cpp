@@ -110,6 +110,7 @@ void read_output(TomlTableReader table, SceneOutput& output) {
   if (every_given && interval_given)
     table.error_at_key("interval", "interval beside every (both given), only one of both is allowed");
   if (!every_given && !interval_given) output.every = default_frame_distance;
+  table.read_bool("curved", output.curved);
   std::vector<std::string> fields;
   if (!table.read_words("fields", fields, field_names)) return;
   for (const auto& [name, member] : field_names)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include "apps/atomic_file.hpp"
 #include "apps/base64.hpp"
+#include "apps/curved_cells.hpp"
 #include "apps/history_table.hpp"
 #include "apps/thinned_series.hpp"
 #include "apps/view_assets.hpp"
@@ -133,7 +135,9 @@ class FrameReader {
     // A run that goes on has written one of the two first.
     count_ = std::min(blocks_.size(), contacts_.size());
     if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
-    surface_ = surface_of(read_vtu(folder_ / blocks_.front().file));
+    UnstructuredGrid first = read_vtu(folder_ / blocks_.front().file);
+    curved_ = std::make_unique<CurvedCells>(first);
+    surface_ = surface_of(curved_->divided(std::move(first)));
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -142,7 +146,7 @@ class FrameReader {
   [[nodiscard]] ViewFrame read(std::size_t index) const {
     const UnstructuredGrid contacts = read_vtu(folder_ / contacts_[index].file);
     std::vector<float> floats;
-    append_blocks(floats, read_vtu(folder_ / blocks_[index].file), surface_);
+    append_blocks(floats, curved_->divided(read_vtu(folder_ / blocks_[index].file)), surface_);
     append_contacts(floats, contacts);
     Json head = {{"index", index},
                  {"step", step_of(blocks_[index].file)},
@@ -156,6 +160,7 @@ class FrameReader {
   std::vector<PvdFrame> blocks_;
   std::vector<PvdFrame> contacts_;
   std::size_t count_ = 0;
+  std::unique_ptr<const CurvedCells> curved_;
   Surface surface_;
 };
 

@@ -15,10 +15,11 @@ namespace ashlar {
 
 /// Cells with VTK's numbers for them.
 enum class VtkCellType : std::uint8_t {
-  vertex = 1,    ///< one point
-  line = 3,      ///< two points
-  triangle = 5,  ///< three points
-  polygon = 7,   ///< three or more points, planar, in order around the boundary
+  vertex = 1,              ///< one point
+  line = 3,                ///< two points
+  triangle = 5,            ///< three points
+  polygon = 7,             ///< three or more points, planar, in order around the boundary
+  lagrange_triangle = 69,  ///< (n + 1)(n + 2) / 2 points of a triangle of order n, see lagrange_triangle.hpp
 };
 
 /// One field. ParaView shows 3 components as a vector and 9 (row by row) as a tensor; it takes 6 as a

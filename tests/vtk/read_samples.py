@@ -4,6 +4,7 @@ Use: read_samples.py WRITE_SAMPLES, the compiled program beside this script.
 """
 import math
 import pathlib
+import random
 import struct
 import subprocess
 import sys
@@ -11,8 +12,9 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from vtkmodules.vtkCommonCore import vtkLogger
-from vtkmodules.vtkCommonDataModel import VTK_POLYGON, VTK_TRIANGLE, VTK_VERTEX
+from vtkmodules.vtkCommonCore import reference, vtkLogger
+from vtkmodules.vtkCommonDataModel import VTK_LAGRANGE_TRIANGLE, VTK_POLYGON, VTK_TRIANGLE, VTK_VERTEX
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 
@@ -40,6 +42,45 @@ def bits(rows):
 
 def arrays(data):
     return {data.GetArrayName(i): data.GetArray(i) for i in range(data.GetNumberOfArrays())}
+
+
+ORDERS = (2, 3, 5, 8, 12)
+
+
+def bent(order, x, y, z):
+    """Where write_samples puts the point (x, y, z) of the bar 2 x 1 x 1."""
+    return x, y + x * z / 4, z + (x / 2) ** order / 2 + x * x / 16
+
+
+def length_element(order, x):
+    """Of the top face z = 1: |d/dx x d/dy| of (x, y + x / 4, 1 + (x / 2)^n / 2 + x^2 / 16)."""
+    slope = order * (x / 2) ** (order - 1) / 4 + x / 8
+    return math.hypot(1, slope)
+
+
+def tessellated(grid, level):
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.SetNonlinearSubdivisionLevel(level)
+    surface.Update()
+    return surface.GetOutput()
+
+
+def area_of_face(surface, height):
+    """Area of the cells of the face whose points lie at this height where x is 0."""
+    faces = arrays(surface.GetCellData())["face"]
+    of_height = {}
+    total = {}
+    for index in range(surface.GetNumberOfCells()):
+        cell = surface.GetCell(index)
+        face = faces.GetValue(index)
+        a, b, c = (surface.GetPoint(cell.GetPointId(k)) for k in range(3))
+        of_height.setdefault(face, set()).update(round(p[2], 4) for p in (a, b, c) if abs(p[0]) < 1e-4)
+        u, v = ([q - p for p, q in zip(a, other)] for other in (b, c))
+        cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        total[face] = total.get(face, 0) + math.hypot(*cross) / 2
+    (face,) = (face for face, heights in of_height.items() if heights == {height})
+    return total[face]
 
 
 class Samples(unittest.TestCase):
@@ -102,6 +143,65 @@ class Samples(unittest.TestCase):
                                  [(i, math.sin(i), 1.0 / (i + 1)) for i in range(count)])
                 self.assert_rows(arrays(grid.GetPointData())["value"],
                                  [[math.sqrt(i)] for i in range(count)])
+
+    def test_curved_cells(self):
+        for order in ORDERS:
+            with self.subTest(order=order):
+                grid = self.grid(f"curved_{order}.vtu")
+                self.assertEqual(grid.GetNumberOfCells(), 12)
+                # A closed surface of 12 triangles has 8 corners and 18 sides.
+                inside = (order - 1) * (order - 2) // 2
+                self.assertEqual(grid.GetNumberOfPoints(), 8 + 18 * (order - 1) + 12 * inside)
+                for index in range(12):
+                    cell = grid.GetCell(index)
+                    self.assertEqual(cell.GetCellType(), VTK_LAGRANGE_TRIANGLE)
+                    self.assertEqual(cell.GetOrder(), order)
+
+    def test_points_and_fields_of_curved_cells(self):
+        for order in ORDERS:
+            with self.subTest(order=order):
+                grid = self.grid(f"curved_{order}.vtu")
+                data = arrays(grid.GetPointData())
+                self.assertEqual(set(data), {"displacement", "velocity", "stress"})
+                for place, moved, velocity in zip(tuples(grid.GetPoints().GetData()), tuples(data["displacement"]),
+                                                  tuples(data["velocity"])):
+                    x, y, z = (p - u for p, u in zip(place, moved))
+                    self.assert_near(place, bent(order, x, y, z))
+                    self.assert_near(velocity, (z * z, 0, x))
+
+    def test_vtk_finds_the_curved_face_between_the_points(self):
+        """A wrong order of the points would put what VTK interpolates off the block."""
+        numbers = random.Random(5)
+        for order in ORDERS:
+            grid = self.grid(f"curved_{order}.vtu")
+            undeformed = [[p - u for p, u in zip(*rows)] for rows in
+                          zip(tuples(grid.GetPoints().GetData()), tuples(arrays(grid.GetPointData())["displacement"]))]
+            for index in range(12):
+                cell = grid.GetCell(index)
+                corners = [undeformed[cell.GetPointId(k)] for k in range(3)]
+                for _ in range(10):
+                    r, s = sorted((numbers.random(), numbers.random()))
+                    shares = (1 - s, r, s - r)
+                    material = [sum(w * c[k] for w, c in zip(shares, corners)) for k in range(3)]
+                    place = [0.0, 0.0, 0.0]
+                    cell.EvaluateLocation(reference(0), shares[1:] + (0,), place, [0.0] * cell.GetNumberOfPoints())
+                    with self.subTest(order=order, cell=index):
+                        self.assert_near(place, bent(order, *material))
+
+    def test_area_of_a_curved_face(self):
+        """The area of VTK's tessellation goes to the true one with the square of the size of its triangles."""
+        for order in (2, 5):
+            with self.subTest(order=order):
+                grid = self.grid(f"curved_{order}.vtu")
+                steps = 4000
+                exact = sum(length_element(order, 2 * (k + 0.5) / steps) for k in range(steps)) * 2 / steps
+                errors = [abs(area_of_face(tessellated(grid, level), 1) - exact) for level in (1, 2, 3)]
+                for coarse, fine in zip(errors, errors[1:]):
+                    self.assertAlmostEqual(coarse / fine, 4, delta=0.1)
+
+    def assert_near(self, seen, expected):
+        for a, b in zip(seen, expected):
+            self.assertAlmostEqual(a, b, delta=1e-10)
 
     def test_a_damaged_file_is_noticed(self):
         whole = (self.folder / "frames/mixed.vtu").read_bytes()

@@ -4,12 +4,17 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <limits>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "apps/pvd_writer.hpp"
+#include "apps/result_folder.hpp"
 #include "apps/vtu_writer.hpp"
+#include "geometry/shapes.hpp"
 
 namespace ashlar {
 namespace {
@@ -61,12 +66,43 @@ UnstructuredGrid empty_grid() {
   return grid;
 }
 
+using Field = std::function<Vector3(const Vector3&)>;
+
+// The field of a polynomial that the block's order holds, through its values at 13^3 points.
+Eigen::MatrixX3d coefficients(const BlockModel& block, const Field& field) {
+  std::vector<Vector3> points;
+  for (int i = 0; i < 13 * 13 * 13; ++i)
+    points.emplace_back(i % 13 / 6.0, i / 13 % 13 / 12.0, i / 169 / 12.0);
+  Eigen::MatrixX3d values(points.size(), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    values.row(static_cast<Eigen::Index>(i)) = field(points[i]).transpose();
+  return block.basis().values(points).colPivHouseholderQr().solve(values);
+}
+
+// A bar 2 x 1 x 1 bent to  (x, y + x z / 4, z + (x / 2)^n / 2 + x^2 / 16), moving with (z^2, 0, x).
+UnstructuredGrid curved_grid(int order) {
+  BlockDefinition definition;
+  definition.solid = std::make_shared<const Polyhedron>(make_box({0, 0, 0}, {2, 1, 1}));
+  definition.material = {.density = 1000.0, .young_modulus = 1e9, .poisson_ratio = 0.25};
+  definition.order = order;
+  const std::vector<BlockModel> blocks = {BlockModel(definition)};
+  const Field place = [order](const Vector3& p) {
+    const double x = p.x();
+    return Vector3(x, p.y() + x * p.z() / 4.0, p.z() + std::pow(x / 2.0, order) / 2.0 + x * x / 16.0);
+  };
+  const Field velocity = [](const Vector3& p) { return Vector3(p.z() * p.z(), 0.0, p.x()); };
+  const BlockState state = {coefficients(blocks[0], place), coefficients(blocks[0], velocity)};
+  return block_frame(blocks, {state}, drawn_surfaces(blocks, true), {});
+}
+
 void write_samples(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "frames");
   write_vtu(folder / "frames/mixed.vtu", mixed_grid());
   write_vtu(folder / "frames/empty.vtu", empty_grid());
   write_vtu(folder / "frames/points_4096.vtu", many_points(4096));
   write_vtu(folder / "frames/points_4097.vtu", many_points(4097));
+  for (const int order : {2, 3, 5, 8, 12})
+    write_vtu(folder / ("frames/curved_" + std::to_string(order) + ".vtu"), curved_grid(order));
   PvdWriter series(folder / "samples.pvd");
   series.add_frame(0.0, "frames/empty.vtu");
   series.add_frame(0.1 + 0.2, "frames/mixed.vtu");

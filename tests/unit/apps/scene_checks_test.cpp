@@ -102,6 +102,8 @@ TEST(SceneChecks, WhatHasNoIncrementalFormIsRefused) {
   EXPECT_THAT(all_faults(sample_with(5, "surface = \"curved\""), incremental),
               ElementsAre(StartsWith("s.toml:5:11: error: the surface of an incremental block")));
   EXPECT_THAT(all_faults(sample_with(5, "surface = \"flat\""), incremental), IsEmpty());
+  EXPECT_THAT(all_faults(sample_with(31, "curved = true"), incremental),
+              ElementsAre(StartsWith("s.toml:31:10: error: the surface of an incremental block")));
   EXPECT_THAT(
       all_faults(sample_with(5, "chord_tolerance = 0.01"), incremental),
       ElementsAre(StartsWith("s.toml:5:19: error: the sub-faces of an incremental block are fixed, see "

@@ -34,24 +34,25 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
        "fix": [{"plane": {"point": [0.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}, "components": ["x", "y", "z"]}],
        "load": [{"plane": {"point": [4.0, 0.0, 0.0], "normal": [1.0, 0.0, 0.0]}, "traction": [0.0, 0.0, -1e5]}]}],
     "measure": [{"name": "tip", "block": "B", "point": [4.0, 0.5, 0.5]}],
-    "output": {"every": 5, "fields": ["displacement", "velocity", "stress"]}
+    "output": {"every": 5, "fields": ["displacement", "velocity", "stress"], "curved": false}
   })"));
 }
 
 TEST(SceneJson, HoldsWhatIsNotDefault) {
-  const nlohmann::json json = json_of(
-      sample_with(22,
-                  "point = [0, 0, 0]\ncomponents = [\"y\"]\n"
-                  "displacement_history = [[0, 0, 0, 0], [1, 2, 3, 4]]"),
-      {"contact.subdivisions=2", "contact.normal_stiffness=5", "joint.0.tied=true",
-       "joint.0.shear_stiffness=auto", "output.interval=0.5", "output.fields=[]", "block.A.sphere.radius=1",
-       "block.A.rotate={axis=[0,0,1], angle=30}", "block.B.load.0.history=[[0, 0], [1, 2]]"});
+  const nlohmann::json json =
+      json_of(sample_with(22,
+                          "point = [0, 0, 0]\ncomponents = [\"y\"]\n"
+                          "displacement_history = [[0, 0, 0, 0], [1, 2, 3, 4]]"),
+              {"contact.subdivisions=2", "contact.normal_stiffness=5", "joint.0.tied=true",
+               "joint.0.shear_stiffness=auto", "output.interval=0.5", "output.fields=[]",
+               "output.curved=true", "block.A.sphere.radius=1", "block.A.rotate={axis=[0,0,1], angle=30}",
+               "block.B.load.0.history=[[0, 0], [1, 2]]"});
   EXPECT_EQ(json["contact"]["subdivisions"], 2);
   EXPECT_FALSE(json["contact"].contains("chord_tolerance"));
   EXPECT_EQ(json["contact"]["normal_stiffness"], 5.0);
   EXPECT_EQ(json["joint"][0],
             nlohmann::json::parse(R"({"blocks": ["A", "B*"], "shear_stiffness": "auto", "tied": true})"));
-  EXPECT_EQ(json["output"], nlohmann::json::parse(R"({"interval": 0.5, "fields": []})"));
+  EXPECT_EQ(json["output"], nlohmann::json::parse(R"({"interval": 0.5, "fields": [], "curved": true})"));
   EXPECT_EQ(json["block"][0]["sphere"],
             nlohmann::json::parse(R"({"center": [0.0, 0.0, 0.0], "radius": 1.0, "subdivisions": 3})"));
   EXPECT_EQ(json["block"][0]["rotate"],

@@ -48,6 +48,7 @@ TEST(SceneReader, FillsInDefaults) {
   EXPECT_EQ(scene.block[0].order, 1);
   EXPECT_EQ(scene.output.every, default_frame_distance);
   EXPECT_TRUE(scene.output.fields.stress);
+  EXPECT_FALSE(scene.output.curved);
 }
 
 TEST(SceneReader, ReadsEveryWordAndOptionalKey) {
@@ -115,6 +116,7 @@ hull = { points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]] }
 [output]
 interval = 0.25
 fields = ["velocity"]
+curved = true
 )";
   Diagnostics diagnostics;
   const Scene scene = parse_scene(text, "s.toml", {}, diagnostics);
@@ -157,6 +159,7 @@ fields = ["velocity"]
   EXPECT_EQ(std::get<SceneMesh>(scene.block.at(1).shape).scale, 2.0);
   EXPECT_EQ(std::get<SceneHull>(scene.block.at(2).shape).points.at(3), Vector3(0, 0, 1));
   EXPECT_EQ(scene.output.interval, 0.25);
+  EXPECT_TRUE(scene.output.curved);
   EXPECT_FALSE(scene.output.every.has_value());
   EXPECT_FALSE(scene.output.fields.stress);
 }

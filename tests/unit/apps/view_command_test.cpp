@@ -95,6 +95,32 @@ TEST_F(ViewCommand, ThePageHoldsTheFrames) {
   }
 }
 
+TEST_F(ViewCommand, CurvedFramesLookLikeDividedOnes) {
+  const auto page_with = [&](const std::string& curved) {
+    simulate({"--set", "block.0.order=2", "--set", "block.0.angular_velocity=[0, 1, 0]", "--set",
+              "output.curved=" + curved});
+    EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+    return read_text(folder / "out" / "view.html");
+  };
+  const auto frame_of = [](const std::string& page, int frame) {
+    std::istringstream lines(element(page, "<script id=\"frames\" type=\"text/plain\">\n"));
+    std::string line;
+    for (int k = 0; k <= frame; ++k) std::getline(lines, line);
+    return floats(line);
+  };
+  const std::string divided = page_with("false");
+  const std::string curved = page_with("true");
+  EXPECT_THAT(read_text(folder / "out" / "summary.json"), HasSubstr("\"curved\": true"));
+  const auto divided_scene = nlohmann::json::parse(scene_of(divided));
+  const auto curved_scene = nlohmann::json::parse(scene_of(curved));
+  EXPECT_EQ(divided_scene["cells"], curved_scene["cells"]);
+  const auto expected = frame_of(divided, 3);
+  const auto seen = frame_of(curved, 3);
+  ASSERT_EQ(seen.size(), expected.size());
+  // 12 numbers for each of the points; the last half are stresses, Pa.
+  for (std::size_t i = 0; i < seen.size() / 2; ++i) EXPECT_NEAR(seen[i], expected[i], 1e-6);
+}
+
 TEST_F(ViewCommand, ThePageAsksForNothingElse) {
   simulate();
   ASSERT_EQ(run({"view", (folder / "out").string(), "-o", (folder / "p.html").string()}), exit_status::done);

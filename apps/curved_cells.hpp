@@ -1,0 +1,54 @@
+// Frames with Lagrange triangles (output.curved) as frames with plain ones, for programs that draw these
+// only.
+#pragma once
+
+#include <vector>
+
+#include "apps/vtu_writer.hpp"
+
+namespace ashlar {
+
+/// How the Lagrange triangles of a run are divided; made from one frame, it serves all, whose cells are the
+/// same.
+class CurvedCells {
+ public:
+  /// @param frame with cells in blocks by the cell array "block"; the point array "displacement", if there,
+  /// gives the undeformed places, on which the number of pieces depends (pieces_of_sides)
+  /// @throws std::runtime_error if a Lagrange triangle has a number of points that no order has, or there is
+  /// no array "block"
+  explicit CurvedCells(const UnstructuredGrid& frame);
+
+  /// The frame with small triangles in place of each Lagrange triangle, their points and real point data from
+  /// the polynomial of the large one; a frame without any as it is. Points that no cell uses and
+  /// whole-numbered point data are left out.
+  /// @throws std::runtime_error if the frame has other cells than the first one
+  [[nodiscard]] UnstructuredGrid divided(UnstructuredGrid frame) const;
+
+ private:
+  /// A point of the divided frame: the sum of rows_[row][k] times the value at point connectivity_[first +
+  /// k].
+  struct Point {
+    int first;
+    int row;
+  };
+  struct Cell {
+    int source;  ///< cell of the frame
+    VtkCellType type;
+    std::vector<int> points;  ///< indices into points_
+  };
+  struct Block;
+
+  void keep(const UnstructuredGrid& frame, int cell, std::vector<int>& new_index);
+  void divide(const Block& block, int pieces);
+  [[nodiscard]] std::vector<double> interpolated(const std::vector<double>& values,
+                                                 std::size_t components) const;
+
+  bool curved_ = false;  ///< false: there is nothing to divide
+  std::vector<int> connectivity_;
+  std::vector<int> offsets_;
+  std::vector<std::vector<double>> rows_ = {{1.0}};
+  std::vector<Point> points_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace ashlar
