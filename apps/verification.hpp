@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/placement.hpp"
+
 namespace ashlar {
 
 /// One comparison.
@@ -26,10 +28,31 @@ struct VerificationCheck {
                                                double tolerance);
 
 /// A named case.
-struct VerificationCase {
+class VerificationCase {
+ public:
+  using Run = std::vector<VerificationCheck> (*)();
+  using RunPlaced = std::vector<VerificationCheck> (*)(const Placement&);
+
+  /// A case that has one place, because its supports hold single components.
+  constexpr VerificationCase(const char* case_name, const char* text, Run function)
+      : name(case_name), description(text), run_(function) {}
+  /// A case whose scene can be turned and moved; what it measures must stay the same.
+  constexpr VerificationCase(const char* case_name, const char* text, RunPlaced function)
+      : name(case_name), description(text), run_placed_(function) {}
+
   const char* name;
   const char* description;
-  std::vector<VerificationCheck> (*run)();
+
+  [[nodiscard]] std::vector<VerificationCheck> run() const { return run_ ? run_() : run_placed_({}); }
+  [[nodiscard]] bool can_be_placed() const { return run_placed_ != nullptr; }
+  /// Of a case that can be placed.
+  [[nodiscard]] std::vector<VerificationCheck> run_placed(const Placement& placement) const {
+    return run_placed_(placement);
+  }
+
+ private:
+  Run run_ = nullptr;
+  RunPlaced run_placed_ = nullptr;
 };
 
 /// Kinematics, integration, conservation.
@@ -44,5 +67,10 @@ struct VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> stack_cases();
 /// Impacts, waves and rocking.
 [[nodiscard]] std::span<const VerificationCase> impact_cases();
+/// The paper's example.
+[[nodiscard]] std::span<const VerificationCase> falling_block_cases();
+
+/// All of them, in the order of the list.
+[[nodiscard]] std::vector<VerificationCase> all_verification_cases();
 
 }  // namespace ashlar

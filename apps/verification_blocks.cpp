@@ -26,10 +26,4 @@ Polyhedron skew_hull() {
   return Polyhedron(make_convex_hull(points));
 }
 
-Polyhedron placed(const Polyhedron& solid, const Eigen::Matrix3d& turn, const Vector3& shift) {
-  std::vector<Vector3> points;
-  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point + shift);
-  return solid.with_points(std::move(points));
-}
-
 }  // namespace ashlar

@@ -31,9 +31,6 @@ namespace ashlar {
 /// A convex solid without symmetry.
 [[nodiscard]] Polyhedron skew_hull();
 
-/// Places of material points turned and moved: x -> turn x + shift, with the faces kept.
-[[nodiscard]] Polyhedron placed(const Polyhedron& solid, const Eigen::Matrix3d& turn, const Vector3& shift);
-
 /// Displacement of a material point.
 [[nodiscard]] inline Vector3 displacement(const BlockModel& block, const Eigen::MatrixX3d& position,
                                           const Vector3& point) {

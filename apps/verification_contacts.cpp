@@ -5,11 +5,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "solver/automatic.hpp"
+
 namespace ashlar {
 
 int ContactScene::add(BlockDefinition block, const InitialMotion& motion) {
-  blocks_.emplace_back(std::move(block));
-  motions_.push_back(motion);
+  blocks_.emplace_back(placed(std::move(block), placement_));
+  motions_.push_back(placed(motion, placement_));
   return static_cast<int>(blocks_.size()) - 1;
 }
 
@@ -20,8 +22,19 @@ int ContactScene::add_fixed(Polyhedron solid) {
 }
 
 Simulation ContactScene::build() {
-  return {std::exchange(blocks_, {}), std::exchange(motions_, {}), [same = law](int, int) { return *same; },
-          settings};
+  SimulationSettings turned = settings;
+  turned.gravity = placement_.direction(settings.gravity);
+  Simulation simulation(
+      std::exchange(blocks_, {}), std::exchange(motions_, {}), [same = law](int, int) { return *same; },
+      turned);
+  const std::vector<BlockModel>& blocks = simulation.blocks();
+  for (const auto& [a, b] : std::exchange(ties_, {})) {
+    const double stiffness =
+        automatic_tie_stiffness(blocks[static_cast<std::size_t>(a)], blocks[static_cast<std::size_t>(b)]);
+    if (!simulation.tie_blocks(a, b, stiffness))
+      throw std::invalid_argument("tied blocks have no common face");
+  }
+  return simulation;
 }
 
 Eigen::Matrix3d slope(double degrees) {
@@ -36,10 +49,13 @@ double tangent_of(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
 }
 
+void take_step(Simulation& simulation, double end_time) {
+  if (simulation.step(end_time) != StepStatus::accepted)
+    throw std::runtime_error("a step could not be taken");
+}
+
 void run_until(Simulation& simulation, double time) {
-  while (!simulation.reached(time)) {
-    if (simulation.step(time) != StepStatus::accepted) throw std::runtime_error("a step could not be taken");
-  }
+  while (!simulation.reached(time)) take_step(simulation, time);
 }
 
 StaticStatus find_equilibrium(Simulation& simulation, double time) {

@@ -1,8 +1,10 @@
 // Scenes with contacts and what verification cases measure in them.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/verification.hpp"
@@ -13,6 +15,10 @@ namespace ashlar {
 /// Blocks that are put together one by one, with one joint law for all of them.
 class ContactScene {
  public:
+  /// @param placement of all blocks, motions and gravity: what is given to add() is in the scene's own axes,
+  /// what is read in the simulation is turned and moved
+  explicit ContactScene(Placement placement = {}) : placement_(std::move(placement)) {}
+
   /// Read anew in every step, so that a joint can be made weaker on the way.
   std::shared_ptr<JointLaw> law = std::make_shared<JointLaw>(JointLaw{1e9, 1e9, 0.0, 0.0, 0.0, true});
   SimulationSettings settings;
@@ -21,12 +27,17 @@ class ContactScene {
   int add(BlockDefinition block, const InitialMotion& motion = {});
   /// A block that never moves. @return its index
   int add_fixed(Polyhedron solid);
+  /// Bonds two blocks over their common faces, as stiffly as scenes do without being told. @param a,b a < b
+  void tie(int a, int b) { ties_.push_back({a, b}); }
   /// The scene as far as it was put together; it is empty afterwards.
+  /// @throws std::invalid_argument if blocks are to be tied that have no common face
   [[nodiscard]] Simulation build();
 
  private:
   std::vector<BlockModel> blocks_;
   std::vector<InitialMotion> motions_;
+  std::vector<std::array<int, 2>> ties_;
+  Placement placement_;
 };
 
 /// Rotation about the y axis that lowers the side of positive x. @param degrees of the slope that a level
@@ -38,6 +49,9 @@ class ContactScene {
 
 /// tan of an angle in degrees.
 [[nodiscard]] double tangent_of(double degrees);
+
+/// Takes one step, not beyond a time. @throws std::runtime_error if it cannot be taken
+void take_step(Simulation& simulation, double end_time);
 
 /// Takes steps up to a time. @throws std::runtime_error if one cannot be taken
 void run_until(Simulation& simulation, double time);

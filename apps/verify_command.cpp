@@ -17,17 +17,9 @@
 namespace ashlar {
 namespace {
 
-std::vector<VerificationCase> all_cases() {
-  std::vector<VerificationCase> cases;
-  for (const auto& group : {kinematics_cases(), one_block_cases(), contact_spring_cases(), slope_cases(),
-                            stack_cases(), impact_cases()})
-    cases.insert(cases.end(), group.begin(), group.end());
-  return cases;
-}
-
 /// The cases asked for, in the order of the list; none, with an error, if a name is unknown.
 std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names, std::ostream& err) {
-  const std::vector<VerificationCase> all = all_cases();
+  const std::vector<VerificationCase> all = all_verification_cases();
   if (names.empty()) return all;
   std::vector<std::string> known;
   for (const VerificationCase& candidate : all) known.emplace_back(candidate.name);
@@ -99,7 +91,7 @@ nlohmann::ordered_json to_json(const Outcome& outcome) {
 
 int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream& err) {
   if (options.list) {
-    for (const VerificationCase& listed : all_cases())
+    for (const VerificationCase& listed : all_verification_cases())
       out << fmt::format("{:26} {}\n", listed.name, listed.description);
     return exit_status::done;
   }

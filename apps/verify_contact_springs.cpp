@@ -267,6 +267,18 @@ std::vector<VerificationCheck> resting_six_types() {
     const double nan = std::nan("");
     const double force = found ? -force_on_a(simulation.contacts()[0]).z() : nan;
     checks.push_back(check_relative(fmt::format("{}: contact force, N", rest.name), force, weight, 1e-8));
+    // Springs along inclined normals carry the weight with k n_z^2 each.
+    double upright = 0.0;
+    for (const PairRecord& record : simulation.contacts()) {
+      for (std::size_t k = 0; k < record.points.size(); ++k) {
+        if (record.responses[k].state != ContactState::open)
+          upright += kn * record.points[k].normal.z() * record.points[k].normal.z();
+      }
+    }
+    const double settled =
+        -simulation.blocks()[1].motion_of(simulation.states()[1], {0, 0, 1e-4}).displacement.z() - 1e-4;
+    checks.push_back(check_relative(fmt::format("{}: settlement, m", rest.name), found ? settled : nan,
+                                    weight / upright, 1e-8));
     if (rest.springs == 0) continue;
     checks.push_back(check_relative(fmt::format("{}: penetration, m", rest.name),
                                     found ? simulation.report().penetration : nan,

@@ -15,17 +15,12 @@ namespace ashlar {
 namespace {
 
 /// Every case is run as recorded and turned and moved by this: results must turn with the block.
-struct Placement {
+struct NamedPlacement : Placement {
   const char* name;
-  Eigen::Matrix3d turn;
-  Vector3 shift;
 };
 
-std::vector<Placement> placements() {
-  return {{"", Eigen::Matrix3d::Identity(), Vector3::Zero()},
-          {", turned and moved",
-           Eigen::AngleAxisd(0.8, Vector3(1, 2, 3).normalized()).toRotationMatrix(),
-           {12, -30, 5}}};
+std::vector<NamedPlacement> placements() {
+  return {{{}, ""}, {some_placement(), ", turned and moved"}};
 }
 
 Eigen::MatrixX3d rest_position(const BlockModel& block, const Vector3& gravity) {
@@ -149,15 +144,14 @@ std::vector<VerificationCheck> self_weight_column() {
   const double density = 2500, length = 10, modulus = 1e8, gravity = 9.81;
   const double exact = density * gravity * length * length / (2.0 * modulus);
   std::vector<VerificationCheck> checks;
-  for (const Placement& placement : placements()) {
+  for (const NamedPlacement& placement : placements()) {
     for (const int order : {2, 3, 5, 8}) {
       const Polyhedron column(make_box({0, 0, 0}, {1, 1.5, length}));
-      BlockDefinition definition =
-          define_block(placed(column, placement.turn, placement.shift), {density, modulus, 0.0}, order);
+      BlockDefinition definition = define_block(placed(column, placement), {density, modulus, 0.0}, order);
       definition.supports.push_back({Plane{placement.shift, placement.turn * Vector3::UnitZ()}});
       const BlockModel block(std::move(definition));
       const Vector3 down = placement.turn * Vector3(0, 0, -1);
-      const Vector3 top = placement.turn * Vector3(0.5, 0.75, length) + placement.shift;
+      const Vector3 top = placement.point({0.5, 0.75, length});
       const double settled = down.dot(displacement(block, rest_position(block, gravity * down), top));
       checks.push_back(check_relative(
           fmt::format("settlement of the top, n = {}{}, m", order, placement.name), settled, exact, 1e-9));
@@ -169,8 +163,7 @@ std::vector<VerificationCheck> self_weight_column() {
 /// The cantilever of record: 8 by 3 by 1, clamped at x = 0.
 BlockDefinition cantilever(int order, double ratio, const Placement& placement) {
   const Polyhedron box(make_box({0, -1.5, -0.5}, {8, 1.5, 0.5}));
-  BlockDefinition definition =
-      define_block(placed(box, placement.turn, placement.shift), {3600, 1e9, ratio}, order);
+  BlockDefinition definition = define_block(placed(box, placement), {3600, 1e9, ratio}, order);
   definition.supports.push_back({Plane{placement.shift, placement.turn * Vector3(-1, 0, 0)}});
   return definition;
 }
@@ -189,11 +182,11 @@ std::vector<VerificationCheck> cantilever_end_load() {
                                                           {0.2, 3, 0.6386072},
                                                           {0.2, 5, 0.6737756}}};
   std::vector<VerificationCheck> checks;
-  for (const Placement& placement : placements()) {
+  for (const NamedPlacement& placement : placements()) {
     for (const auto& [ratio, order, value] : references) {
       BlockDefinition definition = cantilever(order, ratio, placement);
       const Vector3 down = placement.turn * Vector3(0, 0, -1);
-      const Vector3 end = placement.turn * Vector3(8, 0, 0) + placement.shift;
+      const Vector3 end = placement.point({8, 0, 0});
       definition.loads.push_back({Plane{end, placement.turn * Vector3::UnitX()}, false, 1e6 * down, {}});
       const BlockModel block(std::move(definition));
       const double deflection = down.dot(displacement(block, rest_position(block, Vector3::Zero()), end));
@@ -209,11 +202,11 @@ std::vector<VerificationCheck> cantilever_self_weight() {
   const std::array<CantileverReference, 4> references = {
       {{0.0, 1, 0.002260224}, {0.0, 2, 0.146914560}, {0.0, 3, 0.219241728}, {0.2, 3, 0.2017689}}};
   std::vector<VerificationCheck> checks;
-  for (const Placement& placement : placements()) {
+  for (const NamedPlacement& placement : placements()) {
     for (const auto& [ratio, order, value] : references) {
       const BlockModel block(cantilever(order, ratio, placement));
       const Vector3 down = placement.turn * Vector3(0, 0, -1);
-      const Vector3 end = placement.turn * Vector3(8, 0, 0) + placement.shift;
+      const Vector3 end = placement.point({8, 0, 0});
       const double deflection = down.dot(displacement(block, rest_position(block, 9.81 * down), end));
       checks.push_back(
           check_relative(fmt::format("deflection, nu = {}, n = {}{}, m", ratio, order, placement.name),
@@ -227,7 +220,7 @@ std::vector<VerificationCheck> cantilever_frequencies() {
   const std::array<CantileverReference, 4> references = {
       {{0.0, 2, 1.6698}, {0.0, 3, 1.3245}, {0.0, 5, 1.3171}, {0.2, 3, 1.3830}}};
   std::vector<VerificationCheck> checks;
-  for (const Placement& placement : placements()) {
+  for (const NamedPlacement& placement : placements()) {
     for (const auto& [ratio, order, value] : references) {
       const BlockModel block(cantilever(order, ratio, placement));
       // The mass matrix is rho I.
@@ -293,14 +286,12 @@ std::vector<VerificationCheck> large_rotation_cantilever() {
   for (const double degrees : {30.0, 60.0}) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const double force = stiffness * angle / (height * length * std::cos(angle));
-    for (const Placement& placement : placements()) {
+    for (const NamedPlacement& placement : placements()) {
       const Polyhedron strip(
           make_box({0, -0.5 * height, -0.5 * height}, {length, 0.5 * height, 0.5 * height}));
-      BlockDefinition definition = define_block(placed(strip, placement.turn, placement.shift),
-                                                {2000, modulus, 0.0, Elasticity::st_venant_kirchhoff}, 4);
-      const auto place = [&](const Vector3& point) {
-        return Vector3(placement.turn * point + placement.shift);
-      };
+      BlockDefinition definition =
+          define_block(placed(strip, placement), {2000, modulus, 0.0, Elasticity::st_venant_kirchhoff}, 4);
+      const auto place = [&](const Vector3& point) { return placement.point(point); };
       definition.supports.push_back({Plane{place({0, 0, 0}), placement.turn * Vector3(-1, 0, 0)}});
       for (const double side : {-1.0, 1.0}) {
         definition.loads.push_back({place({length, 0, 0.5 * side * height}),

@@ -15,8 +15,8 @@ const Material stiff_rock{2500.0, 1e11, 0.2};
 
 /// Four equal blocks, each farther out than the one below; in the stack that just holds, the k-th from the
 /// top is L/(2k) farther out than the one below it.
-Simulation book_stack(double share) {
-  ContactScene scene;
+Simulation book_stack(double share, const Placement& placement) {
+  ContactScene scene(placement);
   scene.settings.area_springs = false;
   *scene.law = {1e8, 1e8, tangent_of(40), 0.0, 0.0, false};
   scene.add_fixed(Polyhedron(make_box({-2, -1, -1}, {0, 2, 0})));
@@ -29,16 +29,16 @@ Simulation book_stack(double share) {
   return scene.build();
 }
 
-std::vector<VerificationCheck> book_stack_case() {
-  Simulation holds = book_stack(0.99);
-  Simulation falls = book_stack(1.01);
+std::vector<VerificationCheck> book_stack_case(const Placement& placement) {
+  Simulation holds = book_stack(0.99, placement);
+  Simulation falls = book_stack(1.01, placement);
   return {check_status("holds at 0.99 of the overhang", holds, StaticStatus::equilibrium),
           check_status("falls at 1.01", falls, StaticStatus::moving)};
 }
 
 /// Half circle of `count` equal voussoirs of thickness t about the mean radius 1, on two fixed blocks.
-Simulation arch(int count, double t) {
-  ContactScene scene;
+Simulation arch(int count, double t, const Placement& placement) {
+  ContactScene scene(placement);
   scene.settings.area_springs = false;
   *scene.law = {1e8, 1e8, tangent_of(60), 0.0, 0.0, false};
   const auto joint = [&](int k, std::vector<Vector3>& points) {
@@ -59,10 +59,10 @@ Simulation arch(int count, double t) {
   return scene.build();
 }
 
-std::vector<VerificationCheck> arch_case() {
+std::vector<VerificationCheck> arch_case(const Placement& placement) {
   constexpr double least = 0.10678;
-  Simulation stands = arch(27, 1.01 * least);
-  Simulation falls = arch(27, 0.99 * least);
+  Simulation stands = arch(27, 1.01 * least, placement);
+  Simulation falls = arch(27, 0.99 * least, placement);
   return {check_status("stands at 1.01 of the least thickness", stands, StaticStatus::equilibrium),
           check_status("falls at 0.99", falls, StaticStatus::moving)};
 }
@@ -70,20 +70,18 @@ std::vector<VerificationCheck> arch_case() {
 /// Goodman and Bray's columns: 16 columns on a stepped base that dips 30 degrees. In the frame of the base,
 /// column n = 1 to 16 from the toe stands on [10 (n-1), 10 n], each step 1 m higher; heights grow by 4 m up
 /// to the tenth column and fall by 6.2 m beyond.
-ContactScene columns() {
-  ContactScene scene;
+ContactScene columns(const Placement& placement) {
+  ContactScene scene(placement);
   scene.settings.area_springs = false;
   // A face that rises towards positive x'.
-  const Eigen::Matrix3d turn = slope(-30);
+  const Placement raised{slope(-30)};
   double height = 0.0;
   for (int n = 1; n <= 16; ++n) {
     height += n <= 10 ? 4.0 : -6.2;
     const double x = 10.0 * (n - 1), base = n - 1.0;
-    scene.add_fixed(
-        placed(Polyhedron(make_box({x, -5, base - 5}, {x + 10, 15, base})), turn, Vector3::Zero()));
-    scene.add(define_block(
-        placed(Polyhedron(make_box({x, 0, base}, {x + 10, 10, base + height})), turn, Vector3::Zero()),
-        {25e3 / 9.81, 1e10, 0.2}, 1));
+    scene.add_fixed(placed(Polyhedron(make_box({x, -5, base - 5}, {x + 10, 15, base})), raised));
+    scene.add(define_block(placed(Polyhedron(make_box({x, 0, base}, {x + 10, 10, base + height})), raised),
+                           {25e3 / 9.81, 1e10, 0.2}, 1));
   }
   return scene;
 }
@@ -101,8 +99,8 @@ double farthest_in(Simulation& simulation, double time) {
 }
 
 /// From equilibrium, as the full weight put on at once would set the columns in motion.
-std::vector<VerificationCheck> goodman_bray() {
-  ContactScene scene = columns();
+std::vector<VerificationCheck> goodman_bray(const Placement& placement) {
+  ContactScene scene = columns(placement);
   const std::shared_ptr<JointLaw> law = scene.law;
   *law = {1e11, 1e11, tangent_of(39.5), 0.0, 0.0, false};
   scene.settings.time_step = 5e-3;

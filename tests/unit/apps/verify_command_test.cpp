@@ -52,6 +52,7 @@ TEST(VerifyCommand, ListsCasesOfRecord) {
                            "arch",
                            "book-stack",
                            "bounce",
+                           "bar-impact",
                            "joint-wave",
                            "rocking-block",
                            "falling-block"})
