@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace ashlar {
@@ -60,21 +62,57 @@ class Redirections {
   posix_spawn_file_actions_t actions_{};
 };
 
-/// @return the status of waitpid.
-int run_program(const std::vector<std::string>& command, const Redirections& redirections) {
+/// Makes a program the leader of a process group of its own, so that what it starts can be ended with it.
+class OwnGroup {
+ public:
+  OwnGroup() {
+    posix_spawnattr_init(&attributes_);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+  }
+  ~OwnGroup() { posix_spawnattr_destroy(&attributes_); }
+  OwnGroup(const OwnGroup&) = delete;
+  OwnGroup& operator=(const OwnGroup&) = delete;
+
+  [[nodiscard]] const posix_spawnattr_t* get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_{};
+};
+
+/// @return the status of waitpid; empty if the limit passed, and then the program's whole group is ended.
+std::optional<int> wait_for(pid_t child, std::chrono::duration<double> limit) {
+  constexpr std::chrono::milliseconds pause(10);
+  const auto start = std::chrono::steady_clock::now();
+  int status = 0;
+  while (true) {
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0 && errno != EINTR)
+      throw std::runtime_error(fmt::format("cannot wait for a program: {}", std::strerror(errno)));
+    if (std::chrono::steady_clock::now() - start > limit) break;
+    std::this_thread::sleep_for(pause);
+  }
+  ::kill(-child, SIGKILL);
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return std::nullopt;
+}
+
+/// @return as wait_for.
+std::optional<int> run_program(const std::vector<std::string>& command, const Redirections& redirections,
+                               std::chrono::duration<double> limit) {
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;
-  const int error =
-      ::posix_spawn(&child, command.front().c_str(), redirections.get(), nullptr, arguments.data(), environ);
+  const OwnGroup group;
+  const int error = ::posix_spawn(&child, command.front().c_str(), redirections.get(), group.get(),
+                                  arguments.data(), environ);
   if (error != 0) {
     throw std::runtime_error(fmt::format("cannot start {}: {}", command.front(), std::strerror(error)));
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
+  return wait_for(child, limit);
 }
 
 std::string read_file(const std::filesystem::path& path) {
@@ -93,7 +131,8 @@ std::optional<std::filesystem::path> find_browser() {
 }
 
 std::string loaded_page(const std::filesystem::path& browser, const std::filesystem::path& folder,
-                        const std::filesystem::path& page, const std::string& fragment) {
+                        const std::filesystem::path& page, const std::string& fragment,
+                        std::chrono::duration<double> limit) {
   std::vector<std::string> command = {browser.string(),
                                       "--headless",
                                       "--use-angle=swiftshader",
@@ -107,8 +146,12 @@ std::string loaded_page(const std::filesystem::path& browser, const std::filesys
   if (::geteuid() == 0) command.emplace_back("--no-sandbox");
   command.push_back(file_url(page) + "#" + fragment);
   const std::filesystem::path errors = folder / "errors";
-  const int status = run_program(command, {folder / "page", errors});
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  const std::optional<int> status = run_program(command, {folder / "page", errors}, limit);
+  if (!status) {
+    throw std::runtime_error(
+        fmt::format("{} did not finish within {} s and was ended", browser.string(), limit.count()));
+  }
+  if (!WIFEXITED(*status) || WEXITSTATUS(*status) != 0) {
     constexpr std::size_t shown = 1000;
     const std::string text = read_file(errors);
     throw std::runtime_error(fmt::format("{} failed: {}", browser.string(),

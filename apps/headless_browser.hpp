@@ -2,6 +2,7 @@
 // made this way.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,9 +17,11 @@ namespace ashlar {
 /// @param folder an empty one for the browser's own files
 /// @param fragment what follows # in the address; letters, digits and  = & , . - _  only
 /// @return the page as its scripts left it, as HTML.
-/// @throws std::runtime_error if the browser cannot be started or fails, with the last lines it wrote.
+/// @param limit after which the browser and all processes it started are ended
+/// @throws std::runtime_error if the browser cannot be started, does not finish within the limit, or fails,
+/// with the last lines it wrote.
 [[nodiscard]] std::string loaded_page(const std::filesystem::path& browser,
                                       const std::filesystem::path& folder, const std::filesystem::path& page,
-                                      const std::string& fragment);
+                                      const std::string& fragment, std::chrono::duration<double> limit);
 
 }  // namespace ashlar

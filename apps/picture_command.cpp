@@ -4,8 +4,10 @@
 #include <stdlib.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <ostream>
@@ -65,12 +67,34 @@ std::string check_size(const std::string& text) {
   return fmt::format("size ({}), WIDTHxHEIGHT with 16 to 8192 pixels each is needed", text);
 }
 
+bool is_vector(const std::vector<double>& numbers) {
+  return numbers.size() == 3 &&
+         std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
 std::string check_direction(const std::string& text) {
   const std::vector<double> direction = numbers_of<double>(text, ',');
-  const bool good = direction.size() == 3 && std::isfinite(direction[0]) && std::isfinite(direction[1]) &&
-                    std::isfinite(direction[2]) &&
-                    (direction[0] != 0.0 || direction[1] != 0.0 || direction[2] != 0.0);
+  const bool good = is_vector(direction) && direction != std::vector(3, 0.0);
   return good ? "" : fmt::format("direction ({}), x,y,z, not all zero, is needed", text);
+}
+
+std::string check_point(const std::optional<std::string>& text) {
+  if (!text || is_vector(numbers_of<double>(*text, ','))) return "";
+  return fmt::format("point ({}), x,y,z is needed", *text);
+}
+
+std::string check_positive(std::string_view name, double value) {
+  return value > 0.0 && std::isfinite(value) ? ""
+                                             : fmt::format("{} ({}), more than 0 is needed", name, value);
+}
+
+/// What follows # in the page's address; view_page.js reads it.
+std::string wishes(const PictureOptions& options, std::size_t frame) {
+  std::string text = fmt::format("picture&frame={}&size={}&from={}&color={}&zoom={}&scale={}", frame,
+                                 options.size, options.from, options.color, options.zoom, options.scale);
+  if (options.at) text += "&at=" + *options.at;
+  if (options.frame_range) text += "&range=frame";
+  return text;
 }
 
 /// What stands in the page's element of that id, which holds text alone; empty without such an element.
@@ -99,9 +123,8 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
     return complain(error.what(), exit_status::bad_input);
   }
   const std::size_t frame = options.frame.value_or(report.frames - 1);
-  const std::string page = loaded_page(browser, scratch.path(), view,
-                                       fmt::format("picture&frame={}&size={}&from={}&color={}", frame,
-                                                   options.size, options.from, options.color));
+  const std::string page = loaded_page(browser, scratch.path(), view, wishes(options, frame),
+                                       std::chrono::duration<double>(options.time_limit));
   if (const auto fault = text_of_element(page, "fault")) return complain(*fault, exit_status::bad_input);
   const auto picture = text_of_element(page, "picture");
   if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
@@ -114,7 +137,10 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
 }  // namespace
 
 int picture_command(const PictureOptions& options, std::ostream& out, std::ostream& err) {
-  for (const std::string& fault : {check_size(options.size), check_direction(options.from)}) {
+  for (const std::string& fault :
+       {check_size(options.size), check_direction(options.from), check_point(options.at),
+        check_positive("zoom", options.zoom), check_positive("scale", options.scale),
+        check_positive("time limit", options.time_limit)}) {
     if (fault.empty()) continue;
     err << "ashlar: error: " << fault << '\n';
     return exit_status::bad_input;
@@ -142,6 +168,15 @@ void declare_picture_command(CLI::App& program, CommandContext& context) {
       ->type_name("FIELD")
       ->check(CLI::IsMember({"displacement", "velocity", "von_mises", "pressure", "stress_xx", "stress_yy",
                              "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order"}));
+  command->add_flag("--frame-range", options->frame_range,
+                    "Colours over the values of this frame (default: of the whole run)");
+  command->add_option("--at", options->at, "Point looked at (default: the middle of all blocks)")
+      ->type_name("X,Y,Z");
+  command->add_option("--zoom", options->zoom, "How much nearer than to see all (default: 1)")
+      ->type_name("F");
+  command->add_option("--scale", options->scale, "Displacements times (default: 1)")->type_name("F");
+  command->add_option("--time-limit", options->time_limit, "Seconds for the browser (default: 120)")
+      ->type_name("S");
   command->add_option("-o,--out", options->picture, "PNG to write")->required()->type_name("FILE");
   command->callback(
       [options, &context] { context.status = picture_command(*options, context.out, context.err); });

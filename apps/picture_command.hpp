@@ -15,13 +15,18 @@ struct PictureOptions {
   std::optional<std::size_t> frame;   ///< index, 0 the first; empty: the last
   std::string size = "1200x800";      ///< pixels, WIDTHxHEIGHT, 16 to 8192 each
   std::string from = "0.55,-1,0.45";  ///< x,y,z: direction from the blocks to the eye; z is up
+  std::optional<std::string> at;      ///< x,y,z: point looked at, m; empty: the middle of all blocks
+  double zoom = 1.0;                  ///< > 0; 1 shows all blocks
+  double scale = 1.0;                 ///< > 0; of displacements; contacts are shown with 1 only
   std::string color = "displacement";
+  bool frame_range = false;   ///< colours over the values of this frame, else of the whole run
+  double time_limit = 120.0;  ///< s, > 0: after that a browser that makes no picture is ended
   std::filesystem::path picture;
 };
 
-/// The picture is what `ashlar view` shows, with colours for the range of the whole run.
-/// @return exit status; bad_input if an option or the folder is wrong, failed if no browser makes the
-/// picture.
+/// The picture is what `ashlar view` shows.
+/// @return exit status; bad_input if an option or the folder is wrong, failed if there is no browser.
+/// @throws std::runtime_error as loaded_page
 [[nodiscard]] int picture_command(const PictureOptions& options, std::ostream& out, std::ostream& err);
 
 void declare_picture_command(CLI::App& program, CommandContext& context);

@@ -21,7 +21,10 @@
 
 ASHLAR_EMBED(ashlar_view_page, ASHLAR_VIEW_PAGE)
 ASHLAR_EMBED(ashlar_view_style, ASHLAR_VIEW_STYLE)
-ASHLAR_EMBED(ashlar_view_script, ASHLAR_VIEW_SCRIPT)
+ASHLAR_EMBED(ashlar_view_script_data, ASHLAR_VIEW_SCRIPT_DATA)
+ASHLAR_EMBED(ashlar_view_script_scene, ASHLAR_VIEW_SCRIPT_SCENE)
+ASHLAR_EMBED(ashlar_view_script_panels, ASHLAR_VIEW_SCRIPT_PANELS)
+ASHLAR_EMBED(ashlar_view_script_page, ASHLAR_VIEW_SCRIPT_PAGE)
 ASHLAR_EMBED(ashlar_view_three, ASHLAR_VIEW_THREE)
 ASHLAR_EMBED(ashlar_view_orbit_controls, ASHLAR_VIEW_ORBIT_CONTROLS)
 ASHLAR_EMBED(ashlar_view_chart, ASHLAR_VIEW_CHART)
@@ -38,7 +41,10 @@ std::string_view between(const char* begin, const char* end) {
 ViewAssets view_assets() {
   return {between(ashlar_view_page_begin, ashlar_view_page_end),
           between(ashlar_view_style_begin, ashlar_view_style_end),
-          between(ashlar_view_script_begin, ashlar_view_script_end),
+          between(ashlar_view_script_data_begin, ashlar_view_script_data_end),
+          between(ashlar_view_script_scene_begin, ashlar_view_script_scene_end),
+          between(ashlar_view_script_panels_begin, ashlar_view_script_panels_end),
+          between(ashlar_view_script_page_begin, ashlar_view_script_page_end),
           between(ashlar_view_three_begin, ashlar_view_three_end),
           between(ashlar_view_orbit_controls_begin, ashlar_view_orbit_controls_end),
           between(ashlar_view_chart_begin, ashlar_view_chart_end)};

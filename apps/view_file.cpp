@@ -222,6 +222,20 @@ std::string assembled(std::string_view page,
   return text;
 }
 
+/// In the order of the page; the scene and the frames are still empty.
+std::vector<std::pair<std::string_view, std::string_view>> parts_of_page(const ViewAssets& assets) {
+  return {{"STYLE", assets.style},
+          {"THREE", assets.three},
+          {"ORBIT_CONTROLS", assets.orbit_controls},
+          {"CHART", assets.chart},
+          {"SCENE", {}},
+          {"FRAMES", {}},
+          {"SCRIPT_DATA", assets.script_data},
+          {"SCRIPT_SCENE", assets.script_scene},
+          {"SCRIPT_PANELS", assets.script_panels},
+          {"SCRIPT_PAGE", assets.script_page}};
+}
+
 std::string frames_text(const std::vector<ThinnedSeries<ViewFrame>::Item>& frames) {
   std::string text;
   for (const auto& frame : frames) text += frame.value.data + '\n';
@@ -238,9 +252,9 @@ ViewReport write_view_file(const std::filesystem::path& folder, const std::files
         fmt::format("no frame {}, the last one is {}", *options.frame, reader.count() - 1));
   Json scene = scene_json(folder, reader.surface());
   const ViewAssets assets = view_assets();
-  const std::size_t fixed_bytes = assets.page.size() + assets.style.size() + assets.script.size() +
-                                  assets.three.size() + assets.orbit_controls.size() + assets.chart.size() +
-                                  script_safe(scene).size();
+  std::vector<std::pair<std::string_view, std::string_view>> parts = parts_of_page(assets);
+  std::size_t fixed_bytes = assets.page.size() + script_safe(scene).size();
+  for (const auto& [name, part] : parts) fixed_bytes += part.size();
   constexpr std::size_t head_bytes = 100;
   ThinnedSeries<ViewFrame> frames(options.most_bytes - std::min(fixed_bytes, options.most_bytes),
                                   {reader.count() - 1, options.frame.value_or(0)});
@@ -256,13 +270,11 @@ ViewReport write_view_file(const std::filesystem::path& folder, const std::files
 
   const std::string frame_lines = frames_text(frames.items());
   const std::string scene_text = script_safe(scene);
-  const std::string text = assembled(assets.page, {{"STYLE", assets.style},
-                                                   {"THREE", assets.three},
-                                                   {"ORBIT_CONTROLS", assets.orbit_controls},
-                                                   {"CHART", assets.chart},
-                                                   {"SCENE", scene_text},
-                                                   {"FRAMES", frame_lines},
-                                                   {"SCRIPT", assets.script}});
+  for (auto& [name, part] : parts) {
+    if (name == "SCENE") part = scene_text;
+    if (name == "FRAMES") part = frame_lines;
+  }
+  const std::string text = assembled(assets.page, parts);
   write_file_atomically(page, text, Durability::process);
   return {reader.count(), frames.items().size(), text.size()};
 }

@@ -22,7 +22,10 @@ class Pages:
     @classmethod
     def write(cls, program, scenes, folder):
         cls.program, cls.folder = program, folder
-        for name, scene, more in (("falling", scenes / "falling_block.toml", ["--set", "analysis.end_time=0.56"]),
+        falling = scenes / "falling_block.toml"
+        curved = ["--set", "analysis.end_time=0.01", "--set", "output.curved=true"]
+        for name, scene, more in (("falling", falling, ["--set", "analysis.end_time=0.56"]),
+                                  ("curved", falling, curved),
                                   ("slope", HERE / "slope.toml", []), ("column", HERE / "column.toml", [])):
             out = folder / name
             subprocess.run([program, "run", scene, "--out", out, "--quiet", "--view", *more], check=True)
@@ -135,7 +138,7 @@ class ViewTest(unittest.TestCase):
 
     def test_switches_change_the_picture(self):
         self.open("falling", "#frame=55")
-        for control, value in (("sub-faces", True), ("see-through", True), ("scale", "1.5"), ("scale", "1"),
+        for control, value in (("edges", False), ("sub-faces", True), ("see-through", True), ("scale", "1.5"), ("scale", "1"),
                                ("open-contacts", True), ("contact-colour", "type"), ("forces", False)):
             before = self.browser.screenshot()
             self.change(control, value)
@@ -157,6 +160,26 @@ class ViewTest(unittest.TestCase):
         self.open("falling")
         self.browser.click(*self.on_screen("centreOf(0)"))
         self.assertEqual([float(x) for x in self.picked()["centre (m)"].split(", ")], [7.25, 0, 2.25])
+
+    def test_curved_frames_look_like_divided_ones(self):
+        pixels = []
+        for name in ("falling", "curved"):
+            self.open(name, "#color=order")
+            # The scene's size, which sets the view, is that of all frames.
+            self.evaluate("Object.assign(current, {at: new THREE.Vector3(4, 0, 0), from: new THREE.Vector3(0, -1, 0)}),"
+                          "sceneBox.set(new THREE.Vector3(0, -2, -2), new THREE.Vector3(8, 2, 4)),"
+                          "lookFrom(current.from), render()")
+            pixels.append(Picture(self.browser.screenshot()).pixels(150, 60, 500, 400))
+        differing = sum(a != b for a, b in zip(*pixels))
+        self.assertLess(differing, 0.01 * len(pixels[0]))
+        self.assertGreater(sum(pixel != (255, 255, 255) for pixel in pixels[0]), 0.1 * len(pixels[0]))
+
+    def test_contacts_in_words(self):
+        self.open("slope")
+        self.browser.click(*self.middle_of("slider", 0.97))
+        self.assertRegex(self.text("contact-legend"), r"\d+ contact points, largest force \d+ N")
+        self.change("scale", "2")
+        self.assertIn("not shown", self.text("contact-legend"))
 
     def test_a_click_on_nothing_clears(self):
         self.open("falling")
@@ -223,6 +246,17 @@ class ViewTest(unittest.TestCase):
         upper, lower = widths[:60], widths[60:]
         self.assertGreater(max(upper), 10)
         self.assertGreater(max(lower), 2 * max(upper))
+
+    def test_picture_from_nearer(self):
+        view = ("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0")
+        drawn = []
+        # All; the beam's middle; a point beside the blocks.
+        for more in ((), ("--at=4,0,-0.2", "--zoom", "3"), ("--at=4,0,40", "--zoom", "3")):
+            done, picture = self.picture(*view, *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawn.append(sum(pixel != (255, 255, 255) for pixel in picture.pixels(130, 30, 320, 200)))
+        self.assertGreater(drawn[1], 2 * drawn[0])
+        self.assertEqual(drawn[2], 0)
 
     def test_picture_of_a_field_that_was_not_written(self):
         done, picture = self.picture("column", "--color", "velocity")

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <chrono>
+#include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "support/temporary_folder.hpp"
 
@@ -64,6 +67,14 @@ TEST_F(PictureCommand, RefusesWhatIsNoDirection) {
   }
 }
 
+TEST_F(PictureCommand, RefusesPointsAndSizesThatAreNone) {
+  EXPECT_EQ(picture({"--at=1,2"}), exit_status::bad_input);
+  EXPECT_THAT(err.str(), HasSubstr("point (1,2), x,y,z is needed"));
+  for (const char* option : {"--zoom=0", "--zoom=-1", "--zoom=nan", "--scale=0", "--time-limit=0"})
+    EXPECT_EQ(picture({option}), exit_status::bad_input) << option;
+  EXPECT_THAT(err.str(), HasSubstr("time limit (0), more than 0 is needed"));
+}
+
 TEST_F(PictureCommand, RefusesUnknownColoursAndFrames) {
   EXPECT_EQ(picture({"--color", "temperature"}), exit_status::bad_input);
   EXPECT_EQ(picture({"--frame", "2"}), exit_status::bad_input);
@@ -80,6 +91,24 @@ TEST_F(PictureCommand, ABrowserThatFailsIsNamed) {
   EXPECT_EQ(picture({}), exit_status::failed);
   EXPECT_THAT(err.str(), HasSubstr("cannot start"));
   EXPECT_FALSE(std::filesystem::exists(folder / "p.png"));
+}
+
+TEST_F(PictureCommand, ABrowserThatHangsIsEndedWithAllItStarted) {
+  write_text(folder / "hang", "#!/bin/sh\nsleep 600 &\necho $! > " + path("child") + "\nwait\n");
+  std::filesystem::permissions(folder / "hang", std::filesystem::perms::owner_all);
+  ::setenv("ASHLAR_BROWSER", path("hang").c_str(), 1);
+  EXPECT_EQ(picture({"--time-limit", "2"}), exit_status::failed);
+  EXPECT_THAT(err.str(), HasSubstr("hang did not finish within 2 s and was ended"));
+  // What nobody has waited for is a zombie ("Z") until init does.
+  const std::string stat = "/proc/" + std::to_string(std::stoi(read_text(folder / "child"))) + "/stat";
+  const auto running = [&] {
+    std::ifstream file(stat);
+    std::string state;
+    std::getline(file, state);
+    return !state.empty() && state.find(") Z") == std::string::npos;
+  };
+  for (int k = 0; running() && k < 500; ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(running());
 }
 
 }  // namespace
