@@ -110,8 +110,11 @@ StudyResult study_conditioning() {
 StudyResult study_conditioning_to(int most_order) {
   StudyResult result;
   result.columns = {"basis", "half_widths", "order", "condition_mass", "condition_stiffness", "digits_lost"};
-  result.plot = {
-      "Condition of the mass matrix, block at 0 and 10 half-widths (dashed)", "order", "condition", {}};
+  result.plot = {"Condition of the mass matrix, block at 0 and 10 half-widths (dashed)",
+                 "order",
+                 "condition",
+                 {},
+                 false};
   constexpr double half_width = 4.0;
   double worst_orthonormal = 0.0;
   double worst_paper = 0.0;

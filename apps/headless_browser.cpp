@@ -160,4 +160,12 @@ std::string loaded_page(const std::filesystem::path& browser, const std::filesys
   return read_file(folder / "page");
 }
 
+std::optional<std::string> left_text(const std::string& page, std::string_view id) {
+  const std::string start = fmt::format("<pre id=\"{}\">", id);
+  const std::size_t found = page.find(start);
+  if (found == std::string::npos) return std::nullopt;
+  const std::size_t begin = found + start.size();
+  return page.substr(begin, page.find("</pre>", begin) - begin);
+}
+
 }  // namespace ashlar

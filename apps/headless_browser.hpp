@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace ashlar {
 
@@ -23,5 +24,9 @@ namespace ashlar {
 [[nodiscard]] std::string loaded_page(const std::filesystem::path& browser,
                                       const std::filesystem::path& folder, const std::filesystem::path& page,
                                       const std::string& fragment, std::chrono::duration<double> limit);
+
+/// What scripts of a page left in it for the program: the text of its element  pre  with that id, which holds
+/// text alone. @return empty if there is no such element
+[[nodiscard]] std::optional<std::string> left_text(const std::string& page, std::string_view id);
 
 }  // namespace ashlar

@@ -21,13 +21,18 @@ struct LogLogPlot {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
+  bool slopes = true;  ///< write them into the legend; false where a power law is not what is looked for
 };
 
 /// Slope d log y / d log x through the last `count` points by least squares; NaN with fewer than two
 /// different x.
 [[nodiscard]] double last_slope(const PlotSeries& series, std::size_t count = 3);
 
-/// A self-contained SVG document, 1000 by 600.
+/// Pixels of to_svg.
+inline constexpr int plot_width = 1000;
+inline constexpr int plot_height = 600;
+
+/// A self-contained SVG document.
 [[nodiscard]] std::string to_svg(const LogLogPlot& plot);
 
 }  // namespace ashlar

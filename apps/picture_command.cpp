@@ -1,47 +1,24 @@
 #include "apps/picture_command.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <ostream>
-#include <system_error>
 #include <vector>
 
 #include "apps/atomic_file.hpp"
 #include "apps/base64.hpp"
 #include "apps/headless_browser.hpp"
+#include "apps/scratch_folder.hpp"
 #include "apps/view_file.hpp"
 
 namespace ashlar {
 namespace {
-
-/// A folder that is gone when the command ends.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "ashlar-picture-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Numbers between separators; empty if the text is anything else.
 template <class T>
@@ -97,15 +74,6 @@ std::string wishes(const PictureOptions& options, std::size_t frame) {
   return text;
 }
 
-/// What stands in the page's element of that id, which holds text alone; empty without such an element.
-std::optional<std::string> text_of_element(const std::string& page, std::string_view id) {
-  const std::string start = fmt::format("<pre id=\"{}\">", id);
-  const std::size_t found = page.find(start);
-  if (found == std::string::npos) return std::nullopt;
-  const std::size_t begin = found + start.size();
-  return page.substr(begin, page.find("</pre>", begin) - begin);
-}
-
 int make_picture(const PictureOptions& options, const std::filesystem::path& browser, std::ostream& out,
                  std::ostream& err) {
   const ScratchFolder scratch;
@@ -125,8 +93,8 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   const std::size_t frame = options.frame.value_or(report.frames - 1);
   const std::string page = loaded_page(browser, scratch.path(), view, wishes(options, frame),
                                        std::chrono::duration<double>(options.time_limit));
-  if (const auto fault = text_of_element(page, "fault")) return complain(*fault, exit_status::bad_input);
-  const auto picture = text_of_element(page, "picture");
+  if (const auto fault = left_text(page, "fault")) return complain(*fault, exit_status::bad_input);
+  const auto picture = left_text(page, "picture");
   if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
   write_file_atomically(options.picture, from_base64(*picture), Durability::process);
   out << fmt::format("picture: {} (frame {} of 0 to {})\n", options.picture.string(), frame,

@@ -11,9 +11,11 @@
 
 #include "apps/atomic_file.hpp"
 #include "apps/conditioning_study.hpp"
+#include "apps/headless_browser.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/orders_study.hpp"
 #include "apps/sub_face_study.hpp"
+#include "apps/svg_picture.hpp"
 
 namespace ashlar {
 namespace {
@@ -29,6 +31,20 @@ std::vector<std::string> names() {
   std::vector<std::string> list;
   for (const Study& study : studies) list.emplace_back(study.name);
   return list;
+}
+
+/// The picture as PNG beside the SVG; without a browser, or with one that fails, the SVG alone has to do.
+/// @return what to tell the user
+std::string make_png(const std::string& svg, const std::filesystem::path& picture) {
+  const auto browser = find_browser();
+  if (!browser) return "no PNG beside it: there is no chromium in PATH, and ASHLAR_BROWSER is not set";
+  try {
+    const std::string png = png_of_svg(*browser, svg, plot_width, plot_height);
+    write_file_atomically(picture, png, Durability::process);
+    return "picture: " + picture.string();
+  } catch (const std::exception& error) {
+    return fmt::format("no PNG beside it: {}", error.what());
+  }
 }
 
 }  // namespace
@@ -47,10 +63,12 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   const std::filesystem::path table = folder / (options.name + ".csv");
   const std::filesystem::path picture = folder / (options.name + ".svg");
   write_file_atomically(table, table_csv(result), Durability::process);
-  write_file_atomically(picture, to_svg(result.plot), Durability::process);
+  const std::string svg = to_svg(result.plot);
+  write_file_atomically(picture, svg, Durability::process);
   out << table_text(result);
   for (const std::string& finding : result.findings) out << finding << '\n';
   out << fmt::format("table: {}\npicture: {}\n", table.string(), picture.string());
+  out << make_png(svg, folder / (options.name + ".png")) << '\n';
   return result.holds ? exit_status::done : exit_status::failed;
 }
 

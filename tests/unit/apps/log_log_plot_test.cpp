@@ -23,6 +23,21 @@ TEST(LogLogPlot, PointsLieWhereTheirLogarithmsSay) {
   EXPECT_NE(svg.find("slope 2.00"), std::string::npos);
 }
 
+TEST(LogLogPlot, AxesEndAtOneTwoOrFiveTimesAPowerOfTen) {
+  // From 20 to 500 and from 0.001 to 0.01: the first and the last point are in corners of the frame.
+  const std::string svg = to_svg({"t", "x", "y", {{"s", {20, 60, 500}, {1e-3, 2e-3, 1e-2}}}, false});
+  EXPECT_NE(svg.find(R"(cx="90.0" cy="530.0")"), std::string::npos);
+  EXPECT_NE(svg.find(R"(cx="640.0" cy="50.0")"), std::string::npos);
+  EXPECT_EQ(svg.find("slope"), std::string::npos);
+  for (const char* label : {">20<", ">50<", ">100<", ">200<", ">500<", ">0.001<", ">0.007<", ">0.01<"})
+    EXPECT_NE(svg.find(label), std::string::npos) << label;
+  EXPECT_EQ(svg.find(">60<"), std::string::npos);
+  // 13 decades: every second power of ten has a label.
+  const std::string wide = to_svg({"t", "x", "y", {{"s", {1, 2}, {1e-13, 1}}}});
+  EXPECT_NE(wide.find(R"(font-size="11">-12<)"), std::string::npos);
+  EXPECT_EQ(wide.find(R"(font-size="11">-13<)"), std::string::npos);
+}
+
 TEST(LogLogPlot, APlotWithoutPointsIsStillAPicture) {
   const std::string svg = to_svg({"empty", "x", "y", {{"nothing", {}, {}}}});
   EXPECT_TRUE(svg.starts_with("<svg"));

@@ -1,0 +1,36 @@
+// A folder for files that nobody needs afterwards.
+#pragma once
+
+#include <stdlib.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace ashlar {
+
+/// A new folder, readable for its owner alone, among the system's temporary ones; it is gone with this
+/// object.
+class ScratchFolder {
+ public:
+  /// @throws std::system_error if it cannot be made
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ashlar-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,15 @@
+// SVG documents as PNG pictures, drawn by a browser (headless_browser.hpp).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace ashlar {
+
+/// @param svg a document of that many pixels that refers to nothing outside itself
+/// @return the bytes of a PNG of the same size.
+/// @throws std::runtime_error as loaded_page, or if the browser makes no picture of it
+[[nodiscard]] std::string png_of_svg(const std::filesystem::path& browser, const std::string& svg, int width,
+                                     int height);
+
+}  // namespace ashlar
