@@ -49,6 +49,15 @@ const std::vector<std::int32_t>& blocks_of_cells(const UnstructuredGrid& frame) 
   return std::get<std::vector<std::int32_t>>(array->values);
 }
 
+/// The values of some cells, one after the other.
+template <class T>
+std::vector<T> chosen(const std::vector<T>& values, const std::vector<int>& cells, int components) {
+  std::vector<T> result;
+  for (const int cell : cells)
+    for (int c = 0; c < components; ++c) result.push_back(values[at(cell * components + c)]);
+  return result;
+}
+
 }  // namespace
 
 /// The Lagrange triangles of one block and one order.
@@ -162,16 +171,14 @@ UnstructuredGrid CurvedCells::divided(UnstructuredGrid frame) const {
     array.values = std::move(values);
     grid.point_data.push_back(std::move(array));
   }
+  std::vector<int> sources;
+  for (const Cell& cell : cells_) sources.push_back(cell.source);
   for (DataArray& array : frame.cell_data) {
-    const auto per_cell = [&](const auto& values) {
-      std::decay_t<decltype(values)> result;
-      for (const Cell& cell : cells_)
-        for (int c = 0; c < array.components; ++c)
-          result.push_back(values[at(cell.source * array.components + c)]);
-      return result;
-    };
-    array.values = std::visit([&](const auto& values) -> decltype(array.values) { return per_cell(values); },
-                              array.values);
+    if (auto* reals = std::get_if<std::vector<double>>(&array.values)) {
+      array.values = chosen(*reals, sources, array.components);
+    } else {
+      array.values = chosen(std::get<std::vector<std::int32_t>>(array.values), sources, array.components);
+    }
     grid.cell_data.push_back(std::move(array));
   }
   return grid;

@@ -69,6 +69,8 @@ std::string check_positive(std::string_view name, double value) {
 std::string wishes(const PictureOptions& options, std::size_t frame) {
   std::string text = fmt::format("picture&frame={}&size={}&from={}&color={}&zoom={}&scale={}", frame,
                                  options.size, options.from, options.color, options.zoom, options.scale);
+  text += "&contacts=" + options.contacts;
+  if (options.no_arrows) text += "&arrows=none";
   if (options.at) text += "&at=" + *options.at;
   if (options.frame_range) text += "&range=frame";
   return text;
@@ -143,6 +145,10 @@ void declare_picture_command(CLI::App& program, CommandContext& context) {
   command->add_option("--zoom", options->zoom, "How much nearer than to see all (default: 1)")
       ->type_name("F");
   command->add_option("--scale", options->scale, "Displacements times (default: 1)")->type_name("F");
+  command->add_option("--contacts", options->contacts, "Points by state, type or none (default: state)")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"state", "type", "none"}));
+  command->add_flag("--no-arrows", options->no_arrows, "Contacts without their forces");
   command->add_option("--time-limit", options->time_limit, "Seconds for the browser (default: 120)")
       ->type_name("S");
   command->add_option("-o,--out", options->picture, "PNG to write")->required()->type_name("FILE");

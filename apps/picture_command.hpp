@@ -19,8 +19,10 @@ struct PictureOptions {
   double zoom = 1.0;                  ///< > 0; 1 shows all blocks
   double scale = 1.0;                 ///< > 0; of displacements; contacts are shown with 1 only
   std::string color = "displacement";
-  bool frame_range = false;   ///< colours over the values of this frame, else of the whole run
-  double time_limit = 120.0;  ///< s, > 0: after that a browser that makes no picture is ended
+  bool frame_range = false;        ///< colours over the values of this frame, else of the whole run
+  std::string contacts = "state";  ///< colours of contact points: state, type, or none for no points
+  bool no_arrows = false;          ///< contacts without their forces
+  double time_limit = 120.0;       ///< s, > 0: after that a browser that makes no picture is ended
   std::filesystem::path picture;
 };
 

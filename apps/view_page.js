@@ -7,7 +7,8 @@
 const currentFrame = () => data.frames[current.frame];
 
 function clockText(frame) {
-  return "t = " + short(frame.time) + " s, step " + frame.step;
+  const scale = current.scale === 1 ? "" : ", displacements × " + short(current.scale);
+  return "t = " + short(frame.time) + " s, step " + frame.step + scale;
 }
 
 function show() {
@@ -67,6 +68,8 @@ function tieControls() {
   tie("field", "field", (select) => select.value);
   element("own-range").checked = current.ownRange;
   element("scale").value = current.scale;
+  element("contact-colour").value = current.contactColour;
+  element("forces").checked = current.forces;
   tie("own-range", "ownRange", checked);
   tie("scale", "scale", positive);
   tie("edges", "edges", checked);
@@ -102,7 +105,8 @@ function vectorOf(text) {
 }
 
 /// What the part of the address behind # asks for: frame, color (a field), range=frame (colours over the values of the
-/// frame alone), from (direction to the eye), at (point looked at), zoom and scale (of displacements).
+/// frame alone), from (direction to the eye), at (point looked at), zoom, scale (of displacements), contacts (state, type
+/// or none) and arrows=none.
 function readAddress() {
   const wishes = new URLSearchParams(location.hash.slice(1));
   const frame = data.frames.findIndex((candidate) => String(candidate.index) === wishes.get("frame"));
@@ -113,6 +117,9 @@ function readAddress() {
   if (from && from.lengthSq() > 0) current.from = from;
   current.at = vectorOf(wishes.get("at"));
   if (Number(wishes.get("zoom")) > 0) current.zoom = Number(wishes.get("zoom"));
+  const shown = wishes.get("contacts");
+  if (["state", "type", "none"].includes(shown)) current.contactColour = shown;
+  current.forces = wishes.get("arrows") !== "none";
   if (Number(wishes.get("scale")) > 0) current.scale = Number(wishes.get("scale"));
   return wishes;
 }
@@ -141,6 +148,8 @@ function makePicture(wishes) {
   Object.assign(picture, {width, height});
   const context = picture.getContext("2d");
   context.drawImage(element("canvas"), 0, 0);
+  context.fillStyle = "#ffffffb0";
+  context.fillRect(4, height - legend.height - 16, 130, legend.height + 8);
   context.drawImage(legend, 12, height - legend.height - 12);
   context.font = "14px system-ui, sans-serif";
   context.fillStyle = "#222";
@@ -169,7 +178,8 @@ const meshes = buildMeshes(surface);
 const contacts = buildContacts();
 const camera = new THREE.PerspectiveCamera(35, 1, 0.1, 1000);
 camera.up.set(0, 0, 1);
-const sceneBox = boxOfScene();
+const outline = outlineOfScene();
+const sceneBox = new THREE.Box3().setFromPoints(outline);
 const sceneRadius = 0.5 * sceneBox.getSize(new THREE.Vector3()).length();
 const frameSize = {width: 1, height: 1, side: 0, ends: 0};
 const renderer = buildRenderer();

@@ -159,14 +159,14 @@ function usualForce() {
 }
 
 /// Forces on the first block of a contact. The usual force is as long as a sixth of the scene, others are in
-/// proportion to it, up to half the scene.
+/// proportion to it, up to a third.
 function placeArrows(list) {
   const unit = sceneRadius / 3 * current.forceScale / usualForce();
   const up = new THREE.Vector3(0, 0, 1);
   list.forEach((contact, k) => {
     const size = contact.force.length();
     const turn = new THREE.Quaternion().setFromUnitVectors(up, contact.force.clone().divideScalar(size));
-    const length = Math.min(unit * size, sceneRadius);
+    const length = Math.min(unit * size, 2 / 3 * sceneRadius);
     const width = Math.min(0.4 * sceneRadius, 2 * length);
     const matrix = new THREE.Matrix4().compose(contact.place, turn, new THREE.Vector3(width, width, length));
     for (const arrow of contacts.arrows) arrow.setMatrixAt(k, matrix);
@@ -217,6 +217,10 @@ function drawContactLegend(context, frame, right, top) {
     visible.some((contact) => (current.contactColour === "type" ? contact.type : contact.state) === k));
   context.font = "13px system-ui, sans-serif";
   context.textAlign = "right";
+  const note = contactNote(frame);
+  const width = context.measureText(note).width + 8;
+  context.fillStyle = "#ffffffb0";
+  context.fillRect(right - width + 4, top - 15, width, 19 * (kinds.length + 1));
   let y = top;
   for (const {name, colour} of kinds) {
     context.fillStyle = colour;
@@ -227,13 +231,15 @@ function drawContactLegend(context, frame, right, top) {
     context.fillText(name, right - 16, y);
     y += 19;
   }
-  context.fillText(contactNote(frame), right, y);
+  context.fillStyle = "#222";
+  context.fillText(note, right, y);
 }
 
 // ---- camera -----------------------------------------------------------------------------------------------
 
-/// Box around the blocks of all frames, without those that fly off to more than half the scene's own size.
-function boxOfScene() {
+/// Points around all that is to be seen: those of fixed blocks, the corners of a box around the way of each other one
+/// that does not fly off to more than half the scene's own size.
+function outlineOfScene() {
   const boxes = data.blocks.map(() => new THREE.Box3());
   const place = new THREE.Vector3();
   const expandBy = (frame) => surface.source.forEach((point, k) => {
@@ -243,7 +249,13 @@ function boxOfScene() {
   const box = boxes.reduce((all, part) => all.union(part), new THREE.Box3());
   const most = box.clone().expandByScalar(0.5 * box.getSize(place).length());
   data.frames.forEach(expandBy);
-  return boxes.filter((part) => most.containsBox(part)).reduce((all, part) => all.union(part), box);
+  const outline = [];
+  surface.source.forEach((point, k) => {
+    if (data.blocks[surface.block[k]].fixed) outline.push(placeOf(data.frames[0], point, 1, new THREE.Vector3()));
+  });
+  const ways = boxes.filter((part, block) => !data.blocks[block].fixed && most.containsBox(part));
+  outline.push(...ways.flatMap(cornersOf));
+  return outline.length > 0 ? outline : cornersOf(box);
 }
 
 function cornersOf(box) {
@@ -251,17 +263,33 @@ function cornersOf(box) {
     k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z));
 }
 
-/// Distance from which the scene fills what the legend, the heading and the player leave free.
+/// Where to look and from how far so that the scene fills what the legend, the heading and the player leave free.
 /// @param toEye unit vector; right, up those of the picture
-function fittingDistance(toEye, right, up) {
-  const tangent = Math.tan(0.5 * THREE.Math.degToRad(camera.fov));
+function fitted(toEye, right, up) {
+  const margin = 0.96;
+  const tangent = margin * Math.tan(0.5 * THREE.Math.degToRad(camera.fov));
   const {width, height, side, ends} = frameSize;
   const [horizontal, vertical] = [tangent * (width - side) / height, tangent * (height - ends) / height];
-  const center = sceneBox.getCenter(new THREE.Vector3());
-  return Math.max(...cornersOf(sceneBox).map((corner) => {
-    corner.sub(center);
-    return corner.dot(toEye) + Math.max(Math.abs(corner.dot(right)) / horizontal, Math.abs(corner.dot(up)) / vertical);
-  }));
+  const target = sceneBox.getCenter(new THREE.Vector3());
+  let distance = 0;
+  // What is near looks larger: its middle in the picture is not that of the box. Each round moves the target there.
+  for (let round = 0; round < 4; ++round) {
+    const seen = outline.map((point) => {
+      const offset = point.clone().sub(target);
+      return {x: offset.dot(right), y: offset.dot(up), z: offset.dot(toEye)};
+    });
+    distance = seen.reduce((most, {x, y, z}) =>
+      Math.max(most, z + Math.max(Math.abs(x) / horizontal, Math.abs(y) / vertical)), 0);
+    if (round === 3) break;
+    const middle = (key) => {
+      const [low, high] = seen.reduce(([least, most], p) =>
+        [Math.min(least, p[key] / (distance - p.z)), Math.max(most, p[key] / (distance - p.z))], [Infinity, -Infinity]);
+      return 0.5 * (low + high) * distance;
+    };
+    const [across, upward] = [middle("x"), middle("y")];
+    target.addScaledVector(right, across).addScaledVector(up, upward);
+  }
+  return {target, distance};
 }
 
 /// Looks at the middle of the scene, or at `current.at`, `current.zoom` times as near as to see all.
@@ -271,10 +299,11 @@ function lookFrom(direction) {
   camera.lookAt(0, 0, 0);
   camera.updateMatrixWorld();
   const [right, up] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, k));
-  const distance = fittingDistance(toEye, right, up) / current.zoom;
+  const view = fitted(toEye, right, up);
+  const distance = view.distance / current.zoom;
   camera.near = 0.01 * Math.min(sceneRadius, distance);
   camera.far = distance + 100 * sceneRadius;
-  controls.target.copy(current.at || sceneBox.getCenter(new THREE.Vector3()));
+  controls.target.copy(current.at || view.target);
   camera.position.copy(controls.target).addScaledVector(toEye, distance);
   camera.updateProjectionMatrix();
   controls.update();

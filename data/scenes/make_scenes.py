@@ -47,6 +47,8 @@ def output(every, measures=()):
 
 
 def write(name, text):
+    picture = name.replace(".toml", ".png")
+    text = text.replace('title = "', f'#\n# Picture: data/pictures/{picture}\ntitle = "', 1)
     with open(name, "w", encoding="utf-8") as file:
         file.write(text)
 
@@ -142,9 +144,9 @@ def tower():
 Ten cubes on a base that shakes.
 
 The base follows a prescribed motion, 0.15 m to either side once a second: up to 6 m/s^2, more than friction of
-30 degrees hands on (5.7 m/s^2). The lower cubes are dragged along, the upper ones lag behind; after four seconds
-the base stops, the top hangs over by almost three times the tower's width, and the tower comes down. The work of
-the base is in energy.applied.
+30 degrees hands on (5.7 m/s^2). The lower cubes are dragged along, the upper ones lag behind and hang over further
+with each period, until the tower breaks, in the fourth second, and comes down. The base stops after four seconds;
+its work is in energy.applied.
 """), title="A tower on a shaking base", kind="dynamic", end=5.5, step="2e-3", contact=contact("5e9", "2e9", 30),
         modulus="1e10")
     fixes = ""

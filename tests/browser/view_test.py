@@ -258,6 +258,19 @@ class ViewTest(unittest.TestCase):
         self.assertGreater(drawn[1], 2 * drawn[0])
         self.assertEqual(drawn[2], 0)
 
+    def test_picture_with_and_without_contacts(self):
+        arrow = (0xc0, 0x00, 0x18)
+        counts = []
+        for more in ((), ("--no-arrows",), ("--contacts", "none"), ("--scale", "2")):
+            done, picture = self.picture("slope", "--size", "320x200", *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pixels = picture.pixels(0, 0, 320, 200)
+            counts.append((pixels.count(arrow), pixels.count((0xe8, 0x59, 0x0c))))
+        self.assertGreater(min(counts[0]), 20)
+        self.assertEqual(counts[1][0], 0)
+        self.assertGreater(counts[1][1], 20)  # what slides
+        self.assertEqual(counts[2:], [(0, 0), (0, 0)])
+
     def test_picture_of_a_study(self):
         out = Pages.folder / "study"
         done = subprocess.run([Pages.program, "study", "subfaces", "--out", out], capture_output=True, text=True)

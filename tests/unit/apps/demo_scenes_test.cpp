@@ -7,6 +7,7 @@
 
 #include "apps/build_simulation.hpp"
 #include "apps/scene_loading.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace ashlar {
 namespace {
@@ -41,6 +42,17 @@ TEST_P(DemoScene, TakesItsFirstSteps) {
       ASSERT_EQ(simulation.step(end_time), StepStatus::accepted);
     }
   }
+}
+
+TEST_P(DemoScene, HasItsPicture) {
+  const std::string name = GetParam().stem().string();
+  const std::filesystem::path pictures = std::filesystem::path(ASHLAR_DATA_DIR) / "pictures";
+  const std::string file = name + (name == "falling_block" ? "_0950.png" : ".png");
+  ASSERT_TRUE(std::filesystem::exists(pictures / file)) << "data/make_pictures.sh draws it";
+  EXPECT_LT(std::filesystem::file_size(pictures / file), 150'000U);
+  EXPECT_NE(read_text(GetParam()).find("data/pictures/" + name), std::string::npos);
+  EXPECT_NE(read_text(std::filesystem::path(ASHLAR_DATA_DIR) / "README.md").find("pictures/" + file),
+            std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DemoScene, ::testing::ValuesIn(scenes()),

@@ -77,6 +77,7 @@ TEST_F(PictureCommand, RefusesPointsAndSizesThatAreNone) {
 
 TEST_F(PictureCommand, RefusesUnknownColoursAndFrames) {
   EXPECT_EQ(picture({"--color", "temperature"}), exit_status::bad_input);
+  EXPECT_EQ(picture({"--contacts", "all"}), exit_status::bad_input);
   EXPECT_EQ(picture({"--frame", "2"}), exit_status::bad_input);
   EXPECT_THAT(err.str(), HasSubstr("no frame 2, the last one is 1"));
 }

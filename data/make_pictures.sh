@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Runs the scenes and draws the pictures of data/pictures again; about five minutes, most of them for the wall.
+# Use: bash data/make_pictures.sh [SCENE]...   (names without .toml; default: all)
+# PROGRAM names another ashlar, RESULTS a folder that keeps the results of the runs; scenes that have some there are
+# not run again.
+set -euo pipefail
+data=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+program=${PROGRAM:-$data/../build/release/apps/ashlar}
+if [[ -n ${RESULTS:-} ]]; then
+  results=$RESULTS
+else
+  results=$(mktemp -d)
+  trap 'rm -rf "$results"' EXIT
+fi
+
+# What each picture shows: scene, file name without .png, and how `ashlar picture` draws it.
+pictures() {
+  cat <<'LIST'
+falling_block   falling_block_0000  --frame 0 --from 0.4,-1,0.3 --color von_mises
+falling_block   falling_block_0950  --frame 95 --from 0.4,-1,0.3 --color von_mises
+falling_block   falling_block_1350  --frame 135 --from 0.4,-1,0.3 --color von_mises
+slope           slope               --frame 60 --from 0.5,-1,0.3
+incline         incline             --frame 50 --from 0.6,-1,0.4 --no-arrows
+wedge           wedge               --frame 50 --from 1,-0.2,0.5 --no-arrows
+arch_stands     arch_stands         --from 0.1,-1,0.1
+arch_collapses  arch_collapses      --frame 55 --from 0.1,-1,0.1 --frame-range --zoom 1.3
+columns         columns             --frame 36 --from 0.3,-1,0.2 --frame-range --contacts none
+dominoes        dominoes            --frame 60 --from 0.5,-1,0.4 --no-arrows --zoom 1.4 --at 2.2,0,0.1
+shaken_tower    shaken_tower        --frame 95  --from 0.3,-1,0.2 --frame-range --contacts none
+wall            wall                --frame 75 --from 0.6,-1,0.3 --contacts none --scale 30 --frame-range
+rockfall        rockfall            --frame 45 --from 0.3,-1,0.4 --color velocity --frame-range --contacts none --zoom 1.8 --at 7,0,4.5
+hertz           hertz               --from 0.3,-1,0.1 --color pressure --zoom 1.3 --at 0,0,0.06 --contacts none
+LIST
+}
+
+while read -r scene picture options; do
+  if [[ $# -gt 0 && " $* " != *" $scene "* ]]; then continue; fi
+  folder=$results/$scene.out
+  [[ -f $folder/summary.json ]] || "$program" run "$data/scenes/$scene.toml" --out "$folder"
+  # shellcheck disable=SC2086  # options are words
+  "$program" picture "$folder" --size 640x420 $options -o "$data/pictures/$picture.png"
+done < <(pictures)
