@@ -86,7 +86,7 @@ double BlockModel::force_rounding() const {
   Eigen::MatrixX3d size = basis_.identity_map().cwiseAbs();
   size.row(0).setZero();
   const Eigen::VectorXd reduced = space().restrict(size);
-  return 4.0 * std::numeric_limits<double>::epsilon() *
+  return 8.0 * std::numeric_limits<double>::epsilon() *
          (tangent(Eigen::Matrix3d::Identity()).cwiseAbs() * reduced.cwiseAbs()).norm();
 }
 

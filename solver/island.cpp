@@ -96,7 +96,6 @@ IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
   }
   IslandResult result;
   IslandProblem problem(island, bodies, pairs, scheme, settings, solvers.find(key, sizes, links));
-  problem.predict();
   iterate_open_close(problem, settings, result);
   return result;
 }

@@ -32,12 +32,12 @@ const ContactPair& IslandProblem::pair(std::size_t k) const {
   return pairs_[at(island_.pairs[k])];
 }
 
-void IslandProblem::predict() {
+void IslandProblem::predict(bool coasting) {
   for (const int index : island_.bodies) {
     BodyStep& body = bodies_[at(index)];
     const double mass = scheme_.inertia * body.model->material().density;
     body.change = body.free_change;
-    if (scheme_.from_rest) continue;
+    if (coasting || scheme_.from_rest) continue;
     body.change += scheme_.force_weight / mass * body.external_force;
   }
 }
@@ -160,7 +160,7 @@ Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool cou
           b < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
                 : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(b), of_b.size())));
     }
-    return x + solver_.factor.solve(force);
+    return x + solver_.factor.solve(force, false);
   };
   return gmres(times, solver_.factor.solve(right_side), settings_.krylov_tolerance,
                settings_.krylov_iterations)

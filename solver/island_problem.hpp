@@ -23,8 +23,8 @@ class IslandProblem {
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
                 const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver);
 
-  /// First guess: free motion under the external forces.
-  void predict();
+  /// A first guess: free motion under the external forces or, `coasting`, under none.
+  void predict(bool coasting);
   /// Elastic and contact responses at the present guess.
   void respond();
   [[nodiscard]] Balance balance() const;

@@ -20,7 +20,7 @@ class OpenClose {
 
   Outcome run() {
     bond();
-    problem_.respond();
+    start();
     for (int updates = 0;;) {
       Outcome outcome = newton(settings_.newton_iterations, false);
       if (outcome == Outcome::stalled) {
@@ -38,6 +38,19 @@ class OpenClose {
   }
 
  private:
+  /// Blocks at rest on others coast, those that meet nothing fall: the guess that lacks less balance.
+  void start() {
+    problem_.predict(false);
+    problem_.respond();
+    if (problem_.scheme().from_rest || problem_.pairs() == 0) return;
+    const double falling = problem_.balance().worst;
+    problem_.predict(true);
+    problem_.respond();
+    if (problem_.balance().worst <= falling) return;
+    problem_.predict(false);
+    problem_.respond();
+  }
+
   /// Joints with tensile strength do not break before what pulls at them is balanced.
   void bond() {
     for (auto& laws : problem_.laws()) {

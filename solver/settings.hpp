@@ -54,7 +54,7 @@ struct SimulationSettings {
   double newton_overshoot = 0.3;   ///< 0 to 1: work along a change that may be undone by going all its way
   int newton_patience = 3;         ///< iterations that do not halve what is left, one after another
   int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
-  double krylov_tolerance = 1e-8;  ///< 0 to 1: larger, and Newton takes more iterations
+  double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
   int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
   int minimiser_iterations = 60;   ///< of one pass
   double minimiser_share = 1e-2;   ///< of what is left under Coulomb's law: how well one pass is solved
@@ -87,6 +87,8 @@ struct SimulationSettings {
   /// of the stiffest block: the inertia that stands in for stiffness where a block has none. Smaller
   /// converges in fewer iterations, larger lets rounding move a free block less
   double static_inertia_share = 1e-9;
+  /// the same where supports and ties hold every block without contacts: nothing needs inertia then
+  double static_held_inertia_share = 1e-16;
 
   int threads = 1;  ///< >= 1: for finding contacts; results do not depend on it
 };

@@ -224,6 +224,8 @@ class Simulation {
 
   // static_analysis.cpp
   void start_load_level(double end_time);
+  /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
+  [[nodiscard]] std::vector<bool> held_without_contacts() const;
   [[nodiscard]] double least_inertia() const;
   /// Largest motion of a block over what one iteration may move it.
   [[nodiscard]] double motion_excess(const Trial& trial) const;

@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-// OpenBLAS would use all cores for small fronts and change the order of sums with their number.
+// OpenBLAS would use all cores for small fronts and change the order of sums with their number. CHOLMOD would
+// start four threads for each of its loops, which take less time than that.
 extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
+extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
 
 namespace ashlar {
 
@@ -22,6 +24,7 @@ struct SparseCholesky::Implementation {
     static std::once_flag once;
     std::call_once(once, [] {
       if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+      if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
     });
     cholmod_start(&common);
     common.print = 0;
@@ -112,11 +115,12 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
   return FactorStatus::success;
 }
 
-Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side) {
+Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side, bool refined) {
   Implementation& self = *implementation_;
   if (!self.factored) throw std::logic_error("solve before a successful factorize");
   ++self.counts.solves;
   Eigen::VectorXd solution = self.solve_once(right_side);
+  if (!refined) return solution;
   solution += self.solve_once(right_side - self.times(solution));
   return solution;
 }

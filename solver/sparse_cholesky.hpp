@@ -51,9 +51,9 @@ class SparseCholesky {
   /// changed.
   [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix);
 
-  /// Solves with the last factorised matrix, with one step of iterative refinement.
+  /// Solves with the last factorised matrix, `refined` with one step of iterative refinement.
   /// @param right_side (size). @throws std::logic_error unless factored
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side);
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined = true);
 
   [[nodiscard]] const FactorCounts& counts() const;
 

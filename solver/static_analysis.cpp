@@ -47,6 +47,20 @@ std::vector<std::vector<int>> Simulation::loose_blocks() {
   return loose;
 }
 
+std::vector<bool> Simulation::held_without_contacts() const {
+  std::vector<bool> held;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) held.push_back(!moving_[k] || blocks_[k].space().held());
+  for (bool more = true; more;) {
+    more = false;
+    for (const TiedBlocks& tie : ties_) {
+      const auto a = static_cast<std::size_t>(tie.a), b = static_cast<std::size_t>(tie.b);
+      if (held[a] == held[b]) continue;
+      held[a] = held[b] = more = true;
+    }
+  }
+  return held;
+}
+
 double Simulation::least_inertia() const {
   double most = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
@@ -54,7 +68,9 @@ double Simulation::least_inertia() const {
     const double stiffness = blocks_[k].tangent(Eigen::Matrix3d::Identity()).diagonal().maxCoeff();
     most = std::max(most, stiffness / blocks_[k].material().density);
   }
-  return settings_.static_inertia_share * most;
+  const std::vector<bool> held = held_without_contacts();
+  const bool all = std::find(held.begin(), held.end(), false) == held.end();
+  return (all ? settings_.static_held_inertia_share : settings_.static_inertia_share) * most;
 }
 
 void Simulation::start_load_level(double end_time) {
@@ -142,6 +158,7 @@ double Simulation::motion_excess(const Trial& trial) const {
 
 bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
   bool balanced = true;
+  const std::vector<bool> held = held_without_contacts();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
     const BodyStep& body = trial.bodies[k];
@@ -161,7 +178,7 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
       static_.milestone_forces[k] = lacking;
     }
     static_.travels[k] = mean_motion(block, position - static_.milestones[k]) / block_size(block);
-    if (static_.travels[k] > settings_.static_travel && !block.space().held()) static_.moving = true;
+    if (static_.travels[k] > settings_.static_travel && !held[k]) static_.moving = true;
   }
   return balanced;
 }
@@ -169,11 +186,11 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
 std::vector<MovingBlock> Simulation::moving_blocks() const {
   // Blocks that moving ones take along have travelled less; those that only give way have hardly moved.
   constexpr double share = 0.1;
+  const std::vector<bool> held = held_without_contacts();
   std::vector<MovingBlock> result;
   for (std::size_t k = 0; k < static_.travels.size(); ++k) {
     const BlockModel& block = blocks_[k];
-    if (!moving_[k] || block.space().held() || static_.travels[k] <= share * settings_.static_travel)
-      continue;
+    if (!moving_[k] || held[k] || static_.travels[k] <= share * settings_.static_travel) continue;
     const Eigen::MatrixX3d& a = static_.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),

@@ -72,6 +72,28 @@ TEST(Tie, ChainComesNearerThanOneBlockOfHighOrder) {
   EXPECT_LT(std::abs(of_chain - tip), 5e-3 * std::abs(tip));
 }
 
+TEST(Tie, ChainsHeldByASupportNeedNoInertiaInStatics) {
+  const Material rock{3600, 1e9, 0.0};
+  std::vector<BlockDefinition> parts;
+  for (int k = 0; k < 6; ++k) {
+    parts.push_back(block_of(
+        "part", Polyhedron(make_box({1.0 * k, -0.05, -0.05}, {1.0 * k + 1.0, 0.05, 0.05})), rock, 2));
+  }
+  parts[0].supports.push_back({Plane{{0, 0, 0}, {1, 0, 0}}});
+  // Down by F L^3 / (3 E I) = 0.0864 m.
+  parts[5].loads.push_back({Plane{{6, 0, 0}, {1, 0, 0}}, false, Vector3(0, 0, -10.0), {{0, 1}, {0, 1}}});
+  SimulationSettings settings;
+  settings.gravity.setZero();
+  settings.time_step = 0.1;
+  Simulation simulation = chain(std::move(parts), std::vector<InitialMotion>(6), settings, 1e5 * 1e9);
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(1.0);
+  ASSERT_EQ(status, StaticStatus::equilibrium);
+  EXPECT_NEAR(place_of(simulation, 5, {6, 0, 0}).z(), -0.0864, 2e-4);
+  // The first of ten levels gives up inertia, the others are Newton's.
+  EXPECT_LE(simulation.steps(), 50);
+}
+
 TEST(Tie, FreeChainSpinsAsOneBody) {
   const Material stiff{2000, 1e9, 0.2};
   const Vector3 spin(0, 0, 1);
