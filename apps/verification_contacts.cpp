@@ -49,6 +49,17 @@ double tangent_of(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
 }
 
+void tie_all(Simulation& simulation) {
+  const std::vector<BlockModel>& blocks = simulation.blocks();
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!blocks[a].fixed() && !blocks[b].fixed())
+        simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
+                              automatic_tie_stiffness(blocks[a], blocks[b]));
+    }
+  }
+}
+
 void take_step(Simulation& simulation, double end_time) {
   if (simulation.step(end_time) != StepStatus::accepted)
     throw std::runtime_error("a step could not be taken");

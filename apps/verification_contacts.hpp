@@ -50,6 +50,9 @@ class ContactScene {
 /// tan of an angle in degrees.
 [[nodiscard]] double tangent_of(double degrees);
 
+/// Bonds all moving blocks of a simulation that have common faces, as stiffly as scenes do.
+void tie_all(Simulation& simulation);
+
 /// Takes one step, not beyond a time. @throws std::runtime_error if it cannot be taken
 void take_step(Simulation& simulation, double end_time);
 

@@ -53,6 +53,7 @@ TEST(VerifyCommand, ListsCasesOfRecord) {
                            "book-stack",
                            "bounce",
                            "bar-impact",
+                           "hertz-sphere",
                            "joint-wave",
                            "rocking-block",
                            "falling-block"})
