@@ -77,7 +77,7 @@ TEST(Tie, ChainsHeldByASupportNeedNoInertiaInStatics) {
   std::vector<BlockDefinition> parts;
   for (int k = 0; k < 6; ++k) {
     parts.push_back(block_of(
-        "part", Polyhedron(make_box({1.0 * k, -0.05, -0.05}, {1.0 * k + 1.0, 0.05, 0.05})), rock, 2));
+        "part", Polyhedron(make_box({1.0 * k, -0.05, -0.05}, {1.0 * k + 1.0, 0.05, 0.05})), rock, 3));
   }
   parts[0].supports.push_back({Plane{{0, 0, 0}, {1, 0, 0}}});
   // Down by F L^3 / (3 E I) = 0.0864 m.
