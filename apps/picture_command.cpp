@@ -148,7 +148,8 @@ void declare_picture_command(CLI::App& program, CommandContext& context) {
   command->add_option("--contacts", options->contacts, "Points by state, type or none (default: state)")
       ->type_name("WORD")
       ->check(CLI::IsMember({"state", "type", "none"}));
-  command->add_flag("--no-arrows", options->no_arrows, "Contacts without their forces");
+  command->add_flag("--no-arrows", options->no_arrows,
+                    "Contacts without their forces, as where there are more than 500");
   command->add_option("--time-limit", options->time_limit, "Seconds for the browser (default: 120)")
       ->type_name("S");
   command->add_option("-o,--out", options->picture, "PNG to write")->required()->type_name("FILE");

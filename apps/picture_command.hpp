@@ -21,7 +21,7 @@ struct PictureOptions {
   std::string color = "displacement";
   bool frame_range = false;        ///< colours over the values of this frame, else of the whole run
   std::string contacts = "state";  ///< colours of contact points: state, type, or none for no points
-  bool no_arrows = false;          ///< contacts without their forces
+  bool no_arrows = false;          ///< contacts without their forces, as it is with more than 500
   double time_limit = 120.0;       ///< s, > 0: after that a browser that makes no picture is ended
   std::filesystem::path picture;
 };

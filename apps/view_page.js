@@ -105,8 +105,8 @@ function vectorOf(text) {
 }
 
 /// What the part of the address behind # asks for: frame, color (a field), range=frame (colours over the values of the
-/// frame alone), from (direction to the eye), at (point looked at), zoom, scale (of displacements), contacts (state, type
-/// or none) and arrows=none.
+/// frame alone), from (direction to the eye), at (point looked at), zoom, scale (of displacements), contacts (state,
+/// type or none) and arrows=none.
 function readAddress() {
   const wishes = new URLSearchParams(location.hash.slice(1));
   const frame = data.frames.findIndex((candidate) => String(candidate.index) === wishes.get("frame"));
@@ -119,7 +119,7 @@ function readAddress() {
   if (Number(wishes.get("zoom")) > 0) current.zoom = Number(wishes.get("zoom"));
   const shown = wishes.get("contacts");
   if (["state", "type", "none"].includes(shown)) current.contactColour = shown;
-  current.forces = wishes.get("arrows") !== "none";
+  current.forces = wishes.get("arrows") !== "none" && !crowded();
   if (Number(wishes.get("scale")) > 0) current.scale = Number(wishes.get("scale"));
   return wishes;
 }

@@ -1,8 +1,8 @@
 // The page of `ashlar view`, third part: what was picked, the plots of the history and the summary.
 
 // Okabe and Ito's colours, which tell apart without colour vision, then darker ones.
-const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#7f3c8d", "#6b6b00",
-  "#a02c2c", "#5c5c5c"];
+const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#7f3c8d",
+  "#6b6b00", "#a02c2c", "#5c5c5c"];
 
 // ---- picking ----------------------------------------------------------------------------------------------
 
@@ -148,7 +148,8 @@ function axis(title) {
 function buildPlot(canvas, select, groups, chosen) {
   const chart = new Chart(canvas, {type: "line", data: {datasets: []}, plugins: [cursor],
     options: {animation: false, parsing: false, maintainAspectRatio: false, interaction: {mode: "nearest", axis: "x"},
-      scales: {x: axis("time (s)"), y: axis("")}, plugins: {legend: {labels: {boxWidth: 10, boxHeight: 2, padding: 6, font: {size: 11}}}},
+      scales: {x: axis("time (s)"), y: axis("")},
+      plugins: {legend: {labels: {boxWidth: 10, boxHeight: 2, padding: 6, font: {size: 11}}}},
       onClick: (event) => showFrame(frameNear(chart.scales.x.getValueForPixel(event.x)))}});
   const showGroup = () => {
     const group = groups[select.value];

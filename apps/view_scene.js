@@ -97,6 +97,12 @@ function moveSurface(frame, scale) {
 
 // ---- contacts ---------------------------------------------------------------------------------------------
 
+/// So many contacts that arrows and large points would hide the blocks; the user can still switch the arrows on.
+function crowded() {
+  const closed = data.frames.map((frame) => frame.contacts.filter((contact) => contact.state !== 0).length);
+  return Math.max(...closed) > 500;
+}
+
 function discTexture() {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 32;
@@ -112,7 +118,7 @@ function buildContacts() {
   const geometry = new THREE.BufferGeometry();
   for (const name of ["position", "color"])
     geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * most), 3));
-  const points = new THREE.Points(geometry, new THREE.PointsMaterial({size: 6, sizeAttenuation: false,
+  const points = new THREE.Points(geometry, new THREE.PointsMaterial({size: crowded() ? 3 : 6, sizeAttenuation: false,
     vertexColors: THREE.VertexColors, depthTest: false, transparent: true, alphaTest: 0.5, map: discTexture()}));
   // Unit arrow along z: the shaft ends where the head begins.
   const shaft = new THREE.CylinderBufferGeometry(0.015, 0.015, 0.8, 8).rotateX(Math.PI / 2).translate(0, 0, 0.4);
