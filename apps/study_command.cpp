@@ -11,6 +11,7 @@
 
 #include "apps/atomic_file.hpp"
 #include "apps/conditioning_study.hpp"
+#include "apps/contact_study.hpp"
 #include "apps/headless_browser.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/orders_study.hpp"
@@ -21,11 +22,12 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-const std::array<Study, 3> studies = {
+const std::array<Study, 4> studies = {
     {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
       study_sub_faces},
      {"orders", "error, unknowns and time of one block against its order", study_orders},
-     {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning}}};
+     {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning},
+     {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps", study_contact}}};
 
 std::vector<std::string> names() {
   std::vector<std::string> list;

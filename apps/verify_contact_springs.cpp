@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "apps/contact_patch.hpp"
 #include "apps/verification_contacts.hpp"
 #include "solver/contact_pair.hpp"
 
@@ -117,92 +118,14 @@ std::vector<VerificationCheck> contact_derivatives() {
   return checks;
 }
 
-/// A box whose level face at one end is a fan of triangles about a point of it.
-Polyhedron box_with_fan(const Vector3& low, const Vector3& high, bool at_top, double x, double y) {
-  TriangleMesh mesh = make_box(low, high);
-  const double level = at_top ? high.z() : low.z();
-  const auto lies_in_face = [&](const std::array<int, 3>& triangle) {
-    return std::all_of(triangle.begin(), triangle.end(),
-                       [&](int point) { return mesh.points[static_cast<std::size_t>(point)].z() == level; });
-  };
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<std::array<int, 2>> sides;
-  for (const auto& triangle : mesh.triangles) {
-    if (!lies_in_face(triangle)) {
-      triangles.push_back(triangle);
-      continue;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::array<int, 2> side = {triangle[k], triangle[(k + 1) % 3]};
-      const auto opposite = std::find(sides.begin(), sides.end(), std::array<int, 2>{side[1], side[0]});
-      if (opposite == sides.end())
-        sides.push_back(side);
-      else
-        sides.erase(opposite);
-    }
-  }
-  const int center = static_cast<int>(mesh.points.size());
-  mesh.points.emplace_back(x, y, level);
-  for (const auto& [a, b] : sides) triangles.push_back({a, b, center});
-  mesh.triangles = std::move(triangles);
-  return Polyhedron(std::move(mesh));
-}
-
-struct PatchErrors {
-  double stress = std::numeric_limits<double>::infinity();  ///< largest |sigma_zz + p| / p
-  double jump = std::numeric_limits<double>::infinity();    ///< largest |gap + p / kn| kn / p
-};
-
-/// Two blocks one on the other under a uniform pressure, their sides held against widening, so that the area
-/// stays what it was: sigma_zz = -p everywhere and the springs give way by p / kn.
-PatchErrors press(double nu, int order, bool area_springs) {
-  constexpr double p = 1e6, kn = 1e9;
-  ContactScene scene;
-  *scene.law = {area_springs ? kn : kn / 4.0, 0.0, 0.0, 0.0, 0.0, area_springs};
-  scene.settings.gravity.setZero();
-  scene.settings.area_springs = area_springs;
-  scene.settings.subdivisions = 1;
-  const auto block = [&](double low, bool upper) {
-    const Vector3 from(0, 0, low), to(1, 1, low + 1.0);
-    BlockDefinition result = define_block(
-        upper ? box_with_fan(from, to, false, 0.3, 0.6) : box_with_fan(from, to, true, 0.55, 0.25),
-        {2500, 1e9, nu}, order);
-    for (const Vector3& corner : {from, to}) {
-      result.supports.push_back({Plane{corner, Vector3::UnitX()}, {true, false, false}});
-      result.supports.push_back({Plane{corner, Vector3::UnitY()}, {false, true, false}});
-    }
-    return result;
-  };
-  BlockDefinition lower = block(0.0, false);
-  lower.supports.push_back({Plane{Vector3::Zero(), Vector3::UnitZ()}, {false, false, true}});
-  BlockDefinition upper = block(1.0, true);
-  upper.loads.push_back({Plane{{0, 0, 2}, Vector3::UnitZ()}, true, {0, 0, -p}, {}});
-  scene.add(std::move(lower));
-  scene.add(std::move(upper));
-  Simulation simulation = scene.build();
-  if (find_equilibrium(simulation) != StaticStatus::equilibrium) return {};
-  PatchErrors errors{0.0, 0.0};
-  for (std::size_t k = 0; k < 2; ++k) {
-    for (const double x : {0.0, 0.3, 1.0}) {
-      for (const double y : {0.0, 0.8}) {
-        for (const double z : {0.0, 0.4, 1.0}) {
-          const Vector3 at(x, y, z + static_cast<double>(k));
-          const double stress = simulation.blocks()[k].stress(simulation.states()[k], at)(2, 2);
-          errors.stress = std::max(errors.stress, std::abs(stress + p) / p);
-        }
-      }
-    }
-  }
-  for (const double gap : simulation.contacts().at(0).gaps)
-    errors.jump = std::max(errors.jump, std::abs(gap + p / kn) * kn / p);
-  return errors;
-}
-
 std::vector<VerificationCheck> contact_patch() {
   std::vector<VerificationCheck> checks;
   for (const double nu : {0.0, 0.3}) {
     for (const int order : {1, 2, 3, 4, 6}) {
-      const PatchErrors errors = press(nu, order, true);
+      ContactPatch patch;
+      patch.poisson_ratio = nu;
+      patch.order = order;
+      const PatchErrors errors = press(patch);
       const std::string where = fmt::format("nu {}, n = {}", nu, order);
       checks.push_back(check_absolute("stress over p, largest error, " + where, errors.stress, 0.0, 1e-9));
       checks.push_back(check_absolute("jump over p/kn, largest error, " + where, errors.jump, 0.0, 1e-9));
@@ -215,7 +138,10 @@ std::vector<VerificationCheck> contact_patch_point() {
   std::vector<VerificationCheck> checks;
   constexpr double reported = std::numeric_limits<double>::infinity();
   for (int order = 1; order <= 4; ++order) {
-    const PatchErrors errors = press(0.3, order, false);
+    ContactPatch patch;
+    patch.order = order;
+    patch.area_springs = false;
+    const PatchErrors errors = press(patch);
     checks.push_back(check_absolute(fmt::format("stress over p, largest error, nu 0.3, n = {}", order),
                                     errors.stress, 0.0, reported));
   }
