@@ -52,7 +52,7 @@ struct SimulationSettings {
   // where the others are exceeded the step is cut.
   int newton_iterations = 16;
   double newton_overshoot = 0.3;   ///< 0 to 1: work along a change that may be undone by going all its way
-  int newton_patience = 3;         ///< iterations that do not halve what is left, one after another
+  int newton_patience = 8;         ///< iterations that do not halve what is left, one after another
   int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
   double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
   int fallback_passes = 60;        ///< times the bounds of shear forces are set anew

@@ -54,6 +54,20 @@ TEST(Incremental, EveryStepOfATurnAddsVolume) {
   }
 }
 
+TEST(Incremental, SupportsThatMoveTakeTheBlockAlong) {
+  SimulationSettings settings;
+  settings.gravity.setZero();
+  settings.time_step = 0.01;
+  std::vector<BlockModel> blocks;
+  BlockDefinition block = incremental("A", Polyhedron(make_box({0, 0, 0}, {4, 1, 1})), {1000, 1e7, 0.2}, 2);
+  block.supports.push_back({Plane{{0, 0, 0}, {-1, 0, 0}}});
+  block.supports.back().history = {{0.0, 0.5}, {Vector3::Zero(), Vector3(0.1, 0, 0.2)}};
+  blocks.push_back(BlockModel(std::move(block)));
+  Simulation simulation(std::move(blocks), {{}}, same_law({}), settings);
+  ASSERT_TRUE(run_until(simulation, 0.5));
+  EXPECT_NEAR((corner(simulation, 0, {0, 1, 1}) - Vector3(0.1, 1, 1.2)).norm(), 0.0, 1e-12);
+}
+
 TEST(Incremental, ACubeSlidesDownAnIncline) {
   // g/2 (sin a - cos a tan phi) t^2 with a = 30, phi = 20 degrees, t = 1 s: case of record.
   for (const bool area : {true, false}) {
