@@ -186,8 +186,8 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
 Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   Eigen::Matrix3Xd result = start_;
   Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
-  if (rows_a_.size() > 0) flat.noalias() += rows_a_ * ya;
-  if (rows_b_.size() > 0) flat.noalias() -= rows_b_ * yb;
+  if (rows_a_.cols() > 0) flat.noalias() += rows_a_ * ya;
+  if (rows_b_.cols() > 0) flat.noalias() -= rows_b_ * yb;
   if (prescribed_.size() > 0) result += prescribed_;
   return result;
 }
@@ -242,8 +242,8 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
                  : MeanResponse{end.force, end.tangent});
     forces.segment<3>(3 * column) = response.means.back().force;
   }
-  if (rows_a_.size() > 0) response.force_on_a = rows_a_.transpose() * forces;
-  if (rows_b_.size() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
+  if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
+  if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
   if (free_pair_) {
     const Vector3 half = -0.5 * couple(place, forces);
     response.turning_on_a = turning_force(position_a_, ya, half);
@@ -287,14 +287,14 @@ ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
   };
   Tangent tangent;
   Eigen::MatrixXd scaled_b;
-  if (rows_b_.size() > 0) {
+  if (rows_b_.cols() > 0) {
     scaled_b = gather(rows_b_, true);
     tangent.bb = gather(rows_b_, false).transpose() * scaled_b;
   }
-  if (rows_a_.size() > 0) {
+  if (rows_a_.cols() > 0) {
     const Eigen::MatrixXd plain_a = gather(rows_a_, false);
     tangent.aa = plain_a.transpose() * gather(rows_a_, true);
-    if (rows_b_.size() > 0) tangent.ab = -(plain_a.transpose() * scaled_b);
+    if (rows_b_.cols() > 0) tangent.ab = -(plain_a.transpose() * scaled_b);
   }
   return tangent;
 }

@@ -236,6 +236,8 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const ContactBody body_b = body_at_start(b);
     auto points = contact_points(body_a, body_b, contacts, point_settings);
     counts_.contact_points += points.size();
+    // Faces that share no area to the last bit are found, but have no points.
+    if (points.empty()) continue;
     const ContactMemory& known = memory_[blocks];
     auto memory = known.recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());

@@ -155,6 +155,22 @@ TEST(ContactPair, ASlidingPairFoundAnewHoldsNoMoreShear) {
   EXPECT_NEAR(response.points[0].force[2], -2.5e8 * 1e-4, 1e-7);
 }
 
+TEST(ContactPair, WithoutPointsThereAreNoForces) {
+  Setting setting = skew_setting(0.0);
+  setting.points.clear();
+  const BlockState state_a = setting.a.initial_state();
+  const BlockState state_b = setting.b.initial_state();
+  ContactPair pair(0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr},
+                   {2e9, 1e9, 0.1, 0.0, 0.0, true}, {}, {});
+  pair.hold_at_most({});
+  const Eigen::VectorXd ya = Eigen::VectorXd::Ones(setting.a.unknowns());
+  const Eigen::VectorXd yb = Eigen::VectorXd::Ones(setting.b.unknowns());
+  const PairResponse response = pair.respond(ya, yb, false);
+  EXPECT_EQ(response.total_on_a(), Eigen::VectorXd::Zero(setting.a.unknowns()));
+  EXPECT_EQ(response.total_on_b(), Eigen::VectorXd::Zero(setting.b.unknowns()));
+  EXPECT_TRUE(pair.tangent(response).ab.isZero(0.0));
+}
+
 TEST(ContactPair, BondsKeepTheirRest) {
   const Setting setting = skew_setting(-2e-3);
   PointMemory memory;
