@@ -168,10 +168,10 @@ Rockfall: thirty stones of random shape let go above a slope.
 Each stone is the hull of random points, 0.4 to 0.9 m across. They drop onto a slope of 40 degrees, bounce, roll and
 slide down to a level ground with a wall at its end that stops them.
 """), title="Rockfall", kind="dynamic", end=3.0, step="2e-3", contact=contact("2e9", "1e9", 30), modulus="5e9")
-    result += hull("slope", [(x, y, z) for y in (-4, 4) for x, z in ((0, 10.07), (12, 0), (12, -1), (-1, -1), (-1, 10.07))],
+    result += hull("slope", [(x, y, z) for y in (-6, 6) for x, z in ((0, 10.07), (12, 0), (12, -1), (-1, -1), (-1, 10.07))],
                    fixed=True)
-    result += box("ground", (12, -4, -1), (24, 4, 0), fixed=True)
-    result += box("wall", (24, -4, -1), (25, 4, 3), fixed=True)
+    result += box("ground", (12, -6, -1), (24, 6, 0), fixed=True)
+    result += box("wall", (24, -6, -1), (25, 6, 3), fixed=True)
     for k in range(30):
         row, column = divmod(k, 5)
         center = (1.0 + 1.3 * row, -3.0 + 1.5 * column + rng.uniform(-0.15, 0.15), 0.0)
