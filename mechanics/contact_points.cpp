@@ -285,7 +285,9 @@ bool first_is_master(const ContactBody& a, const ContactBody& b) {
   const bool divided_a = a.placed->surface().divided;
   const bool divided_b = b.placed->surface().divided;
   if (divided_a != divided_b) return !divided_a;
-  return a.model->basis().volume() > b.model->basis().volume();
+  // Volumes of equal blocks in different places differ by rounding, which must not choose the master.
+  constexpr double equal_volumes = 1.0 + 1e-9;
+  return a.model->basis().volume() > equal_volumes * b.model->basis().volume();
 }
 
 std::vector<ContactPoint> contact_points(const ContactBody& a, const ContactBody& b,

@@ -54,7 +54,7 @@ struct ContactPointSettings {
 [[nodiscard]] std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state);
 
 /// Whether block a is the master, on whose surface feet and normals are taken: fixed blocks before others,
-/// then undivided surfaces, then larger volume; ties go to b.
+/// then undivided surfaces, then larger volume by more than rounding; ties go to b.
 [[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
 
 /// All contact points of a pair, in a fixed order.
