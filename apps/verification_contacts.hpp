@@ -65,7 +65,8 @@ void run_until(Simulation& simulation, double time);
 /// 1 if a static analysis ends with this status, else 0, to be compared with 1.
 [[nodiscard]] VerificationCheck check_status(std::string what, Simulation& simulation, StaticStatus expected);
 
-/// Largest residual of the energies in one step over the largest energy of the run.
+/// Largest residual of the energies in one step, or all that contacts gained by being found anew, over the
+/// largest energy of the run.
 [[nodiscard]] VerificationCheck check_energy(std::string what, const Simulation& simulation);
 
 /// Where a block's centroid is.

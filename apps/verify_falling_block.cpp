@@ -13,7 +13,7 @@ namespace {
 struct Impact {
   double deepest = 0.0;         ///< m, least height of the cantilever's tip over where it was undeformed
   double momentum_error = 0.0;  ///< of the cube, largest, over its momentum at impact
-  double energy_error = 0.0;    ///< largest residual of a step over the largest energy
+  double energy_error = 0.0;    ///< residual of a step, or gain of contacts, over the largest energy
 };
 
 /// Up to 1.1 s, after the first impact and before the cube comes back to the cantilever.
@@ -36,7 +36,8 @@ Impact run(const FallingBlock& example, const Placement& placement) {
     const Vector3 motion = simulation.blocks()[1].motion_of(simulation.states()[1], tip).displacement;
     impact.deepest = std::min(impact.deepest, placement.direction_back(motion).z());
   }
-  impact.energy_error = simulation.largest_step_residual() / simulation.largest_energy();
+  impact.energy_error = std::max(simulation.largest_step_residual(), simulation.ledger().refound_gained) /
+                        simulation.largest_energy();
   return impact;
 }
 
@@ -69,7 +70,7 @@ std::vector<VerificationCheck> falling_block_case(const Placement& placement) {
       check_relative("deepest tip at chord tolerances 7.5 mm and 3 mm, m", coarse.deepest, divided.deepest,
                      0.02),
       check_absolute("momentum of the cube less impulses, over that at impact", momentum_error, 0.0, 1e-9),
-      check_absolute("residual of a step over largest energy", energy_error, 0.0, 1e-8),
+      check_absolute("residual of a step or gain of contacts over largest energy", energy_error, 0.0, 1e-8),
       check_relative("deepest tip, incremental formulation and this one, m", incremental.deepest,
                      coarse.deepest, reported)};
 }

@@ -442,7 +442,8 @@ void Simulation::note_elastic_energies() {
 void Simulation::book_refound(const std::vector<ContactPair>& pairs) {
   std::map<PairKey, double> change;
   for (const ContactPair& pair : pairs) {
-    change[{pair.a(), pair.b()}] = pair.start_energy();
+    // A tie is the same in every step.
+    if (!pair.tied()) change[{pair.a(), pair.b()}] = pair.start_energy();
   }
   for (const auto& [blocks, energy] : energies_of_last_step()) change[blocks] -= energy;
   for (const auto& [blocks, energy] : change)
