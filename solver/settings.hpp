@@ -81,6 +81,9 @@ struct SimulationSettings {
   /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
   /// smaller follows contacts better
   double static_motion = 0.05;
+  /// in block sizes: blocks that move less in an iteration stand still, whatever points at the limit of
+  /// friction do
+  double static_stillness = 1e-12;
   double static_travel = 1.0;   ///< in block sizes: farther without coming nearer to balance is moving
   int static_iterations = 500;  ///< at one load level; more: not converged
   int static_cuts = 60;         ///< of one iteration; more: not converged

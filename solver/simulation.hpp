@@ -227,8 +227,8 @@ class Simulation {
   /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
   [[nodiscard]] double least_inertia() const;
-  /// Largest motion of a block over what one iteration may move it.
-  [[nodiscard]] double motion_excess(const Trial& trial) const;
+  /// Largest motion of a block in block sizes.
+  [[nodiscard]] double largest_motion(const Trial& trial) const;
   /// Takes note of what each block lacks of balance. @return whether none lacks anything
   [[nodiscard]] bool note_balance(const TimeScheme& scheme, const Trial& trial);
 

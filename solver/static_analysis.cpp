@@ -115,8 +115,8 @@ StaticStatus Simulation::static_step(double end_time) {
       rejections_.push_back({time_, step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                                                  : RejectionReason::not_positive_definite});
-    } else if (const double excess = motion_excess(trial); excess > 1.0) {
-      raise = std::clamp(1.1 * excess, 2.0, 1e4);
+    } else if (const double motion = largest_motion(trial); motion > settings_.static_motion) {
+      raise = std::clamp(1.1 * motion / settings_.static_motion, 2.0, 1e4);
     } else if (const auto passing = check_motion(trial, found); !passing.empty()) {
       rejections_.push_back({time_, step, RejectionReason::passing});
       if (passing.front().touch.share <= settings_.smallest_cut) {
@@ -133,8 +133,8 @@ StaticStatus Simulation::static_step(double end_time) {
       accept(scheme, trial);
       report_.step = step;
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
-      const bool still =
-          balanced && (scheme.inertia <= least || least == 0.0) && before == contact_states(report_);
+      const bool still = balanced && (scheme.inertia <= least || least == 0.0) &&
+                         (before == contact_states(report_) || motion <= settings_.static_stillness);
       static_.still_iterations = still ? static_.still_iterations + 1 : 0;
       static_.balanced = static_.still_iterations >= 2;
       if (static_.balanced) return reached(end_time) ? StaticStatus::equilibrium : StaticStatus::balancing;
@@ -146,12 +146,12 @@ StaticStatus Simulation::static_step(double end_time) {
   return StaticStatus::not_converged;
 }
 
-double Simulation::motion_excess(const Trial& trial) const {
+double Simulation::largest_motion(const Trial& trial) const {
   double most = 0.0;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
     const double motion = mean_motion(blocks_[k], blocks_[k].space().expand(trial.bodies[k].change));
-    most = std::max(most, motion / (settings_.static_motion * block_size(blocks_[k])));
+    most = std::max(most, motion / block_size(blocks_[k]));
   }
   return most;
 }
