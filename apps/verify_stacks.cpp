@@ -39,8 +39,7 @@ std::vector<VerificationCheck> book_stack_case(const Placement& placement) {
 /// Half circle of `count` equal voussoirs of thickness t about the mean radius 1, on two fixed blocks.
 Simulation arch(int count, double t, const Placement& placement) {
   ContactScene scene(placement);
-  scene.settings.area_springs = false;
-  *scene.law = {1e8, 1e8, tangent_of(60), 0.0, 0.0, false};
+  *scene.law = {1e12, 1e12, tangent_of(60), 0.0, 0.0, true};
   const auto joint = [&](int k, std::vector<Vector3>& points) {
     const double angle = std::numbers::pi * k / count;
     for (const double radius : {1.0 - 0.5 * t, 1.0 + 0.5 * t}) {

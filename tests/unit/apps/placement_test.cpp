@@ -82,7 +82,8 @@ TEST_P(TurnedCase, MeasuresTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(Contact, TurnedCase,
                          testing::Values("incline-stick", "incline-slide", "block-slide-or-topple",
-                                         "goodman-bray", "book-stack", "bounce", "rocking-block", "wedge"));
+                                         "goodman-bray", "book-stack", "bounce", "rocking-block", "wedge",
+                                         "arch"));
 
 /// Four cubes let go a millimetre over the ground, each over the next: 100 steps of the tower settling.
 TEST(Tower, TurnsWithItsScene) {
