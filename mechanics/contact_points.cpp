@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/overlap_outline.hpp"
 #include "mechanics/quadrature.hpp"
 
 namespace ashlar {
@@ -125,16 +126,6 @@ std::vector<Eigen::Vector2d> places_of(const CellOverlap& overlap) {
   return places;
 }
 
-double area_of(const std::vector<Eigen::Vector2d>& polygon) {
-  double area = 0.0;
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-    const Eigen::Vector2d u = polygon[k] - polygon[0];
-    const Eigen::Vector2d v = polygon[k + 1] - polygon[0];
-    area += 0.5 * (u.x() * v.y() - u.y() * v.x());
-  }
-  return area;
-}
-
 /// Makes the contact points of two cells that face each other.
 class OverlapPoints {
  public:
@@ -186,7 +177,8 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
                       std::vector<ContactPoint>& points) {
   // A uniform pressure acts on every function exactly, however coarse the division is.
   const int degree = std::max({2, a.model->order(), b.model->order()});
-  const PolygonRule rule = polygon_rule(places_of(overlap), degree);
+  const PolygonRule rule =
+      polygon_rule(outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed)), degree);
   const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
   for (std::size_t k = 0; k < rule.points.size(); ++k)
     points.push_back(make.at_place(rule.points[k], rule.weights[k]));
@@ -196,13 +188,13 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
 void add_point_springs(const ContactBody& a, const ContactBody& b, const FaceOverlap& face,
                        const std::vector<CellOverlap>& overlaps, bool master_is_a,
                        const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
-  double area = 0.0;
-  for (const int cell : face.cells) area += area_of(places_of(overlaps[at(cell)]));
-  for (const FaceOverlapPoint& point : face.points) {
+  const bool divided = a.placed->surface().divided || b.placed->surface().divided;
+  const FaceOutline outline = outline_of(face, overlaps, divided, outline_tolerance(*a.placed, *b.placed));
+  const double area = outline.area / static_cast<double>(outline.corners.size());
+  for (const FaceOverlapPoint& point : outline.corners) {
     const CellOverlap& overlap = overlaps[at(point.overlap)];
     points.push_back(OverlapPoints(a, b, overlap, master_is_a, settings.curved)
-                         .at_place(overlap.corners[at(point.corner)].place,
-                                   area / static_cast<double>(face.points.size())));
+                         .at_place(overlap.corners[at(point.corner)].place, area));
   }
 }
 

@@ -8,6 +8,10 @@
 //     locked   |ks s| <= max(N, 0) tan(phi) + c A     shear force on a: -ks s
 //     sliding  otherwise                              shear force on a: -(max(N, 0) tan(phi) + c A) s/|s|
 //
+// A joint fails where it opens, or where it slides and has cohesion: both strengths are lost then. Without
+// cohesion there is no strength that sliding could take; under tension such a joint slides without
+// resistance.
+//
 // With multipliers (augmented contact) N = lambda_n - kn g and the trial shear force is lambda_s - ks s.
 // With a held limit the shear force is bounded by that limit whatever N is, also across an open gap: the
 // forces are then the gradient of a convex function of (g, s), which Coulomb's law has not.

@@ -342,8 +342,9 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     PointMemory memory;
     memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
     memory.state = point.state;
-    const bool broken = laws_[k].tension > 0.0 && laws[k].tension == 0.0;
-    memory.intact = memory_[k].intact && point.state == ContactState::locked && !broken;
+    const bool torn = point.state == ContactState::open || (laws_[k].tension > 0.0 && laws[k].tension == 0.0);
+    const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
+    memory.intact = memory_[k].intact && !torn && !sheared;
     if (laws[k].augmented && point.state != ContactState::open) {
       // The slip since locking stays known, so that multipliers go on to undo it.
       const Eigen::Vector2d shear = point.force.tail<2>() + laws_[k].shear_stiffness * slip;

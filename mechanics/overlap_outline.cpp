@@ -1,0 +1,120 @@
+#include "mechanics/overlap_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
+  return u.x() * v.y() - u.y() * v.x();
+}
+
+double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& start,
+                           const Eigen::Vector2d& end) {
+  const Eigen::Vector2d along = end - start;
+  const double squared_length = along.squaredNorm();
+  const double share =
+      squared_length > 0.0 ? std::clamp((point - start).dot(along) / squared_length, 0.0, 1.0) : 0.0;
+  return (point - start - share * along).norm();
+}
+
+/// Angle that a convex polygon takes up around a point on its outline; 0 elsewhere.
+double angle_at(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point, double tolerance) {
+  const std::size_t count = polygon.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if ((polygon[k] - point).norm() > tolerance) continue;
+    const Eigen::Vector2d next = polygon[(k + 1) % count] - polygon[k];
+    const Eigen::Vector2d last = polygon[(k + count - 1) % count] - polygon[k];
+    return std::atan2(cross(next, last), next.dot(last));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    if (distance_to_segment(point, polygon[k], polygon[(k + 1) % count]) <= tolerance)
+      return std::numbers::pi;
+  }
+  return 0.0;
+}
+
+/// Where a corner is in space, on the plane of its frame.
+Vector3 lifted(const CellOverlap& overlap, int corner) {
+  const Eigen::Vector2d& place = overlap.corners[at(corner)].place;
+  return overlap.frame.origin + place.x() * overlap.frame.e1 + place.y() * overlap.frame.e2;
+}
+
+}  // namespace
+
+double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b) {
+  constexpr double share = 1e-10;
+  const auto diagonal = [](const PlacedSurface& s) { return (s.box().high - s.box().low).norm(); };
+  double farthest = 0.0;
+  for (const Box& box : {a.box(), b.box()})
+    farthest = std::max({farthest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
+  return std::max(share * std::min(diagonal(a), diagonal(b)),
+                  16.0 * std::numeric_limits<double>::epsilon() * farthest);
+}
+
+std::vector<Eigen::Vector2d> outline_of(std::vector<Eigen::Vector2d> polygon, double tolerance) {
+  while (!polygon.empty()) {
+    const std::size_t count = polygon.size();
+    if (count < 3) return {};
+    std::size_t least = 0;
+    double least_distance = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double distance =
+          distance_to_segment(polygon[k], polygon[(k + count - 1) % count], polygon[(k + 1) % count]);
+      if (distance >= least_distance) continue;
+      least_distance = distance;
+      least = k;
+    }
+    if (least_distance > tolerance) break;
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  return polygon;
+}
+
+FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& overlaps, bool divided,
+                       double tolerance) {
+  FaceOutline outline{{}, {}, 0.0};
+  for (const int cell : face.cells) {
+    std::vector<Eigen::Vector2d> places;
+    for (const OverlapCorner& corner : overlaps[at(cell)].corners) places.push_back(corner.place);
+    outline.pieces.push_back(outline_of(std::move(places), tolerance));
+    outline.area += area_of(outline.pieces.back());
+  }
+  constexpr double straight = 1e-6;  // rad; rounding turns an outline by far less
+  std::vector<Vector3> kept;
+  for (const FaceOverlapPoint& point : face.points) {
+    const Vector3 place = lifted(overlaps[at(point.overlap)], point.corner);
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Vector3& other) {
+      return (other - place).norm() <= 4.0 * tolerance;
+    });
+    if (known) continue;
+    double angle = 0.0;
+    for (std::size_t k = 0; k < face.cells.size(); ++k) {
+      if (outline.pieces[k].empty()) continue;
+      const ViewFrame& frame = overlaps[at(face.cells[k])].frame;
+      angle += angle_at(outline.pieces[k], frame.project(place), 2.0 * tolerance);
+    }
+    const bool turns = angle > straight && std::abs(angle - std::numbers::pi) > straight &&
+                       std::abs(angle - 2.0 * std::numbers::pi) > straight;
+    if (!(divided ? angle > 0.0 : turns)) continue;
+    kept.push_back(place);
+    outline.corners.push_back(point);
+  }
+  return outline;
+}
+
+double area_of(const std::vector<Eigen::Vector2d>& polygon) {
+  double area = 0.0;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    area += 0.5 * cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
+  return area;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,37 @@
+// Outlines of the overlaps of faces without what only rounding adds to them: faces whose edges lie on each
+// other to the last bit meet in polygons with corners that stick out by nothing, or in slivers without width.
+// The polygons are exact for the coordinates as they are; where springs act must not depend on their last
+// bits, or a scene that is turned, moved or one step on would have other springs.
+#pragma once
+
+#include <vector>
+
+#include "geometry/face_overlap.hpp"
+
+namespace ashlar {
+
+/// How far corners may be off by rounding, m: 1e-10 of the smaller body's box diagonal, and never less than
+/// the rounding of coordinates of that size.
+[[nodiscard]] double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b);
+
+/// A polygon without corners that are within a tolerance of the line between their neighbours, the least ones
+/// first. @param polygon in order @return at least 3 corners in the same order, or none if nothing is wider
+/// than the tolerance
+[[nodiscard]] std::vector<Eigen::Vector2d> outline_of(std::vector<Eigen::Vector2d> polygon, double tolerance);
+
+/// The overlap of two faces in pieces.
+struct FaceOutline {
+  std::vector<std::vector<Eigen::Vector2d>> pieces;  ///< outline of each of face.cells; empty: none
+  std::vector<FaceOverlapPoint> corners;             ///< of face.points, those where the outline turns
+  double area;                                       ///< of all pieces, m^2
+};
+
+/// Leaves out points that another one stands for within the tolerance, and, unless `divided`, those where the
+/// outline goes straight on. @param divided faces curve: pieces meet at angles that mean nothing
+[[nodiscard]] FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& overlaps,
+                                     bool divided, double tolerance);
+
+/// Area of a polygon in counter-clockwise order.
+[[nodiscard]] double area_of(const std::vector<Eigen::Vector2d>& polygon);
+
+}  // namespace ashlar

@@ -1,0 +1,85 @@
+#include "mechanics/overlap_outline.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/placed_bodies.hpp"
+#include "support/sample_solids.hpp"
+
+namespace ashlar {
+namespace {
+
+using Body = test_support::PlacedBody;
+using test_support::box;
+using Polygon = std::vector<Eigen::Vector2d>;
+
+TEST(OverlapOutline, CornersThatRoundingMakesAreLeftOut) {
+  const Polygon outline =
+      outline_of({{0, 0}, {0.5, -1e-13}, {1, 0}, {1, 1e-14}, {1, 1}, {0.3, 1}, {0, 1}}, 1e-10);
+  const Polygon square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  ASSERT_EQ(outline.size(), square.size());
+  for (std::size_t k = 0; k < square.size(); ++k) EXPECT_LT((outline[k] - square[k]).norm(), 1e-12) << k;
+}
+
+TEST(OverlapOutline, CornersThatTurnStay) {
+  // The first sticks out by 1e-9, ten tolerances.
+  const Polygon polygon = {{0.5, -1e-9}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+  EXPECT_EQ(outline_of(polygon, 1e-10), polygon);
+}
+
+TEST(OverlapOutline, ASliverIsNothing) {
+  EXPECT_TRUE(outline_of(Polygon{{0, 0}, {1, 0}, {1, 1e-13}, {0, 1e-13}}, 1e-10).empty());
+  EXPECT_TRUE(outline_of(Polygon{{0, 0}, {1, 0}, {0.5, 1e-13}}, 1e-10).empty());
+  EXPECT_TRUE(outline_of(Polygon{}, 1e-10).empty());
+}
+
+TEST(OverlapOutline, TheToleranceIsOfTheSmallerBodyAndOfCoordinates) {
+  const Body small(box({0, 0, 0}, {0.3, 0.4, 1.2}));  // diagonal 1.3
+  const Body large(box({-10, -10, -1}, {10, 10, 0}));
+  EXPECT_NEAR(outline_tolerance(small.placed, large.placed), 1.3e-10, 1e-20);
+  const Body far(box({1e6, 0, 0}, {1e6 + 1, 1, 1}));
+  EXPECT_NEAR(outline_tolerance(far.placed, far.placed), 16.0 * 0x1p-52 * (1e6 + 1), 1e-22);
+}
+
+struct Whole {
+  std::size_t corners = 0;
+  double area = 0.0;
+};
+
+Whole outline_between(const Body& a, const Body& b) {
+  const PairContacts contacts = find_contacts(a.placed, b.placed, {0.01, 0.01, 0.1});
+  Whole sum;
+  for (const FaceOverlap& face : join_by_faces(a.placed, b.placed, contacts.overlaps)) {
+    const FaceOutline outline =
+        outline_of(face, contacts.overlaps, false, outline_tolerance(a.placed, b.placed));
+    sum.corners += outline.corners.size();
+    sum.area += outline.area;
+  }
+  return sum;
+}
+
+// The lower face of an L, area 3, comes in pieces. Its rim lies on that of the plate to the last bits.
+TEST(OverlapOutline, PiecesHaveTheCornersOfTheWhole) {
+  const Body ell(test_support::l_shaped_prism());
+  for (const double off : {0.0, 0x1p-50, -0x1p-50}) {
+    const Body plate(box({off, off, -1}, {2 - off, 2, 0}));
+    const Whole whole = outline_between(ell, plate);
+    EXPECT_EQ(whole.corners, 6U) << off;
+    EXPECT_NEAR(whole.area, 3.0, 1e-13) << off;
+  }
+}
+
+// A rim that crosses another one by rounding only makes corners that are none: these two squares are turned
+// against each other by the last bit.
+TEST(OverlapOutline, RimsOnEachOtherCrossNowhere) {
+  const double off = 0x1p-50;
+  const Body above(Polyhedron(make_convex_hull(std::vector<Vector3>{
+      {0, 0, 0}, {1, off, 0}, {1, 1, 0}, {-off, 1, 0}, {0, 0, 1}, {1, off, 1}, {1, 1, 1}, {-off, 1, 1}})));
+  const Body below(Polyhedron(make_convex_hull(std::vector<Vector3>{
+      {0, off, -1}, {1, 0, -1}, {1, 1, -1}, {off, 1, -1}, {0, off, 0}, {1, 0, 0}, {1, 1, 0}, {off, 1, 0}})));
+  const Whole whole = outline_between(above, below);
+  EXPECT_EQ(whole.corners, 4U);
+  EXPECT_NEAR(whole.area, 1.0, 1e-13);
+}
+
+}  // namespace
+}  // namespace ashlar
