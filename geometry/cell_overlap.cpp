@@ -1,6 +1,7 @@
 #include "geometry/cell_overlap.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace ashlar {
@@ -62,13 +63,22 @@ class ProjectedCell {
   std::vector<int> loop_;
 };
 
+/// Where the sides ab and cd cross, which they do: rounding may have made them parallel or moved the crossing
+/// of sides that lie almost on each other off one of them.
 Eigen::Vector2d crossing_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                                const Eigen::Vector2d& d) {
   const auto cross = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
     return u.x() * v.y() - u.y() * v.x();
   };
-  const double share = cross(c - a, d - c) / cross(b - a, d - c);
-  return a + std::clamp(share, 0.0, 1.0) * (b - a);
+  const Eigen::Vector2d along = b - a;
+  const double squared_length = along.squaredNorm();
+  if (squared_length == 0.0) return a;
+  const double at_c = along.dot(c - a) / squared_length;
+  const double at_d = along.dot(d - a) / squared_length;
+  const double low = std::clamp(std::min(at_c, at_d), 0.0, 1.0);
+  const double high = std::clamp(std::max(at_c, at_d), 0.0, 1.0);
+  const double share = cross(c - a, d - c) / cross(along, d - c);
+  return a + (std::isnan(share) ? 0.5 * (low + high) : std::clamp(share, low, high)) * along;
 }
 
 }  // namespace
