@@ -50,8 +50,13 @@ Eigen::VectorXd ContactMemory::shares_of(const ContactPoint& point,
   return squares / squares.sum();
 }
 
-ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held)
-    : entries_(std::move(entries)), deepest_(deepest), held_(held), squared_reach_(area_of(entries_)) {}
+ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held,
+                             double bulge)
+    : entries_(std::move(entries)),
+      deepest_(deepest),
+      bulge_(bulge),
+      held_(held),
+      squared_reach_(area_of(entries_)) {}
 
 std::vector<ContactMemory::Neighbour> ContactMemory::neighbours(const ContactPoint& point,
                                                                 bool same_faces) const {
@@ -80,12 +85,14 @@ PointMemory ContactMemory::interpolated(const ContactPoint& point,
     return memory;
   const Eigen::VectorXd shares = shares_of(point, neighbours);
   memory.slip.setZero();
+  memory.compression = 0.0;
   memory.normal_multiplier = 0.0;
   memory.shear_multiplier.setZero();
   double intact = 0.0;
   for (Eigen::Index k = 0; k < shares.size(); ++k) {
     const PointMemory& old = neighbours[static_cast<std::size_t>(k)].entry->memory;
     memory.slip += shares[k] * old.slip;
+    memory.compression += shares[k] * old.compression;
     memory.normal_multiplier += shares[k] * old.normal_multiplier;
     memory.shear_multiplier += shares[k] * old.shear_multiplier;
     intact += old.intact ? shares[k] : 0.0;
@@ -117,7 +124,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
 }
 
 void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
-                          double deepest, const SpringEnergy& held) {
+                          double deepest, const SpringEnergy& held, double bulge) {
   entries_.clear();
   entries_.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -125,6 +132,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
                         points[k].normal, points[k].area, memory[k]});
   }
   deepest_ = deepest;
+  bulge_ = bulge;
   held_ = held;
   squared_reach_ = area_of(entries_);
 }

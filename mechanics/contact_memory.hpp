@@ -23,6 +23,7 @@ struct PointMemory {
   bool intact = false;             ///< joint strength not yet lost
   double normal_multiplier = 0.0;  ///< of augmented contact, Pa, of point springs N
   Vector3 shear_multiplier = Vector3::Zero();
+  double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
 };
 
 /// Memory of a pair of blocks.
@@ -40,8 +41,8 @@ class ContactMemory {
   };
 
   ContactMemory() = default;
-  /// As `entries`, `deepest` and `held` of an earlier one.
-  ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held);
+  /// As `entries`, `deepest`, `held` and `bulge` of an earlier one.
+  ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held, double bulge);
 
   /// Memory for each of the new points, with vectors turned into the new tangent plane: from the old points
   /// of the same faces, or, if none of those is as near as the whole contact was wide, of any faces whose
@@ -54,13 +55,15 @@ class ContactMemory {
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
   /// springs at its end
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
-             const SpringEnergy& held);
+             const SpringEnergy& held, double bulge = 0.0);
 
   /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
   void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
+  /// How much deeper the blocks may be between the points, m, >= 0.
+  [[nodiscard]] double bulge() const { return bulge_; }
   /// What the springs held at the end of the last step; nothing where there was no contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
@@ -80,6 +83,7 @@ class ContactMemory {
 
   std::vector<Entry> entries_;
   double deepest_ = 0.0;
+  double bulge_ = 0.0;
   SpringEnergy held_;
   double squared_reach_ = 0.0;  ///< area of all entries, m^2
 };

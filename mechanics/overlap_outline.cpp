@@ -25,20 +25,26 @@ double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& 
   return (point - start - share * along).norm();
 }
 
-/// Angle that a convex polygon takes up around a point on its outline; 0 elsewhere.
-double angle_at(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point, double tolerance) {
+/// How a point lies on the outline of a convex polygon.
+struct OnOutline {
+  bool corner = false;
+  double angle = 0.0;  ///< that the polygon takes up around it; 0 off the outline
+};
+
+OnOutline place_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point,
+                   double tolerance) {
   const std::size_t count = polygon.size();
   for (std::size_t k = 0; k < count; ++k) {
     if ((polygon[k] - point).norm() > tolerance) continue;
     const Eigen::Vector2d next = polygon[(k + 1) % count] - polygon[k];
     const Eigen::Vector2d last = polygon[(k + count - 1) % count] - polygon[k];
-    return std::atan2(cross(next, last), next.dot(last));
+    return {true, std::atan2(cross(next, last), next.dot(last))};
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (distance_to_segment(point, polygon[k], polygon[(k + 1) % count]) <= tolerance)
-      return std::numbers::pi;
+      return {false, std::numbers::pi};
   }
-  return 0.0;
+  return {};
 }
 
 /// Where a corner is in space, on the plane of its frame.
@@ -96,14 +102,16 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
     });
     if (known) continue;
     double angle = 0.0;
+    bool corner = false;
     for (std::size_t k = 0; k < face.cells.size(); ++k) {
-      if (outline.pieces[k].empty()) continue;
       const ViewFrame& frame = overlaps[at(face.cells[k])].frame;
-      angle += angle_at(outline.pieces[k], frame.project(place), 2.0 * tolerance);
+      const OnOutline on = place_on(outline.pieces[k], frame.project(place), 2.0 * tolerance);
+      corner = corner || on.corner;
+      angle += on.angle;
     }
-    const bool turns = angle > straight && std::abs(angle - std::numbers::pi) > straight &&
-                       std::abs(angle - 2.0 * std::numbers::pi) > straight;
-    if (!(divided ? angle > 0.0 : turns)) continue;
+    const bool turns =
+        std::abs(angle - std::numbers::pi) > straight && std::abs(angle - 2.0 * std::numbers::pi) > straight;
+    if (!corner || !(divided || turns)) continue;
     kept.push_back(place);
     outline.corners.push_back(point);
   }

@@ -1,6 +1,7 @@
 #include "mechanics/spring_energy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -27,6 +28,44 @@ double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double
     if (!(next < rest)) return rest;
     rest = next;
   }
+}
+
+std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std::vector<double>& gaps,
+                              const std::vector<double>& remembered, double held) {
+  const std::size_t count = gaps.size();
+  const double target = std::sqrt(2.0 * held);
+  // Root of twice the energy with a share of the remembered rests, and its derivative.
+  const auto root = [&](double share) {
+    double squares = 0.0;
+    double slope = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double depth = share * remembered[k] - gaps[k];
+      if (!(depth > 0.0)) continue;
+      squares += stiffnesses[k] * depth * depth;
+      slope += stiffnesses[k] * depth * remembered[k];
+    }
+    const double value = std::sqrt(squares);
+    return std::array{value, value > 0.0 ? slope / value : 0.0};
+  };
+  std::vector<double> rests(count, 0.0);
+  if (root(1.0)[0] > target) {
+    std::vector<double> lowered(count);
+    for (std::size_t k = 0; k < count; ++k) lowered[k] = gaps[k] - remembered[k];
+    const double below = rest_gap(stiffnesses, lowered, held);
+    for (std::size_t k = 0; k < count; ++k) rests[k] = remembered[k] + below;
+    return rests;
+  }
+  // A convex function of the share that falls: Newton's iterates come up to the solution from below.
+  double share = 0.0;
+  while (share < 1.0) {
+    const auto [value, slope] = root(share);
+    if (!(value > target) || slope == 0.0) break;
+    const double next = std::min(1.0, share - (value - target) / slope);
+    if (!(next > share)) break;
+    share = next;
+  }
+  for (std::size_t k = 0; k < count; ++k) rests[k] = share * remembered[k];
+  return rests;
 }
 
 }  // namespace ashlar

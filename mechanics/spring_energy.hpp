@@ -1,10 +1,11 @@
 // Springs that are found anew hold no more energy than those they stand for.
 //
-// Each step makes new contact points: other overlap polygons, other feet, an edge that has become a face. At
-// the same gaps, springs with more area, or deeper ones, would hold more energy than the pair of blocks held
-// at the end of the step before, which no force has put in. Their rest is then taken to be where they hold
-// just as much. A rest below the surface moves back to it as soon as springs found anew hold less, and all of
-// the pair's springs are at rest where the pair held nothing.
+// Each step makes new contact points: other overlap polygons, other feet, an edge that has become a face, a
+// face that bulges and is divided. At the same gaps, springs with more area, or deeper ones, would hold more
+// energy than the pair of blocks held at the end of the step before, which no force has put in. Springs that
+// would are at rest below the surface: each where it holds what is remembered of its place, so that a point
+// that is found deep where nothing was known starts without a force, and those around it go on to carry what
+// they carried. Rests move back to the surface as far as the energy held allows.
 #pragma once
 
 #include <limits>
@@ -27,5 +28,13 @@ inline constexpr SpringEnergy any_spring_energy{std::numeric_limits<double>::inf
 /// @param stiffnesses k > 0, N/m, one for each point. @param gaps g, m. @param held J, >= 0 or infinity
 [[nodiscard]] double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double>& gaps,
                               double held);
+
+/// Rests of normal springs that are found anew, m, <= 0: all 0, the surface, if the springs hold at most
+/// `held` then; else a share of the remembered ones, the least that does; else, where these hold too much,
+/// all of them and rest_gap() below.
+/// @param remembered rests <= 0, m, one for each point; others as in rest_gap()
+[[nodiscard]] std::vector<double> rest_gaps(const std::vector<double>& stiffnesses,
+                                            const std::vector<double>& gaps,
+                                            const std::vector<double>& remembered, double held);
 
 }  // namespace ashlar

@@ -18,7 +18,8 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
-  archive(memory.slip, memory.state, memory.intact, memory.normal_multiplier, memory.shear_multiplier);
+  archive(memory.slip, memory.compression, memory.state, memory.intact, memory.normal_multiplier,
+          memory.shear_multiplier);
 }
 
 template <class Archive>
@@ -34,7 +35,7 @@ static void visit_members(Archive& archive, SpringEnergy& held) {
 
 template <class Archive>
 static void visit_members(Archive& archive, RememberedPair& pair) {
-  archive(pair.blocks, pair.entries, pair.deepest, pair.held);
+  archive(pair.blocks, pair.entries, pair.deepest, pair.bulge, pair.held);
 }
 
 template <class Archive>
@@ -158,7 +159,7 @@ SimulationSnapshot Simulation::snapshot() const {
   }
   result.accelerations = accelerations_;
   for (const auto& [blocks, memory] : memory_) {
-    result.memory.push_back({blocks, memory.entries(), memory.deepest(), memory.held()});
+    result.memory.push_back({blocks, memory.entries(), memory.deepest(), memory.bulge(), memory.held()});
   }
   result.contact_work = contact_work_;
   result.finder = finder_.state();
@@ -203,7 +204,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   accelerations_ = snapshot.accelerations;
   memory_.clear();
   for (const RememberedPair& pair : snapshot.memory) {
-    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest, pair.held));
+    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest, pair.held, pair.bulge));
   }
   contact_work_ = snapshot.contact_work;
   finder_.restore(snapshot.finder);

@@ -16,6 +16,7 @@ struct RememberedPair {
   std::array<int, 2> blocks;
   std::vector<ContactMemory::Entry> entries;
   double deepest;  ///< m
+  double bulge;    ///< m
   SpringEnergy held;
 };
 

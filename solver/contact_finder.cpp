@@ -15,6 +15,16 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
+double surface_area(const Polyhedron& solid) {
+  double area = 0.0;
+  const auto& points = solid.mesh().points;
+  for (const auto& [i, j, k] : solid.mesh().triangles) {
+    const Vector3& start = points[at(i)];
+    area += 0.5 * (points[at(j)] - start).cross(points[at(k)] - start).norm();
+  }
+  return area;
+}
+
 /// Width of the slab across a direction between two surfaces: no two points of them are nearer, however they
 /// curve. Negative if the direction does not separate them.
 double slab_between(const PlacedSurface& a, const PlacedSurface& b, const Vector3& direction) {
@@ -57,6 +67,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
     const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
     surfaces_.emplace_back(block, settings.subdivisions, is_first ? nullptr : &surfaces_[twin->second]);
     moving_.push_back(!block.fixed());
+    thickness_.push_back(block.basis().volume() / surface_area(block.solid()));
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
   }
 }
@@ -186,8 +197,11 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
       continue;
     }
     searched.push_back({pair, {}});
-    limits.push_back({settings_.contact_distance + both,
-                      settings_.contact_distance + 2.0 * deepest(pair[0], pair[1]), settings_.contact_angle});
+    limits.push_back(
+        {settings_.contact_distance + both,
+         std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
+             2.0 * deepest(pair[0], pair[1]),
+         settings_.contact_angle});
   }
   counts_.block_pairs_tested += searched.size();
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {

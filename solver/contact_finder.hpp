@@ -122,6 +122,8 @@ class ContactFinder {
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
   std::set<PairKey> left_out_;
+  std::vector<double>
+      thickness_;  ///< volume over surface, m: a third of a ball's radius, half of a plate's thickness
   std::vector<bool> convex_;  ///< convex solids whose faces stay flat
   std::vector<BlockSurface> surfaces_;
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near

@@ -129,6 +129,7 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       b_(b),
       points_(std::move(points)),
       memory_(std::move(memory)),
+      rests_(points_.size(), 0.0),
       start_(3, static_cast<Eigen::Index>(points_.size())),
       rows_a_(contact_rows(*body_a.model, points_, phi_a)),
       rows_b_(contact_rows(*body_b.model, points_, phi_b)),
@@ -163,15 +164,22 @@ void ContactPair::respond_at_start() {
   }
 }
 
+bool ContactPair::can_be_bounded() const {
+  return !tied() && std::none_of(laws_.begin(), laws_.end(),
+                                 [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
+}
+
 void ContactPair::hold_at_most(const SpringEnergy& held) {
-  const bool other_forces = std::any_of(
-      laws_.begin(), laws_.end(), [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
-  if (points_.empty() || other_forces) return;
-  std::vector<double> stiffnesses;
-  for (const PointLaw& law : laws_) stiffnesses.push_back(law.normal_stiffness);
-  const Eigen::VectorXd gaps = start_.row(0);
-  rest_ = rest_gap(stiffnesses, {gaps.begin(), gaps.end()}, held.normal);
-  start_.row(0).array() -= rest_;
+  if (!can_be_bounded()) return;
+  std::vector<double> stiffnesses, gaps, remembered;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    stiffnesses.push_back(laws_[k].normal_stiffness);
+    gaps.push_back(points_[k].gap);
+    remembered.push_back(std::min(0.0, points_[k].gap + memory_[k].compression));
+  }
+  rests_ = rest_gaps(stiffnesses, gaps, remembered, held.normal);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_(0, static_cast<Eigen::Index>(k)) = gaps[k] - rests_[k];
   respond_at_start();
   const double shear = sum_of(start_responses_).shear;
   if (!(shear > held.shear)) return;
@@ -325,7 +333,8 @@ void ContactPair::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::V
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   std::vector<double> result;
-  for (Eigen::Index k = 0; k < place.cols(); ++k) result.push_back(rest_ + place(0, k));
+  for (Eigen::Index k = 0; k < place.cols(); ++k)
+    result.push_back(rests_[static_cast<std::size_t>(k)] + place(0, k));
   return result;
 }
 
@@ -341,6 +350,7 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
         elastic_slip(laws[k], point, place.col(static_cast<Eigen::Index>(k)).tail<2>());
     PointMemory memory;
     memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
+    memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
     const bool torn = point.state == ContactState::open || (laws_[k].tension > 0.0 && laws[k].tension == 0.0);
     const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
@@ -371,8 +381,12 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
 }
 
 double ContactPair::start_energy() const {
-  const SpringEnergy sum = sum_of(start_responses_);
+  const SpringEnergy sum = start_energies();
   return sum.normal + sum.shear;
+}
+
+SpringEnergy ContactPair::start_energies() const {
+  return sum_of(start_responses_);
 }
 
 SpringEnergy ContactPair::energies(const PairResponse& response) {

@@ -69,10 +69,11 @@ class ContactPair {
                                      bool averaged) const {
     return respond(ya, yb, averaged, laws_);
   }
-  /// Takes the springs to be at rest where, found anew, they hold no more than this (spring_energy.hpp): the
-  /// rest of all normal springs is one gap, elastic slip shrinks in proportion. Pairs with multipliers or
-  /// bonds that can take tension, and tied ones, stay as they are.
+  /// Takes the springs to be at rest where, found anew, they hold no more than this (spring_energy.hpp);
+  /// elastic slip shrinks in proportion. Pairs with multipliers or bonds that can take tension, and tied
+  /// ones, stay as they are.
   void hold_at_most(const SpringEnergy& held);
+  [[nodiscard]] bool can_be_bounded() const;
   /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
   /// 3), empty: none
   void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
@@ -82,6 +83,7 @@ class ContactPair {
 
   /// Spring energy at the start of the step, J.
   [[nodiscard]] double start_energy() const;
+  [[nodiscard]] SpringEnergy start_energies() const;
 
   /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed,
   /// (na, nb).
@@ -136,7 +138,7 @@ class ContactPair {
   std::vector<PointMemory> memory_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
-  double rest_ = 0.0;                 ///< gap at which normal springs are at rest, m, <= 0
+  std::vector<double> rests_;         ///< gap at which each normal spring is at rest, m, <= 0
   Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
   Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
   Eigen::MatrixXd

@@ -7,6 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "solver/energy_bounds.hpp"
+#include "solver/seams.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -202,15 +205,6 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   return IslandStatus::settled;
 }
 
-std::map<std::array<int, 2>, double> Simulation::energies_of_last_step() const {
-  std::map<PairKey, double> energies;
-  for (const PairRecord& record : records_) {
-    for (const PointResponse& response : record.responses)
-      energies[{record.a, record.b}] += response.energy();
-  }
-  return energies;
-}
-
 ContactBody Simulation::body_at_start(int block) const {
   return {&blocks_[at(block)], &states_[at(block)], &finder_.placed(block)};
 }
@@ -220,10 +214,15 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
   const std::vector<BlockState> driven = driven_states(step);
   const ExpectedMotion motion = driven.empty() ? finder_.expected_motion(states_, step)
                                                : finder_.expected_motion(driven, step > 0.0 ? step : 1.0);
-  return finder_.find(states_, motion, [&](int a, int b) {
+  std::vector<FoundContacts> found = finder_.find(states_, motion, [&](int a, int b) {
     const auto known = memory_.find({a, b});
-    return known == memory_.end() ? 0.0 : known->second.deepest();
+    return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
+  const WaysOut ways(memory_);
+  for (auto& [blocks, contacts] : found)
+    leave_out_seams(finder_.placed(blocks[0]), finder_.placed(blocks[1]), ways.of_pair(blocks[0], blocks[1]),
+                    contacts);
+  return found;
 }
 
 std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found, bool hold_energy) {
@@ -244,7 +243,10 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
     pairs.emplace_back(a, b, body_a, body_b, law, std::move(points), std::move(memory));
-    if (hold_energy && steps_ > 0) pairs.back().hold_at_most(known.held());
+  }
+  if (hold_energy && steps_ > 0) {
+    const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);
+    for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].hold_at_most(bounds[k]);
   }
   for (const TiedBlocks& tied : ties_) {
     pairs.emplace_back(tied.a, tied.b, ContactBody{&blocks_[at(tied.a)], &states_[at(tied.a)], nullptr},
@@ -261,7 +263,13 @@ std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (moving_[k]) after[k].position += trial.bodies[k].motion();
   }
-  return finder_.check_motion(states_, after, found);
+  std::vector<PassingBlocks> passing = finder_.check_motion(states_, after, found);
+  const WaysOut ways(memory_);
+  std::erase_if(passing, [&](const PassingBlocks& pair) {
+    const auto& [a, b] = pair.blocks;
+    return at_seam(finder_.placed(a), finder_.placed(b), ways.of_pair(a, b), pair.touch);
+  });
+  return passing;
 }
 
 std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const {
@@ -409,8 +417,10 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
         deepest = std::max(deepest, -gaps[k]);
       }
       report_.penetration = std::max(report_.penetration, deepest);
+      const double bulge =
+          finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
       memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest,
-                                         ContactPair::energies(after));
+                                         ContactPair::energies(after), bulge);
       records_.push_back({pair.a(), pair.b(), pair.points(), after.points, std::move(gaps),
                           contact_work_[{pair.a(), pair.b()}] += work});
     }
@@ -440,14 +450,16 @@ void Simulation::note_elastic_energies() {
 }
 
 void Simulation::book_refound(const std::vector<ContactPair>& pairs) {
-  std::map<PairKey, double> change;
+  // Springs of one pair may take over what those of another one held.
+  double change = 0.0;
   for (const ContactPair& pair : pairs) {
     // A tie is the same in every step.
-    if (!pair.tied()) change[{pair.a(), pair.b()}] = pair.start_energy();
+    if (!pair.tied()) change += pair.start_energy();
   }
-  for (const auto& [blocks, energy] : energies_of_last_step()) change[blocks] -= energy;
-  for (const auto& [blocks, energy] : change)
-    (energy > 0.0 ? ledger_.refound_gained : ledger_.refound_lost) += std::abs(energy);
+  for (const PairRecord& record : records_) {
+    for (const PointResponse& response : record.responses) change -= response.energy();
+  }
+  (change > 0.0 ? ledger_.refound_gained : ledger_.refound_lost) += std::abs(change);
 }
 
 void Simulation::measure_energies(Ledger& ledger) const {

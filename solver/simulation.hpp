@@ -193,8 +193,6 @@ class Simulation {
                                                     bool hold_energy);
   [[nodiscard]] IslandStatus try_step(const TimeScheme& scheme, Trial& trial);
   [[nodiscard]] ContactBody body_at_start(int block) const;
-  /// What the springs of each pair held at the end of the last step, J.
-  [[nodiscard]] std::map<PairKey, double> energies_of_last_step() const;
   /// Books what the springs hold anew since the end of the last step.
   void book_refound(const std::vector<ContactPair>& pairs);
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const Trial& trial,

@@ -54,5 +54,33 @@ TEST(SpringEnergy, RandomSpringsHoldWhatTheyHeldWhateverTheUnits) {
   }
 }
 
+TEST(SpringEnergy, RestsAreOnTheSurfaceWhereThatIsNoGain) {
+  // 1/2 * 1 + 1/2 * 4 = 2.5 J on the surface.
+  EXPECT_EQ(rest_gaps({1.0, 1.0}, {-1.0, -2.0}, {-0.5, -1.0}, 2.5), (std::vector<double>{0.0, 0.0}));
+}
+
+TEST(SpringEnergy, APointFoundDeepStartsWithoutForce) {
+  // The first spring held 1/2 J and goes on to; nothing was known at the place of the second one.
+  const std::vector<double> rests = rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 0.5);
+  EXPECT_EQ(rests[0], 0.0);
+  // Its energy is a square: what is below rounding, 1e-16, is 1e-8 m.
+  EXPECT_NEAR(rests[1], -3.0, 2e-8);
+}
+
+TEST(SpringEnergy, RestsMoveBackAsFarAsTheEnergyAllows) {
+  // With a share s of the remembered rest the second spring is 3 - 3 s deep: 1/2 + 2 (3 - 3 s)^2 J, 5 J at
+  // 1/2.
+  const std::vector<double> rests = rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 5.0);
+  EXPECT_EQ(rests[0], 0.0);
+  EXPECT_NEAR(rests[1], -1.5, 1e-15);
+}
+
+TEST(SpringEnergy, RestsGoBelowWhatIsRememberedWhereThatHoldsTooMuch) {
+  // Both remembered 2 m deep, 4 J in all; 1 J is where both are 1 m deep.
+  const std::vector<double> rests = rest_gaps({1.0, 1.0}, {-2.0, -5.0}, {0.0, -3.0}, 1.0);
+  EXPECT_NEAR(rests[0], -1.0, 1e-15);
+  EXPECT_NEAR(rests[1], -4.0, 1e-15);
+}
+
 }  // namespace
 }  // namespace ashlar

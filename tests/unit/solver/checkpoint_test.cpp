@@ -71,8 +71,9 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
                         5,
                         Vector3(0, 0, 1),
                         0.5,
-                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23)}}},
+                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 26.0}}},
                       9,
+                      27,
                       {24.0, 25.0}}};
   snapshot.contact_work = {{{0, 1}, 10.0}};
   snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
@@ -97,7 +98,9 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.slip, Vector3(6, 7, 8));
   EXPECT_EQ(entry.memory.state, ContactState::sliding);
   EXPECT_TRUE(entry.memory.intact);
+  EXPECT_EQ(entry.memory.compression, 26.0);
   EXPECT_EQ(back.memory[0].deepest, 9.0);
+  EXPECT_EQ(back.memory[0].bulge, 27.0);
   EXPECT_EQ(back.memory[0].held.normal, 24.0);
   EXPECT_EQ(back.memory[0].held.shear, 25.0);
   EXPECT_EQ(back.contact_work.at({0, 1}), 10.0);

@@ -47,6 +47,48 @@ Simulation block_on_incline(int order, bool augmented) {
   return stack.simulation({1e10, 5e9, std::tan(31.0 * std::numbers::pi / 180.0), 0.0, 0.0, true});
 }
 
+// Springs at the corners carry a soft cube, whose lower face bulges into the floor between them, is divided
+// when it does, and has other contact points then.
+TEST(ContactHistory, ASoftCubeOnPointSpringsDoesNotSink) {
+  for (const int order : {2, 3}) {
+    Stack stack;
+    stack.settings.area_springs = false;
+    stack.settings.subdivisions = 0;
+    stack.settings.chord_tolerance = 5e-3;
+    stack.add(fixed_block(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0}))));
+    stack.add(
+        block_of("cube", Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2500, 1e7, 0.2}, order));
+    Simulation simulation = stack.simulation({1e8, 5e7, std::tan(std::numbers::pi / 6), 0.0, 0.0, false});
+    ASSERT_TRUE(run_until(simulation, 1.0)) << order;
+    // m g / (4 kn) = 6.1e-5 m at rest, twice that when let go at once.
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        const double sunk = -place_of(simulation, 1, {x, y, 0}).z();
+        EXPECT_GT(sunk, 0.0) << order;
+        EXPECT_LT(sunk, 2.5e-4) << order;
+      }
+    }
+  }
+}
+
+// A detection distance is how far gaps are looked for: it is not how deep blocks may be in each other.
+TEST(ContactHistory, ALargeDetectionDistanceChangesNothing) {
+  std::vector<double> heights;
+  for (const double distance : {1e-3, 3.0}) {
+    Stack stack;
+    stack.settings.contact_distance = distance;
+    stack.add(fixed_block(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0}))));
+    for (const double z : {0.005, 1.01})
+      stack.add(
+          block_of("cube", Polyhedron(make_box({-0.5, -0.5, z}, {0.5, 0.5, z + 1})), {2500, 1e9, 0.2}, 1));
+    Simulation simulation = stack.simulation({1e10, 5e9, 0.5, 0.0, 0.0, true});
+    ASSERT_TRUE(run_until(simulation, 0.2));
+    heights.push_back(place_of(simulation, 2, {0, 0, 2.01}).z());
+  }
+  EXPECT_NEAR(heights[0], 2.0, 1e-4);
+  EXPECT_NEAR(heights[1], heights[0], 1e-6);
+}
+
 TEST(ContactHistory, ABlockOnAnInclineDoesNotCreep) {
   for (const int order : {1, 2}) {
     Simulation simulation = block_on_incline(order, false);

@@ -1,0 +1,117 @@
+// Blocks that slide from one block to the next over a seam.
+#include "solver/seams.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/placed_bodies.hpp"
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::place_of;
+using test_support::run_until;
+using test_support::same_law;
+
+struct Crossing {
+  int order = 1;
+  bool area = true;
+  double friction = 0.0;
+  int strips = 5;
+  double degrees = 0.0;  ///< of the floor's slope
+};
+
+/// A cube slides for 0.4 s at 3 m/s over strips of half a metre with flush tops. @return its simulation
+Simulation crossed(const Crossing& crossing) {
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions;
+  const double length = 4.0 / crossing.strips;
+  for (int k = 0; k < crossing.strips; ++k) {
+    BlockDefinition strip = block_of(
+        "strip",
+        test_support::tilted_box({-1 + k * length, -1, -1}, {-1 + (k + 1) * length, 1, 0}, crossing.degrees),
+        {2500, 1e9, 0.2}, 1);
+    strip.fixed = true;
+    blocks.emplace_back(std::move(strip));
+    motions.emplace_back();
+  }
+  blocks.emplace_back(block_of("cube",
+                               test_support::tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, crossing.degrees),
+                               {2500, 1e10, 0.2}, crossing.order));
+  InitialMotion sliding;
+  const double angle = crossing.degrees * std::numbers::pi / 180.0;
+  sliding.velocity = 3.0 * Vector3(std::cos(angle), 0.0, std::sin(angle));
+  motions.push_back(sliding);
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  settings.area_springs = crossing.area;
+  const double stiffness = crossing.area ? 1e9 : 2.5e8;
+  Simulation simulation(std::move(blocks), std::move(motions),
+                        same_law({stiffness, stiffness, crossing.friction, 0.0, 0.0, crossing.area}),
+                        settings);
+  EXPECT_TRUE(run_until(simulation, 0.4));
+  return simulation;
+}
+
+Vector3 travel(const Simulation& simulation) {
+  const int cube = static_cast<int>(simulation.blocks().size()) - 1;
+  const Vector3 start = simulation.blocks().back().basis().centroid();
+  return place_of(simulation, cube, start) - start;
+}
+
+TEST(Seams, ACubeSlidesOverThemAsOverOneFloor) {
+  for (const int order : {1, 2}) {
+    for (const bool area : {true, false}) {
+      Crossing crossing;
+      crossing.order = order;
+      crossing.area = area;
+      const Vector3 way = travel(crossed(crossing));
+      EXPECT_NEAR(way.x(), 1.2, area ? 1e-8 : 1e-4) << order << area;
+      // It rests 2.45e-5 m deep.
+      EXPECT_NEAR(way.z(), 0.0, 1e-4) << order << area;
+    }
+  }
+}
+
+TEST(Seams, FrictionGoesOnOverThem) {
+  // 3 t - mu g t^2 / 2 = 1.2 - 0.2 * 9.81 * 0.08
+  Crossing crossing;
+  crossing.friction = 0.2;
+  EXPECT_NEAR(travel(crossed(crossing)).x(), 1.2 - 0.2 * 9.81 * 0.08, 1e-3);
+}
+
+TEST(Seams, OnASlopeToo) {
+  // Against gravity's share along the slope.
+  Crossing crossing;
+  crossing.degrees = 10.0;
+  const double angle = 10.0 * std::numbers::pi / 180.0;
+  const double expected = 1.2 - 0.5 * 9.81 * std::sin(angle) * 0.16;
+  EXPECT_NEAR(travel(crossed(crossing)).norm(), expected, 2e-3);
+}
+
+/// A cube that is `deep` in a floor and runs against a step of a height.
+PairContacts against_step(double deep, double height, const std::vector<Vector3>& ways) {
+  const test_support::PlacedBody cube(test_support::box({0, 0, -deep}, {1, 1, 1}));
+  const test_support::PlacedBody step(test_support::box({1 - 1e-4, 0, -1}, {2, 1, height}));
+  PairContacts contacts = find_contacts(cube.placed, step.placed, {1e-3, 1e-3, 0.1});
+  leave_out_seams(cube.placed, step.placed, ways, contacts);
+  return contacts;
+}
+
+TEST(Seams, OnlyWhatSinkingMakesIsLeftOut) {
+  const std::vector<Vector3> ways = {Vector3(0, 0, 2e-5)};
+  EXPECT_FALSE(against_step(1e-5, 0.0, {}).empty());
+  for (const CellOverlap& overlap : against_step(1e-5, 0.0, ways).overlaps)
+    EXPECT_GT(std::abs(overlap.frame.w.z()), 0.9);
+  // A step that is higher than the cube has sunk stops it.
+  const PairContacts higher = against_step(1e-5, 1e-3, ways);
+  EXPECT_TRUE(std::any_of(higher.overlaps.begin(), higher.overlaps.end(),
+                          [](const CellOverlap& overlap) { return std::abs(overlap.frame.w.x()) > 0.9; }));
+}
+
+}  // namespace
+}  // namespace ashlar
