@@ -227,7 +227,7 @@ TEST(ContactReport, SolidsThatAreReallyConcaveHaveNoShape) {
     EXPECT_EQ(ReportedSolid(solid).shape() != nullptr, solid.convex());
   }
   EXPECT_EQ(ReportedSolid(Polyhedron(test_support::make_dented_cube(0.5))).shape(), nullptr);
-  const ReportedSolid l(Polyhedron(test_support::make_l_prism()));
+  const ReportedSolid l{Polyhedron(test_support::make_l_prism())};
   EXPECT_FALSE(report_contact(l, unit_cube()).convex);
   EXPECT_THROW((void)report_contact(l, unit_cube(), Resolution{0.0, 0.5}), NotConvexError);
 }
