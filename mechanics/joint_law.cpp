@@ -10,9 +10,17 @@ PointLaw point_law(const JointLaw& law, double area, bool intact) {
           intact ? law.cohesion * area : 0.0, intact ? law.tensile_strength * area : 0.0};
 }
 
+namespace {
+
+/// What the shear force is at most, N. @param normal force, N
+double shear_limit(const PointLaw& law, double normal) {
+  return law.held_limit >= 0.0 ? law.held_limit : std::max(normal, 0.0) * law.friction + law.cohesion;
+}
+
+}  // namespace
+
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
-  const bool held = law.held_limit >= 0.0;
   const double normal = law.normal_multiplier - law.normal_stiffness * gap;
   const bool open =
       normal < -law.tension || (gap > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
@@ -22,7 +30,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
     response.tangent(0, 0) = law.normal_stiffness;
     response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
   }
-  const double limit = held ? law.held_limit : std::max(normal, 0.0) * law.friction + law.cohesion;
+  const double limit = shear_limit(law, normal);
   const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;
   const double length = trial.norm();
   if (length <= limit) {
@@ -52,12 +60,24 @@ Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& respo
   return law.friction * law.normal_stiffness / length * shear;
 }
 
+MeanResponse end_response(const PointLaw& law, const PointResponse& end) {
+  return {end.force, end.tangent, sliding_coupling(law, end)};
+}
+
 MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
                            const PointResponse& end, double end_gap) {
-  MeanResponse mean{0.5 * (start.force + end.force), 0.5 * end.tangent};
-  const bool start_open = start.state == ContactState::open;
+  if (law.augmented) return end_response(law, end);
+  MeanResponse mean{0.5 * (start.force + end.force), 0.5 * end.tangent, 0.5 * sliding_coupling(law, end)};
+  const Eigen::Vector2d start_shear = start.force.tail<2>();
   const bool end_open = end.state == ContactState::open;
-  if (start_open == end_open || law.tension > 0.0 || law.augmented) return mean;
+  const double limit = end_open ? 0.0 : shear_limit(law, end.force[0]);
+  if (const double length = start_shear.norm(); length > limit) {
+    mean.force.tail<2>() = 0.5 * (limit / length * start_shear + end.force.tail<2>());
+    if (law.held_limit < 0.0 && end.force[0] > 0.0)
+      mean.coupling += 0.5 * law.friction * law.normal_stiffness / length * start_shear;
+  }
+  const bool start_open = start.state == ContactState::open;
+  if (start_open == end_open || law.tension > 0.0) return mean;
   // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
   const double difference = end_gap - start_gap;
   if (start_open) {

@@ -75,14 +75,23 @@ struct PointResponse {
 /// zero of others.
 [[nodiscard]] Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response);
 
-/// Force and tangent that act over a whole step, from the responses at its start and end, such that the work
-/// of the normal force is the change of the spring's energy exactly, also when the point opens or closes on
-/// the way (a discrete gradient); shear forces are averaged. The tangent is the derivative by the end of the
-/// step and positive semi-definite.
+/// Force and tangent that act over a whole step, from the responses at its start and end, such that contacts
+/// give no more work than their energy falls. The work of the normal force is the change of its spring's
+/// energy exactly, also when the point opens or closes on the way (a discrete gradient). The shear force is
+/// the mean of its end value and its start value, the latter cut to what friction bears at the end: with e =
+/// -F/ks and e0' the cut e0, what is lost is
+///     ks (e0' + e1)/2 . (s1 - s0) - ks (e1^2 - e0^2)/2 = ks (e0' - e0) . (e1 - e0)/2 + ks (e0' + e1)/2 . p
+/// with p the slip, along e1: no term is negative, since e0' is the projection of e0 onto a disc that e1 is
+/// in. A point that stays locked loses nothing. Multipliers take no part in an energy: augmented points act
+/// with their forces at the end. The tangent is the derivative by the end of the step, positive
+/// semi-definite, with the dependence of shear on the normal force left out.
 struct MeanResponse {
-  Eigen::Vector3d force;    ///< N
-  Eigen::Matrix3d tangent;  ///< N/m
+  Eigen::Vector3d force;     ///< N
+  Eigen::Matrix3d tangent;   ///< N/m
+  Eigen::Vector2d coupling;  ///< -d (shear force) / d g, what the tangent leaves out, N/m
 };
+/// The response at the end of a step as what acts over it.
+[[nodiscard]] MeanResponse end_response(const PointLaw& law, const PointResponse& end);
 /// @param start_gap,end_gap m. With tensile strength left the normal force is the plain average.
 [[nodiscard]] MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
                                          const PointResponse& end, double end_gap);

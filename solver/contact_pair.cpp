@@ -247,7 +247,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     response.points.push_back(end);
     response.means.push_back(
         averaged ? mean_response(laws[k], start_responses_[k], start_(0, column), end, place(0, column))
-                 : MeanResponse{end.force, end.tangent});
+                 : end_response(laws[k], end));
     forces.segment<3>(3 * column) = response.means.back().force;
   }
   if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
@@ -307,12 +307,10 @@ ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
   return tangent;
 }
 
-Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response, bool averaged,
-                                                const std::vector<PointLaw>& laws) {
-  Eigen::Matrix2Xd result(2, static_cast<Eigen::Index>(laws.size()));
-  for (std::size_t k = 0; k < laws.size(); ++k)
-    result.col(static_cast<Eigen::Index>(k)) =
-        (averaged ? 0.5 : 1.0) * sliding_coupling(laws[k], response.points[k]);
+Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response) {
+  Eigen::Matrix2Xd result(2, static_cast<Eigen::Index>(response.means.size()));
+  for (std::size_t k = 0; k < response.means.size(); ++k)
+    result.col(static_cast<Eigen::Index>(k)) = response.means[k].coupling;
   return result;
 }
 

@@ -94,10 +94,8 @@ class ContactPair {
   };
   [[nodiscard]] Tangent tangent(const PairResponse& response) const;
 
-  /// -d (shear force) / d gap of every point (sliding_coupling), halved where forces are means. @return (2,
-  /// #)
-  [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response, bool averaged,
-                                                          const std::vector<PointLaw>& laws);
+  /// -d (shear force) / d gap of every point (MeanResponse::coupling). @return (2, #)
+  [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response);
   /// Adds to the forces of a and b what the couplings make of changes of the unknowns: the part of the
   /// Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks.
   void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,

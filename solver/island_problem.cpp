@@ -141,7 +141,7 @@ Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block)
 Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool coupled) {
   std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>> couplings;
   for (std::size_t k = 0; coupled && k < pairs(); ++k) {
-    Eigen::Matrix2Xd found = ContactPair::sliding_couplings(responses_[k], scheme_.mean_contacts, laws_[k]);
+    Eigen::Matrix2Xd found = ContactPair::sliding_couplings(responses_[k]);
     if (!found.isZero(0.0)) couplings.emplace_back(k, std::move(found));
   }
   if (couplings.empty()) return solver_.factor.solve(right_side);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+
 #include "support/check_derivatives.hpp"
 
 namespace ashlar {
@@ -141,6 +145,57 @@ TEST(JointLaw, MeanForceDoesExactlyTheWorkOfTheSpring) {
         },
         Eigen::VectorXd::Constant(1, g1), Eigen::MatrixXd::Constant(1, 1, -mean.tangent(0, 0)), 1e-9, 1e-5);
     EXPECT_GE(mean.tangent(0, 0), 0.0);
+  }
+}
+
+// Whatever a point does in a step, locked, sliding, turning round, opening: its mean force never gives more
+// work than its springs' energy falls, and exactly as much where it stays locked.
+TEST(JointLaw, MeanForcesGiveNoWorkOfTheirOwn) {
+  std::mt19937_64 random(20261121);
+  const auto any = [&](double most) { return most * (0x1p-52 * static_cast<double>(random() >> 11U) - 1.0); };
+  int lossless = 0, slid = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    JointLaw joint = law;
+    joint.friction = trial % 3 == 0 ? 0.0 : std::abs(any(2.0));
+    joint.cohesion = trial % 4 == 0 ? std::abs(any(1e4)) : 0.0;
+    const PointLaw point = point_law(joint, 0.1, true);
+    PointLaw plain = point;
+    plain.tension = 0.0;
+    const double g0 = any(1e-5), g1 = any(1e-5);
+    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), way(any(3e-5), any(3e-5));
+    const PointResponse start = point_response(plain, g0, trial_slip);
+    const Eigen::Vector2d e0 = elastic_slip(plain, start, trial_slip);
+    const PointResponse end = point_response(plain, g1, e0 + way);
+    const MeanResponse mean = mean_response(plain, start, g0, end, g1);
+    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(way);
+    const double lost = start.energy() - end.energy() - work;
+    const double scale = start.energy() + end.energy() + std::abs(work);
+    EXPECT_GE(lost, -1e-12 * scale) << trial;
+    if (start.state == ContactState::locked && end.state == ContactState::locked &&
+        start.force.tail<2>().norm() <= std::max(end.force[0], 0.0) * plain.friction + plain.cohesion) {
+      EXPECT_LE(std::abs(lost), 1e-12 * scale) << trial;
+      ++lossless;
+    }
+    slid += end.state == ContactState::sliding ? 1 : 0;
+  }
+  EXPECT_GT(lossless, 100);
+  EXPECT_GT(slid, 1000);
+}
+
+TEST(JointLaw, MeanCouplingIsWhatTheMeanTangentLeavesOut) {
+  const PointLaw point = point_law(law, 0.1, false);
+  // Locked with much shear under much pressure, then little pressure: cut, whether it slides on or not.
+  const PointResponse start = point_response(point, -5e-5, {5e-5, 2e-5});
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(-1e-5, 9e-5, -7e-5), Eigen::Vector3d(-1e-5, 3e-6, 2e-6)}) {
+    const auto mean = [&](const Eigen::Vector3d& x) {
+      return mean_response(point, start, -5e-5, point_response(point, x[0], x.tail<2>()), x[0]);
+    };
+    Eigen::Matrix3d whole = mean(place).tangent;
+    whole.col(0).tail<2>() += mean(place).coupling;
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return mean(x).force; }, place, -whole, 1e-9,
+        1e-6);
   }
 }
 
