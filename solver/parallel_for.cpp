@@ -23,11 +23,14 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   std::exception_ptr error;
+  // Relaxed: a stronger order would put the pieces of a thread before those that another takes later, and
+  // only races between pieces that overlap in time would be seen.
+  const auto take = [&] { return next.fetch_add(1, std::memory_order_relaxed); };
   const auto work_on = [&] {
     try {
-      for (std::size_t k = next++; k < count; k = next++) work(k);
+      for (std::size_t k = take(); k < count; k = take()) work(k);
     } catch (...) {
-      next = count;
+      next.store(count, std::memory_order_relaxed);
       const std::scoped_lock lock(mutex);
       if (!error) error = std::current_exception();
     }
