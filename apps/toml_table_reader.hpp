@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,6 +59,7 @@ class TomlTableReader {
   template <typename Names, typename Choice>
   bool read_choice(std::string_view key, Choice& result, const Names& names) {
     std::vector<std::string> words;
+    words.reserve(std::size(names));
     for (const auto& [word, choice] : names) words.emplace_back(word);
     const std::optional<std::size_t> index = read_word(key, words);
     if (index) result = names[*index].second;
@@ -68,6 +70,7 @@ class TomlTableReader {
   template <typename Names>
   bool read_words(std::string_view key, std::vector<std::string>& result, const Names& names) {
     std::vector<std::string> words;
+    words.reserve(std::size(names));
     for (const auto& [word, choice] : names) words.emplace_back(word);
     return read_words_among(key, result, words);
   }

@@ -29,7 +29,8 @@ struct StiffnessSource {
   double size = 0.0;           ///< block_size, m
   double young_modulus = 0.0;  ///< Pa; of no use if fixed
   bool fixed = false;
-  [[nodiscard]] auto operator<=>(const StiffnessSource&) const = default;
+  // What the compiler writes here compares with a literal 0, which the check takes for a pointer.
+  [[nodiscard]] auto operator<=>(const StiffnessSource&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 [[nodiscard]] StiffnessSource stiffness_source(const BlockModel& block);
 
