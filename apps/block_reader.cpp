@@ -137,7 +137,18 @@ SceneFix read_fix(TomlTableReader table) {
   read_components(table, fix.components);
   std::vector<std::vector<double>> rows;
   table.read_history("displacement_history", rows, 4, "[t, ux, uy, uz]");
-  for (const auto& row : rows) fix.displacement_history.push_back({row[0], {row[1], row[2], row[3]}});
+  for (const auto& row : rows) {
+    fix.displacement_history.push_back({row[0], {row[1], row[2], row[3]}});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (fix.components[axis] || row[axis + 1] == 0.0) continue;
+      table.error_at_value(
+          "displacement_history",
+          fmt::format("displacement_history moves a component that is not held (u{} = {:g} at t = "
+                      "{:g}), 0 or \"{}\" among components is needed",
+                      "xyz"[axis], row[axis + 1], row[0], "xyz"[axis]));
+      return fix;
+    }
+  }
   return fix;
 }
 

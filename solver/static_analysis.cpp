@@ -11,6 +11,10 @@
 namespace ashlar {
 namespace {
 
+/// Of settings.static_travel. Blocks that moving ones take along have travelled less than it, so have those
+/// that move slowly; blocks that only give way have hardly moved.
+constexpr double moving_share = 0.1;
+
 TimeScheme static_scheme(double inertia) {
   TimeScheme scheme;
   scheme.inertia = inertia;
@@ -99,7 +103,11 @@ StaticStatus Simulation::static_step(double end_time) {
   if (static_.moving) return StaticStatus::moving;
   if (static_.balanced && reached(end_time)) return StaticStatus::equilibrium;
   if (static_.inertia == 0.0 || static_.balanced) start_load_level(end_time);
-  if (static_.iterations >= settings_.static_iterations) return StaticStatus::not_converged;
+  if (static_.iterations >= settings_.static_iterations) {
+    // What little a block lacks may take it far only slowly.
+    static_.moving = !moving_blocks().empty();
+    return static_.moving ? StaticStatus::moving : StaticStatus::not_converged;
+  }
   ++static_.iterations;
   const double least = least_inertia();
   std::vector<FoundContacts> found = find_contacts(0.0);
@@ -184,13 +192,11 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
-  // Blocks that moving ones take along have travelled less; those that only give way have hardly moved.
-  constexpr double share = 0.1;
   const std::vector<bool> held = held_without_contacts();
   std::vector<MovingBlock> result;
   for (std::size_t k = 0; k < static_.travels.size(); ++k) {
     const BlockModel& block = blocks_[k];
-    if (!moving_[k] || held[k] || static_.travels[k] <= share * settings_.static_travel) continue;
+    if (!moving_[k] || held[k] || static_.travels[k] <= moving_share * settings_.static_travel) continue;
     const Eigen::MatrixX3d& a = static_.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),

@@ -86,6 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
                   "s.toml:23:1: error: unknown key in block.fix (velocity), velocity belongs to block"},
         FaultCase{22, "point = [0, 0, 0]\ndisplacement_history = [[0, 0, 0, 0], [0, 1, 0, 0]]",
                   "s.toml:23:39: error: time in displacement_history does not increase (0 after 0)"},
+        FaultCase{
+            22,
+            "point = [0, 0, 0]\ncomponents = [\"x\"]\ndisplacement_history = [[0, 0, 0, 0], [1, 2, 3, 0]]",
+            "s.toml:24:24: error: displacement_history moves a component that is not held (uy = 3 at t = 1)"},
         FaultCase{22, "point = [0, 0, 0]\ndisplacement_history = [[0, 0, 0]]",
                   "s.toml:23:25: error: displacement_history has the wrong length (3 entries), [t, ux, uy, "
                   "uz] is"}));

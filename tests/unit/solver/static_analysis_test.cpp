@@ -83,9 +83,9 @@ TEST(StaticAnalysis, CubeRestsOnItsBase) {
   }
 }
 
-Simulation on_incline(double incline, double friction_angle) {
+Simulation on_incline(double incline, double friction_angle, int order = 1) {
   JointLaw law{1e10, 1e10, std::tan(friction_angle * std::numbers::pi / 180.0), 0.0, 0.0, true};
-  return Simulation(models(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1),
+  return Simulation(models(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, order),
                            fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, incline))),
                     {{}, {}}, same_law(law), {});
 }
@@ -113,6 +113,16 @@ TEST(StaticAnalysis, BlockSlidesOnAnIncline) {
     EXPECT_LT((moving[0].acceleration - expected).norm(), 1e-3 * size) << moving[0].acceleration.transpose();
     EXPECT_EQ(simulation.static_step(1.0), StaticStatus::moving);
   }
+}
+
+TEST(StaticAnalysis, SlowSlidingIsMovingToo) {
+  // Just below the limit of friction, a block of high order covers a hundredth of its size in an iteration.
+  Simulation simulation = on_incline(10, 9.95, 3);
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+  const double degree = std::numbers::pi / 180.0;
+  const double size = 9.81 * (std::sin(10 * degree) - std::cos(10 * degree) * std::tan(9.95 * degree));
+  ASSERT_EQ(simulation.moving_blocks().size(), 1U);
+  EXPECT_NEAR(simulation.moving_blocks()[0].acceleration.norm() / size, 1.0, 1e-2);
 }
 
 TEST(StaticAnalysis, TallBlockTopples) {
