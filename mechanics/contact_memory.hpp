@@ -1,9 +1,7 @@
 // What contact points remember from step to step: elastic slip, state, multipliers and whether the joint is
 // still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
-// the old one at its place in the material of either block, or from those around it, by moving least squares
-// that leave linear fields of slip as they are: a couple that friction holds does not fade where polygons
-// change, and nothing depends on the order of points. Where the contact passes on to another face, over an
-// edge that is not sharp, slip goes with it; a bond does not, as new surface is not bonded.
+// the nearest old one, nearest in the material of both blocks. Where the contact passes on to another face,
+// over an edge that is not sharp, slip goes with it; a bond does not, as new surface is not bonded.
 #pragma once
 
 #include <functional>
@@ -44,11 +42,10 @@ class ContactMemory {
   /// As `entries`, `deepest`, `held` and `bulge` of an earlier one.
   ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held, double bulge);
 
-  /// Memory for each of the new points, with vectors turned into the new tangent plane: from the old points
-  /// of the same faces, or, if none of those is as near as the whole contact was wide, of any faces whose
-  /// normals are within 60 degrees. The state is that of the nearest one; the joint is intact where most of
-  /// what is around was. Points without any start open, without slip, bonded by the joint's strength if their
-  /// gap is at most `bond_distance`, m (minus infinity: never).
+  /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
+  /// old point of the same faces, or, if none of those is as near as the whole contact was wide, of any faces
+  /// whose normals are within 60 degrees. Points without one start open, without slip, bonded by the joint's
+  /// strength if their gap is at most `bond_distance`, m (minus infinity: never).
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
                                                 double bond_distance) const;
 
@@ -69,17 +66,7 @@ class ContactMemory {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:
-  struct Neighbour {
-    const Entry* entry;
-    double squared_distance;  ///< m^2, in the material of the block where it is less
-  };
-  /// Old points within reach, the nearest first.
-  [[nodiscard]] std::vector<Neighbour> neighbours(const ContactPoint& point, bool same_faces) const;
-  /// Shares with which neighbours of other places give the value at a point; the last ones have none.
-  [[nodiscard]] static Eigen::VectorXd shares_of(const ContactPoint& point,
-                                                 const std::vector<Neighbour>& neighbours);
-  [[nodiscard]] PointMemory interpolated(const ContactPoint& point,
-                                         const std::vector<Neighbour>& neighbours) const;
+  [[nodiscard]] const Entry* nearest(const ContactPoint& point, bool same_faces) const;
 
   std::vector<Entry> entries_;
   double deepest_ = 0.0;

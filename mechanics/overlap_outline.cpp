@@ -94,12 +94,14 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
     outline.area += area_of(outline.pieces.back());
   }
   constexpr double straight = 1e-6;  // rad; rounding turns an outline by far less
+  // Corners of sub-faces that almost fit lie in clusters, whose numbers change with each motion.
+  constexpr double cluster = 1e-3;
+  const double one_point = std::max(4.0 * tolerance, cluster * std::sqrt(outline.area));
   std::vector<Vector3> kept;
   for (const FaceOverlapPoint& point : face.points) {
     const Vector3 place = lifted(overlaps[at(point.overlap)], point.corner);
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Vector3& other) {
-      return (other - place).norm() <= 4.0 * tolerance;
-    });
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const Vector3& other) { return (other - place).norm() <= one_point; });
     if (known) continue;
     double angle = 0.0;
     bool corner = false;

@@ -26,8 +26,9 @@ struct FaceOutline {
   double area;                                       ///< of all pieces, m^2
 };
 
-/// Leaves out points that another one stands for within the tolerance, those that are corners of no piece's
-/// outline and, unless `divided`, those where the outline of all pieces goes straight on.
+/// Leaves out points that another one stands for within a thousandth of the root of the area, those that are
+/// corners of no piece's outline and, unless `divided`, those where the outline of all pieces goes straight
+/// on.
 /// @param divided faces curve: corners of the pieces are points, also inside
 [[nodiscard]] FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& overlaps,
                                      bool divided, double tolerance);

@@ -110,7 +110,7 @@ Eigen::VectorXd turning_force(const Eigen::MatrixX3d& start, const Eigen::Vector
 }  // namespace
 
 ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
-                         const JointLaw& law, std::vector<ContactPoint> points,
+                         const JointLaw& law, const std::vector<ContactPoint>& points,
                          std::vector<PointMemory> memory)
     : ContactPair(a, b, body_a, body_b, law, points, std::move(memory),
                   values_at(*body_a.model, points, true), values_at(*body_b.model, points, false), nullptr) {}

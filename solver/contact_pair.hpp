@@ -42,7 +42,7 @@ class ContactPair {
  public:
   /// @param a,b indices of the blocks, used by the solver only
   ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
-              std::vector<ContactPoint> points, std::vector<PointMemory> memory);
+              const std::vector<ContactPoint>& points, std::vector<PointMemory> memory);
 
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
   /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this

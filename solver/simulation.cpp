@@ -47,7 +47,7 @@ std::string to_string(RejectionReason reason) {
 }
 
 Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion> motions, LawOfPair law,
-                       SimulationSettings settings)
+                       const SimulationSettings& settings)
     : blocks_(std::move(blocks)),
       law_(std::move(law)),
       settings_(settings),
@@ -233,7 +233,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const auto& [a, b] = blocks;
     const ContactBody body_a = body_at_start(a);
     const ContactBody body_b = body_at_start(b);
-    auto points = contact_points(body_a, body_b, contacts, point_settings);
+    const auto points = contact_points(body_a, body_b, contacts, point_settings);
     counts_.contact_points += points.size();
     // Faces that share no area to the last bit are found, but have no points.
     if (points.empty()) continue;
@@ -242,7 +242,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
-    pairs.emplace_back(a, b, body_a, body_b, law, std::move(points), std::move(memory));
+    pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory));
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);
@@ -291,7 +291,7 @@ std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const
 }
 
 Eigen::MatrixX3d Simulation::external_force(const BlockModel& block, const TimeScheme& scheme) const {
-  const Eigen::MatrixX3d end = block.external_force(settings_.gravity, time_ + scheme.step);
+  Eigen::MatrixX3d end = block.external_force(settings_.gravity, time_ + scheme.step);
   if (scheme.end_share >= 1.0) return end;
   return scheme.end_share * end + (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time_);
 }

@@ -103,7 +103,7 @@ class Simulation {
 
   /// @param law joint law of each pair (a < b)
   Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion> motions, LawOfPair law,
-             SimulationSettings settings);
+             const SimulationSettings& settings);
 
   /// Moves every block whose supports leave no rigid motion to its equilibrium under gravity and the loads at
   /// time 0, contacts off, at rest. To be called before the first step. Incremental blocks go there in steps,

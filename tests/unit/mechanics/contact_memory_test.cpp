@@ -73,53 +73,6 @@ TEST(ContactMemory, ASlidingPointIsKnownByWhatItCarriesAlong) {
   EXPECT_TRUE(next[0].intact && next[1].intact);
 }
 
-TEST(ContactMemory, AFieldOfSlipThatTurnsIsTheSameAtNewPoints) {
-  // Corners of a square that has turned by 1e-6: slip = 1e-6 (-y, x). New points lie between the old ones.
-  const auto turning = [](const Vector3& place) { return Vector3(1e-6 * Vector3(-place.y(), place.x(), 0)); };
-  std::vector<ContactPoint> old;
-  std::vector<PointMemory> slips;
-  for (const double x : {0.0, 1.0}) {
-    for (const double y : {0.0, 1.0}) {
-      old.push_back(point_at({x, y, 1}, {x, y, 0}, 7, {0, 0, 1}));
-      slips.push_back(slipped(turning({x, y, 0})));
-    }
-  }
-  ContactMemory memory;
-  memory.store(old, slips, 0.0, {});
-  for (const Vector3& place : {Vector3(0.5, 0.5, 0), Vector3(0.5, 0, 0), Vector3(0.2, 0.7, 0)}) {
-    const PointMemory next =
-        memory.recall({point_at(place + Vector3(0, 0, 1), place, 7, {0, 0, 1})}, never)[0];
-    EXPECT_LT((next.slip - turning(place)).norm(), 1e-20) << place.transpose();
-  }
-}
-
-TEST(ContactMemory, TheOrderOfPointsDoesNotMatter) {
-  // Half way between two points that differ.
-  const std::vector<ContactPoint> old = {point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1}),
-                                         point_at({0.4, 0, 1}, {0.4, 0, 0}, 7, {0, 0, 1})};
-  PointMemory broken = slipped({3e-6, 0, 0});
-  broken.intact = false;
-  ContactMemory memory, reversed;
-  memory.store(old, {slipped({1e-6, 0, 0}), broken}, 0.0, {});
-  reversed.store({old[1], old[0]}, {broken, slipped({1e-6, 0, 0})}, 0.0, {});
-  const std::vector<ContactPoint> between = {point_at({0.2, 0, 1}, {0.2, 0, 0}, 7, {0, 0, 1})};
-  EXPECT_NEAR(memory.recall(between, never)[0].slip.x(), 2e-6, 1e-20);
-  EXPECT_NEAR(reversed.recall(between, never)[0].slip.x(), 2e-6, 1e-20);
-  EXPECT_FALSE(memory.recall(between, never)[0].intact);
-  EXPECT_FALSE(reversed.recall(between, never)[0].intact);
-}
-
-TEST(ContactMemory, SlipIsNotExtrapolatedFar) {
-  // It grows by 1e-6 over a tenth of a metre; 0.4 m farther on, a straight line would make 5e-6 of it.
-  ContactMemory memory;
-  memory.store(
-      {point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1}), point_at({0.1, 0, 1}, {0.1, 0, 0}, 7, {0, 0, 1})},
-      {slipped({0, 0, 0}), slipped({1e-6, 0, 0})}, 0.0, {});
-  const double slip = memory.recall({point_at({0.5, 0, 1}, {0.5, 0, 0}, 7, {0, 0, 1})}, never)[0].slip.x();
-  EXPECT_GT(slip, 0.5e-6);
-  EXPECT_LE(slip, 1e-6);
-}
-
 TEST(ContactMemory, NewPointsAreBondedByTheirGap) {
   const auto points = std::vector{point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})};
   EXPECT_TRUE(ContactMemory().recall(points, 1e-3)[0].intact);
