@@ -12,8 +12,8 @@ namespace ashlar {
 
 /// @param pairs as found anew, at rest on the surface. @param memory of the pairs of blocks at the end of the
 /// last step. @param moving blocks that springs' energy can go along with
-/// @return bounds for ContactPair::hold_at_most of each pair; their sum over pairs that hold less, and the
-/// energy of those that were bounded below what they hold now, is not more than all held
+/// @return bounds for ContactPair::hold_at_most, one for each pair: with them, all normal springs together
+/// hold no more than at the end of the last step
 [[nodiscard]] std::vector<SpringEnergy> energy_bounds(
     const std::vector<ContactPair>& pairs, const std::map<std::array<int, 2>, ContactMemory>& memory,
     const std::vector<bool>& moving);

@@ -19,6 +19,7 @@ namespace ashlar {
 /// Ways out of what each block had sunk into at the end of the last step.
 class WaysOut {
  public:
+  WaysOut() = default;  ///< none
   /// @param memory of pairs of blocks (a, b)
   explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
   /// Motions of a relative to b, m, that take either of them out of what it had sunk into.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "solver/energy_bounds.hpp"
-#include "solver/seams.hpp"
 
 namespace ashlar {
 namespace {
@@ -218,9 +217,9 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
-  const WaysOut ways(memory_);
-  for (auto& [blocks, contacts] : found)
-    leave_out_seams(finder_.placed(blocks[0]), finder_.placed(blocks[1]), ways.of_pair(blocks[0], blocks[1]),
+  ways_out_ = WaysOut(memory_);
+  for (auto& [pair, contacts] : found)
+    leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out_.of_pair(pair[0], pair[1]),
                     contacts);
   return found;
 }
@@ -264,10 +263,9 @@ std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
     if (moving_[k]) after[k].position += trial.bodies[k].motion();
   }
   std::vector<PassingBlocks> passing = finder_.check_motion(states_, after, found);
-  const WaysOut ways(memory_);
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const auto& [a, b] = pair.blocks;
-    return at_seam(finder_.placed(a), finder_.placed(b), ways.of_pair(a, b), pair.touch);
+    return at_seam(finder_.placed(a), finder_.placed(b), ways_out_.of_pair(a, b), pair.touch);
   });
   return passing;
 }
@@ -452,13 +450,10 @@ void Simulation::note_elastic_energies() {
 void Simulation::book_refound(const std::vector<ContactPair>& pairs) {
   // Springs of one pair may take over what those of another one held.
   double change = 0.0;
-  for (const ContactPair& pair : pairs) {
-    // A tie is the same in every step.
-    if (!pair.tied()) change += pair.start_energy();
-  }
-  for (const PairRecord& record : records_) {
+  for (const ContactPair& pair : pairs)
+    change += pair.tied() ? 0.0 : pair.start_energy();  // a tie is the same in every step
+  for (const PairRecord& record : records_)
     for (const PointResponse& response : record.responses) change -= response.energy();
-  }
   (change > 0.0 ? ledger_.refound_gained : ledger_.refound_lost) += std::abs(change);
 }
 

@@ -15,6 +15,7 @@
 #include "solver/island.hpp"
 #include "solver/ledger.hpp"
 #include "solver/lone_body.hpp"
+#include "solver/seams.hpp"
 #include "solver/settings.hpp"
 #include "solver/static_analysis.hpp"
 
@@ -238,6 +239,7 @@ class Simulation {
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
   ContactFinder finder_;
+  WaysOut ways_out_;  ///< at the last search for contacts
   std::vector<TiedBlocks> ties_;
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;

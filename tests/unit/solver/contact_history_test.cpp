@@ -71,6 +71,23 @@ TEST(ContactHistory, ASoftCubeOnPointSpringsDoesNotSink) {
   }
 }
 
+// Faces that fit exactly and curve: corners of their sub-faces come and go with the last bits.
+TEST(ContactHistory, StacksOfCurvedBlocksStandOnPointSprings) {
+  for (const int order : {2, 4}) {
+    Stack stack;
+    stack.settings.area_springs = false;
+    stack.add(fixed_block(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0}))));
+    for (const double z : {0.0, 1.0})
+      stack.add(block_of("cube", Polyhedron(make_box({-0.5, -0.5, z}, {0.5, 0.5, z + 1})), {2500, 1e10, 0.2},
+                         order));
+    Simulation simulation = stack.simulation({2e11, 1e11, std::tan(std::numbers::pi / 6), 0.0, 0.0, false});
+    ASSERT_TRUE(run_until(simulation, 0.05)) << order;
+    EXPECT_TRUE(simulation.rejections().empty()) << order;
+    // Less than ten times what its own weight, 5e4 Pa over 2 m, makes of it.
+    EXPECT_LT((place_of(simulation, 2, {0.5, 0.5, 2.0}) - Vector3(0.5, 0.5, 2.0)).norm(), 1e-4) << order;
+  }
+}
+
 // Steps as long as the springs' own period: forces that are means over a step must not do work of their own.
 TEST(ContactHistory, ATowerStandsWithAverageAcceleration) {
   for (const bool augmented : {false, true}) {
