@@ -21,8 +21,11 @@ std::array<int, 2> sorted(int a, int b) {
 
 }  // namespace
 
-AdaptiveSurface::AdaptiveSurface(const Polyhedron& solid, int order, int levels)
-    : solid_(&solid), form_(&BernsteinForm::of_order(order)), surface_(divide_surface(solid, levels)) {
+AdaptiveSurface::AdaptiveSurface(const Polyhedron& solid, int order, int levels, const Eigen::Matrix3d& axes)
+    : solid_(&solid),
+      form_(&BernsteinForm::of_order(order)),
+      axes_(axes),
+      surface_(divide_surface(solid, levels)) {
   points_ = surface_.points;
   root_points_ = points_.size();
   const std::vector<Vector3> places = form_->domain_points();
@@ -62,7 +65,7 @@ void AdaptiveSurface::move(const Eigen::Ref<const Eigen::Matrix3Xd>& values) {
   box_ = Box{};
   for (int root = 0; root < root_count_; ++root) {
     root_patches_.emplace_back(*form_, values.middleCols(root * form_->size(), form_->size()));
-    box_.include(root_patches_.back().box());
+    box_.include(root_patches_.back().box(axes_));
   }
 }
 
@@ -151,7 +154,7 @@ bool AdaptiveSurface::needs_division(const Node& node, const BernsteinTriangle& 
                                      const DivisionDemand& demand) const {
   if (node.bisections >= max_bisections) return false;
   if (patch.chord_bound({node.rim[0] >= 0, node.rim[1] >= 0, node.rim[2] >= 0}) <= tolerance) return false;
-  const Box box = patch.box();
+  const Box box = patch.box(axes_);
   return std::any_of(demand.neighbours.begin(), demand.neighbours.end(),
                      [&](const Box& neighbour) { return neighbour.meets(box); });
 }

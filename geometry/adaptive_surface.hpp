@@ -22,7 +22,7 @@ namespace ashlar {
 /// Where the faces of a block are to be divided, and how finely.
 struct DivisionDemand {
   double chord_tolerance;           ///< m, > 0; infinity: no division
-  std::span<const Box> neighbours;  ///< only cells whose box meets one of these are divided
+  std::span<const Box> neighbours;  ///< along AdaptiveSurface's axes: only cells that meet one are divided
 };
 
 /// A cell's true, curved shape.
@@ -41,14 +41,17 @@ class AdaptiveSurface {
 
   /// @param solid must outlive this. @param order of the block's motion, 1 to BernsteinForm::max_order
   /// @param levels uniform levels (0 to 8) the adaptive division starts from
-  AdaptiveSurface(const Polyhedron& solid, int order, int levels);
+  /// @param axes (3, 3), orthonormal columns, of the boxes that decide what is in reach: a scene that is
+  /// turned along with its axes is divided as before
+  AdaptiveSurface(const Polyhedron& solid, int order, int levels,
+                  const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
   /// Reference coordinates of the points whose current positions an update needs, m.
   [[nodiscard]] const std::vector<Vector3>& domain_points() const { return domain_points_; }
 
   /// Takes the block's present shape. @param values (3, #domain_points), current positions, m
   void move(const Eigen::Ref<const Eigen::Matrix3Xd>& values);
-  /// Contains the curved surface, as moved last.
+  /// Contains the curved surface, as moved last; along the axes.
   [[nodiscard]] const Box& box() const { return box_; }
 
   /// Divides and joins as demanded of the present shape. @return true if the cells changed
@@ -103,6 +106,7 @@ class AdaptiveSurface {
 
   const Polyhedron* solid_;
   const BernsteinForm* form_;
+  Eigen::Matrix3d axes_;
   std::vector<Vector3> domain_points_;
   std::vector<Vector3> points_;  ///< those of the roots first
   std::size_t root_points_ = 0;

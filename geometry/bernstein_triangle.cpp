@@ -175,6 +175,13 @@ Box BernsteinTriangle::box() const {
       rounding_ + two_u * control_.cwiseAbs().maxCoeff());
 }
 
+Box BernsteinTriangle::box(const Eigen::Matrix3d& axes) const {
+  const Eigen::Matrix3Xd turned = axes.transpose() * control_;
+  // Turned, the rounding of three coordinates adds up, and so does that of the three products.
+  return Box{turned.rowwise().minCoeff(), turned.rowwise().maxCoeff()}.grown(
+      2.0 * rounding_ + 8.0 * two_u * control_.cwiseAbs().maxCoeff());
+}
+
 double BernsteinTriangle::chord_bound(const std::array<bool, 3>& rim) const {
   const PlaneDistance distance(corner(0), corner(1), corner(2));
   double bound = 0.0;

@@ -69,6 +69,8 @@ class BernsteinTriangle {
 
   /// Contains the patch.
   [[nodiscard]] Box box() const;
+  /// The same with sides along other axes, in their coordinates. @param axes (3, 3), orthonormal columns
+  [[nodiscard]] Box box(const Eigen::Matrix3d& axes) const;
   /// Chord error of the flat triangle through the corners, from above, m: how far the patch leaves its plane,
   /// and how far those sides that are marked as rim leave the straight segments between their ends. (Sides
   /// inside a face may run differently in its plane: the flat triangles still cover the same surface.) A

@@ -1,6 +1,7 @@
-// Boxes with sides along the axes.
+// Boxes with sides along the axes, of space or of a frame.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -34,6 +35,18 @@ struct Box {
   Box box;
   for (const Vector3& point : points) box.include(point);
   return box;
+}
+
+/// The box along other axes, in their coordinates; contains what the points span in spite of rounding.
+/// @param axes (3, 3), orthonormal columns
+[[nodiscard]] inline Box box_along(const Eigen::Matrix3d& axes, std::span<const Vector3> points) {
+  Box box;
+  double farthest = 0.0;
+  for (const Vector3& point : points) {
+    box.include(Vector3(axes.transpose() * point));
+    farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
+  }
+  return points.empty() ? box : box.grown(8.0 * std::numeric_limits<double>::epsilon() * farthest);
 }
 
 }  // namespace ashlar

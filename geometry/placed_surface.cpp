@@ -43,6 +43,7 @@ PlacedSurface::PlacedSurface(const SubFaceSurface& surface, std::vector<Vector3>
     }
   }
   box_ = box_of(points_);
+  for (const Vector3& point : points_) size_ = std::max(size_, (point - points_.front()).norm());
   normals_.reserve(surface.cells.size());
   cell_boxes_.reserve(surface.cells.size());
   for (const SurfaceCell& cell : surface.cells) {

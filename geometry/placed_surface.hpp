@@ -39,6 +39,8 @@ class PlacedSurface {
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] std::vector<Vector3> corners(int cell) const;
   [[nodiscard]] std::array<Vector3, 2> edge(int index) const;
+  /// Largest distance of a point from the first one, m: the same wherever and however the block lies.
+  [[nodiscard]] double size() const { return size_; }
   /// Of the coordinates of all points.
   [[nodiscard]] const NumericRange& range() const { return range_; }
 
@@ -50,6 +52,7 @@ class PlacedSurface {
   std::vector<double> chord_bounds_;
   double largest_chord_bound_ = 0.0;
   Box box_;
+  double size_ = 0.0;
   NumericRange range_;
 };
 

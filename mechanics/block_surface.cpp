@@ -4,12 +4,14 @@
 
 namespace ashlar {
 
-BlockSurface::BlockSurface(const BlockModel& model, int levels, const BlockSurface* twin) : model_(&model) {
+BlockSurface::BlockSurface(const BlockModel& model, int levels, const Eigen::Matrix3d& axes,
+                           const BlockSurface* twin)
+    : model_(&model), axes_(axes) {
   if (model.incremental() != nullptr) {
     whole_ = model.incremental()->surface();
     start_step();
   } else if (model.order() >= 2 && !model.fixed()) {
-    adaptive_.emplace(model.solid(), model.order(), levels);
+    adaptive_.emplace(model.solid(), model.order(), levels, axes);
     domain_phi_ =
         twin != nullptr
             ? twin->domain_phi_
@@ -48,7 +50,7 @@ void BlockSurface::move(const BlockState& state) {
     box_ = adaptive_->box();
   }
   points_ = points(state);
-  if (!adaptive_) box_ = box_of(points_);
+  if (!adaptive_) box_ = box_along(axes_, points_);
 }
 
 double BlockSurface::motion_bound(const BlockState& before, const BlockState& after) const {

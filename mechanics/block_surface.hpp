@@ -15,15 +15,16 @@ namespace ashlar {
 class BlockSurface {
  public:
   /// @param model must outlive this. @param levels uniform levels (0 to 8) that divisions of curved faces
-  /// start from. @param twin of a block with the same parts and solid but for a translation, to share what
-  /// does not change; null: none
-  BlockSurface(const BlockModel& model, int levels, const BlockSurface* twin = nullptr);
+  /// start from. @param axes see AdaptiveSurface. @param twin of a block with the same parts and solid but
+  /// for a translation, to share what does not change; null: none
+  BlockSurface(const BlockModel& model, int levels, const Eigen::Matrix3d& axes,
+               const BlockSurface* twin = nullptr);
 
   /// Takes over the coordinates of a new step of an incremental block.
   void start_step();
   /// Takes the block's present shape.
   void move(const BlockState& state);
-  /// Contains the true surface as moved last.
+  /// Contains the true surface as moved last; along the axes.
   [[nodiscard]] const Box& box() const { return box_; }
   /// How far any surface point can have gone between two states, m, from above.
   [[nodiscard]] double motion_bound(const BlockState& before, const BlockState& after) const;
@@ -49,6 +50,7 @@ class BlockSurface {
   [[nodiscard]] Eigen::Matrix3Xd domain_values(const BlockState& state) const;
 
   const BlockModel* model_;
+  Eigen::Matrix3d axes_;
   std::optional<AdaptiveSurface> adaptive_;
   SubFaceSurface whole_;  ///< of a block that stays affine or is incremental
   /// phi at the domain points of a block that curves

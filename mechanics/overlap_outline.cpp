@@ -57,11 +57,10 @@ Vector3 lifted(const CellOverlap& overlap, int corner) {
 
 double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b) {
   constexpr double share = 1e-10;
-  const auto diagonal = [](const PlacedSurface& s) { return (s.box().high - s.box().low).norm(); };
   double farthest = 0.0;
   for (const Box& box : {a.box(), b.box()})
     farthest = std::max({farthest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
-  return std::max(share * std::min(diagonal(a), diagonal(b)),
+  return std::max(share * std::min(a.size(), b.size()),
                   16.0 * std::numeric_limits<double>::epsilon() * farthest);
 }
 

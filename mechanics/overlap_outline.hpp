@@ -10,8 +10,8 @@
 
 namespace ashlar {
 
-/// How far corners may be off by rounding, m: 1e-10 of the smaller body's box diagonal, and never less than
-/// the rounding of coordinates of that size.
+/// How far corners may be off by rounding, m: 1e-10 of the smaller body's size (PlacedSurface::size), and
+/// never less than the rounding of its coordinates.
 [[nodiscard]] double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b);
 
 /// A polygon without corners that are within a tolerance of the line between their neighbours, the least ones

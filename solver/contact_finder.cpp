@@ -15,14 +15,50 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
+double area_of_triangle(const TriangleMesh& mesh, const std::array<int, 3>& corners) {
+  const Vector3& start = mesh.points[at(corners[0])];
+  return 0.5 * (mesh.points[at(corners[1])] - start).cross(mesh.points[at(corners[2])] - start).norm();
+}
+
 double surface_area(const Polyhedron& solid) {
   double area = 0.0;
-  const auto& points = solid.mesh().points;
-  for (const auto& [i, j, k] : solid.mesh().triangles) {
-    const Vector3& start = points[at(i)];
-    area += 0.5 * (points[at(j)] - start).cross(points[at(k)] - start).norm();
-  }
+  for (const auto& triangle : solid.mesh().triangles) area += area_of_triangle(solid.mesh(), triangle);
   return area;
+}
+
+/// Axes that turn with the scene, for boxes that then do so too: what they leave out, and the division of
+/// faces, must not depend on how a scene lies. Along the largest face and its longest side, as most of a
+/// scene is likely to be.
+Eigen::Matrix3d axes_of(const std::vector<BlockModel>& blocks) {
+  // Faces and sides that are equal but for rounding: the first.
+  constexpr double larger = 1.0 + 1e-9;
+  double most_area = 0.0;
+  Vector3 normal = Vector3::UnitZ();
+  Vector3 side = Vector3::UnitX();
+  for (const BlockModel& block : blocks) {
+    const auto& points = block.solid().mesh().points;
+    for (const PolyhedronFace& face : block.solid().faces()) {
+      double area = 0.0;
+      for (const int triangle : face.triangles)
+        area += area_of_triangle(block.solid().mesh(), block.solid().mesh().triangles[at(triangle)]);
+      if (area <= larger * most_area) continue;
+      most_area = area;
+      normal = face.normal;
+      double longest = 0.0;
+      const auto& loop = face.loops.front();
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vector3 along = points[at(loop[(k + 1) % loop.size()])] - points[at(loop[k])];
+        if (along.norm() <= larger * longest) continue;
+        longest = along.norm();
+        side = along;
+      }
+    }
+  }
+  Eigen::Matrix3d axes;
+  axes.col(2) = normal;
+  axes.col(1) = normal.cross(side).normalized();
+  axes.col(0) = axes.col(1).cross(normal);
+  return axes;
 }
 
 /// Width of the slab across a direction between two surfaces: no two points of them are nearer, however they
@@ -56,6 +92,7 @@ double distance_bound(const PlacedSurface& a, const PlacedSurface& b) {
 
 ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings)
     : settings_(settings),
+      axes_(axes_of(blocks)),
       placed_(blocks.size()),
       boxes_(blocks.size()),
       box_paths_(blocks.size(), 0.0),
@@ -65,7 +102,8 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
   std::map<const BlockParts*, std::size_t> first;  // of equal blocks
   for (const BlockModel& block : blocks) {
     const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
-    surfaces_.emplace_back(block, settings.subdivisions, is_first ? nullptr : &surfaces_[twin->second]);
+    surfaces_.emplace_back(block, settings.subdivisions, axes_,
+                           is_first ? nullptr : &surfaces_[twin->second]);
     moving_.push_back(!block.fixed());
     thickness_.push_back(block.basis().volume() / surface_area(block.solid()));
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
@@ -289,7 +327,7 @@ void ContactFinder::accept_motion() {
 }
 
 void ContactFinder::renew(int block, const BlockModel& model) {
-  surfaces_[at(block)] = BlockSurface(model, settings_.subdivisions);
+  surfaces_[at(block)] = BlockSurface(model, settings_.subdivisions, axes_);
   placed_[at(block)].reset();
   boxes_[at(block)] = Box{};
   std::erase_if(clearances_,

@@ -120,6 +120,7 @@ class ContactFinder {
                            const std::function<double(int, int)>& deepest);
 
   SimulationSettings settings_;
+  Eigen::Matrix3d axes_;      ///< of the boxes below
   std::vector<bool> moving_;  ///< false for fixed blocks
   std::set<PairKey> left_out_;
   std::vector<double>

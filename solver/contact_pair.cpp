@@ -181,9 +181,10 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
   for (std::size_t k = 0; k < points_.size(); ++k)
     start_(0, static_cast<Eigen::Index>(k)) = gaps[k] - rests_[k];
   respond_at_start();
+  // What friction does not bear is cut off in any case: where that is what makes the energies equal, their
+  // rounding must not choose.
   const double shear = sum_of(start_responses_).shear;
-  if (!(shear > held.shear)) return;
-  const double share = std::sqrt(held.shear / shear);
+  const double share = shear > held.shear ? std::sqrt(held.shear / shear) : 1.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     auto start = start_.col(static_cast<Eigen::Index>(k));
     start.tail<2>() = share * elastic_slip(laws_[k], start_responses_[k], start.tail<2>());

@@ -126,6 +126,27 @@ TEST(AdaptiveSurface, DividesOnlyWhatIsInReach) {
   }
 }
 
+TEST(AdaptiveSurface, ATurnedSceneIsDividedAsBeforeAlongItsOwnAxes) {
+  const Polyhedron solid(make_box({0, 0, 0}, {4, 2, 0.5}));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  AdaptiveSurface straight(solid, 2, 0);
+  AdaptiveSurface turned(solid, 2, 0, turn);
+  AdaptiveSurface along_space(solid, 2, 0);
+  const Eigen::Matrix3Xd values = bent(straight, 0.1);
+  straight.move(values);
+  turned.move(turn * values);
+  along_space.move(turn * values);
+  EXPECT_NEAR((turned.box().low - straight.box().low).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((turned.box().high - straight.box().high).norm(), 0.0, 1e-12);
+  // The same numbers are another neighbour along the axes of space.
+  const std::vector<Box> neighbour = {{{2.5, 0.5, -0.1}, {3.0, 1.0, 1.5}}};
+  EXPECT_TRUE(straight.divide({1e-3, neighbour}));
+  EXPECT_TRUE(turned.divide({1e-3, neighbour}));
+  EXPECT_TRUE(along_space.divide({1e-3, neighbour}));
+  EXPECT_EQ(turned.wanted(), straight.wanted());
+  EXPECT_NE(along_space.wanted(), straight.wanted());
+}
+
 TEST(AdaptiveSurface, NonConvexFacesAndUniformLevelsAreConforming) {
   const Polyhedron solid(test_support::l_shaped_prism());
   for (const int levels : {0, 1}) {

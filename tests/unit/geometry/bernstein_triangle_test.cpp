@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
@@ -89,9 +90,14 @@ TEST(BernsteinTriangle, BoundsHoldForRandomPatches) {
       EXPECT_GE(patch.chord_bound(all_rim), sampled_chord_error(patch, all_rim, 30));
       EXPECT_GE(patch.chord_bound(all_rim), patch.chord_bound(no_rim));
       const Box box = patch.box();
+      const Eigen::Matrix3d axes =
+          Eigen::AngleAxisd(3.0 * number(), Vector3(number(), number(), 1.1).normalized()).toRotationMatrix();
+      const Box box_along_axes = patch.box(axes);
       for (int k = 0; k < 50; ++k) {
         const Vector3 x = patch.at(random_barycentric(random));
         EXPECT_TRUE(box.meets({x, x}));
+        const Vector3 along = axes.transpose() * x;
+        EXPECT_TRUE(box_along_axes.meets({along, along}));
       }
     }
   }

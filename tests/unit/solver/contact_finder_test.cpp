@@ -54,24 +54,26 @@ Scene cube_over_floor(double gap) {
   return scene;
 }
 
-/// Two plates 0.2 thick that lie across the diagonal of x and z, 0.5 apart: their boxes meet, they do not.
+/// Two plates 0.2 thick that lie across the diagonal of x and z, 0.5 apart, and far off a floor along the
+/// axes that gives boxes their axes: the boxes of the plates meet, they do not.
 Scene two_diagonal_plates() {
   const auto diagonal = [](double from, double to) {
     return test_support::tilted_box({-3, -3, from}, {3, 3, to}, 45.0);
   };
   Scene scene;
-  scene.blocks.reserve(2);
+  scene.blocks.reserve(3);
   BlockDefinition below = block_of("below", diagonal(-0.2, 0.0), rock, 1);
   below.fixed = true;
   scene.add(BlockModel(std::move(below)));
   scene.add(BlockModel(block_of("above", diagonal(0.5, 0.7), rock, 1)));
+  scene.add(fixed_block("floor", {-10, -10, -101}, {10, 10, -100}));
   return scene;
 }
 
 TEST(ContactFinder, PairsKnownToBeApartAreNotSearchedUntilTheyCouldMeet) {
   Scene scene = two_diagonal_plates();
   ContactFinder finder(scene.blocks, settings_for_test());
-  const std::vector<double> motion = {0.0, 0.05};
+  const std::vector<double> motion = {0.0, 0.05, 0.0};
   EXPECT_TRUE(finder.find(scene.states, expected(motion), no_penetration).empty());
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   const double down = -0.04 * std::sqrt(2.0);  // vertically, 0.04 nearer
@@ -86,7 +88,7 @@ TEST(ContactFinder, PairsKnownToBeApartAreNotSearchedUntilTheyCouldMeet) {
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   EXPECT_EQ(finder.counts().block_pairs_far, 7U);
   // With 0.3 expected it could: the pair is looked at again, and found.
-  EXPECT_EQ(finder.find(scene.states, expected({0.0, 0.3}), no_penetration).size(), 1U);
+  EXPECT_EQ(finder.find(scene.states, expected({0.0, 0.3, 0.0}), no_penetration).size(), 1U);
   EXPECT_EQ(finder.counts().block_pairs_tested, 2U);
 }
 
@@ -111,12 +113,23 @@ TEST(ContactFinder, FindsWhatWasSkippedAsSoonAsItCouldMeet) {
 TEST(ContactFinder, GoesOnFromItsState) {
   Scene scene = two_diagonal_plates();
   ContactFinder first(scene.blocks, settings_for_test());
-  (void)first.find(scene.states, expected({0.0, 0.05}), no_penetration);
+  (void)first.find(scene.states, expected({0.0, 0.05, 0.0}), no_penetration);
   ContactFinder second(scene.blocks, settings_for_test());
   second.restore(first.state());
-  (void)second.find(scene.states, expected({0.0, 0.05}), no_penetration);
+  (void)second.find(scene.states, expected({0.0, 0.05, 0.0}), no_penetration);
   EXPECT_EQ(second.counts().block_pairs_tested, 1U);
   EXPECT_EQ(second.counts().block_pairs_far, 1U);
+}
+
+TEST(ContactFinder, WhatItSkipsTurnsWithTheScene) {
+  // The same plates without the floor: boxes lie along them, and do not meet.
+  Scene scene = two_diagonal_plates();
+  scene.blocks.pop_back();
+  scene.states.pop_back();
+  ContactFinder finder(scene.blocks, settings_for_test());
+  EXPECT_TRUE(finder.find(scene.states, expected({0.0, 0.05}), no_penetration).empty());
+  EXPECT_EQ(finder.counts().block_pairs_skipped, 1U);
+  EXPECT_EQ(finder.counts().block_pairs_tested, 0U);
 }
 
 TEST(ContactFinder, BlocksThatWouldPassAreReportedEarliestFirst) {

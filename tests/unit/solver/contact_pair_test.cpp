@@ -155,6 +155,21 @@ TEST(ContactPair, ASlidingPairFoundAnewHoldsNoMoreShear) {
   EXPECT_NEAR(response.points[0].force[2], -2.5e8 * 1e-4, 1e-7);
 }
 
+TEST(ContactPair, SlipThatFrictionDoesNotBearIsCutWhateverIsHeld) {
+  // As above with more energy held than the 5 J at the limit of 2e-4 m: taken back by half, it is locked.
+  const Setting setting = skew_setting(-2e-3);
+  PointMemory memory;
+  memory.slip = 3e-3 * setting.points[0].tangent_2;
+  ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 0.0, 0.0, true}, memory);
+  pair.hold_at_most({250.0, 10.0});
+  const Eigen::MatrixX3d back =
+      setting.a.basis().linear_field(-1e-4 * setting.points[0].tangent_2, Eigen::Matrix3d::Zero());
+  const PairResponse response = pair.respond(Eigen::Map<const Eigen::VectorXd>(back.data(), back.size()),
+                                             Eigen::VectorXd::Zero(setting.b.unknowns()), false);
+  EXPECT_EQ(response.points[0].state, ContactState::locked);
+  EXPECT_NEAR(response.points[0].force[2], -2.5e8 * 1e-4, 1e-6);
+}
+
 TEST(ContactPair, WithoutPointsThereAreNoForces) {
   Setting setting = skew_setting(0.0);
   setting.points.clear();
