@@ -127,10 +127,10 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
   archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.carried,
-          snapshot.accelerations, snapshot.memory, snapshot.contact_work, snapshot.finder, snapshot.report,
-          snapshot.records, snapshot.ledger, snapshot.statics, snapshot.start_balance,
-          snapshot.largest_step_residual, snapshot.largest_energy, snapshot.largest_penetration,
-          snapshot.rejections, snapshot.counts, snapshot.seconds);
+          snapshot.accelerations, snapshot.spin_debts, snapshot.memory, snapshot.contact_work,
+          snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger, snapshot.statics,
+          snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
+          snapshot.largest_penetration, snapshot.rejections, snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -158,6 +158,7 @@ SimulationSnapshot Simulation::snapshot() const {
       result.carried.emplace(static_cast<int>(k), blocks_[k].carried());
   }
   result.accelerations = accelerations_;
+  result.spin_debts = spin_debts_;
   for (const auto& [blocks, memory] : memory_) {
     result.memory.push_back({blocks, memory.entries(), memory.deepest(), memory.bulge(), memory.held()});
   }
@@ -202,6 +203,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
     finder_.start_step(block);
   }
   accelerations_ = snapshot.accelerations;
+  spin_debts_ = snapshot.spin_debts;
   memory_.clear();
   for (const RememberedPair& pair : snapshot.memory) {
     memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest, pair.held, pair.bulge));

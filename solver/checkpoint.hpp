@@ -29,6 +29,7 @@ struct SimulationSnapshot {
   std::vector<BlockState> states;
   std::map<int, CarriedShape> carried;  ///< of incremental blocks
   std::vector<Eigen::MatrixX3d> accelerations;
+  std::vector<double> spin_debts;
   std::vector<RememberedPair> memory;
   std::map<std::array<int, 2>, double> contact_work;
   FinderState finder;

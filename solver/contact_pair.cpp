@@ -90,20 +90,38 @@ bool is_free(const ContactBody& body) {
   return !body.model->fixed() && body.model->space().free();
 }
 
-/// Forces f_a = w x q_a that have no resultant and the given torque about the middle of the step, stacked as
-/// the unknowns of a free block are. @param start coefficients at the start of the step, @param change of
-/// them
-Eigen::VectorXd turning_force(const Eigen::MatrixX3d& start, const Eigen::VectorXd& change,
-                              const Vector3& torque) {
-  Eigen::MatrixX3d middle = start + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(change.data(), start.rows(), 3);
+/// Coefficients of the position from a point on. The first function is constant.
+Eigen::MatrixX3d position_from(const Vector3& point, const ContactBody& body) {
+  Eigen::MatrixX3d position = body.state->position;
+  position.row(0) -= std::sqrt(body.model->basis().volume()) * point.transpose();
+  return position;
+}
+
+/// Position at the middle of the step. @param change of the coefficients, stacked
+Eigen::MatrixX3d middle_of(const Eigen::MatrixX3d& start, const Eigen::VectorXd& change) {
+  return start + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(change.data(), start.rows(), 3);
+}
+
+/// @param force stacked
+Vector3 torque_about(const Eigen::MatrixX3d& position, const Eigen::VectorXd& force) {
+  const Eigen::Map<const Eigen::MatrixX3d> forces(force.data(), position.rows(), 3);
+  Vector3 sum = Vector3::Zero();
+  for (Eigen::Index k = 0; k < position.rows(); ++k)
+    sum += Vector3(position.row(k)).cross(Vector3(forces.row(k)));
+  return sum;
+}
+
+/// Forces f_a = w x q_a that have no resultant and the given torque, stacked as the unknowns of a free block
+/// are. @param position coefficients
+Eigen::VectorXd turning_force(Eigen::MatrixX3d position, const Vector3& torque) {
   // Only the first function has a mean, so that what is left of it turns about the centroid.
-  middle.row(0).setZero();
-  const Eigen::Matrix3d products = middle.transpose() * middle;
+  position.row(0).setZero();
+  const Eigen::Matrix3d products = position.transpose() * position;
   const Eigen::Matrix3d inertia = products.trace() * Eigen::Matrix3d::Identity() - products;
   const Vector3 w = inertia.ldlt().solve(torque);
-  Eigen::VectorXd force(change.size());
-  Eigen::Map<Eigen::MatrixX3d> rows(force.data(), start.rows(), 3);
-  for (Eigen::Index k = 0; k < middle.rows(); ++k) rows.row(k) = w.cross(Vector3(middle.row(k)));
+  Eigen::VectorXd force(position.size());
+  Eigen::Map<Eigen::MatrixX3d> rows(force.data(), position.rows(), 3);
+  for (Eigen::Index k = 0; k < position.rows(); ++k) rows.row(k) = w.cross(Vector3(position.row(k)));
   return force;
 }
 
@@ -138,8 +156,10 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       // The forces of a tie are along the gap, so that they have no couple worth the name.
       free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
   if (free_pair_) {
-    position_a_ = body_a.state->position;
-    position_b_ = body_b.state->position;
+    // From where both are, so that the torques of opposite forces cancel far from the origin too.
+    const Vector3 origin = body_a.state->position.row(0) / std::sqrt(body_a.model->basis().volume());
+    position_a_ = position_from(origin, body_a);
+    position_b_ = position_from(origin, body_b);
   }
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
@@ -254,25 +274,14 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
   if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
   if (free_pair_) {
-    const Vector3 half = -0.5 * couple(place, forces);
-    response.turning_on_a = turning_force(position_a_, ya, half);
-    response.turning_on_b = turning_force(position_b_, yb, half);
+    const Eigen::MatrixX3d middle_a = middle_of(position_a_, ya);
+    const Eigen::MatrixX3d middle_b = middle_of(position_b_, yb);
+    const Vector3 couple =
+        torque_about(middle_a, response.force_on_a) + torque_about(middle_b, response.force_on_b);
+    response.turning_on_a = turning_force(middle_a, -0.5 * couple);
+    response.turning_on_b = turning_force(middle_b, -0.5 * couple);
   }
   return response;
-}
-
-Vector3 ContactPair::couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const {
-  Vector3 sum = Vector3::Zero();
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const ContactPoint& point = points_[k];
-    const auto column = static_cast<Eigen::Index>(k);
-    const Eigen::Matrix3d frame =
-        (Eigen::Matrix3d() << point.normal, point.tangent_1, point.tangent_2).finished();
-    const Vector3 half_change = 0.5 * frame * (place.col(column) - start_.col(column));
-    const Vector3 offset = point.place_a - point.place_b + half_change;
-    sum += offset.cross(Vector3(frame * forces.segment<3>(3 * column)));
-  }
-  return sum;
 }
 
 ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {

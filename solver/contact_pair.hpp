@@ -30,10 +30,11 @@ struct PairResponse {
   }
 };
 
-/// The force of a point acts on a at x_a and on b at x_b. Where these differ, by the gap or because a slides
-/// on b within the step, the two forces are a couple r x F, r = x_a - x_b at the middle of the step, which
-/// would change the angular momentum of two free blocks. Half of its opposite is then given to each of them
-/// as the forces of a rigid angular acceleration, which strain nothing.
+/// The force of a point acts on a at x_a and on b at x_b, the true places of the material points. Where these
+/// differ, by the gap, because a slides on b within the step or because feet are taken on flat sub-faces, the
+/// two forces are a couple r x F, r = x_a - x_b at the middle of the step, which would change the angular
+/// momentum of two free blocks. Half of its opposite is then given to each of them as the forces of a rigid
+/// angular acceleration, which strain nothing.
 ///
 /// Constant after construction. Points are linear in the unknowns within a step: with ya, yb the changes of
 /// the blocks' unknowns,  gap = g0 + n . (C_a ya - C_b yb)  and likewise the slip (theory.md section 7; H =
@@ -123,9 +124,6 @@ class ContactPair {
   [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
     return area_springs_ ? point.area : 1.0;
   }
-  /// Sum of r x F over the points, N m. @param place as relative() returns, @param forces (3 #points) by
-  /// frame
-  [[nodiscard]] Vector3 couple(const Eigen::Matrix3Xd& place, const Eigen::VectorXd& forces) const;
   void respond_at_start();
   /// Gap over the rest and trial slip of every point, linear in the changes. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
@@ -145,7 +143,7 @@ class ContactPair {
   const Tie* tie_;               ///< null for contacts
   bool area_springs_;            ///< multipliers are remembered per area
   bool free_pair_;               ///< nothing but the other block holds either
-  Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step, of free pairs
+  Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step from a point near, of free pairs
   Eigen::MatrixX3d position_b_;
 };
 

@@ -8,9 +8,11 @@
 
 namespace ashlar {
 
-/// All have the unknown D, the change over the step, conserve momentum and are unconditionally stable. The
-/// first two take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  and differ in where F is taken. Equations
-/// in time_scheme.hpp.
+/// All have the unknown D, the change over the step, conserve momentum and angular momentum
+/// (angular_momentum.hpp), and are stable at any step for linear systems. A block should turn by less than
+/// 0.05 rad in a step: if it is stiff, average-acceleration and generalized-alpha then gain energy, dda loses
+/// spin. The first two take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  and differ in where F is taken.
+/// Equations in time_scheme.hpp.
 enum class Integrator {
   dda,  ///< F at the end of the step: Newmark beta 1/2, gamma 1 (theory.md section 5), dissipative
   average_acceleration,  ///< elastic force at the middle, others averaged: for linear systems Newmark beta

@@ -1,13 +1,13 @@
 #include "solver/simulation.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "solver/energy_bounds.hpp"
+#include "solver/stopwatch.hpp"
 
 namespace ashlar {
 namespace {
@@ -15,19 +15,6 @@ namespace {
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
-
-/// Adds the time since its construction to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& sum_;
-  std::chrono::steady_clock::time_point start_;
-};
 
 }  // namespace
 
@@ -56,6 +43,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     const BlockModel& block = blocks_[k];
     states_.push_back(block.initial_state());
     moving_.push_back(!block.fixed());
+    spin_debts_.push_back(0.0);
     roundoff_force_.push_back(block.fixed() ? 0.0 : block.force_rounding());
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
@@ -319,152 +307,6 @@ std::vector<Eigen::MatrixX3d> Simulation::smooth_accelerations() const {
                     settings_.mass_damping * states_[k].velocity;
   }
   return result;
-}
-
-/// Takes one block on to the end of an accepted step, with its entries of the ledger. What the equations say
-/// about the work of all forces and what the kinetic energy gained differ by what the integrator takes.
-void Simulation::move_block(std::size_t k, const TimeScheme& scheme, const BodyStep& body) {
-  const BlockModel& block = blocks_[k];
-  BlockState& state = states_[k];
-  const double density = block.material().density;
-  const Eigen::MatrixX3d change = block.space().expand(body.change);
-  const bool driven = body.prescribed.size() > 0;
-  // The velocity of the unknowns; that of supports that move is orthogonal to it.
-  const Eigen::MatrixX3d velocity =
-      driven ? block.space().expand(block.space().restrict(state.velocity)) : state.velocity;
-  const bool carried = !accelerations_.empty();
-  const Eigen::MatrixX3d acceleration =
-      carried ? accelerations_[k] : Eigen::MatrixX3d::Zero(change.rows(), 3);
-  Eigen::MatrixX3d load = block.load_force(time_ + scheme.step);
-  if (scheme.end_share < 1.0)
-    load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(time_);
-  ledger_.applied += body.motion().cwiseProduct(load).sum();
-  const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
-  const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
-  ledger_.damping += damping;
-  const Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
-  const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
-  if (driven) {
-    Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
-    if (scheme.step > 0.0) rate = body.prescribed / scheme.step;
-    // Supports push against inertia and all forces but those of contacts, which accept() knows.
-    ledger_.applied += 0.5 * density * (rate.squaredNorm() - (state.velocity - velocity).squaredNorm()) +
-                       body.prescribed.cwiseProduct(body.elastic.force - external_force(block, scheme)).sum();
-    state.velocity = end_velocity + rate;
-  } else {
-    state.velocity = end_velocity;
-  }
-  state.position += body.motion();
-  const Eigen::VectorXd smooth = body.external_force - block.space().restrict(body.elastic.force);
-  const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
-                      (1.0 - scheme.force_weight) * body.change.dot(smooth) - damping;
-  ledger_.numerical += work - kinetic_gain;
-  if (!carried) return;
-  accelerations_[k] = scheme.end_acceleration<Eigen::MatrixX3d>(
-      block.space().expand(smooth) / density - scheme.mass_damping * damped, acceleration);
-}
-
-void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
-  const auto& [pairs, islands, bodies, results, carried] = trial;
-  solvers_.drop_unused();
-  lone_factors_.drop_unused();
-  finder_.accept_motion();
-  const double last_residual = ledger_.residual;
-  double potential_work = 0.0;
-  double potential_change = 0.0;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (!moving_[k]) continue;
-    potential_work -= bodies[k].motion().cwiseProduct(bodies[k].elastic.force).sum();
-    potential_change -= elastic_energies_[k];
-    move_block(k, scheme, bodies[k]);
-    note_elastic_energy(k);
-    potential_change += elastic_energies_[k];
-  }
-
-  book_refound(pairs);
-  report_ = StepReport{};
-  report_.step = scheme.step;
-  records_.clear();
-  ledger_.contact = 0.0;
-  double friction = 0.0;
-  std::map<PairKey, ContactMemory> memory;
-  for (std::size_t i = 0; i < islands.size(); ++i) {
-    report_.iterations = std::max(report_.iterations, results[i].iterations);
-    for (std::size_t n = 0; n < islands[i].pairs.size(); ++n) {
-      const ContactPair& pair = pairs[at(islands[i].pairs[n])];
-      const PairResponse& after = results[i].responses[n];
-      const std::vector<PointLaw>& laws = results[i].laws[n];
-      const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
-      const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
-      const double work = (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) +
-                          (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0) + pair.prescribed_work(after);
-      ledger_.applied -= pair.prescribed_work(after);
-      potential_work += work;
-      potential_change += ContactPair::energy(after) - pair.start_energy();
-      ledger_.contact += ContactPair::energy(after);
-      if (pair.tied()) continue;
-      friction += pair.friction_work(after, laws, ya, yb);
-      auto gaps = pair.gaps(ya, yb);
-      double deepest = 0.0;
-      for (std::size_t k = 0; k < gaps.size(); ++k) {
-        const ContactState state = after.points[k].state;
-        ++(state == ContactState::open     ? report_.open
-           : state == ContactState::locked ? report_.locked
-                                           : report_.sliding);
-        // Springs may be open and at rest below the surface.
-        deepest = std::max(deepest, -gaps[k]);
-      }
-      report_.penetration = std::max(report_.penetration, deepest);
-      const double bulge =
-          finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
-      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest,
-                                         ContactPair::energies(after), bulge);
-      records_.push_back({pair.a(), pair.b(), pair.points(), after.points, std::move(gaps),
-                          contact_work_[{pair.a(), pair.b()}] += work});
-    }
-  }
-  memory_ = std::move(memory);
-  ledger_.friction += friction;
-  ledger_.numerical -= potential_work + potential_change + friction;
-
-  for (auto& [block, next] : trial.carried) start_carried_step(block, std::move(next));
-  time_ += scheme.step;
-  ++steps_;
-  measure_energies(ledger_);
-  ledger_.residual = ledger_.balance() - start_balance_;
-  largest_step_residual_ = std::max(largest_step_residual_, std::abs(ledger_.residual - last_residual));
-  largest_energy_ = std::max({largest_energy_, ledger_.kinetic, ledger_.elastic, ledger_.contact,
-                              std::abs(ledger_.friction), std::abs(ledger_.applied)});
-  largest_penetration_ = std::max(largest_penetration_, report_.penetration);
-}
-
-void Simulation::note_elastic_energy(std::size_t k) {
-  if (moving_[k]) elastic_energies_[k] = blocks_[k].elastic(states_[k].position).energy;
-}
-
-void Simulation::note_elastic_energies() {
-  elastic_energies_.assign(blocks_.size(), 0.0);
-  for (std::size_t k = 0; k < blocks_.size(); ++k) note_elastic_energy(k);
-}
-
-void Simulation::book_refound(const std::vector<ContactPair>& pairs) {
-  // Springs of one pair may take over what those of another one held.
-  double change = 0.0;
-  for (const ContactPair& pair : pairs)
-    change += pair.tied() ? 0.0 : pair.start_energy();  // a tie is the same in every step
-  for (const PairRecord& record : records_)
-    for (const PointResponse& response : record.responses) change -= response.energy();
-  (change > 0.0 ? ledger_.refound_gained : ledger_.refound_lost) += std::abs(change);
-}
-
-void Simulation::measure_energies(Ledger& ledger) const {
-  ledger.kinetic = ledger.elastic = ledger.gravity = 0.0;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (!moving_[k]) continue;
-    ledger.kinetic += blocks_[k].kinetic_energy(states_[k]);
-    ledger.elastic += elastic_energies_[k];
-    ledger.gravity += blocks_[k].gravity_energy(states_[k], settings_.gravity);
-  }
 }
 
 Vector3 Simulation::momentum() const {

@@ -194,8 +194,6 @@ class Simulation {
                                                     bool hold_energy);
   [[nodiscard]] IslandStatus try_step(const TimeScheme& scheme, Trial& trial);
   [[nodiscard]] ContactBody body_at_start(int block) const;
-  /// Books what the springs hold anew since the end of the last step.
-  void book_refound(const std::vector<ContactPair>& pairs);
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const Trial& trial,
                                                         const std::vector<FoundContacts>& found);
   [[nodiscard]] std::vector<BodyStep> prepare_bodies(const TimeScheme& scheme) const;
@@ -206,16 +204,27 @@ class Simulation {
   [[nodiscard]] std::vector<BlockState> driven_states(double step) const;
   /// Accelerations in balance with the smooth forces of the present state.
   [[nodiscard]] std::vector<Eigen::MatrixX3d> smooth_accelerations() const;
+  /// Adds contacts for blocks that would pass through each other, pairs kept in order.
+  static void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found);
+
   // block_changes.cpp
   [[nodiscard]] bool any_incremental() const;
   /// Makes the next steps of incremental blocks. @return false if one would be no block any more
   [[nodiscard]] bool carry_blocks(Trial& trial) const;
   void start_carried_step(std::size_t block, CarriedBlock next);
   void replace_model(std::size_t block, BlockModel model);
+
+  // accepted_step.cpp
   void accept(const TimeScheme& scheme, Trial& trial);
-  void move_block(std::size_t block, const TimeScheme& scheme, const BodyStep& body);
-  /// Adds contacts for blocks that would pass through each other, pairs kept in order.
-  static void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found);
+  /// Takes one block on to the end of the step, with its entries of the ledger. @return energy that the
+  /// integrator takes beside that of elasticity and contacts, J
+  double move_block(std::size_t block, const TimeScheme& scheme, const BodyStep& body);
+  /// Of free blocks, see angular_momentum.hpp. @param before states at the start of the step
+  /// @param dissipated by the integrator in each block, J
+  void keep_angular_momentum(const TimeScheme& scheme, const Trial& trial,
+                             const std::vector<BlockState>& before, const std::vector<double>& dissipated);
+  /// Books what the springs hold anew since the end of the last step.
+  void book_refound(const std::vector<ContactPair>& pairs);
   void note_elastic_energy(std::size_t block);
   void note_elastic_energies();
   /// Of the present state; elastic as noted.
@@ -235,6 +244,8 @@ class Simulation {
   std::vector<BlockState> states_;
   /// a of time_scheme.hpp, (p, 3) for each block; empty unless the integrator carries it on
   std::vector<Eigen::MatrixX3d> accelerations_;
+  /// By block, J, <= 0: what dda steps have created, and must dissipate before spin may take up any of it
+  std::vector<double> spin_debts_;
   LawOfPair law_;
   SimulationSettings settings_;
   std::vector<bool> moving_;  ///< false for fixed blocks
