@@ -98,6 +98,7 @@ bool AdaptiveSurface::divide(const DivisionDemand& demand) {
   if (!division_fits(demand)) {
     const auto paths = [&](const std::vector<int>& leaves) {
       std::vector<std::uint64_t> result;
+      result.reserve(leaves.size());
       for (const int leaf : leaves) result.push_back(nodes_[at(leaf)].path);
       return result;
     };
@@ -196,7 +197,10 @@ void AdaptiveSurface::divide_anew(const DivisionDemand& demand) {
   for (int root = 0; root < root_count_; ++root) {
     while (needs_division(nodes_[at(root)], patches_[at(root)], 8.0 * coarse, demand)) coarse *= 8.0;
   }
-  for (; coarse > demand.chord_tolerance; coarse *= 0.125) divide_to(coarse, demand);
+  while (coarse > demand.chord_tolerance) {
+    divide_to(coarse, demand);
+    coarse *= 0.125;
+  }
   divide_to(demand.chord_tolerance, demand);
   remembered_.clear();
 }

@@ -65,12 +65,7 @@ RationalVector rational_difference(const Vector3& p, const Vector3& q) {
 class ClosestPointFinder::Surface {
  public:
   explicit Surface(Polyhedron solid)
-      : solid_(std::move(solid)),
-        features_(solid_),
-        tree_(boxes(solid_.mesh()), 1),
-        packed_(tree_),
-        corners_(),
-        parts_() {
+      : solid_(std::move(solid)), features_(solid_), tree_(boxes(solid_.mesh()), 1), packed_(tree_) {
     const TriangleMesh& mesh = solid_.mesh();
     for (const Vector3& p : mesh.points)
       for (int i = 0; i < 3; ++i) range_.include(p[i]);
@@ -151,6 +146,7 @@ class ClosestPointFinder::Surface {
 
   [[nodiscard]] std::vector<Candidate> all_triangles() const {
     std::vector<Candidate> candidates;
+    candidates.reserve(solid_.mesh().triangles.size());
     for (int t = 0; t < static_cast<int>(solid_.mesh().triangles.size()); ++t)
       candidates.push_back({t, inner_part, 0.0});
     return candidates;

@@ -168,7 +168,7 @@ template <class N>
     return NumberVector<N>{N::difference(a[0], (*b)[0]), N::difference(a[1], (*b)[1]),
                            N::difference(a[2], (*b)[2])};
   };
-  const NumberVector<N> first = subtract(*d.plus, d.minus);
+  NumberVector<N> first = subtract(*d.plus, d.minus);
   if (d.plus2 == nullptr) return first;
   const NumberVector<N> second = subtract(*d.plus2, d.minus2);
   return {first.x + second.x, first.y + second.y, first.z + second.z};

@@ -111,6 +111,7 @@ std::vector<FaceOverlap> join_by_faces(const PlacedSurface& a, const PlacedSurfa
     }
   }
   std::vector<FaceOverlap> result;
+  result.reserve(joins.size());
   for (auto& [faces, join] : joins) result.push_back(std::move(join.overlap));
   return result;
 }

@@ -230,6 +230,7 @@ class MotionCheck {
 
   static std::vector<Box> boxes(const MovingSurface& s, const std::vector<Feature>& features, double margin) {
     std::vector<Box> result;
+    result.reserve(features.size());
     for (const Feature& feature : features) result.push_back(swept_box(s, feature.points).grown(margin));
     return result;
   }

@@ -5,6 +5,7 @@ namespace ashlar {
 
 /// A vector over any ring N; the exact types have no business in Eigen expressions.
 template <class N>
+// NOLINTNEXTLINE(bugprone-exception-escape): CGAL's numbers have noexcept moves that may allocate
 struct NumberVector {
   N x, y, z;
 

@@ -33,7 +33,7 @@ class EdgeSides {
         ladder_(ladder),
         edge_count_(static_cast<int>(edges_.edges().size())),
         word_count_((edge_count_ + word_bits - 1) / word_bits) {
-    const std::size_t size = static_cast<std::size_t>(facets_.facet_count() * word_count_);
+    const std::size_t size = index(facets_.facet_count(), 0);
     words_.resize(2 * size, 0);
     positive_ = words_.data();
     negative_ = positive_ + size;
@@ -58,7 +58,7 @@ class EdgeSides {
 
  private:
   [[nodiscard]] std::size_t index(int facet, int word) const {
-    return static_cast<std::size_t>(facet * word_count_ + word);
+    return static_cast<std::size_t>(facet) * word_count_ + word;
   }
   // An edge vector's height is the difference of those of its ends. Signs of random edges are not predicted
   // by any branch predictor, so there is no branch.
@@ -66,7 +66,7 @@ class EdgeSides {
     const double* const height = heights.row(f);
     const double bound = heights.difference_error(f);
     const ConvexEdge* edge = edges_.edges().data();
-    for (int word = 0, left = edge_count_; word < word_count_; ++word, left -= word_bits) {
+    for (int word = 0, left = edge_count_; left > 0; ++word, left -= word_bits) {
       Word up = 0, down = 0;
       const int count = std::min(left, word_bits);
       for (int k = 0; k < count; ++k, ++edge) {

@@ -113,19 +113,20 @@ bool SolidFeatures::rays_admit(int corner, const ContactDirection& w, int sign,
 bool SolidFeatures::lies_on_side_of(int corner, const RationalVector& w) const {
   if (corner_kind_[corner] != CornerKind::saddle) return corner_kind_[corner] == CornerKind::convex;
   // Greatest angle to w: least w . e / |e|, where no w . e is negative.
-  const Ray* lowest = nullptr;
+  const int first = ray_start_[corner];
+  int lowest = first;
   Rational squared_rise, squared_length;
   const RationalVector apex_point = to_rational(point(corner));
-  for (int r = ray_start_[corner]; r < ray_start_[corner + 1]; ++r) {
+  for (int r = first; r < ray_start_[corner + 1]; ++r) {
     const RationalVector e = difference(to_rational(point(rays_[r].to)), apex_point);
     const Rational rise = dot_product(w, e), length = dot_product(e, e);
     const Rational squared(rise * rise);
-    if (lowest != nullptr && squared * squared_length >= squared_rise * length) continue;
-    lowest = &rays_[r];
+    if (r != first && squared * squared_length >= squared_rise * length) continue;
+    lowest = r;
     squared_rise = squared;
     squared_length = length;
   }
-  return lies_on_side_of(*lowest, w);
+  return lies_on_side_of(rays_[lowest], w);
 }
 
 bool SolidFeatures::lies_on_side_of(const Ray& lowest, const RationalVector& w) const {
@@ -140,22 +141,24 @@ bool SolidFeatures::lies_on_side_of(const Ray& lowest, const RationalVector& w) 
 bool SolidFeatures::lies_beyond(int corner, const Vector3& from, bool floating) const {
   if (corner_kind_[corner] != CornerKind::saddle) return corner_kind_[corner] == CornerKind::convex;
   const Vector3& p = point(corner);
-  const Ray* lowest = nullptr;
   if (floating) {
+    const int first = ray_start_[corner];
+    int lowest = first;
     const NumberVector<TrackedNumber> w = evaluate<TrackedNumber>({&p, &from});
     TrackedNumber squared_rise, squared_length;
-    for (int r = ray_start_[corner]; r < ray_start_[corner + 1]; ++r) {
+    for (int r = first; r < ray_start_[corner + 1]; ++r) {
       const NumberVector<TrackedNumber> e = evaluate<TrackedNumber>({&point(rays_[r].to), &p});
       const TrackedNumber rise = dot(w, e), length = dot(e, e), squared = rise * rise;
-      const int order = lowest == nullptr ? -1 : sign_of(squared * squared_length - squared_rise * length);
+      const int order = r == first ? -1 : sign_of(squared * squared_length - squared_rise * length);
       if (order == 0 || order == unknown_sign)
         return lies_on_side_of(corner, difference(to_rational(p), to_rational(from)));
       if (order > 0) continue;
-      lowest = &rays_[r];
+      lowest = r;
       squared_rise = squared;
       squared_length = length;
     }
-    if (lowest->edge >= 0) return edges_[lowest->edge].convex;
+    const int edge = rays_[lowest].edge;
+    if (edge >= 0) return edges_[edge].convex;
   }
   return lies_on_side_of(corner, difference(to_rational(p), to_rational(from)));
 }

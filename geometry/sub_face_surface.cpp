@@ -68,6 +68,7 @@ std::vector<std::vector<int>> neighbours_of_faces(const Polyhedron& solid) {
     neighbours[at(edge.faces[1])].insert(edge.faces[0]);
   }
   std::vector<std::vector<int>> result;
+  result.reserve(neighbours.size());
   for (const auto& set : neighbours) result.emplace_back(set.begin(), set.end());
   return result;
 }

@@ -112,8 +112,8 @@ void expect_exact_moments(const TriangleMesh& mesh, int degree) {
     const Rational exact = exact_moment(mesh, exponents);
     const double value =
         values[static_cast<std::size_t>(monomial_index(exponents[0], exponents[1], exponents[2]))];
-    EXPECT_LE(abs(Rational(value) - exact), abs(exact) * Rational(1.2e-16))
-        << exponents[0] << exponents[1] << exponents[2];
+    const Rational error = abs(Rational(value) - exact);
+    EXPECT_LE(error, abs(exact) * Rational(1.2e-16)) << exponents[0] << exponents[1] << exponents[2];
   }
 }
 
@@ -124,6 +124,7 @@ TEST(Moments, TwoHundredRandomMeshesConvexAndNot) {
     TriangleMesh mesh;
     if (trial % 2 == 0) {
       std::vector<Vector3> points;
+      points.reserve(8);
       for (int k = 0; k < 8; ++k) points.emplace_back(number(), number(), number());
       mesh = make_convex_hull(points);
     } else {

@@ -38,10 +38,12 @@ TEST(OpenClose, NoStepOfAPileOfStonesIsCutForNotSettling) {
   std::mt19937_64 random(11);
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-5, -5, -1}, {5, 5, 0}));
-  for (int k = 0; k < 8; ++k)
+  for (int k = 0; k < 8; ++k) {
+    const int layer = k / 4;
     blocks.emplace_back(block_of("stone",
-                                 stone(random, {1.05 * (k % 2), 1.05 * (k / 2 % 2), 0.6 + 1.1 * (k / 4)}),
+                                 stone(random, {1.05 * (k % 2), 1.05 * (k / 2 % 2), 0.6 + 1.1 * layer}),
                                  {2600, 1e9, 0.2}, 1));
+  }
   SimulationSettings settings;
   settings.time_step = 2e-3;
   Simulation simulation(std::move(blocks), std::vector<InitialMotion>(9),

@@ -16,6 +16,7 @@ using test_support::same_law;
 Simulation chain(std::vector<BlockDefinition> definitions, const std::vector<InitialMotion>& motions,
                  const SimulationSettings& settings, double stiffness) {
   std::vector<BlockModel> blocks;
+  blocks.reserve(definitions.size());
   for (BlockDefinition& definition : definitions) blocks.emplace_back(std::move(definition));
   const int count = static_cast<int>(blocks.size());
   Simulation simulation(std::move(blocks), motions, same_law({1e9, 1e9, 0.5, 0.0, 0.0, true}), settings);
@@ -58,6 +59,7 @@ TEST(Tie, ChainComesNearerThanOneBlockOfHighOrder) {
   const double of_one = (rest.transpose() * one.basis().values(Vector3(8, 0, 0))).z();
 
   std::vector<BlockDefinition> parts;
+  parts.reserve(4);
   for (int k = 0; k < 4; ++k) {
     parts.push_back(
         block_of("part", Polyhedron(make_box({2.0 * k, -0.5, -1.5}, {2.0 * k + 2.0, 0.5, 1.5})), rock, 5));
@@ -75,6 +77,7 @@ TEST(Tie, ChainComesNearerThanOneBlockOfHighOrder) {
 TEST(Tie, ChainsHeldByASupportNeedNoInertiaInStatics) {
   const Material rock{3600, 1e9, 0.0};
   std::vector<BlockDefinition> parts;
+  parts.reserve(6);
   for (int k = 0; k < 6; ++k) {
     parts.push_back(block_of(
         "part", Polyhedron(make_box({1.0 * k, -0.05, -0.05}, {1.0 * k + 1.0, 0.05, 0.05})), rock, 3));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "support/simulations.hpp"
 
@@ -174,8 +175,10 @@ TEST(GeneralizedAlpha, IsStableWithAContactSpringOfAnyStiffness) {
       settings.spectral_radius = radius;
       settings.mass_damping = damping;
       const TimeScheme scheme = time_scheme(settings, 1.0);
-      for (double elastic = 1e-6; elastic < 1e5; elastic *= 1.7) {
-        for (double contact = 1e-6; contact < 1e6; contact *= 1.7) {
+      for (int i = 0; i < 48; ++i) {
+        const double elastic = 1e-6 * std::pow(1.7, i);
+        for (int j = 0; j < 53; ++j) {
+          const double contact = 1e-6 * std::pow(1.7, j);
           Eigen::Matrix3d matrix;
           for (int column = 0; column < 3; ++column) {
             const Eigen::Vector3d s = Eigen::Vector3d::Unit(column);
