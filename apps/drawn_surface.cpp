@@ -79,6 +79,7 @@ DrawnSurface divided(const CurvedTriangles& triangles, const std::vector<int>& f
 
 std::vector<int> pieces_of_sides(const std::vector<CurvedTriangles>& blocks) {
   std::vector<double> wanted;
+  wanted.reserve(blocks.size());
   for (const CurvedTriangles& block : blocks)
     wanted.push_back(std::min(pieces_per_order * block.order, most_pieces) * relative_side(block));
   for (int share = most_pieces;; --share) {

@@ -103,6 +103,7 @@ std::optional<int> wait_for(pid_t child, std::chrono::duration<double> limit) {
 std::optional<int> run_program(const std::vector<std::string>& command, const Redirections& redirections,
                                std::chrono::duration<double> limit) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   pid_t child = 0;

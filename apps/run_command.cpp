@@ -69,7 +69,6 @@ std::filesystem::path result_folder_of(const RunOptions& options) {
 int exit_status_of(RunStatus status) {
   switch (status) {
     case RunStatus::completed:
-      return exit_status::done;
     case RunStatus::equilibrium:
     case RunStatus::moving:  // a mechanism found is an answer
       return exit_status::done;

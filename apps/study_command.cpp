@@ -31,6 +31,7 @@ const std::array<Study, 4> studies = {
 
 std::vector<std::string> names() {
   std::vector<std::string> list;
+  list.reserve(studies.size());
   for (const Study& study : studies) list.emplace_back(study.name);
   return list;
 }

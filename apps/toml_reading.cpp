@@ -31,7 +31,7 @@ std::string as_text(const toml::node& node) {
 
 std::string describe(const toml::node& node) {
   constexpr std::size_t longest_shown = 60;
-  const std::string text = as_text(node);
+  std::string text = as_text(node);
   if (text.size() <= longest_shown) return text;
   if (const toml::array* array = node.as_array()) return fmt::format("an array of {} entries", array->size());
   return fmt::format("a text of {} letters", text.size() - 2);  // without its quotes

@@ -19,9 +19,10 @@ namespace {
 
 /// The cases asked for, in the order of the list; none, with an error, if a name is unknown.
 std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names, std::ostream& err) {
-  const std::vector<VerificationCase> all = all_verification_cases();
+  std::vector<VerificationCase> all = all_verification_cases();
   if (names.empty()) return all;
   std::vector<std::string> known;
+  known.reserve(all.size());
   for (const VerificationCase& candidate : all) known.emplace_back(candidate.name);
   bool good = true;
   for (const std::string& name : names) {

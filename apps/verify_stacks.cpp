@@ -88,6 +88,7 @@ ContactScene columns(const Placement& placement) {
 /// Largest way of a centroid in a time.
 double farthest_in(Simulation& simulation, double time) {
   std::vector<Vector3> start;
+  start.reserve(simulation.blocks().size());
   for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k)
     start.push_back(centroid(simulation, k));
   run_until(simulation, simulation.time() + time);

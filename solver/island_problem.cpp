@@ -191,6 +191,7 @@ std::vector<ContactState> IslandProblem::states() const {
 
 std::vector<std::vector<double>> IslandProblem::gaps() const {
   std::vector<std::vector<double>> result;
+  result.reserve(pairs());
   for (std::size_t k = 0; k < pairs(); ++k)
     result.push_back(pair(k).gaps(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change));
   return result;

@@ -53,6 +53,7 @@ std::vector<std::vector<int>> Simulation::loose_blocks() {
 
 std::vector<bool> Simulation::held_without_contacts() const {
   std::vector<bool> held;
+  held.reserve(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) held.push_back(!moving_[k] || blocks_[k].space().held());
   for (bool more = true; more;) {
     more = false;

@@ -20,7 +20,7 @@ void meeting_boxes_of_a_heap(benchmark::State& state) {
     boxes.push_back({low, low + Vector3::Constant(0.9)});
   }
   std::size_t found = 0;
-  for (auto unused : state) {
+  for ([[maybe_unused]] auto unused : state) {
     found = meeting_boxes(boxes).size();
     benchmark::DoNotOptimize(found);
   }

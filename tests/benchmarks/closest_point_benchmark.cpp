@@ -30,7 +30,7 @@ void closest_point_on_ball(benchmark::State& state) {
   for (Vector3& q : queries)
     for (double& x : q) x = reach * (2.0 * uniform(random) - 1.0);
   std::size_t k = 0;
-  for (auto unused : state) {
+  for ([[maybe_unused]] auto unused : state) {
     benchmark::DoNotOptimize(finder.find(queries[k]));
     k = (k + 1) % queries.size();
   }

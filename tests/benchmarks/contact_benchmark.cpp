@@ -67,7 +67,7 @@ ShapePairs touching_cubes() {
     const Eigen::Quaterniond q(static_cast<double>(random() % 7) - 3.0,
                                static_cast<double>(random() % 7) - 3.0,
                                static_cast<double>(random() % 7) - 3.0, 1.0);
-    const Eigen::Vector4d c = q.coeffs();
+    const Eigen::Vector4d& c = q.coeffs();
     const double x = c[0], y = c[1], z = c[2], w = c[3];
     Eigen::Matrix3d rotation;  // times the squared norm, hence whole
     rotation << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),  //
@@ -91,7 +91,7 @@ void run(benchmark::State& state, const ShapePairs& pairs) {
   std::size_t k = 0;
   DecisionCounts counts;
   long crossing = 0, rounds = 0;
-  for (auto unused : state) {
+  for ([[maybe_unused]] auto unused : state) {
     const ConvexContact contact = classify(pairs[k].first, pairs[k].second);
     benchmark::DoNotOptimize(contact.squared_distance);
     counts.filter += contact.decided_by.filter;
@@ -138,7 +138,7 @@ void triangle_type(benchmark::State& state) {
   const auto pairs = triangles(static_cast<double>(state.range(0)));
   std::size_t k = 0;
   long crossing = 0;
-  for (auto unused : state) {
+  for ([[maybe_unused]] auto unused : state) {
     const TrianglePairType type = classify_triangles(pairs[k].first, pairs[k].second);
     crossing += static_cast<long>(type.relation == Relation::crossing);
     k = k + 1 == pairs.size() ? 0 : k + 1;

@@ -104,6 +104,7 @@ void collect(const ConvexBody& first, const ConvexBody& second, bool swapped,
       const mpz_class weight_b = abs(at_a);
       const auto between = [&](const std::vector<mpz_class>& u, const std::vector<mpz_class>& v) {
         std::vector<mpz_class> mixed;
+        mixed.reserve(u.size());
         for (std::size_t k = 0; k < u.size(); ++k) mixed.emplace_back(weight_a * u[k] + weight_b * v[k]);
         return mixed;
       };

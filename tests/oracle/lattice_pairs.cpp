@@ -150,6 +150,7 @@ LatticeSolid make_random_hull(Random& random, std::int64_t reach) {
   for (;;) {
     std::vector<LatticePoint> points;
     const std::int64_t count = pick(random, 0, 7) == 0 ? pick(random, 12, 20) : pick(random, 4, 8);
+    points.reserve(static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i) points.push_back(random_point(random, reach));
     LatticeSolid hull = lattice_hull(points, random);
     if (!hull.triangles.empty()) return hull;

@@ -71,8 +71,10 @@ using Field = std::function<Vector3(const Vector3&)>;
 // The field of a polynomial that the block's order holds, through its values at 13^3 points.
 Eigen::MatrixX3d coefficients(const BlockModel& block, const Field& field) {
   std::vector<Vector3> points;
-  for (int i = 0; i < 13 * 13 * 13; ++i)
-    points.emplace_back(i % 13 / 6.0, i / 13 % 13 / 12.0, i / 169 / 12.0);
+  points.reserve(13 * 13 * 13);
+  for (int k = 0; k < 13; ++k)
+    for (int j = 0; j < 13; ++j)
+      for (int i = 0; i < 13; ++i) points.emplace_back(i / 6.0, j / 12.0, k / 12.0);
   Eigen::MatrixX3d values(points.size(), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
     values.row(static_cast<Eigen::Index>(i)) = field(points[i]).transpose();

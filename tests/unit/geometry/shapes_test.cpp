@@ -71,6 +71,7 @@ TEST(ConvexHull, of_random_grid_points_supports_all_of_them) {
   for (int round = 0; round < 200; ++round) {
     std::vector<Vector3> points;
     const int count = 6 + static_cast<int>(random() % 30);
+    points.reserve(static_cast<std::size_t>(count) + 4);
     for (int i = 0; i < count; ++i) points.emplace_back(random() % 4, random() % 4, random() % 4);
     points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
     const Polyhedron p(make_convex_hull(points));

@@ -13,7 +13,9 @@
 namespace ashlar {
 namespace {
 
-using Rational = boost::multiprecision::mpq_rational;
+// Without expressions that hold references to temporary values.
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
 double factorial(int n) {
   return n <= 1 ? 1.0 : n * factorial(n - 1);
