@@ -271,14 +271,17 @@ class ContactReport {
   return ContactReport(a, b, resolution).run_resolved(history);
 }
 
-[[gnu::noinline]] std::optional<Entrance> find_entrance_to_nearest(const ConvexShape& a,
-                                                                   const ConvexShape& b) {
+[[gnu::noinline]] std::optional<Entrance> find_entrance_to_nearest(const ConvexShape& a, const ConvexShape& b,
+                                                                   const std::optional<Entrance>& history) {
   NumericRange range = a.range();
   range.include(b.range());
   PredicateLadder ladder;
   ladder.open(range);
   const std::vector<Support> farthest = find_farthest_separation(a, b, ladder);
   if (farthest.empty()) return std::nullopt;
+  if (std::any_of(farthest.begin(), farthest.end(),
+                  [&](const Support& support) { return support.entrance == history; }))
+    return history;
   return preferred_support(farthest, a, b, ladder).entrance;
 }
 
@@ -299,9 +302,10 @@ ResolvedContact classify_at(const ConvexShape& a, const ConvexShape& b, const Re
   return resolve_to_nearest(a, b, resolution, history);
 }
 
-std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b) {
+std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b,
+                                      const std::optional<Entrance>& history) {
   const NearestRounding nearest;
-  return find_entrance_to_nearest(a, b);
+  return find_entrance_to_nearest(a, b, history);
 }
 
 }  // namespace ashlar

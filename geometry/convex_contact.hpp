@@ -102,8 +102,10 @@ struct ResolvedContact {
                                           const Resolution& resolution,
                                           const std::optional<Entrance>& history = std::nullopt);
 
-/// The facet of D = P - Q across which the two are farthest apart (ties as in DirectionRule): what the next
-/// steps need as history while the two are apart or just touch. None if they cross.
-[[nodiscard]] std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b);
+/// The facet of D = P - Q across which the two are farthest apart (of several the one known from before, else
+/// as in DirectionRule): what the next steps need as history while the two are apart or just touch. None if
+/// they cross.
+[[nodiscard]] std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b,
+                                                    const std::optional<Entrance>& history = std::nullopt);
 
 }  // namespace ashlar

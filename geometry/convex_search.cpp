@@ -114,6 +114,23 @@ class ContactMaker {
     }
   }
 
+  /// A corner on a corner or an edge that has entered through a face. @return whether it is one of those
+  bool make_corner_over(const Entrance& entrance) {
+    const RegionVertex& point = exact_.region.points.front();
+    const bool vertex_of_a = entrance.kind == EntranceKind::face_of_b;
+    if (entrance.kind == EntranceKind::edge_edge || exact_.region.points.size() != 1 ||
+        (vertex_of_a ? point.a : point.b).dimension != 0)
+      return false;
+    contacts_.vertices.clear();
+    contacts_.edges.clear();
+    if (vertex_of_a) {
+      add_vertex(a_, point.a.index, b_, entrance.b, true);
+    } else {
+      add_vertex(b_, point.b.index, a_, entrance.a, false);
+    }
+    return true;
+  }
+
  private:
   void add_vertex(const ConvexSurface& with_vertex, int corner, const ConvexSurface& with_cell, int facet,
                   bool vertex_of_a) {
@@ -218,11 +235,21 @@ void turn_to_entrance(const ConvexSurface& a, const ConvexSurface& b, const Entr
   contacts.counts.filter += exact.decided_by.filter;
   contacts.counts.exact += exact.decided_by.exact;
   const bool crossing = exact.relation == Relation::crossing;
-  const std::optional<Entrance> entrance = crossing ? exact.entrance : find_entrance(a.shape(), b.shape());
+  const std::optional<Entrance> entrance =
+      crossing ? exact.entrance : find_entrance(a.shape(), b.shape(), known);
   if (!entrance) return std::nullopt;
   const EntranceName name = name_of(*entrance, a, b);
-  if (crossing && contacts.empty()) ContactMaker(a, b, exact, contacts).make();
-  if (crossing) turn_to_entrance(a, b, name, contacts);
+  ContactMaker maker(a, b, exact, contacts);
+  if (!crossing) {
+    // Edges that lie along each other are no features that face each other, but can bear.
+    if (exact.relation == Relation::touching && contacts.empty()) maker.make();
+    return name;
+  }
+  const bool corner_alone =
+      exact.region.type == ContactType::vertex_vertex || exact.region.type == ContactType::vertex_edge;
+  if (corner_alone && maker.make_corner_over(*entrance)) return name;
+  if (contacts.empty()) maker.make();
+  turn_to_entrance(a, b, name, contacts);
   return name;
 }
 

@@ -62,7 +62,7 @@ static void visit_members(Archive& archive, PairRecord& record) {
 template <class Archive>
 static void visit_members(Archive& archive, StaticState& state) {
   archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
-          state.milestones, state.milestone_forces, state.travels, state.unbalanced);
+          state.milestones, state.milestone_forces, state.travels, state.least_lacking, state.unbalanced);
 }
 
 template <class Archive>

@@ -239,6 +239,9 @@ class Simulation {
   [[nodiscard]] double largest_motion(const Trial& trial) const;
   /// Takes note of what each block lacks of balance. @return whether none lacks anything
   [[nodiscard]] bool note_balance(const TimeScheme& scheme, const Trial& trial);
+  /// Keeps what is reported of moving blocks, see static_analysis.hpp. @param settled no contact has just
+  /// begun to slide or stopped
+  void note_accelerations(const TimeScheme& scheme, const Trial& trial, bool settled);
 
   std::vector<BlockModel> blocks_;
   std::vector<BlockState> states_;

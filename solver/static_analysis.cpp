@@ -93,10 +93,10 @@ void Simulation::start_load_level(double end_time) {
     if (moving_[k]) ledger_.numerical += blocks_[k].kinetic_energy(states_[k]);
     states_[k].velocity.setZero();
     static_.milestones.push_back(states_[k].position);
-    static_.unbalanced.push_back(Eigen::MatrixX3d::Zero(states_[k].position.rows(), 3));
   }
   static_.milestone_forces.assign(blocks_.size(), std::numeric_limits<double>::infinity());
   static_.travels.assign(blocks_.size(), 0.0);
+  static_.least_lacking = std::numeric_limits<double>::infinity();
 }
 
 StaticStatus Simulation::static_step(double end_time) {
@@ -140,6 +140,7 @@ StaticStatus Simulation::static_step(double end_time) {
       const std::array<int, 3> before = contact_states(report_);
       const bool balanced = note_balance(scheme, trial);
       accept(scheme, trial);
+      note_accelerations(scheme, trial, report_.sliding == 0 || before == contact_states(report_));
       report_.step = step;
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
       const bool still = balanced && (scheme.inertia <= least || least == 0.0) &&
@@ -172,8 +173,7 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
     if (!moving_[k]) continue;
     const BodyStep& body = trial.bodies[k];
     const BlockModel& block = blocks_[k];
-    static_.unbalanced[k] = scheme.inertia * block.space().expand(body.change);
-    const double lacking = block.material().density * static_.unbalanced[k].norm();
+    const double lacking = block.material().density * scheme.inertia * body.change.norm();
     const Eigen::MatrixX3d position = states_[k].position + body.motion();
     if (lacking <= settings_.static_tolerance * body.largest_force + body.roundoff_force) {
       static_.travels[k] = 0.0;
@@ -190,6 +190,19 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
     if (static_.travels[k] > settings_.static_travel && !held[k]) static_.moving = true;
   }
   return balanced;
+}
+
+void Simulation::note_accelerations(const TimeScheme& scheme, const Trial& trial, bool settled) {
+  double lacking = 0.0;
+  std::vector<Eigen::MatrixX3d> unbalanced(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    unbalanced[k] = scheme.inertia * blocks_[k].space().expand(trial.bodies[k].change);
+    lacking += std::pow(blocks_[k].material().density * unbalanced[k].norm(), 2);
+  }
+  if (!static_.unbalanced.empty() && !(settled && lacking < static_.least_lacking)) return;
+  if (settled) static_.least_lacking = lacking;
+  static_.unbalanced = std::move(unbalanced);
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {

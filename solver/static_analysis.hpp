@@ -11,8 +11,10 @@
 // Equilibrium: m has fallen to its least, rho m D is below settings.static_tolerance of the largest force on
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
 // soft motions may still be on their way. Moving: a block has travelled settings.static_travel of its size
-// and what it lacks was not halved on the way, or a tenth of that when there are no iterations left; then m D
-// is its acceleration from rest, whatever m.
+// and what it lacks was not halved on the way, or a tenth of that when there are no iterations left. m D is the
+// acceleration of the blocks from rest, whatever m; what is reported is that of the iteration in which all
+// blocks together lacked least, none in which contacts began to slide or stopped: contacts have taken up what
+// they bear there, and no block has gone far yet.
 //
 // Loads that change follow their histories in levels of settings.time_step, each brought to equilibrium;
 // constant ones are taken at the end time at once.
@@ -51,7 +53,8 @@ struct StaticState {
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> milestone_forces;
   std::vector<double> travels;               ///< from there, in parts of the block's size
-  std::vector<Eigen::MatrixX3d> unbalanced;  ///< m D of the last iteration, (p, 3)
+  double least_lacking = 0.0;                ///< least sum of squares of what blocks lacked, N^2
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< m D of that iteration, (p, 3)
 };
 
 }  // namespace ashlar

@@ -138,6 +138,11 @@ TEST(ConvexContact, HistoryChoosesTheNormalOfAVertexOnAVertex) {
   EXPECT_EQ(known.rule, DirectionRule::history);
   EXPECT_EQ(known.normal, Vector3(0, 0, 1));
   EXPECT_EQ(known.entrance, entrance);
+  // All faces at the corner are as far across now: the one known stays.
+  const Entrance side = find_entrance(box(Vector3(1.25, 0.5, 0.5), Vector3(2.25, 1.5, 1.5)), b).value();
+  EXPECT_NE(side, *entrance);
+  EXPECT_EQ(find_entrance(a, b, entrance), entrance);
+  EXPECT_EQ(find_entrance(a, b, side), side);
 }
 
 TEST(ConvexContact, HistoryChoosesTheNormalOfACrossing) {

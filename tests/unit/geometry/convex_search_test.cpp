@@ -86,6 +86,31 @@ TEST(ConvexSearch, TipsExactlyOnTopOfEachOtherAreHeldApart) {
   }
 }
 
+TEST(ConvexSearch, ACornerOnAnEdgeOrACornerGoesInThroughTheFaceItWasOver) {
+  // Faces around the edge or corner of the slab that slope to the upper tip's own must not hold it as well.
+  const Body on_edge(box({-2, -2, -1}, {0, 2, 0}));
+  const Body on_corner(box({-2, -2, -1}, {0, 0, 0}));
+  for (const Body* below : {&on_edge, &on_corner}) {
+    for (const bool swapped : {false, true}) {
+      std::optional<EntranceName> history;
+      for (const double height : {0.001, 0.0, -0.0003, -0.0006}) {
+        const Body tip(moved(pyramid(1, 0.5), Eigen::AngleAxisd::Identity(), {0, 0, height}));
+        const Found found = swapped ? search(tip, *below, history) : search(*below, tip, history);
+        history = found.entrance;
+        EXPECT_EQ(found.contacts.type,
+                  below == &on_edge ? ContactType::vertex_edge : ContactType::vertex_vertex);
+        if (height >= 0.0) continue;
+        EXPECT_TRUE(found.contacts.edges.empty());
+        ASSERT_EQ(found.contacts.vertices.size(), 1U);
+        const VertexContact& contact = found.contacts.vertices[0];
+        EXPECT_EQ(contact.vertex_of_a, swapped);
+        EXPECT_EQ(below->placed.normal(contact.cell), Vector3::UnitZ());
+        EXPECT_EQ(contact.gap, height);
+      }
+    }
+  }
+}
+
 TEST(ConvexSearch, DirectionsOutlastTheRoundingOfATurn) {
   std::mt19937_64 random(20261121);
   const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };

@@ -133,8 +133,10 @@ TEST(StaticAnalysis, TallBlockTopples) {
                         {{}, {}}, same_law(law), {});
   ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
   ASSERT_EQ(simulation.moving_blocks().size(), 1U);
-  // It turns over its lower edge, from +z towards -x: about -y.
-  EXPECT_LT(simulation.moving_blocks()[0].angular_acceleration.y(), -0.1);
+  // It turns over its lower edge, from +z towards -x, about -y, as it starts to: m g (H/2 sin - D/2 cos) over
+  // m (D^2 + H^2)/3.
+  const double expected = 9.81 * (1.5 * 0.5 - 0.5 * std::sqrt(0.75)) / (10.0 / 3.0);
+  EXPECT_NEAR(simulation.moving_blocks()[0].angular_acceleration.y(), -expected, 0.01 * expected);
 }
 
 TEST(StaticAnalysis, LoadsThatChangeAreFollowed) {
