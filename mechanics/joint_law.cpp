@@ -64,20 +64,16 @@ MeanResponse end_response(const PointLaw& law, const PointResponse& end) {
   return {end.force, end.tangent, sliding_coupling(law, end)};
 }
 
-MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
-                           const PointResponse& end, double end_gap) {
-  if (law.augmented) return end_response(law, end);
-  MeanResponse mean{0.5 * (start.force + end.force), 0.5 * end.tangent, 0.5 * sliding_coupling(law, end)};
-  const Eigen::Vector2d start_shear = start.force.tail<2>();
-  const bool end_open = end.state == ContactState::open;
-  const double limit = end_open ? 0.0 : shear_limit(law, end.force[0]);
-  if (const double length = start_shear.norm(); length > limit) {
-    mean.force.tail<2>() = 0.5 * (limit / length * start_shear + end.force.tail<2>());
-    if (law.held_limit < 0.0 && end.force[0] > 0.0)
-      mean.coupling += 0.5 * law.friction * law.normal_stiffness / length * start_shear;
-  }
+namespace {
+
+/// Mean normal force and its tangent. @param start,end responses whose normal forces count
+void set_mean_normal(const PointLaw& law, const PointResponse& start, double start_gap,
+                     const PointResponse& end, double end_gap, MeanResponse& mean) {
+  mean.force[0] = 0.5 * (start.force[0] + end.force[0]);
+  mean.tangent(0, 0) = 0.5 * end.tangent(0, 0);
   const bool start_open = start.state == ContactState::open;
-  if (start_open == end_open || law.tension > 0.0) return mean;
+  const bool end_open = end.state == ContactState::open;
+  if (start_open == end_open || law.tension > 0.0) return;
   // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
   const double difference = end_gap - start_gap;
   if (start_open) {
@@ -88,7 +84,49 @@ MeanResponse mean_response(const PointLaw& law, const PointResponse& start, doub
     mean.force[0] = 0.5 * law.normal_stiffness * start_gap * start_gap / difference;
     mean.tangent(0, 0) = mean.force[0] / difference;
   }
-  return mean;
+}
+
+}  // namespace
+
+AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
+                           const Eigen::Vector3d& start_place, const Eigen::Vector3d& end_place) {
+  if (law.augmented) {
+    const PointResponse end = point_response(law, end_place[0], end_place.tail<2>());
+    return {end, end_response(law, end)};
+  }
+  PointLaw normal_only = law;
+  normal_only.held_limit = -1.0;
+  AveragedStep step{point_response(normal_only, end_place[0], Eigen::Vector2d::Zero()),
+                    {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero()}};
+  PointResponse& end = step.end;
+  MeanResponse& mean = step.mean;
+  set_mean_normal(law, start, start_place[0], end, end_place[0], mean);
+  const bool end_open = end.state == ContactState::open;
+  if (law.held_limit <= 0.0 && end_open && start.state == ContactState::open) return step;
+  const Eigen::Vector2d start_slip = elastic_slip(law, start, start_place.tail<2>());
+  const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
+  const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
+  const double length = trial.norm();
+  const double limit = shear_limit(law, mean.force[0]);
+  Eigen::Vector2d end_slip = start_slip + way;
+  auto tangent = mean.tangent.bottomRightCorner<2, 2>();
+  if (length <= limit) {
+    mean.force.tail<2>() = trial;
+    tangent.diagonal().setConstant(0.5 * law.shear_stiffness);
+  } else {
+    const Eigen::Vector2d direction = trial / length;
+    mean.force.tail<2>() = limit * direction;
+    tangent = 0.5 * law.shear_stiffness * limit / length *
+              (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+    if (law.held_limit < 0.0 && mean.force[0] > 0.0)
+      mean.coupling = law.friction * mean.tangent(0, 0) * direction;
+    end_slip = -2.0 / law.shear_stiffness * mean.force.tail<2>() - start_slip;
+    if (!end_open) end.state = ContactState::sliding;
+  }
+  if (end_open) return step;
+  end.force.tail<2>() = -law.shear_stiffness * end_slip;
+  end.shear_energy = 0.5 * law.shear_stiffness * end_slip.squaredNorm();
+  return step;
 }
 
 Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,

@@ -75,26 +75,34 @@ struct PointResponse {
 /// zero of others.
 [[nodiscard]] Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response);
 
-/// Force and tangent that act over a whole step, from the responses at its start and end, such that contacts
-/// give no more work than their energy falls. The work of the normal force is the change of its spring's
-/// energy exactly, also when the point opens or closes on the way (a discrete gradient). The shear force is
-/// the mean of its end value and its start value, the latter cut to what friction bears at the end: with e =
-/// -F/ks and e0' the cut e0, what is lost is
-///     ks (e0' + e1)/2 . (s1 - s0) - ks (e1^2 - e0^2)/2 = ks (e0' - e0) . (e1 - e0)/2 + ks (e0' + e1)/2 . p
-/// with p the slip, along e1: no term is negative, since e0' is the projection of e0 onto a disc that e1 is
-/// in. A point that stays locked loses nothing. Multipliers take no part in an energy: augmented points act
-/// with their forces at the end. The tangent is the derivative by the end of the step, positive
-/// semi-definite, with the dependence of shear on the normal force left out.
+/// Force and tangent that act over a step.
 struct MeanResponse {
   Eigen::Vector3d force;     ///< N
-  Eigen::Matrix3d tangent;   ///< N/m
+  Eigen::Matrix3d tangent;   ///< N/m, derivative by the end of the step, positive semi-definite
   Eigen::Vector2d coupling;  ///< -d (shear force) / d g, what the tangent leaves out, N/m
 };
 /// The response at the end of a step as what acts over it.
 [[nodiscard]] MeanResponse end_response(const PointLaw& law, const PointResponse& end);
-/// @param start_gap,end_gap m. With tensile strength left the normal force is the plain average.
-[[nodiscard]] MeanResponse mean_response(const PointLaw& law, const PointResponse& start, double start_gap,
-                                         const PointResponse& end, double end_gap);
+
+/// A step over which mean forces act.
+struct AveragedStep {
+  PointResponse end;  ///< tangent: of the normal force only
+  MeanResponse mean;
+};
+/// Mean forces such that contacts give no more work than their energy falls. The work of the normal force N
+/// is the change of its spring's energy exactly, also when the point opens or closes on the way (a discrete
+/// gradient). The shear force is that of the spring at the middle of the step, s = e0 + (s1 - s0)/2 with e0
+/// the elastic slip at the start, bounded by friction under N:
+///     F = -ks s  if that is within  L = N tan(phi) + c,  else  F = -L s/|s|,
+/// and the spring ends at e1 with  F = -ks (e0 + e1)/2. What is lost is
+///     -F . (s1 - s0) - ks (e1^2 - e0^2)/2 = -F . (s1 - s0 - e1 + e0) = 2 L (|s| - L/ks) >= 0
+/// where it slides and nothing where it stays locked. In full sliding friction is L whatever the forces at
+/// both ends are, which alternate where contacts are stiff. Where a point opens, its shear spring is lost.
+/// Multipliers take no part in an energy: augmented points act with their forces at the end.
+/// @param start at the start of the step. @param start_place,end_place gap and trial slip, m
+[[nodiscard]] AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
+                                         const Eigen::Vector3d& start_place,
+                                         const Eigen::Vector3d& end_place);
 
 /// The elastic slip that is left after a step with this trial slip: the spring of a sliding point stays at
 /// the limit, that of an augmented one is taken over by the multiplier.

@@ -121,7 +121,10 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
           finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
       memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest,
                                          ContactPair::energies(after), bulge);
-      records_.push_back({pair.a(), pair.b(), pair.points(), after.points, std::move(gaps),
+      // Forces that acted: with average-acceleration not those at the end.
+      std::vector<PointResponse> acted = after.points;
+      for (std::size_t k = 0; k < acted.size(); ++k) acted[k].force = after.means[k].force;
+      records_.push_back({pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps),
                           contact_work_[{pair.a(), pair.b()}] += work});
     }
   }

@@ -264,11 +264,16 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   Eigen::VectorXd forces(place.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    const PointResponse end = point_response(laws[k], place(0, column), place.col(column).tail<2>());
-    response.points.push_back(end);
-    response.means.push_back(
-        averaged ? mean_response(laws[k], start_responses_[k], start_(0, column), end, place(0, column))
-                 : end_response(laws[k], end));
+    if (averaged) {
+      const AveragedStep step =
+          averaged_step(laws[k], start_responses_[k], start_.col(column), place.col(column));
+      response.points.push_back(step.end);
+      response.means.push_back(step.mean);
+    } else {
+      const PointResponse end = point_response(laws[k], place(0, column), place.col(column).tail<2>());
+      response.points.push_back(end);
+      response.means.push_back(end_response(laws[k], end));
+    }
     forces.segment<3>(3 * column) = response.means.back().force;
   }
   if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
@@ -383,7 +388,7 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
     const PointResponse& point = response.points[k];
     if (point.state != ContactState::sliding) continue;
     const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
-    work += point.force.tail<2>().dot(elastic_slip(laws[k], point, slip) - slip);
+    work += response.means[k].force.tail<2>().dot(elastic_slip(laws[k], point, slip) - slip);
   }
   return work;
 }

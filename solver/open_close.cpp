@@ -175,8 +175,8 @@ class OpenClose {
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         const PointLaw& law = problem_.laws()[pair][k];
-        const PointResponse& point = problem_.responses()[pair].points[k];
-        result.push_back(std::max(point.force[0], 0.0) * law.friction + law.cohesion);
+        const double normal = problem_.responses()[pair].means[k].force[0];
+        result.push_back(std::max(normal, 0.0) * law.friction + law.cohesion);
       }
     }
     return result;

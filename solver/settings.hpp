@@ -9,9 +9,10 @@
 namespace ashlar {
 
 /// All have the unknown D, the change over the step, conserve momentum and angular momentum
-/// (angular_momentum.hpp), and are stable at any step for linear systems. A block should turn by less than
-/// 0.05 rad in a step: if it is stiff, average-acceleration and generalized-alpha then gain energy, dda loses
-/// spin. The first two take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  and differ in where F is taken.
+/// (angular_momentum.hpp), and are stable at any step for linear systems. Turning is not linear: where the
+/// vibrations of a block are much faster than the step, average-acceleration and generalized-alpha gain
+/// energy from 0.01 rad a step on, without bound; dda never does, and loses spin from about 0.05 rad a step
+/// on. The first two take the step  D = dt (v + v')/2,  M (v' - v)/dt = F  and differ in where F is taken.
 /// Equations in time_scheme.hpp.
 enum class Integrator {
   dda,  ///< F at the end of the step: Newmark beta 1/2, gamma 1 (theory.md section 5), dissipative
