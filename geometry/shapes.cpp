@@ -5,9 +5,12 @@
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -82,6 +85,34 @@ TriangleMesh split_on_unit_sphere(TriangleMesh coarse) {
   return fine;
 }
 
+/// The same mesh with its points in the order of the points it was made of, its triangles from their least
+/// corner on.
+TriangleMesh numbered_as(std::span<const Vector3> input, const TriangleMesh& mesh) {
+  std::map<std::array<double, 3>, std::size_t> place_in_input;
+  for (std::size_t k = 0; k < input.size(); ++k)
+    place_in_input.try_emplace({input[k].x(), input[k].y(), input[k].z()}, k);
+  const auto place_of = [&](int point) {
+    const Vector3& x = mesh.points[static_cast<std::size_t>(point)];
+    return place_in_input.at({x.x(), x.y(), x.z()});
+  };
+  std::vector<int> order(mesh.points.size()), rank(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return place_of(i) < place_of(j); });
+  TriangleMesh result;
+  for (const int point : order) {
+    rank[static_cast<std::size_t>(point)] = static_cast<int>(result.points.size());
+    result.points.push_back(mesh.points[static_cast<std::size_t>(point)]);
+  }
+  result.triangles.reserve(mesh.triangles.size());
+  for (std::array<int, 3> corners : mesh.triangles) {
+    for (int& corner : corners) corner = rank[static_cast<std::size_t>(corner)];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.triangles.push_back(corners);
+  }
+  std::sort(result.triangles.begin(), result.triangles.end());
+  return result;
+}
+
 }  // namespace
 
 TriangleMesh make_box(const Vector3& low, const Vector3& high) {
@@ -112,7 +143,7 @@ TriangleMesh make_convex_hull(std::span<const Vector3> points) {
   require(!are_coplanar(input), "hull of coplanar points has no volume");
   HullMesh hull;
   CGAL::convex_hull_3(input.begin(), input.end(), hull);
-  return to_triangle_mesh(hull);
+  return numbered_as(points, to_triangle_mesh(hull));  // the library's numbers depend on addresses
 }
 
 TriangleMesh make_sphere(const Vector3& center, double radius, int subdivisions) {

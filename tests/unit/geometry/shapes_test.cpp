@@ -148,5 +148,15 @@ TEST(Sphere, refuses_bad_arguments) {
   EXPECT_THROW((void)make_sphere({0, 0, 0}, 1.0, 8), std::invalid_argument);
 }
 
+TEST(ConvexHull, numbers_points_as_they_were_given) {
+  // Two of these points are inside, one is given twice.
+  const std::vector<Vector3> points = {{1, 0, 0}, {0.2, 0.2, 0.2}, {0, 0, 1}, {0, 0, 0},
+                                       {1, 0, 0}, {0.1, 0.3, 0.2}, {0, 1, 0}};
+  const TriangleMesh hull = make_convex_hull(points);
+  EXPECT_EQ(hull.points, (std::vector<Vector3>{{1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 1, 0}}));
+  // Outward triangles, each from its least corner on.
+  EXPECT_EQ(hull.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}));
+}
+
 }  // namespace
 }  // namespace ashlar

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 
 #include "support/simulations.hpp"
@@ -34,24 +35,30 @@ Polyhedron stone(std::mt19937_64& random, const Vector3& center) {
   return Polyhedron(make_convex_hull(points));
 }
 
-TEST(OpenClose, NoStepOfAPileOfStonesIsCutForNotSettling) {
-  std::mt19937_64 random(11);
+/// Eight stones fall on each other for 0.8 s. @return times the fallback was needed
+std::uint64_t pile_of_stones(unsigned seed) {
+  std::mt19937_64 random(seed);
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-5, -5, -1}, {5, 5, 0}));
   for (int k = 0; k < 8; ++k) {
-    const int layer = k / 4;
-    blocks.emplace_back(block_of("stone",
-                                 stone(random, {1.05 * (k % 2), 1.05 * (k / 2 % 2), 0.6 + 1.1 * layer}),
-                                 {2600, 1e9, 0.2}, 1));
+    const Vector3 center(1.05 * (k % 2), 1.05 * (k / 2 % 2), k < 4 ? 0.6 : 1.7);
+    blocks.emplace_back(block_of("stone", stone(random, center), {2600, 1e9, 0.2}, 1));
   }
   SimulationSettings settings;
   settings.time_step = 2e-3;
   Simulation simulation(std::move(blocks), std::vector<InitialMotion>(9),
                         same_law({2e11, 1e11, 0.6, 0.0, 0.0, true}), settings);
-  ASSERT_TRUE(run_until(simulation, 0.8));
+  EXPECT_TRUE(run_until(simulation, 0.8));
   for (const Rejection& rejection : simulation.rejections())
     EXPECT_EQ(rejection.reason, RejectionReason::passing) << rejection.time;
-  EXPECT_GT(simulation.counts().open_close_fallbacks, 0U);
+  return simulation.counts().open_close_fallbacks;
+}
+
+TEST(OpenClose, NoStepOfAPileOfStonesIsCutForNotSettling) {
+  std::uint64_t fallbacks = 0;
+  for (const unsigned seed : {11U, 12U, 13U, 14U, 15U, 16U}) fallbacks += pile_of_stones(seed);
+  // Newton alone does not always do.
+  EXPECT_GT(fallbacks, 0U);
 }
 
 /// Fall of a cube of 1 m that hangs bonded under a ceiling, after ten steps of 0.1 s. Its weight is 24525 Pa
