@@ -14,8 +14,8 @@
 //   alpha_f v so  w = gamma/(1 - alpha_m). Only smooth forces enter the acceleration that is carried on; the
 //   impulse of a contact is exactly dt F_contact with F_contact at the end of the step, as in the dda step. A
 //   jump of the contact force therefore leaves no oscillation behind, and momentum is exchanged exactly.
-// The dda step multiplies an oscillation with W = w dt by (1 + W^2/2)^(-1/2) as long as W <= 4. Stiffer ones it
-// does not damp more, but less again: x' = 2 (x + dt v)/(2 + W^2), dt v' = 2 (x' - x) - dt v has the
+// The dda step multiplies an oscillation with W = w dt by (1 + W^2/2)^(-1/2) as long as W <= 4. Stiffer ones
+// it does not damp more, but less again: x' = 2 (x + dt v)/(2 + W^2), dt v' = 2 (x' - x) - dt v has the
 // determinant 2/(2 + W^2) and the trace (4 - W^2)/(2 + W^2), so that beyond W = 4 one eigenvalue is real and
 // goes to -1 as 1 - 8/W^2: what is far too stiff for the step stays as a velocity that turns round in each.
 // average-acceleration: D = dt (v + v')/2, M (v' - v)/dt = F - alpha M D/dt.
