@@ -62,7 +62,7 @@ class ContactPair {
   /// Laws of the points at the start of the step.
   [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
 
-  /// @param averaged false: forces are those at the end of the step; true: see MeanResponse
+  /// @param averaged false: forces are those at the end of the step; true: see averaged_step
   /// @param laws of the points, as an open-close iteration has them
   [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
                                      const std::vector<PointLaw>& laws) const;
