@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "mechanics/field_moments.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -149,13 +151,7 @@ Vector3 BlockModel::momentum(const BlockState& state) const {
 }
 
 Vector3 BlockModel::angular_momentum(const BlockState& state) const {
-  Vector3 sum = Vector3::Zero();
-  for (Eigen::Index a = 0; a < state.position.rows(); ++a) {
-    const Vector3 place = state.position.row(a);
-    const Vector3 velocity = state.velocity.row(a);
-    sum += place.cross(velocity);
-  }
-  return material().density * sum;
+  return material().density * integral_of_cross(state.position, state.velocity);
 }
 
 double BlockModel::kinetic_energy(const BlockState& state) const {

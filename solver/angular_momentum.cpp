@@ -1,10 +1,11 @@
 #include "solver/angular_momentum.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "mechanics/field_moments.hpp"
 
 namespace ashlar {
 namespace {
@@ -13,22 +14,9 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// Sum of a_k x b_k from a row on.
-Vector3 sum_of_crosses(const Eigen::MatrixX3d& a, const Eigen::MatrixX3d& b, Eigen::Index first) {
-  Vector3 sum = Vector3::Zero();
-  for (Eigen::Index k = first; k < a.rows(); ++k) {
-    const Vector3 left = a.row(k);
-    const Vector3 right = b.row(k);
-    sum += left.cross(right);
-  }
-  return sum;
-}
-
-/// Coefficients of the position of a block from a point on. The first function is constant.
-Eigen::MatrixX3d from_point(const BlockModel& block, const BlockState& state, const Vector3& point) {
-  Eigen::MatrixX3d places = state.position;
-  places.row(0) -= std::sqrt(block.basis().volume()) * point.transpose();
-  return places;
+/// Coefficients of the position of a block from a point on.
+Eigen::MatrixX3d arms_of(const BlockModel& block, const BlockState& state, const Vector3& point) {
+  return from_point(state.position, block.basis().volume(), point);
 }
 
 }  // namespace
@@ -67,7 +55,9 @@ Vector3 stray_angular_momentum(const BlockModel& block, const BlockState& before
   const Eigen::MatrixX3d uneven = after.position - before.position - step * velocity;
   const Eigen::MatrixX3d unknown = density * (after.velocity - before.velocity) - step * known;
   // Internal forces have no resultant: the constant function would only bring in its rounding.
-  return sum_of_crosses(place, unknown, 1) + density * sum_of_crosses(uneven, velocity, 0);
+  const Eigen::Index others = place.rows() - 1;
+  return integral_of_cross(place.bottomRows(others), unknown.bottomRows(others)) +
+         density * integral_of_cross(uneven, velocity);
 }
 
 double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
@@ -76,34 +66,29 @@ double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& b
   Vector3 centroid = Vector3::Zero();
   for (const int k : body) {
     mass += blocks[at(k)].mass();
-    centroid += blocks[at(k)].mass() / std::sqrt(blocks[at(k)].basis().volume()) *
-                states[at(k)].position.row(0).transpose();
+    centroid += blocks[at(k)].mass() * mean_of(states[at(k)].position, blocks[at(k)].basis().volume());
   }
   centroid /= mass;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const int k : body) {
-    const Eigen::MatrixX3d arms = from_point(blocks[at(k)], states[at(k)], centroid);
-    const Eigen::Matrix3d products = arms.transpose() * arms;
-    inertia += blocks[at(k)].material().density * (products.trace() * Eigen::Matrix3d::Identity() - products);
+    inertia +=
+        blocks[at(k)].material().density * unit_inertia(arms_of(blocks[at(k)], states[at(k)], centroid));
   }
   const Vector3 spin = inertia.llt().solve(angular_momentum);
   // The kinetic energy is gained as  linear s + square s^2  with the share s of the spin.
   double linear = 0.0;
   const double square = 0.5 * spin.dot(angular_momentum);
   for (const int k : body)
-    linear += blocks[at(k)].material().density *
-              spin.dot(sum_of_crosses(from_point(blocks[at(k)], states[at(k)], centroid),
-                                      states[at(k)].velocity, 0));
+    linear +=
+        blocks[at(k)].material().density *
+        spin.dot(integral_of_cross(arms_of(blocks[at(k)], states[at(k)], centroid), states[at(k)].velocity));
   double share = 1.0;
   if (linear + square > limit) {
     const double root = std::sqrt(linear * linear + 4.0 * square * limit);
     share = linear > 0.0 ? 2.0 * limit / (linear + root) : (root - linear) / (2.0 * square);
   }
-  for (const int k : body) {
-    const Eigen::MatrixX3d arms = from_point(blocks[at(k)], states[at(k)], centroid);
-    for (Eigen::Index row = 0; row < arms.rows(); ++row)
-      states[at(k)].velocity.row(row) += share * spin.cross(Vector3(arms.row(row))).transpose();
-  }
+  for (const int k : body)
+    states[at(k)].velocity += turning_field(share * spin, arms_of(blocks[at(k)], states[at(k)], centroid));
   return share * (linear + share * square);
 }
 

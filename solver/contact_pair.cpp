@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "mechanics/field_moments.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -90,25 +92,14 @@ bool is_free(const ContactBody& body) {
   return !body.model->fixed() && body.model->space().free();
 }
 
-/// Coefficients of the position from a point on. The first function is constant.
-Eigen::MatrixX3d position_from(const Vector3& point, const ContactBody& body) {
-  Eigen::MatrixX3d position = body.state->position;
-  position.row(0) -= std::sqrt(body.model->basis().volume()) * point.transpose();
-  return position;
-}
-
 /// Position at the middle of the step. @param change of the coefficients, stacked
 Eigen::MatrixX3d middle_of(const Eigen::MatrixX3d& start, const Eigen::VectorXd& change) {
   return start + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(change.data(), start.rows(), 3);
 }
 
 /// @param force stacked
-Vector3 torque_about(const Eigen::MatrixX3d& position, const Eigen::VectorXd& force) {
-  const Eigen::Map<const Eigen::MatrixX3d> forces(force.data(), position.rows(), 3);
-  Vector3 sum = Vector3::Zero();
-  for (Eigen::Index k = 0; k < position.rows(); ++k)
-    sum += Vector3(position.row(k)).cross(Vector3(forces.row(k)));
-  return sum;
+Vector3 torque_of(const Eigen::MatrixX3d& position, const Eigen::VectorXd& force) {
+  return integral_of_cross(position, Eigen::Map<const Eigen::MatrixX3d>(force.data(), position.rows(), 3));
 }
 
 /// Forces f_a = w x q_a that have no resultant and the given torque, stacked as the unknowns of a free block
@@ -116,13 +107,8 @@ Vector3 torque_about(const Eigen::MatrixX3d& position, const Eigen::VectorXd& fo
 Eigen::VectorXd turning_force(Eigen::MatrixX3d position, const Vector3& torque) {
   // Only the first function has a mean, so that what is left of it turns about the centroid.
   position.row(0).setZero();
-  const Eigen::Matrix3d products = position.transpose() * position;
-  const Eigen::Matrix3d inertia = products.trace() * Eigen::Matrix3d::Identity() - products;
-  const Vector3 w = inertia.ldlt().solve(torque);
-  Eigen::VectorXd force(position.size());
-  Eigen::Map<Eigen::MatrixX3d> rows(force.data(), position.rows(), 3);
-  for (Eigen::Index k = 0; k < position.rows(); ++k) rows.row(k) = w.cross(Vector3(position.row(k)));
-  return force;
+  const Vector3 w = unit_inertia(position).ldlt().solve(torque);
+  return turning_field(w, position).reshaped();
 }
 
 }  // namespace
@@ -157,9 +143,10 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
   if (free_pair_) {
     // From where both are, so that the torques of opposite forces cancel far from the origin too.
-    const Vector3 origin = body_a.state->position.row(0) / std::sqrt(body_a.model->basis().volume());
-    position_a_ = position_from(origin, body_a);
-    position_b_ = position_from(origin, body_b);
+    const double volume_a = body_a.model->basis().volume();
+    const Vector3 origin = mean_of(body_a.state->position, volume_a);
+    position_a_ = from_point(body_a.state->position, volume_a, origin);
+    position_b_ = from_point(body_b.state->position, body_b.model->basis().volume(), origin);
   }
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
@@ -282,7 +269,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     const Eigen::MatrixX3d middle_a = middle_of(position_a_, ya);
     const Eigen::MatrixX3d middle_b = middle_of(position_b_, yb);
     const Vector3 couple =
-        torque_about(middle_a, response.force_on_a) + torque_about(middle_b, response.force_on_b);
+        torque_of(middle_a, response.force_on_a) + torque_of(middle_b, response.force_on_b);
     response.turning_on_a = turning_force(middle_a, -0.5 * couple);
     response.turning_on_b = turning_force(middle_b, -0.5 * couple);
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "mechanics/field_moments.hpp"
 #include "solver/automatic.hpp"
 #include "solver/simulation.hpp"
 
@@ -215,7 +216,7 @@ std::vector<MovingBlock> Simulation::moving_blocks() const {
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
                                        gradient(1, 0) - gradient(0, 1));
-    result.push_back({static_cast<int>(k), a.row(0) / std::sqrt(block.basis().volume()), turn});
+    result.push_back({static_cast<int>(k), mean_of(a, block.basis().volume()), turn});
   }
   return result;
 }
