@@ -66,7 +66,9 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   lone_factors_.drop_unused();
   finder_.accept_motion();
   const double last_residual = ledger_.residual;
-  const std::vector<BlockState> before = states_;
+  const bool gives_spin_back = !scheme.mean_contacts && !scheme.from_rest && !free_bodies_.empty();
+  std::vector<BlockState> before;
+  if (gives_spin_back) before = states_;
   double potential_work = 0.0;
   double potential_change = 0.0;
   std::vector<double> dissipated(blocks_.size(), 0.0);
@@ -81,7 +83,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
     potential_work += work;
     potential_change += change;
   }
-  if (!scheme.mean_contacts && !scheme.from_rest) keep_angular_momentum(scheme, trial, before, dissipated);
+  if (gives_spin_back) keep_angular_momentum(scheme, trial, before, dissipated);
 
   book_refound(pairs);
   report_ = StepReport{};
@@ -146,8 +148,6 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
 void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& trial,
                                        const std::vector<BlockState>& before,
                                        const std::vector<double>& dissipated) {
-  std::vector<std::array<int, 2>> tied;
-  for (const TiedBlocks& tie : ties_) tied.push_back({tie.a, tie.b});
   std::vector<Eigen::VectorXd> forces(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) forces[k] = trial.bodies[k].external_force;
   for (std::size_t i = 0; i < trial.islands.size(); ++i) {
@@ -158,7 +158,7 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
       if (moving_[at(pair.b())]) forces[at(pair.b())] += response.total_on_b();
     }
   }
-  for (const std::vector<int>& body : free_bodies(blocks_, tied)) {
+  for (const std::vector<int>& body : free_bodies_) {
     Vector3 stray = Vector3::Zero();
     double limit = 0.0;
     for (const int k : body) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/angular_momentum.hpp"
 #include "solver/energy_bounds.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -48,6 +49,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
   }
+  free_bodies_ = free_bodies(blocks_, {});
   // The surface of an incremental block is its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
   note_elastic_energies();
@@ -66,6 +68,9 @@ bool Simulation::tie_blocks(int a, int b, double stiffness) {
   Tie tie = tie_between(block_a.solid(), block_a.basis(), block_b.solid(), block_b.basis());
   if (tie.area == 0.0) return false;
   ties_.push_back({a, b, std::move(tie), stiffness});
+  std::vector<std::array<int, 2>> tied;
+  for (const TiedBlocks& blocks : ties_) tied.push_back({blocks.a, blocks.b});
+  free_bodies_ = free_bodies(blocks_, tied);
   return true;
 }
 

@@ -255,6 +255,8 @@ class Simulation {
   ContactFinder finder_;
   WaysOut ways_out_;  ///< at the last search for contacts
   std::vector<TiedBlocks> ties_;
+  /// See angular_momentum.hpp: no block becomes fixed, supported, incremental or the reverse
+  std::vector<std::vector<int>> free_bodies_;
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
