@@ -141,7 +141,7 @@ TEST(AngularMomentum, StaysWithABlockThatTumbles) {
       double error = 0.0;
       // 0.01 rad a step about nearly the middle axis: it turns over.
       const double most = tumble(integrator, {0.03, 10, 0.05}, 1e8, order, 1e-3, 500, error);
-      EXPECT_LT(error, 1e-9) << order;
+      EXPECT_LT(error, 1e-11) << order;
       if (integrator == Integrator::dda) {
         EXPECT_LT(most, 1.0 + 1e-12) << order;
       }
@@ -150,7 +150,8 @@ TEST(AngularMomentum, StaysWithABlockThatTumbles) {
 }
 
 TEST(AngularMomentum, IsNotBoughtWithEnergy) {
-  // 0.17 rad a step, far beyond what a step can follow, of a block so stiff that dda hardly damps it.
+  // 0.17 rad a step, far beyond what a step can follow, of a block so stiff that dda hardly damps it. A step
+  // may create energy, which later ones dissipate before spin takes up any: the hundredth is for that.
   double error = 0.0;
   EXPECT_LT(tumble(Integrator::dda, {10, 10, 10}, 1e10, 1, 1e-2, 1500, error), 1.01);
 }
@@ -179,10 +180,11 @@ TEST(AngularMomentum, StaysWithTiedBlocksThatSpin) {
 }
 
 /// Two boxes that spin and slide over each other as they collide off-centre.
-class FreeCollision : public testing::TestWithParam<std::tuple<Integrator, bool, bool, int>> {};
+class FreeCollision : public testing::TestWithParam<std::tuple<Integrator, bool, bool, std::array<int, 2>>> {
+};
 
 TEST_P(FreeCollision, KeepsMomentumAndAngularMomentum) {
-  const auto& [integrator, area_springs, curved, order] = GetParam();
+  const auto& [integrator, area_springs, curved, orders] = GetParam();
   SimulationSettings settings;
   settings.gravity.setZero();
   settings.integrator = integrator;
@@ -190,12 +192,15 @@ TEST_P(FreeCollision, KeepsMomentumAndAngularMomentum) {
   settings.area_springs = area_springs;
   settings.curved_surface = curved;
   settings.subdivisions = 1;
+  // Here nothing is given back: what a step is solved to is left.
+  if (integrator == Integrator::average_acceleration) settings.residual_tolerance = 1e-13;
   const double share = area_springs ? 1.0 : 0.25;
   const JointLaw law{share * 5e9, share * 2e9, 0.577, 0.0, 0.0, area_springs};
-  const Material soft{2500, 1e8, 0.2};
+  const Material soft{2500, 1e8, 0.2}, light{2000, 1e8, 0.3};
   std::vector<BlockModel> blocks;
-  blocks.emplace_back(block_of("a", Polyhedron(make_box({0, 0, 0}, {1, 0.8, 0.6})), soft, order));
-  blocks.emplace_back(block_of("b", Polyhedron(make_box({1.02, 0.35, 0.2}, {1.6, 1.2, 1.3})), soft, order));
+  blocks.emplace_back(block_of("a", Polyhedron(make_box({0, 0, 0}, {1, 0.8, 0.6})), soft, orders[0]));
+  blocks.emplace_back(
+      block_of("b", Polyhedron(make_box({1.02, 0.35, 0.2}, {1.6, 1.2, 1.3})), light, orders[1]));
   Simulation simulation(std::move(blocks), {{{5, 0, 0}, {0, 3, 1}}, {{-2, 0, 0.5}, {1, 0, -2}}},
                         same_law(law), settings);
   const Vector3 momentum = simulation.momentum();
@@ -205,15 +210,17 @@ TEST_P(FreeCollision, KeepsMomentumAndAngularMomentum) {
   // They did collide, and rubbed.
   EXPECT_LT(simulation.blocks()[0].momentum(simulation.states()[0]).x(), 0.5 * 5.0 * 1200.0);
   EXPECT_GT(simulation.ledger().friction, 1e-3 * energy);
-  EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-10 * momentum.norm());
-  EXPECT_LT((simulation.angular_momentum() - angular).norm(), 1e-8 * angular.norm());
-  EXPECT_LT(simulation.largest_step_residual(), 1e-8 * energy);
+  EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-12 * momentum.norm());
+  EXPECT_LT((simulation.angular_momentum() - angular).norm(), 1e-11 * angular.norm());
+  EXPECT_LT(simulation.largest_step_residual(), 1e-10 * energy);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, FreeCollision,
                          testing::Combine(testing::Values(Integrator::dda, Integrator::generalized_alpha,
                                                           Integrator::average_acceleration),
-                                          testing::Bool(), testing::Bool(), testing::Values(1, 2)));
+                                          testing::Bool(), testing::Bool(),
+                                          testing::Values(std::array{1, 1}, std::array{2, 2},
+                                                          std::array{2, 1})));
 
 }  // namespace
 }  // namespace ashlar

@@ -141,13 +141,19 @@ TEST(ContactPair, SpringsFoundDeeperThanTheyWereAreAtRestBelowTheSurface) {
   EXPECT_NEAR(pair.gaps(still_a, still_b)[0], -2e-3, 1e-18);
 }
 
-TEST(ContactPair, ASlidingPairFoundAnewHoldsNoMoreShear) {
-  // N = 5e5 N after the rest has moved by half; the limit 0.1 N is 2e-4 m of slip, 5 J; 3 mm is beyond it.
-  const Setting setting = skew_setting(-2e-3);
+/// A pair of skew_setting(-2e-3) that may hold 250 J in its normal spring and has slid. N = 5e5 N after the
+/// rest has moved by half; the limit 0.1 N is 2e-4 m of slip, 5 J; 3 mm are beyond it.
+ContactPair slid_pair(const Setting& setting, double shear_held) {
   PointMemory memory;
   memory.slip = 3e-3 * setting.points[0].tangent_2;
   ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 0.0, 0.0, true}, memory);
-  pair.hold_at_most({250.0, 1.25});
+  pair.hold_at_most({250.0, shear_held});
+  return pair;
+}
+
+TEST(ContactPair, ASlidingPairFoundAnewHoldsNoMoreShear) {
+  const Setting setting = skew_setting(-2e-3);
+  const ContactPair pair = slid_pair(setting, 1.25);
   const PairResponse response = pair.respond(Eigen::VectorXd::Zero(setting.a.unknowns()),
                                              Eigen::VectorXd::Zero(setting.b.unknowns()), false);
   EXPECT_NEAR(ContactPair::energies(response).normal, 250.0, 1e-9);
@@ -156,12 +162,9 @@ TEST(ContactPair, ASlidingPairFoundAnewHoldsNoMoreShear) {
 }
 
 TEST(ContactPair, SlipThatFrictionDoesNotBearIsCutWhateverIsHeld) {
-  // As above with more energy held than the 5 J at the limit of 2e-4 m: taken back by half, it is locked.
+  // More energy was held than the 5 J at the limit of 2e-4 m: taken back by half, it is locked.
   const Setting setting = skew_setting(-2e-3);
-  PointMemory memory;
-  memory.slip = 3e-3 * setting.points[0].tangent_2;
-  ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 0.0, 0.0, true}, memory);
-  pair.hold_at_most({250.0, 10.0});
+  const ContactPair pair = slid_pair(setting, 10.0);
   const Eigen::MatrixX3d back =
       setting.a.basis().linear_field(-1e-4 * setting.points[0].tangent_2, Eigen::Matrix3d::Zero());
   const PairResponse response = pair.respond(Eigen::Map<const Eigen::VectorXd>(back.data(), back.size()),

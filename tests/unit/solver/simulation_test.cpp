@@ -77,6 +77,16 @@ TEST(Simulation, SpinKeepsVolume) {
   EXPECT_NEAR(volume, 6.0, 6.0 * 1e-10);
 }
 
+TEST(Simulation, SpinKeepsAngularMomentum) {
+  // rho V (1^2 + 2^2)/12 times 1 rad/s; the centroid rests.
+  const Vector3 expected(0, 0, 1000.0 * 6.0 * 5.0 / 12.0);
+  for (const Integrator integrator :
+       {Integrator::dda, Integrator::generalized_alpha, Integrator::average_acceleration}) {
+    const Simulation simulation = spinning_box(integrator, {1000.0, 1e7, 0.2});
+    EXPECT_LT((simulation.angular_momentum() - expected).norm(), 1e-8 * expected.norm());
+  }
+}
+
 TEST(Simulation, BouncePenetrationAndDuration) {
   // m = 12150 kg from 1 m on a total stiffness of 1e9 N/m: k x^2/2 - m g x - m g h = 0, half a period plus
   // the static part.
