@@ -8,6 +8,8 @@
 namespace ashlar {
 namespace {
 
+using Corners = std::vector<Eigen::Vector2d>;
+
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
@@ -25,26 +27,31 @@ double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& 
   return (point - start - share * along).norm();
 }
 
-/// How a point lies on the outline of a convex polygon.
-struct OnOutline {
-  bool corner = false;
-  double angle = 0.0;  ///< that the polygon takes up around it; 0 off the outline
-};
+bool is_corner_of(const Corners& polygon, const Eigen::Vector2d& point, double tolerance) {
+  return std::any_of(polygon.begin(), polygon.end(),
+                     [&](const Eigen::Vector2d& corner) { return (corner - point).norm() <= tolerance; });
+}
 
-OnOutline place_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point,
-                   double tolerance) {
+/// That a convex polygon takes up around a point, rad; 0 off its outline.
+double angle_at(const Corners& polygon, const Eigen::Vector2d& point, double tolerance) {
   const std::size_t count = polygon.size();
   for (std::size_t k = 0; k < count; ++k) {
     if ((polygon[k] - point).norm() > tolerance) continue;
     const Eigen::Vector2d next = polygon[(k + 1) % count] - polygon[k];
     const Eigen::Vector2d last = polygon[(k + count - 1) % count] - polygon[k];
-    return {true, std::atan2(cross(next, last), next.dot(last))};
+    return std::atan2(cross(next, last), next.dot(last));
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (distance_to_segment(point, polygon[k], polygon[(k + 1) % count]) <= tolerance)
-      return {false, std::numbers::pi};
+      return std::numbers::pi;
   }
-  return {};
+  return 0.0;
+}
+
+Corners places_of(const CellOverlap& overlap) {
+  Corners places;
+  for (const OverlapCorner& corner : overlap.corners) places.push_back(corner.place);
+  return places;
 }
 
 /// Where a corner is in space, on the plane of its frame.
@@ -85,17 +92,24 @@ std::vector<Eigen::Vector2d> outline_of(std::vector<Eigen::Vector2d> polygon, do
 
 FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& overlaps, bool divided,
                        double tolerance) {
-  FaceOutline outline{{}, {}, 0.0};
+  FaceOutline outline{{}, 0.0};
+  std::vector<Corners> pieces;
   for (const int cell : face.cells) {
-    std::vector<Eigen::Vector2d> places;
-    for (const OverlapCorner& corner : overlaps[at(cell)].corners) places.push_back(corner.place);
-    outline.pieces.push_back(outline_of(std::move(places), tolerance));
-    outline.area += area_of(outline.pieces.back());
+    pieces.push_back(outline_of(places_of(overlaps[at(cell)]), tolerance));
+    outline.area += area_of(pieces.back());
   }
-  constexpr double straight = 1e-6;  // rad; rounding turns an outline by far less
-  // Corners of sub-faces that almost fit lie in clusters, whose numbers change with each motion.
-  constexpr double cluster = 1e-3;
-  const double one_point = std::max(4.0 * tolerance, cluster * std::sqrt(outline.area));
+  // Where sides that almost lie on each other cross is known badly, and how many corners of sub-faces that
+  // almost fit lie together changes with each motion.
+  constexpr double blur = 1e-3;
+  double one_point = std::max(4.0 * tolerance, blur * std::sqrt(outline.area));
+  std::vector<Corners> rough;
+  for (const Corners& piece : pieces) rough.push_back(outline_of(piece, one_point));
+  if (std::any_of(rough.begin(), rough.end(), [](const Corners& piece) { return !piece.empty(); })) {
+    pieces = std::move(rough);
+  } else {
+    one_point = 4.0 * tolerance;
+  }
+  constexpr double straight = 1e-2;  // rad: what leaving out corners turns outlines by at most
   std::vector<Vector3> kept;
   for (const FaceOverlapPoint& point : face.points) {
     const Vector3 place = lifted(overlaps[at(point.overlap)], point.corner);
@@ -105,10 +119,9 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
     double angle = 0.0;
     bool corner = false;
     for (std::size_t k = 0; k < face.cells.size(); ++k) {
-      const ViewFrame& frame = overlaps[at(face.cells[k])].frame;
-      const OnOutline on = place_on(outline.pieces[k], frame.project(place), 2.0 * tolerance);
-      corner = corner || on.corner;
-      angle += on.angle;
+      const Eigen::Vector2d seen = overlaps[at(face.cells[k])].frame.project(place);
+      corner = corner || is_corner_of(pieces[k], seen, 2.0 * tolerance);
+      angle += angle_at(pieces[k], seen, 2.0 * one_point);
     }
     const bool turns =
         std::abs(angle - std::numbers::pi) > straight && std::abs(angle - 2.0 * std::numbers::pi) > straight;

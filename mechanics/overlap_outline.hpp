@@ -19,16 +19,17 @@ namespace ashlar {
 /// than the tolerance
 [[nodiscard]] std::vector<Eigen::Vector2d> outline_of(std::vector<Eigen::Vector2d> polygon, double tolerance);
 
-/// The overlap of two faces in pieces.
+/// The overlap of two faces.
 struct FaceOutline {
-  std::vector<std::vector<Eigen::Vector2d>> pieces;  ///< outline of each of face.cells; empty: none
-  std::vector<FaceOverlapPoint> corners;             ///< of face.points, those where the outline turns
-  double area;                                       ///< of all pieces, m^2
+  std::vector<FaceOverlapPoint> corners;  ///< of face.points, those where the outline turns
+  double area;                            ///< m^2
 };
 
-/// Leaves out points that another one stands for within a thousandth of the root of the area, those that are
-/// corners of no piece's outline and, unless `divided`, those where the outline of all pieces goes straight
-/// on.
+/// Corners are looked at with a blur of a thousandth of the root of the area, as sides that lie almost on
+/// each other cross anywhere: points another one stands for within it are left out, and so are those that are
+/// corners of no piece when its slivers and nearly straight corners are taken away and, unless `divided`,
+/// those where the outline of all pieces turns by less than 0.01 rad. Where nothing is wider than the blur,
+/// the tolerance alone is what counts.
 /// @param divided faces curve: corners of the pieces are points, also inside
 [[nodiscard]] FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& overlaps,
                                      bool divided, double tolerance);

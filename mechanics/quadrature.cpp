@@ -5,7 +5,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 namespace ashlar {
 namespace {
@@ -93,13 +96,52 @@ SegmentRule radau_for_triangles(int count) {
   return rule;
 }
 
-PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree) {
-  PolygonRule rule;
+namespace {
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+using Corners = std::vector<Eigen::Vector2d>;
+
+/// Takes the flattest corner out of a polygon if it is nearly straight. @return it between its neighbours
+std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon) {
+  constexpr double nearly_straight = 1e-3;  // height of a corner over the line between its neighbours
+  // Corners that are as flat but for rounding: the first.
+  constexpr double less = 1.0 - 1e-6;
   const std::size_t corners = polygon.size();
-  if (corners < 3) return rule;
-  const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-  };
+  if (corners <= 3) return std::nullopt;
+  double least = nearly_straight;
+  std::optional<std::size_t> flattest;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Eigen::Vector2d& before = polygon[(k + corners - 1) % corners];
+    const Eigen::Vector2d line = polygon[(k + 1) % corners] - before;
+    const double height = std::abs(cross(line, polygon[k] - before));
+    if (!(height < (flattest ? less : 1.0) * least * line.squaredNorm())) continue;
+    least = height / line.squaredNorm();
+    flattest = k;
+  }
+  if (!flattest) return std::nullopt;
+  const std::array<Eigen::Vector2d, 3> corner{polygon[(*flattest + corners - 1) % corners],
+                                              polygon[*flattest], polygon[(*flattest + 1) % corners]};
+  polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(*flattest));
+  return corner;
+}
+
+void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, PolygonRule& rule) {
+  const double area = 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!(area > 0.0)) return;
+  const TriangleRule triangle = triangle_rule(degree);
+  for (std::size_t k = 0; k < triangle.weights.size(); ++k) {
+    const Vector3& share = triangle.barycentric[k];
+    rule.points.emplace_back(share[0] * corners[0] + share[1] * corners[1] + share[2] * corners[2]);
+    rule.weights.push_back(triangle.weights[k] * area);
+  }
+}
+
+/// Triangles from the centroid to the sides.
+void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
+  const std::size_t corners = polygon.size();
   double doubled_area = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   for (std::size_t k = 1; k + 1 < corners; ++k) {
@@ -109,7 +151,7 @@ PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree
     doubled_area += part;
     centroid += part * (a + b) / 3.0;
   }
-  if (!(doubled_area > 0.0)) return rule;
+  if (!(doubled_area > 0.0)) return;
   centroid = polygon[0] + centroid / doubled_area;
 
   const SegmentRule inward = radau_for_triangles((degree + 3) / 2);
@@ -131,6 +173,16 @@ PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree
       }
     }
   }
+}
+
+}  // namespace
+
+PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree) {
+  PolygonRule rule;
+  if (polygon.size() < 3) return rule;
+  Corners rest = polygon;
+  while (const auto corner = take_flat_corner(rest)) add_triangle(*corner, degree, rule);
+  add_fan(rest, degree, rule);
   return rule;
 }
 

@@ -34,7 +34,9 @@ struct PolygonRule {
 /// A rule for a convex polygon that has points on the outline, its corners among them: a contact that tilts
 /// onto one edge or corner is felt at once. The polygon is cut into triangles from its centroid; each is
 /// mapped from a square with Lobatto points along the outline and Radau points towards the centroid; points
-/// on shared cuts are joined.
+/// on shared cuts are joined. Corners that are nearly straight (lower than a thousandth of the distance
+/// between their neighbours) are cut off as triangles with inner points before: where two edges that lie
+/// almost on each other cross is known badly, and what is large must not be divided there.
 /// @param polygon (#corners >= 3, 2), counter-clockwise, convex; area 0 gives an empty rule
 /// @param degree polynomials integrated exactly, 1 to 60
 [[nodiscard]] PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree);

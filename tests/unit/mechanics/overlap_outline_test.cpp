@@ -81,5 +81,40 @@ TEST(OverlapOutline, RimsOnEachOtherCrossNowhere) {
   EXPECT_NEAR(whole.area, 1.0, 1e-13);
 }
 
+/// A prism of height 1 over a quadrilateral, its top or its bottom in the plane z = 0.
+Body prism(const Polygon& base, double low) {
+  std::vector<Vector3> points;
+  for (const double z : {low, low + 1.0})
+    for (const Eigen::Vector2d& corner : base) points.emplace_back(corner.x(), corner.y(), z);
+  return Body(Polyhedron(make_convex_hull(points)));
+}
+
+// Two squares turned against each other by a small angle about their middle cross near the middles of their
+// sides: an octagon, but a stack that twists a little still stands on its four corners. Turned by more, all
+// eight count.
+TEST(OverlapOutline, SidesThatAlmostFitCrossNowhere) {
+  const Body below = prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, -1.0);
+  const auto turned = [](double t) {
+    // Corners (+-1/2, +-1/2) turned by t: x - t y, y + t x, longer by 1 + t^2 / 2 only.
+    const double p = 0.5 + 0.5 * t;
+    const double m = 0.5 - 0.5 * t;
+    return prism({{0.5 - m, 0.5 - p}, {0.5 + p, 0.5 - m}, {0.5 + m, 0.5 + p}, {0.5 - p, 0.5 + m}}, 0.0);
+  };
+  for (const double t : {0x1p-30, 0x1p-20, 0x1p-10})
+    EXPECT_EQ(outline_between(turned(t), below).corners, 4U) << t;
+  EXPECT_EQ(outline_between(turned(0.125), below).corners, 8U);
+}
+
+// A strip that is narrow as a whole keeps its corners.
+TEST(OverlapOutline, ANarrowOverlapHasCornersToo) {
+  const Body below(box({0, 0, -1}, {1, 1, 0}));
+  for (const double width : {1e-3, 1e-5, 1e-8}) {
+    const Body above(box({1.0 - width, 0, 0}, {2, 1, 1}));
+    const Whole whole = outline_between(above, below);
+    EXPECT_EQ(whole.corners, 4U) << width;
+    EXPECT_NEAR(whole.area, width, 1e-15) << width;
+  }
+}
+
 }  // namespace
 }  // namespace ashlar
