@@ -10,10 +10,12 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+
+#include "geometry/hull_surface.hpp"
+#include "geometry/rounding_mode.hpp"
 
 namespace ashlar {
 namespace {
@@ -85,32 +87,54 @@ TriangleMesh split_on_unit_sphere(TriangleMesh coarse) {
   return fine;
 }
 
-/// The same mesh with its points in the order of the points it was made of, its triangles from their least
-/// corner on.
-TriangleMesh numbered_as(std::span<const Vector3> input, const TriangleMesh& mesh) {
+/// The facets of a hull as fans from their first corner, with corners in the order of the points it was made
+/// of: which edges divide a facet, and the numbers of points and triangles, depend in the library on
+/// addresses in memory.
+TriangleMesh fans_of_facets(std::span<const Vector3> input, const TriangleMesh& hull) {
   std::map<std::array<double, 3>, std::size_t> place_in_input;
   for (std::size_t k = 0; k < input.size(); ++k)
     place_in_input.try_emplace({input[k].x(), input[k].y(), input[k].z()}, k);
-  const auto place_of = [&](int point) {
-    const Vector3& x = mesh.points[static_cast<std::size_t>(point)];
-    return place_in_input.at({x.x(), x.y(), x.z()});
-  };
-  std::vector<int> order(mesh.points.size()), rank(mesh.points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int i, int j) { return place_of(i) < place_of(j); });
-  TriangleMesh result;
-  for (const int point : order) {
-    rank[static_cast<std::size_t>(point)] = static_cast<int>(result.points.size());
-    result.points.push_back(mesh.points[static_cast<std::size_t>(point)]);
+  std::vector<int> point_of_input(input.size(), -1);
+  for (std::size_t v = 0; v < hull.points.size(); ++v) {
+    const Vector3& x = hull.points[v];
+    point_of_input[place_in_input.at({x.x(), x.y(), x.z()})] = static_cast<int>(v);
   }
-  result.triangles.reserve(mesh.triangles.size());
-  for (std::array<int, 3> corners : mesh.triangles) {
-    for (int& corner : corners) corner = rank[static_cast<std::size_t>(corner)];
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    result.triangles.push_back(corners);
+  NumericRange range;
+  for (const Vector3& p : hull.points)
+    for (int i = 0; i < 3; ++i) range.include(p[i]);
+  const HullSurface surface(hull.points, hull.triangles, range.safe());
+  TriangleMesh result;
+  std::vector<int> corner_of_point(hull.points.size(), -1);
+  for (std::size_t k = 0; k < input.size(); ++k) {
+    const int v = point_of_input[k];
+    if (v < 0 || surface.group_counts()[v] < 3) continue;
+    corner_of_point[v] = static_cast<int>(result.points.size());
+    result.points.push_back(input[k]);
+  }
+  FacetBoundaries boundaries(surface);
+  for (int t = 0; t < static_cast<int>(hull.triangles.size()); ++t) {
+    if (surface.group(t) != t) continue;
+    std::vector<int> loop = boundaries.loop(t);
+    for (int& v : loop) v = corner_of_point[v];
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+      result.triangles.push_back({loop[0], loop[k], loop[k + 1]});
   }
   std::sort(result.triangles.begin(), result.triangles.end());
   return result;
+}
+
+[[gnu::noinline]] TriangleMesh make_hull_to_nearest(std::span<const Vector3> points) {
+  std::vector<Kernel::Point_3> input;
+  input.reserve(points.size());
+  for (const Vector3& p : points) {
+    require(p.allFinite(), "hull points must be finite");
+    input.emplace_back(p.x(), p.y(), p.z());
+  }
+  require(!are_coplanar(input), "hull of coplanar points has no volume");
+  HullMesh hull;
+  CGAL::convex_hull_3(input.begin(), input.end(), hull);
+  return fans_of_facets(points, to_triangle_mesh(hull));
 }
 
 }  // namespace
@@ -134,16 +158,8 @@ TriangleMesh make_box(const Vector3& low, const Vector3& high) {
 
 TriangleMesh make_convex_hull(std::span<const Vector3> points) {
   require(points.size() >= 4, "hull of " + std::to_string(points.size()) + " points, needs at least 4");
-  std::vector<Kernel::Point_3> input;
-  input.reserve(points.size());
-  for (const Vector3& p : points) {
-    require(p.allFinite(), "hull points must be finite");
-    input.emplace_back(p.x(), p.y(), p.z());
-  }
-  require(!are_coplanar(input), "hull of coplanar points has no volume");
-  HullMesh hull;
-  CGAL::convex_hull_3(input.begin(), input.end(), hull);
-  return numbered_as(points, to_triangle_mesh(hull));  // the library's numbers depend on addresses
+  const NearestRounding nearest;
+  return make_hull_to_nearest(points);
 }
 
 TriangleMesh make_sphere(const Vector3& center, double radius, int subdivisions) {

@@ -11,8 +11,8 @@ namespace ashlar {
 /// unless low < high in every component and all are finite.
 [[nodiscard]] TriangleMesh make_box(const Vector3& low, const Vector3& high);
 
-/// Convex hull (exact predicates); coplanar points on a facet are triangulated within it, points inside are
-/// dropped.
+/// Convex hull (exact predicates): its corners in the order in which they were given, each facet a fan of
+/// triangles from the first of its corners. Other points are dropped, those on a facet or a side too.
 /// @param points at least 4, m. @throws std::invalid_argument if they are coplanar, fewer than 4 or not
 /// finite.
 [[nodiscard]] TriangleMesh make_convex_hull(std::span<const Vector3> points);

@@ -148,6 +148,31 @@ TEST(Sphere, refuses_bad_arguments) {
   EXPECT_THROW((void)make_sphere({0, 0, 0}, 1.0, 8), std::invalid_argument);
 }
 
+TEST(ConvexHull, divides_facets_into_fans_from_their_first_corner) {
+  // Prism over a convex polygon with 12 corners; its middle and the middles of its sides are dropped.
+  const std::vector<std::array<int, 2>> polygon = {{5, 1},   {4, 3},   {2, 5},   {-1, 5}, {-3, 4}, {-5, 2},
+                                                   {-5, -1}, {-4, -3}, {-2, -5}, {1, -5}, {3, -4}, {5, -2}};
+  std::vector<Vector3> points;
+  for (std::size_t k = 0; k < polygon.size(); ++k)
+    for (const double z : {0.0, 1.0, 2.0}) points.emplace_back(polygon[k][0], polygon[k][1], z);
+  for (const double z : {0.0, 1.0, 2.0}) points.emplace_back(1, 1, z);
+  std::mt19937_64 random(3);
+  for (int round = 0; round < 20; ++round) {
+    for (std::size_t k = points.size() - 1; k > 0; --k) std::swap(points[k], points[random() % (k + 1)]);
+    const TriangleMesh hull = make_convex_hull(points);
+    std::vector<Vector3> corners;
+    for (const Vector3& point : points)
+      if (point.z() != 1.0 && point.head<2>() != Eigen::Vector2d(1, 1)) corners.push_back(point);
+    EXPECT_EQ(hull.points, corners);
+    const Polyhedron p(hull);
+    EXPECT_THAT(p.faces(), SizeIs(14));
+    for (const PolyhedronFace& face : p.faces()) {
+      const int first = *std::min_element(face.loops[0].begin(), face.loops[0].end());
+      for (const int t : face.triangles) EXPECT_EQ(p.mesh().triangles[t][0], first);
+    }
+  }
+}
+
 TEST(ConvexHull, numbers_points_as_they_were_given) {
   // Two of these points are inside, one is given twice.
   const std::vector<Vector3> points = {{1, 0, 0}, {0.2, 0.2, 0.2}, {0, 0, 1}, {0, 0, 0},
