@@ -242,6 +242,8 @@ class Simulation {
   /// Keeps what is reported of moving blocks, see static_analysis.hpp. @param settled no contact has just
   /// begun to slide or stopped
   void note_accelerations(const TimeScheme& scheme, const Trial& trial, bool settled);
+  /// What moves after an iteration in which nothing was lacking sets off anew.
+  void forget_accelerations();
 
   std::vector<BlockModel> blocks_;
   std::vector<BlockState> states_;

@@ -97,7 +97,7 @@ void Simulation::start_load_level(double end_time) {
   }
   static_.milestone_forces.assign(blocks_.size(), std::numeric_limits<double>::infinity());
   static_.travels.assign(blocks_.size(), 0.0);
-  static_.least_lacking = std::numeric_limits<double>::infinity();
+  forget_accelerations();
 }
 
 StaticStatus Simulation::static_step(double end_time) {
@@ -141,7 +141,11 @@ StaticStatus Simulation::static_step(double end_time) {
       const std::array<int, 3> before = contact_states(report_);
       const bool balanced = note_balance(scheme, trial);
       accept(scheme, trial);
-      note_accelerations(scheme, trial, report_.sliding == 0 || before == contact_states(report_));
+      if (balanced) {
+        forget_accelerations();
+      } else {
+        note_accelerations(scheme, trial, report_.sliding == 0 || before == contact_states(report_));
+      }
       report_.step = step;
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
       const bool still = balanced && (scheme.inertia <= least || least == 0.0) &&
@@ -191,6 +195,11 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
     if (static_.travels[k] > settings_.static_travel && !held[k]) static_.moving = true;
   }
   return balanced;
+}
+
+void Simulation::forget_accelerations() {
+  static_.least_lacking = std::numeric_limits<double>::infinity();
+  static_.unbalanced.clear();
 }
 
 void Simulation::note_accelerations(const TimeScheme& scheme, const Trial& trial, bool settled) {

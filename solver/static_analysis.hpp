@@ -12,9 +12,9 @@
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
 // soft motions may still be on their way. Moving: a block has travelled settings.static_travel of its size
 // and what it lacks was not halved on the way, or a tenth of that when there are no iterations left. m D is
-// the acceleration of the blocks from rest, whatever m; what is reported is that of the iteration in which
-// all blocks together lacked least, none in which contacts began to slide or stopped: contacts have taken up
-// what they bear there, and no block has gone far yet.
+// the acceleration of the blocks from rest, whatever m; what is reported is that of the iteration, since the
+// last one in which nothing was lacking, in which all blocks together lacked least, none in which contacts
+// began to slide or stopped: contacts have taken up what they bear there, and no block has gone far yet.
 //
 // Loads that change follow their histories in levels of settings.time_step, each brought to equilibrium;
 // constant ones are taken at the end time at once.
@@ -52,9 +52,10 @@ struct StaticState {
   /// For each block, where it was when what it lacks had last been halved, and how much that was.
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> milestone_forces;
-  std::vector<double> travels;               ///< from there, in parts of the block's size
-  double least_lacking = 0.0;                ///< least sum of squares of what blocks lacked, N^2
-  std::vector<Eigen::MatrixX3d> unbalanced;  ///< m D of that iteration, (p, 3)
+  std::vector<double> travels;  ///< from there, in parts of the block's size
+  /// Least sum of squares of what blocks lacked since the last iteration in which nothing was lacking, N^2
+  double least_lacking = 0.0;
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< m D of that iteration, (p, 3); empty if there was none
 };
 
 }  // namespace ashlar

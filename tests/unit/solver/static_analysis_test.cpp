@@ -115,6 +115,20 @@ TEST(StaticAnalysis, BlockSlidesOnAnIncline) {
   }
 }
 
+TEST(StaticAnalysis, AccelerationsOfABlockThatWasInBalanceAreThoseAfterIt) {
+  // Friction holds the block until an iteration lacks nothing; then there is less of it.
+  Simulation held = on_incline(30, 31);
+  while (held.snapshot().statics.still_iterations == 0)
+    ASSERT_EQ(held.static_step(1.0), StaticStatus::balancing);
+  Simulation released = on_incline(30, 20);
+  released.restore(held.snapshot());
+  ASSERT_EQ(run_static(released, 1.0), StaticStatus::moving);
+  ASSERT_EQ(released.moving_blocks().size(), 1U);
+  const double degree = std::numbers::pi / 180.0;
+  const double size = 9.81 * (0.5 - std::cos(30 * degree) * std::tan(20 * degree));
+  EXPECT_NEAR(released.moving_blocks()[0].acceleration.norm(), size, 1e-3 * size);
+}
+
 TEST(StaticAnalysis, SlowSlidingIsMovingToo) {
   // Just below the limit of friction, a block of high order covers a hundredth of its size in an iteration.
   Simulation simulation = on_incline(10, 9.95, 3);
