@@ -1,6 +1,7 @@
 #include "mechanics/contact_memory.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -29,22 +30,48 @@ ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest, const S
       held_(held),
       squared_reach_(area_of(entries_)) {}
 
-const ContactMemory::Entry* ContactMemory::nearest(const ContactPoint& point, bool same_faces) const {
+std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, bool same_faces) const {
   constexpr double least_cosine = 0.5;
-  const Entry* found = nullptr;
+  // Old points on one place, as on the cut between two cells, are equally far.
+  constexpr double blur = 1e-6;
+  constexpr double as_near = 1.1;
+  const double reach = std::sqrt(squared_reach_);
+  std::vector<std::pair<double, const Entry*>> candidates;
   double least = std::numeric_limits<double>::infinity();
   for (const Entry& entry : entries_) {
     if (same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
                    : entry.normal.dot(point.normal) < least_cosine)
       continue;
     // One of the two is carried along where a contact slides: the vertex, or the slave's point.
-    const double squared_distance = std::min((entry.material_a - point.material_a).squaredNorm(),
-                                             (entry.material_b - point.material_b).squaredNorm());
-    if (squared_distance > squared_reach_ || squared_distance >= least) continue;
-    least = squared_distance;
-    found = &entry;
+    const double distance =
+        std::min((entry.material_a - point.material_a).norm(), (entry.material_b - point.material_b).norm());
+    if (distance > reach || distance + blur * reach > as_near * least) continue;
+    candidates.emplace_back(distance + blur * reach, &entry);
+    least = std::min(least, candidates.back().first);
   }
-  return found;
+  if (candidates.empty()) return std::nullopt;
+  PointMemory result;
+  result.intact = true;
+  double sum = 0.0;
+  double most = 0.0;
+  for (const auto& [distance, entry] : candidates) {
+    const double weight = as_near * least - distance;
+    if (!(weight > 0.0)) continue;
+    const PointMemory& memory = entry->memory;
+    if (weight > most) result.state = memory.state;
+    most = std::max(most, weight);
+    sum += weight;
+    result.slip += weight * memory.slip;
+    result.compression += weight * memory.compression;
+    result.normal_multiplier += weight * memory.normal_multiplier;
+    result.shear_multiplier += weight * memory.shear_multiplier;
+    result.intact = result.intact && memory.intact;
+  }
+  result.slip /= sum;
+  result.compression /= sum;
+  result.normal_multiplier /= sum;
+  result.shear_multiplier /= sum;
+  return result;
 }
 
 std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& points,
@@ -52,18 +79,17 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
   std::vector<PointMemory> result;
   result.reserve(points.size());
   for (const ContactPoint& point : points) {
-    PointMemory memory;
-    memory.intact = point.gap <= bond_distance;
-    const Entry* entry = nearest(point, true);
-    const bool same_faces = entry != nullptr;
-    if (!same_faces) entry = nearest(point, false);
-    if (entry != nullptr) {
-      memory = entry->memory;
-      memory.slip = turned(memory.slip, point.normal);
-      memory.shear_multiplier = turned(memory.shear_multiplier, point.normal);
-      memory.intact = memory.intact && same_faces;
+    PointMemory fresh;
+    fresh.intact = point.gap <= bond_distance;
+    std::optional<PointMemory> memory = near(point, true);
+    const bool same_faces = memory.has_value();
+    if (!memory) memory = near(point, false);
+    if (memory) {
+      memory->slip = turned(memory->slip, point.normal);
+      memory->shear_multiplier = turned(memory->shear_multiplier, point.normal);
+      memory->intact = memory->intact && same_faces;
     }
-    result.push_back(memory);
+    result.push_back(memory.value_or(fresh));
   }
   return result;
 }

@@ -1,10 +1,13 @@
 // What contact points remember from step to step: elastic slip, state, multipliers and whether the joint is
 // still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
-// the nearest old one, nearest in the material of both blocks. Where the contact passes on to another face,
-// over an edge that is not sharp, slip goes with it; a bond does not, as new surface is not bonded.
+// the nearest old one, nearest in the material of both blocks, or from all that are within a tenth as near: a
+// new point in the middle of old ones has their mean, whichever rounding calls the nearest. Where the contact
+// passes on to another face, over an edge that is not sharp, slip goes with it; a bond does not, as new
+// surface is not bonded.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,9 +46,9 @@ class ContactMemory {
   ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held, double bulge);
 
   /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
-  /// old point of the same faces, or, if none of those is as near as the whole contact was wide, of any faces
-  /// whose normals are within 60 degrees. Points without one start open, without slip, bonded by the joint's
-  /// strength if their gap is at most `bond_distance`, m (minus infinity: never).
+  /// old points of the same faces, or, if none of those is as near as the whole contact was wide, of any
+  /// faces whose normals are within 60 degrees. Points without one start open, without slip, bonded by the
+  /// joint's strength if their gap is at most `bond_distance`, m (minus infinity: never).
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
                                                 double bond_distance) const;
 
@@ -66,7 +69,9 @@ class ContactMemory {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:
-  [[nodiscard]] const Entry* nearest(const ContactPoint& point, bool same_faces) const;
+  /// Mean memory of the nearest old points, those within a tenth as near counting the less the farther they
+  /// are; intact where all of them are.
+  [[nodiscard]] std::optional<PointMemory> near(const ContactPoint& point, bool same_faces) const;
 
   std::vector<Entry> entries_;
   double deepest_ = 0.0;

@@ -73,6 +73,51 @@ TEST(ContactMemory, ASlidingPointIsKnownByWhatItCarriesAlong) {
   EXPECT_TRUE(next[0].intact && next[1].intact);
 }
 
+// A point that is new in the middle of four others has their mean, not that of the one that rounding calls
+// the nearest.
+TEST(ContactMemory, APointInTheMiddleOfOthersHasTheirMean) {
+  const std::vector<Vector3> corners = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  const std::vector<Vector3> slips = {{4e-6, 0, 0}, {0, 8e-6, 0}, {-4e-6, 0, 0}, {0, 4e-6, 0}};
+  for (const double off : {0.0, 1e-12, -1e-12}) {
+    std::vector<ContactPoint> points;
+    std::vector<PointMemory> memories;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      points.push_back(point_at(corners[k], corners[k], 7, {0, 0, 1}));
+      points.back().area = 1.0;
+      memories.push_back(slipped(slips[k]));
+      memories.back().compression = 1e-6 * static_cast<double>(k);
+    }
+    memories[3].intact = false;
+    ContactMemory memory;
+    memory.store(points, memories, 0.0, {});
+    const Vector3 middle{off, -off, 0};
+    const PointMemory mean = memory.recall({point_at(middle, middle, 7, {0, 0, 1})}, never)[0];
+    EXPECT_LT((mean.slip - Vector3(0, 3e-6, 0)).norm(), 1e-16) << off;
+    EXPECT_NEAR(mean.compression, 1.5e-6, 1e-16) << off;
+    EXPECT_FALSE(mean.intact);
+  }
+}
+
+// Between two points, memory passes from one to the other without a jump; near one it is that one's.
+TEST(ContactMemory, MemoryPassesFromOnePointToTheNextWithoutAJump) {
+  ContactMemory memory;
+  auto points =
+      std::vector{point_at({0, 0, 0}, {0, 0, 0}, 7, {0, 0, 1}), point_at({1, 0, 0}, {1, 0, 0}, 7, {0, 0, 1})};
+  points[0].area = points[1].area = 1.0;
+  memory.store(points, {slipped({1e-6, 0, 0}), slipped({3e-6, 0, 0})}, 0.0, {});
+  const auto slip_at = [&](double x) {
+    return memory.recall({point_at({x, 0, 0}, {x, 0, 0}, 7, {0, 0, 1})}, never)[0].slip.x();
+  };
+  EXPECT_EQ(slip_at(0.45), 1e-6);
+  EXPECT_EQ(slip_at(0.55), 3e-6);
+  EXPECT_NEAR(slip_at(0.5), 2e-6, 1e-16);
+  // From one to the other within 0.05 m: no more than 100 times 2e-6 per metre, whatever the weights.
+  for (double x = 0.45; x < 0.55; x += 1e-3) {
+    EXPECT_GE(slip_at(x + 1e-3), slip_at(x) - 1e-20) << x;
+    EXPECT_LT(slip_at(x + 1e-3) - slip_at(x), 2e-7) << x;
+  }
+}
+
 TEST(ContactMemory, NewPointsAreBondedByTheirGap) {
   const auto points = std::vector{point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})};
   EXPECT_TRUE(ContactMemory().recall(points, 1e-3)[0].intact);
