@@ -59,7 +59,8 @@ struct ContactHistory {
 
 /// Completes the contacts that a search found (contact_search.hpp), with no faces over each other, by what
 /// the exact contact of the hulls says; sets their type to that of the hulls (crossing: along the direction
-/// taken).
+/// taken). Where blocks cross along the normal of a face of one, a corner of the other that is on an edge or
+/// a corner is held by this face alone, the one it came through: all other contacts of the pair are dropped.
 /// @param history of the same pair in the same order
 /// @return what the next search of this pair takes as history: of a pair that is apart or just touches the
 /// facet of D it is farthest across, of one that crosses the facet that decided

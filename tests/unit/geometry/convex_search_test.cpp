@@ -111,6 +111,93 @@ TEST(ConvexSearch, ACornerOnAnEdgeOrACornerGoesInThroughTheFaceItWasOver) {
   }
 }
 
+/// A prism along y.
+Polyhedron prism(const std::vector<Eigen::Vector2d>& section, double from, double to) {
+  std::vector<Vector3> points;
+  for (const double y : {from, to})
+    for (const Eigen::Vector2d& corner : section) points.emplace_back(corner.x(), y, corner.y());
+  return Polyhedron(make_convex_hull(points));
+}
+
+/// A square on its corner, at the origin.
+const std::vector<Eigen::Vector2d> standing_square = {{0, 0}, {1, 1}, {0, 2}, {-1, 1}};
+/// Roofs with their ridge at the origin, longer towards +x. The slopes of the steep one are those of the
+/// standing square.
+const std::vector<Eigen::Vector2d> flat_roof = {{0, 0}, {4, -2}, {0, -4}, {-2, -1}};
+const std::vector<Eigen::Vector2d> steep_roof = {{0, 0}, {3, -3}, {1, -3}, {-1, -1}};
+
+/// Places along y of contacts at x = z = 0 with gap 0, each once, in order.
+std::vector<double> places_along_edge(const PairContacts& contacts, const Body& a, const Body& b) {
+  std::vector<double> result;
+  const auto add = [&](const Vector3& place, double gap) {
+    EXPECT_EQ(gap, 0.0);
+    EXPECT_EQ(place.x(), 0.0);
+    EXPECT_EQ(place.z(), 0.0);
+    result.push_back(place.y());
+  };
+  for (const VertexContact& contact : contacts.vertices)
+    add((contact.vertex_of_a ? a : b).placed.point(contact.point), contact.gap);
+  for (const EdgeContact& contact : contacts.edges) {
+    const auto& [from, to] = contact.of_a.ends;
+    add(a.placed.point(from) + contact.of_a.along * (a.placed.point(to) - a.placed.point(from)), contact.gap);
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+struct TouchingEdge {
+  Polyhedron below;
+  double to;  ///< the edge of a standing square from y = 0 on
+  ContactType type;
+  std::vector<double> places;  ///< ends of what it has in common with the block below
+};
+
+TEST(ConvexSearch, AnEdgeThatJustTouchesIsHeldAtBothEnds) {
+  const std::vector<TouchingEdge> cases = {
+      {box({-4, -1, -1}, {4, 2, 0}), 1, ContactType::edge_face, {0, 1}},
+      {box({-4, 0, -1}, {4, 1, 0}), 1, ContactType::edge_face, {0, 1}},
+      {box({-4, 1, -1}, {4, 2, 0}), 4, ContactType::edge_face, {1, 2}},
+      {box({-2, -1, -1}, {0, 2, 0}), 1, ContactType::edge_edge, {0, 1}},
+      {box({-2, 0, -1}, {0, 1, 0}), 1, ContactType::edge_edge, {0, 1}},
+      {box({-2, 0.5, -1}, {0, 3, 0}), 1, ContactType::edge_edge, {0.5, 1}},
+      {prism(flat_roof, -1, 2), 1, ContactType::edge_edge, {0, 1}},
+      {prism(flat_roof, 0, 1), 1, ContactType::edge_edge, {0, 1}},
+      {prism(flat_roof, 1, 3), 4, ContactType::edge_edge, {1, 3}},
+      {prism(steep_roof, -1, 2), 1, ContactType::edge_edge, {0, 1}},
+      {prism(steep_roof, 0, 1), 1, ContactType::edge_edge, {0, 1}},
+      {prism(steep_roof, 0.5, 3), 1, ContactType::edge_edge, {0.5, 1}},
+      {prism(steep_roof, 1, 3), 4, ContactType::edge_edge, {1, 3}},
+  };
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const Body above(prism(standing_square, 0, cases[k].to)), below(cases[k].below);
+    for (const bool swapped : {false, true}) {
+      const Body& a = swapped ? below : above;
+      const Body& b = swapped ? above : below;
+      const Found found = search(a, b);
+      EXPECT_TRUE(found.contacts.overlaps.empty()) << k;
+      EXPECT_EQ(found.contacts.type, cases[k].type) << k;
+      EXPECT_EQ(places_along_edge(found.contacts, a, b), cases[k].places) << k;
+      EXPECT_TRUE(found.entrance.has_value()) << k;
+    }
+  }
+}
+
+TEST(ConvexSearch, AnEdgeThatJustTouchesARidgeOfItsOwnSlopesIsHeldByTheHulls) {
+  // No corner of one is over a face of the other and no edges cross. Both faces of the roof are as near; the
+  // one towards -x faces what is above, as the mean of the roof's corners is beside the ridge, towards +x.
+  const Body above(prism(standing_square, 0, 1)), below(prism(steep_roof, -1, 2));
+  EXPECT_TRUE(find_contacts(above.placed, below.placed, limits).empty());
+  for (const bool swapped : {false, true}) {
+    const Found found = swapped ? search(below, above) : search(above, below);
+    EXPECT_TRUE(found.contacts.vertices.empty());
+    ASSERT_EQ(found.contacts.edges.size(), 2U);
+    const Vector3 out_of_roof = Vector3(-1, 0, 1) / std::sqrt(2.0);
+    for (const EdgeContact& contact : found.contacts.edges)
+      EXPECT_LT((contact.normal - (swapped ? -1.0 : 1.0) * out_of_roof).norm(), 1e-15);
+  }
+}
+
 TEST(ConvexSearch, DirectionsOutlastTheRoundingOfATurn) {
   std::mt19937_64 random(20261121);
   const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };

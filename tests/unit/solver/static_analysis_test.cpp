@@ -153,6 +153,46 @@ TEST(StaticAnalysis, TallBlockTopples) {
   EXPECT_NEAR(simulation.moving_blocks()[0].angular_acceleration.y(), -expected, 0.01 * expected);
 }
 
+/// A prism along y over a square on its corner, its lower edge from the origin on.
+BlockDefinition standing_prism(double length) {
+  std::vector<Vector3> points;
+  for (const double y : {0.0, length}) {
+    points.insert(points.end(), {{0, y, 0}, {1, y, 1}, {0, y, 2}, {-1, y, 1}});
+  }
+  return block_of("A", Polyhedron(make_convex_hull(points)), rock, 1);
+}
+
+TEST(StaticAnalysis, AnEdgeThatJustTouchesAFaceIsHeld) {
+  // The weight acts through the edge: no friction is needed. The face is wider, as long or shorter.
+  const std::vector<std::pair<double, Polyhedron>> cases = {
+      {1.0, Polyhedron(make_box({-4, -1, -1}, {4, 2, 0}))},
+      {1.0, Polyhedron(make_box({-4, 0, -1}, {4, 1, 0}))},
+      {3.0, Polyhedron(make_box({-4, 1, -1}, {4, 2, 0}))},
+  };
+  for (const auto& [length, base] : cases) {
+    Simulation simulation(models(standing_prism(length), fixed_block(base)), {{}, {}},
+                          same_law({1e10, 5e9, 0.0, 0.0, 0.0, true}), {});
+    EXPECT_TRUE(simulation.loose_blocks().empty());
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+    double force = 0.0;
+    for (const PairRecord& pair : simulation.contacts())
+      for (std::size_t k = 0; k < pair.points.size(); ++k)
+        force += pair.responses[k].force[0] * pair.points[k].normal.z();
+    // The square has an area of 2.
+    const double weight = 2.0 * length * 2700.0 * 9.81;
+    EXPECT_NEAR(force, weight, 1e-8 * weight);
+  }
+}
+
+TEST(StaticAnalysis, AnEdgeThatJustTouchesAnEdgeIsNotWithoutContact) {
+  // Over the rim of its base: nothing but the rim is below, from which it may come off.
+  Simulation simulation(
+      models(standing_prism(1.0), fixed_block(Polyhedron(make_box({-2, -1, -1}, {0, 2, 0})))), {{}, {}},
+      same_law({1e10, 5e9, 0.5, 0.0, 0.0, true}), {});
+  EXPECT_TRUE(simulation.loose_blocks().empty());
+  EXPECT_NE(run_static(simulation, 1.0), StaticStatus::not_converged);
+}
+
 TEST(StaticAnalysis, LoadsThatChangeAreFollowed) {
   // A block pushed along its base by a tenth of its weight and let go again: friction 0.5 holds it all the
   // time.
