@@ -184,7 +184,7 @@ TEST_F(ContactsCommand, EveryDefectOfBothMeshesIsListed) {
   EXPECT_EQ(outcome.out, "");
   // The missing triangle 1, 7, 5 leaves three edges.
   for (const std::string edge : {"1-5 of triangle 4", "1-7 of triangle 10", "5-7 of triangle 2"})
-    EXPECT_THAT(outcome.err, HasSubstr(a + ": error: open edge: edge " + edge));
+    EXPECT_THAT(outcome.err, HasSubstr(fmt::format("{}: error: open edge: edge {}", a, edge)));
   EXPECT_THAT(outcome.err, HasSubstr((folder_ / "b.off").string() + ":4:5: error: "));
 }
 

@@ -19,7 +19,6 @@ namespace {
 using test_support::make_divided_cube;
 using test_support::make_frame;
 using test_support::make_l_prism;
-using test_support::make_prism;
 using test_support::make_pyramid;
 using testing::ElementsAre;
 using testing::SizeIs;
