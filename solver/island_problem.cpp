@@ -32,12 +32,13 @@ const ContactPair& IslandProblem::pair(std::size_t k) const {
   return pairs_[at(island_.pairs[k])];
 }
 
-void IslandProblem::predict(bool coasting) {
+void IslandProblem::predict(FirstGuess guess) {
   for (const int index : island_.bodies) {
     BodyStep& body = bodies_[at(index)];
     const double mass = scheme_.inertia * body.model->material().density;
     body.change = body.free_change;
-    if (coasting || scheme_.from_rest) continue;
+    if (guess == FirstGuess::staying) body.change.setZero();
+    if (guess != FirstGuess::falling || scheme_.from_rest) continue;
     body.change += scheme_.force_weight / mass * body.external_force;
   }
 }
@@ -60,7 +61,8 @@ void IslandProblem::respond() {
 }
 
 Balance IslandProblem::balance() const {
-  Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size), 0.0};
+  Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size),
+                 std::vector<double>(island_.bodies.size(), 0.0), 0.0};
   std::vector<double> scale(island_.bodies.size(), 0.0);
   std::vector<double> tie_rounding(island_.bodies.size(), 0.0);
   const auto add = [&](int body, const Eigen::VectorXd& force) {
@@ -98,8 +100,9 @@ Balance IslandProblem::balance() const {
     if (left == 0.0) continue;
     const double share = left / (tolerance * scale[k] + rounding);
     // Numbers that overflowed have settled nothing, and no comparison with them may say so.
-    result.worst = std::isfinite(share) && std::isfinite(scale[k]) ? std::max(result.worst, share)
-                                                                   : std::numeric_limits<double>::infinity();
+    const bool finite = std::isfinite(share) && std::isfinite(scale[k]);
+    result.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
+    result.worst = std::max(result.worst, result.shares[k]);
   }
   return result;
 }

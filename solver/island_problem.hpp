@@ -11,9 +11,17 @@ namespace ashlar {
 
 /// What is left of the equations of motion.
 struct Balance {
-  Eigen::VectorXd left;  ///< N, in the island's unknowns
-  double worst = 0.0;    ///< largest share of what a body may lack that is left on one; <= 1: settled
+  Eigen::VectorXd left;        ///< N, in the island's unknowns
+  std::vector<double> shares;  ///< of what each body may lack, what is left on it
+  double worst = 0.0;          ///< the largest share; <= 1: settled
   [[nodiscard]] bool settled() const { return worst <= 1.0; }
+};
+
+/// Where a body is taken to go first.
+enum class FirstGuess {
+  falling,   ///< free motion under the external forces
+  coasting,  ///< free motion under none
+  staying,   ///< it stays: what hardly moves in its contacts, whichever way it is vibrating
 };
 
 /// Owns the laws of the island's contact points while a step is solved: limits that are held, joints that
@@ -23,8 +31,7 @@ class IslandProblem {
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
                 const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver);
 
-  /// A first guess: free motion under the external forces or, `coasting`, under none.
-  void predict(bool coasting);
+  void predict(FirstGuess guess);
   /// Elastic and contact responses at the present guess.
   void respond();
   [[nodiscard]] Balance balance() const;

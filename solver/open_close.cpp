@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace ashlar {
@@ -38,16 +39,45 @@ class OpenClose {
   }
 
  private:
-  /// Blocks at rest on others coast, those that meet nothing fall: the guess that lacks less balance.
+  /// Blocks at rest on others stay, those that slide coast, those that meet nothing fall: the guess that
+  /// lacks less balance, one for all bodies or for each its own.
   void start() {
-    problem_.predict(false);
+    problem_.predict(FirstGuess::falling);
     problem_.respond();
     if (problem_.scheme().from_rest || problem_.pairs() == 0) return;
-    const double falling = problem_.balance().worst;
-    problem_.predict(true);
-    problem_.respond();
-    if (problem_.balance().worst <= falling) return;
-    problem_.predict(false);
+    const Balance falling = problem_.balance();
+    std::vector<Eigen::VectorXd> best = problem_.guess();
+    double least = falling.worst;
+    bool at_best = true;
+    const auto compare = [&](double worst) {
+      at_best = worst <= 0.5 * least;
+      if (!at_best) return;
+      least = worst;
+      best = problem_.guess();
+    };
+    std::vector<Eigen::VectorXd> own = best;
+    std::vector<double> shares = falling.shares;
+    std::vector<FirstGuess> kinds(own.size(), FirstGuess::falling);
+    for (const FirstGuess kind : {FirstGuess::coasting, FirstGuess::staying}) {
+      problem_.predict(kind);
+      problem_.respond();
+      const Balance balance = problem_.balance();
+      const std::vector<Eigen::VectorXd> guess = problem_.guess();
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        if (balance.shares[k] > shares[k]) continue;
+        shares[k] = balance.shares[k];
+        own[k] = guess[k];
+        kinds[k] = kind;
+      }
+      compare(balance.worst);
+    }
+    if (std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) != kinds.end()) {
+      problem_.set_guess(own);
+      problem_.respond();
+      compare(problem_.balance().worst);
+    }
+    if (at_best) return;
+    problem_.set_guess(best);
     problem_.respond();
   }
 
@@ -125,18 +155,12 @@ class OpenClose {
     }
   }
 
-  /// One linear system and its factor. @return false if there is none
-  bool direction(const Balance& balance, bool coupled, Eigen::VectorXd& change) {
-    if (problem_.factorize() != FactorStatus::success) return false;
-    change = problem_.solve(balance.left, coupled);
-    return true;
-  }
-
   /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
   Outcome newton(int most, bool closing) {
     std::vector<std::vector<ContactState>> seen;
     least_ = std::numeric_limits<double>::infinity();
     int without_gain = 0;
+    bool last_factor = false;  // was used once more
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
       const Balance balance = problem_.balance();
@@ -154,11 +178,14 @@ class OpenClose {
         if (!closing) best_ = problem_.guess();
       }
       std::vector<ContactState> states = problem_.states();
-      if (std::find(seen.begin(), seen.end(), states) != seen.end() && states != seen.back())
-        return Outcome::stalled;
+      const bool as_before = !seen.empty() && states == seen.back();
+      if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
       seen.push_back(std::move(states));
-      Eigen::VectorXd change;
-      if (!direction(balance, true, change)) return Outcome::singular;
+      // The last factor will do for what is left.
+      const bool nearly = as_before && !last_factor && balance.worst <= settings_.nearly_settled;
+      last_factor = nearly;
+      if (!nearly && problem_.factorize() != FactorStatus::success) return Outcome::singular;
+      const Eigen::VectorXd change = problem_.solve(balance.left, true);
       if (closing) {
         problem_.apply(change, 1.0);
         problem_.respond();
@@ -230,8 +257,8 @@ class OpenClose {
       const Balance balance = problem_.balance();
       if (balance.worst <= target) return Outcome::settled;
       if (!std::isfinite(balance.worst)) return Outcome::stalled;
-      Eigen::VectorXd change;
-      if (!direction(balance, false, change)) return Outcome::singular;
+      if (problem_.factorize() != FactorStatus::success) return Outcome::singular;
+      const Eigen::VectorXd change = problem_.solve(balance.left, false);
       search(change, balance.left.dot(change), settings_.line_search_tolerance, 16.0);
     }
     return Outcome::stalled;

@@ -1,5 +1,7 @@
 // The open-close iteration of an island (theory.md section 8).
 //
+// The first guess of each body is that it falls, coasts or stays, whichever leaves it nearest to balance.
+//
 // First a semismooth Newton iteration: states, slip directions and elastic frames come from the last guess,
 // the linear system, friction's dependence on normal forces included, gives the next. It needs two to five
 // systems where states hardly change, and may go round in circles: Coulomb's law is no gradient. A set of

@@ -64,6 +64,7 @@ struct SimulationSettings {
   int line_search_steps = 30;
   double line_search_tolerance = 0.05;  ///< of the work at the start of a line
   double least_relaxation = 0.1;        ///< 0 to 1: smallest share of a change of bounds that is taken
+  double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
   double residual_tolerance =
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
   bool augmented = false;  ///< multipliers take over from springs until:
