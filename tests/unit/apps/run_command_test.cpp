@@ -106,9 +106,10 @@ class RunCommand : public ::testing::Test {
     for (const char* file : {"history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd"}) {
       EXPECT_EQ(text(a + "/" + file), text(b + "/" + file)) << file;
     }
-    ASSERT_EQ(files(a + "/frames"), files(b + "/frames"));
-    for (const std::string& frame : files(a + "/frames")) {
-      EXPECT_TRUE(text(a + "/frames/" + frame) == text(b + "/frames/" + frame)) << frame;
+    const std::string frames_a = a + "/frames/", frames_b = b + "/frames/";
+    ASSERT_EQ(files(frames_a), files(frames_b));
+    for (const std::string& frame : files(frames_a)) {
+      EXPECT_TRUE(text(frames_a + frame) == text(frames_b + frame)) << frame;
     }
   }
 
