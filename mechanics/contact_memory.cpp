@@ -30,34 +30,49 @@ ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest, const S
       held_(held),
       squared_reach_(area_of(entries_)) {}
 
-std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, bool same_faces) const {
+ContactMemory::Places ContactMemory::places() const {
+  const auto count = static_cast<Eigen::Index>(entries_.size());
+  Places places{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    places.of_a.col(k) = entries_[static_cast<std::size_t>(k)].material_a;
+    places.of_b.col(k) = entries_[static_cast<std::size_t>(k)].material_b;
+  }
+  return places;
+}
+
+std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const Places& places,
+                                               bool same_faces) const {
   constexpr double least_cosine = 0.5;
-  // Old points on one place, as on the cut between two cells, are equally far.
-  constexpr double blur = 1e-6;
-  constexpr double as_near = 1.1;
-  const double reach = std::sqrt(squared_reach_);
-  std::vector<std::pair<double, const Entry*>> candidates;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Entry& entry : entries_) {
+  constexpr double too_far = std::numeric_limits<double>::infinity();
+  // One of the two is carried along where a contact slides: the vertex, or the slave's point.
+  Eigen::RowVectorXd squared_distances =
+      (places.of_a.colwise() - point.material_a)
+          .colwise()
+          .squaredNorm()
+          .cwiseMin((places.of_b.colwise() - point.material_b).colwise().squaredNorm());
+  double least_squared = too_far;
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const Entry& entry = entries_[k];
+    double& squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
     if (same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
                    : entry.normal.dot(point.normal) < least_cosine)
-      continue;
-    // One of the two is carried along where a contact slides: the vertex, or the slave's point.
-    const double distance =
-        std::min((entry.material_a - point.material_a).norm(), (entry.material_b - point.material_b).norm());
-    if (distance > reach || distance + blur * reach > as_near * least) continue;
-    candidates.emplace_back(distance + blur * reach, &entry);
-    least = std::min(least, candidates.back().first);
+      squared_distance = too_far;
+    least_squared = std::min(least_squared, squared_distance);
   }
-  if (candidates.empty()) return std::nullopt;
+  if (!(least_squared <= squared_reach_)) return std::nullopt;
+  // Old points on one place, as on the cut between two cells, are equally far.
+  const double blur = 1e-6 * std::sqrt(squared_reach_);
+  const double farthest = 1.1 * (std::sqrt(least_squared) + blur) - blur;
   PointMemory result;
   result.intact = true;
   double sum = 0.0;
   double most = 0.0;
-  for (const auto& [distance, entry] : candidates) {
-    const double weight = as_near * least - distance;
-    if (!(weight > 0.0)) continue;
-    const PointMemory& memory = entry->memory;
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const double squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
+    if (squared_distance > farthest * farthest) continue;
+    // Points without any area, on one place, are as good as each other.
+    const double weight = farthest > 0.0 ? farthest - std::sqrt(squared_distance) : 1.0;
+    const PointMemory& memory = entries_[k].memory;
     if (weight > most) result.state = memory.state;
     most = std::max(most, weight);
     sum += weight;
@@ -78,12 +93,13 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
                                                double bond_distance) const {
   std::vector<PointMemory> result;
   result.reserve(points.size());
+  const Places old = places();
   for (const ContactPoint& point : points) {
     PointMemory fresh;
     fresh.intact = point.gap <= bond_distance;
-    std::optional<PointMemory> memory = near(point, true);
+    std::optional<PointMemory> memory = near(point, old, true);
     const bool same_faces = memory.has_value();
-    if (!memory) memory = near(point, false);
+    if (!memory) memory = near(point, old, false);
     if (memory) {
       memory->slip = turned(memory->slip, point.normal);
       memory->shear_multiplier = turned(memory->shear_multiplier, point.normal);

@@ -69,9 +69,16 @@ class ContactMemory {
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
  private:
+  /// Material coordinates of all entries, (3, #entries).
+  struct Places {
+    Eigen::Matrix3Xd of_a;
+    Eigen::Matrix3Xd of_b;
+  };
+  [[nodiscard]] Places places() const;
   /// Mean memory of the nearest old points, those within a tenth as near counting the less the farther they
   /// are; intact where all of them are.
-  [[nodiscard]] std::optional<PointMemory> near(const ContactPoint& point, bool same_faces) const;
+  [[nodiscard]] std::optional<PointMemory> near(const ContactPoint& point, const Places& places,
+                                                bool same_faces) const;
 
   std::vector<Entry> entries_;
   double deepest_ = 0.0;

@@ -171,17 +171,35 @@ class OverlapPoints {
   CellMap map_b_;
 };
 
-/// Area springs: a quadrature rule on every cell overlap.
+/// Whether an overlap is in part pressed and in part open, by more than rounding.
+bool partly_open(const std::vector<ContactPoint>& points, double tolerance) {
+  const auto [least, most] =
+      std::minmax_element(points.begin(), points.end(),
+                          [](const ContactPoint& x, const ContactPoint& y) { return x.gap < y.gap; });
+  return least != points.end() && least->gap < -tolerance && most->gap > tolerance;
+}
+
+/// Area springs: a quadrature rule on every cell overlap, a finer one where pressure ends inside.
 void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
                       bool master_is_a, const ContactPointSettings& settings,
                       std::vector<ContactPoint>& points) {
   // A uniform pressure acts on every function exactly, however coarse the division is.
   const int degree = std::max({2, a.model->order(), b.model->order()});
-  const PolygonRule rule =
-      polygon_rule(outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed)), degree);
+  constexpr int degree_of_kinks = 6;
+  const double tolerance = outline_tolerance(*a.placed, *b.placed);
+  const std::vector<Eigen::Vector2d> outline = outline_of(places_of(overlap), tolerance);
   const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
-  for (std::size_t k = 0; k < rule.points.size(); ++k)
-    points.push_back(make.at_place(rule.points[k], rule.weights[k]));
+  const auto points_of = [&](int exact_to) {
+    const PolygonRule rule = polygon_rule(outline, exact_to);
+    std::vector<ContactPoint> result;
+    result.reserve(rule.points.size());
+    for (std::size_t k = 0; k < rule.points.size(); ++k)
+      result.push_back(make.at_place(rule.points[k], rule.weights[k]));
+    return result;
+  };
+  std::vector<ContactPoint> found = points_of(degree);
+  if (degree < degree_of_kinks && partly_open(found, tolerance)) found = points_of(degree_of_kinks);
+  points.insert(points.end(), found.begin(), found.end());
 }
 
 /// Point springs: one at every vertex of the faces' overlap polygon, with an equal share of its area.

@@ -140,8 +140,9 @@ TEST(StaticAnalysis, SlowSlidingIsMovingToo) {
 }
 
 TEST(StaticAnalysis, TallBlockTopples) {
-  // Base 1, height 3 on an incline of 30 degrees: the weight acts outside the base, as tan 30 > 1/3.
-  JointLaw law{1e10, 1e10, std::tan(50 * std::numbers::pi / 180.0), 0.0, 0.0, true};
+  // Base 1, height 3 on an incline of 30 degrees: the weight acts outside the base, as tan 30 > 1/3. The
+  // joint is so stiff that what is pressed is an edge.
+  JointLaw law{1e12, 1e12, std::tan(50 * std::numbers::pi / 180.0), 0.0, 0.0, true};
   Simulation simulation(models(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 3}, 30), rock, 1),
                                fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, 30))),
                         {{}, {}}, same_law(law), {});
@@ -151,6 +152,25 @@ TEST(StaticAnalysis, TallBlockTopples) {
   // m (D^2 + H^2)/3.
   const double expected = 9.81 * (1.5 * 0.5 - 0.5 * std::sqrt(0.75)) / (10.0 / 3.0);
   EXPECT_NEAR(simulation.moving_blocks()[0].angular_acceleration.y(), -expected, 0.01 * expected);
+}
+
+/// A wall of 0.5 x 3 x 2 m and 2000 kg/m3 that is pushed at half its height. @param push N
+StaticStatus pushed_wall(double push) {
+  BlockDefinition wall =
+      block_of("wall", Polyhedron(make_box({0, -1.5, 0}, {0.5, 1.5, 2})), {2000, 1e11, 0.2}, 1);
+  wall.loads.push_back({Plane{{0, 0, 0}, {-1, 0, 0}}, false, {push, 0, 0}, {}});
+  Simulation simulation(models(std::move(wall), fixed_block(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0})))),
+                        {{}, {}},
+                        same_law({1e9, 1e9, std::tan(40 * std::numbers::pi / 180.0), 0.0, 0.0, true}), {});
+  return run_static(simulation, 1.0);
+}
+
+// A joint without tension under a rigid wall of weight N: turned by t it is pressed over c, N = kn t c^2 w/2,
+// and F h = N (b/2 - c/3 - t h) with h = 1 m. The largest F is at t^(3/2) = sqrt(2 N/(kn w))/6 = 1.044e-3: t
+// = 0.01029, c = 0.0617 m, F = 12.90 kN; with all of N on the edge it would be 14.7 kN.
+TEST(StaticAnalysis, AWallTurnsOverWhereItsJointIsPressed) {
+  EXPECT_EQ(pushed_wall(12500.0), StaticStatus::equilibrium);
+  EXPECT_EQ(pushed_wall(13300.0), StaticStatus::moving);
 }
 
 /// A prism along y over a square on its corner, its lower edge from the origin on.
