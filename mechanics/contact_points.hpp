@@ -3,12 +3,12 @@
 // and 7).
 //
 // Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells, a
-// finer one where it is in part open: pressure that ends inside has a kink, which the rule for whole contacts
-// would spread over a fifth of the face. Per
-// point (the paper's springs) they are the vertices of the faces' overlap polygon (face_overlap.hpp).
-// Isolated vertices and edge crossings carry a tributary area. With curved surfaces, the point on the master
-// block is the closest one on its true polynomial surface, so that x_a - x_b is along the normal; with flat
-// surfaces both points stay on their sub-face planes.
+// finer one between affine blocks where it is in part open: pressure that ends inside has a kink, which the
+// rule for whole contacts would spread over a fifth of the face. Per point (the paper's springs) they are the
+// vertices of the faces' overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a
+// tributary area. With curved surfaces, the point on the master block is the closest one on its true
+// polynomial surface, so that x_a - x_b is along the normal; with flat surfaces both points stay on their
+// sub-face planes.
 #pragma once
 
 #include <vector>

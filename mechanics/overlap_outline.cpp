@@ -94,6 +94,7 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
                        double tolerance) {
   FaceOutline outline{{}, 0.0};
   std::vector<Corners> pieces;
+  pieces.reserve(face.cells.size());
   for (const int cell : face.cells) {
     pieces.push_back(outline_of(places_of(overlaps[at(cell)]), tolerance));
     outline.area += area_of(pieces.back());
@@ -103,6 +104,7 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
   constexpr double blur = 1e-3;
   double one_point = std::max(4.0 * tolerance, blur * std::sqrt(outline.area));
   std::vector<Corners> rough;
+  rough.reserve(pieces.size());
   for (const Corners& piece : pieces) rough.push_back(outline_of(piece, one_point));
   if (std::any_of(rough.begin(), rough.end(), [](const Corners& piece) { return !piece.empty(); })) {
     pieces = std::move(rough);
