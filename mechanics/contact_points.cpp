@@ -120,12 +120,6 @@ void set_foot(ContactPoint& point, const ContactBody& master, int face, bool mas
   point.normal = master_is_a ? Vector3(-foot.normal) : foot.normal;
 }
 
-std::vector<Eigen::Vector2d> places_of(const CellOverlap& overlap) {
-  std::vector<Eigen::Vector2d> places;
-  for (const OverlapCorner& corner : overlap.corners) places.push_back(corner.place);
-  return places;
-}
-
 /// Makes the contact points of two cells that face each other.
 class OverlapPoints {
  public:
@@ -207,7 +201,8 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
     return result;
   };
   std::vector<ContactPoint> found = points_of(degree);
-  if (is_affine(a) && is_affine(b) && partly_open(found, tolerance)) found = points_of(degree_of_kinks);
+  if (is_affine(a) && is_affine(b) && partly_open(found, tolerance))
+    found = points_of(std::max(degree, degree_of_kinks));
   points.insert(points.end(), found.begin(), found.end());
 }
 

@@ -48,12 +48,6 @@ double angle_at(const Corners& polygon, const Eigen::Vector2d& point, double tol
   return 0.0;
 }
 
-Corners places_of(const CellOverlap& overlap) {
-  Corners places;
-  for (const OverlapCorner& corner : overlap.corners) places.push_back(corner.place);
-  return places;
-}
-
 /// Where a corner is in space, on the plane of its frame.
 Vector3 lifted(const CellOverlap& overlap, int corner) {
   const Eigen::Vector2d& place = overlap.corners[at(corner)].place;
@@ -69,6 +63,13 @@ double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b) {
     farthest = std::max({farthest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
   return std::max(share * std::min(a.size(), b.size()),
                   16.0 * std::numeric_limits<double>::epsilon() * farthest);
+}
+
+std::vector<Eigen::Vector2d> places_of(const CellOverlap& overlap) {
+  Corners places;
+  places.reserve(overlap.corners.size());
+  for (const OverlapCorner& corner : overlap.corners) places.push_back(corner.place);
+  return places;
 }
 
 std::vector<Eigen::Vector2d> outline_of(std::vector<Eigen::Vector2d> polygon, double tolerance) {

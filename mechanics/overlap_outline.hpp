@@ -14,6 +14,9 @@ namespace ashlar {
 /// never less than the rounding of its coordinates.
 [[nodiscard]] double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b);
 
+/// Corners of an overlap, in order, in its frame.
+[[nodiscard]] std::vector<Eigen::Vector2d> places_of(const CellOverlap& overlap);
+
 /// A polygon without corners that are within a tolerance of the line between their neighbours, the least ones
 /// first. @param polygon in order @return at least 3 corners in the same order, or none if nothing is wider
 /// than the tolerance

@@ -115,6 +115,17 @@ TEST(Tower, TurnsWithItsScene) {
   for (std::size_t k = 0; k < here.size(); ++k) EXPECT_LE((here[k] - there[k]).norm(), 4e-9) << k;
 }
 
+/// Displacements of all corners of the blocks, in the scene's own axes.
+std::vector<Vector3> corner_displacements(const Simulation& simulation, const Placement& placement) {
+  std::vector<Vector3> result;
+  for (std::size_t block = 0; block < simulation.blocks().size(); ++block) {
+    for (const Vector3& corner : simulation.blocks()[block].solid().mesh().points)
+      result.push_back(placement.direction_back(
+          simulation.blocks()[block].motion_of(simulation.states()[block], corner).displacement));
+  }
+  return result;
+}
+
 /// Two boxes of order 3 that spin and collide off-centre, their faces divided where the other is in reach: 60
 /// steps. @return places of their corners, in the scene's own axes
 std::vector<Vector3> collided(bool area_springs, const Placement& placement) {
@@ -134,13 +145,7 @@ std::vector<Vector3> collided(bool area_springs, const Placement& placement) {
   for (int step = 0; step < 60; ++step) take_step(simulation, 1.0);
   EXPECT_GT(simulation.counts().finder.divisions, 2U);
   EXPECT_EQ(simulation.contacts().size(), 1U);
-  std::vector<Vector3> result;
-  for (std::size_t block = 0; block < 2; ++block) {
-    for (const Vector3& corner : simulation.blocks()[block].solid().mesh().points)
-      result.push_back(placement.direction_back(
-          simulation.blocks()[block].motion_of(simulation.states()[block], corner).displacement));
-  }
-  return result;
+  return corner_displacements(simulation, placement);
 }
 
 TEST(Collision, TurnsWithItsScene) {
@@ -179,13 +184,7 @@ std::vector<Vector3> settled_arch(bool area_springs, const Placement& placement)
   Simulation simulation = scene.build();
   for (int step = 0; step < 50; ++step) take_step(simulation, 1.0);
   EXPECT_EQ(simulation.contacts().size(), voussoirs + 1U);
-  std::vector<Vector3> result;
-  for (std::size_t block = 1; block <= voussoirs; ++block) {
-    for (const Vector3& corner : simulation.blocks()[block].solid().mesh().points)
-      result.push_back(placement.direction_back(
-          simulation.blocks()[block].motion_of(simulation.states()[block], corner).displacement));
-  }
-  return result;
+  return corner_displacements(simulation, placement);
 }
 
 TEST(Arch, TurnsWithItsScene) {
