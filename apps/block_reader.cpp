@@ -75,7 +75,8 @@ SceneShape read_sphere(TomlTableReader table) {
   return sphere;
 }
 
-SceneShape read_shape(TomlTableReader& table) {
+// @param block the block in words
+SceneShape read_shape(TomlTableReader& table, const std::string& block) {
   struct Kind {
     const char* key;
     SceneShape (*read)(TomlTableReader);
@@ -90,9 +91,10 @@ SceneShape read_shape(TomlTableReader& table) {
       if (auto content = table.table(kind.key)) shape = kind.read(*content);
     }
   if (given.size() == 1) return shape;
-  table.error_at_table(
-      fmt::format("block has {} shapes ({}), exactly one of box, mesh, hull, sphere is needed", given.size(),
-                  fmt::join(given, ", ")));
+  const std::string what =
+      given.empty() ? fmt::format("{} has no shape", block)
+                    : fmt::format("{} has {} shapes ({})", block, given.size(), fmt::join(given, ", "));
+  table.error_at_table(what + ", exactly one of box, mesh, hull, sphere is needed");
   return {};
 }
 
@@ -194,10 +196,9 @@ SceneBlock read_block(TomlTableReader& table) {
   table.require("name");
   table.read_name("name", block.name);
   table.read_bool("fixed", block.fixed);
-  if (!block.fixed) table.require("material");
   table.read_name("material", block.material);
   table.read_integer("order", block.order, 1, 12);
-  block.shape = read_shape(table);
+  block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name));
   if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);
   if (table.given("rotate") && !(block.rotate && block.rotate->axis.allFinite())) block.shape = {};
   if (!table.read_vector("translate", block.translate) && table.given("translate")) block.shape = {};

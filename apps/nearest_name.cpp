@@ -1,6 +1,7 @@
 #include "apps/nearest_name.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace ashlar {
 
@@ -34,18 +35,35 @@ std::size_t distance_or_short_form(std::string_view name, std::string_view candi
   return std::min(distances.back(), *std::min_element(distances.begin(), distances.end()) + 1);
 }
 
+bool contains(std::string_view candidate, std::string_view name) {
+  constexpr std::size_t fewest_letters = 3;
+  const auto same = [](char a, char b) { return to_small(a) == to_small(b); };
+  return name.size() >= fewest_letters &&
+         std::search(candidate.begin(), candidate.end(), name.begin(), name.end(), same) != candidate.end();
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   return prefix_distances(a, b).back();
 }
 
+std::vector<std::string> likely_names(std::string_view name, const std::vector<std::string>& candidates) {
+  std::vector<std::string> names = candidates;
+  std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return distance_or_short_form(name, a) < distance_or_short_form(name, b);
+  });
+  std::vector<std::string> containing;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(containing),
+               [&](const std::string& candidate) { return contains(candidate, name); });
+  if (!containing.empty()) return containing;
+  names.resize(std::min<std::size_t>(names.size(), 1));
+  return names;
+}
+
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  const auto nearest =
-      std::min_element(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
-        return distance_or_short_form(name, a) < distance_or_short_form(name, b);
-      });
-  return nearest == candidates.end() ? std::string() : *nearest;
+  const std::vector<std::string> names = likely_names(name, candidates);
+  return names.empty() ? std::string() : names.front();
 }
 
 }  // namespace ashlar

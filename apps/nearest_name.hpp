@@ -12,9 +12,14 @@ namespace ashlar {
 /// (optimal string alignment); capital and small ASCII letters are the same.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate with the smallest edit distance, the first of equals; empty if there are no candidates. A
-/// name that is nearest to the beginning of a candidate is taken for its short form: the rest counts as one
-/// letter.
+/// What a name that is none of the candidates may have meant: those that contain it, nearest first, if it has
+/// three letters or more (fewer are part of too many names); else the one with the smallest edit distance,
+/// the first of equals. A name that is nearest to the beginning of a candidate is taken for its short form:
+/// the rest counts as one letter. Empty only if there are no candidates.
+[[nodiscard]] std::vector<std::string> likely_names(std::string_view name,
+                                                    const std::vector<std::string>& candidates);
+
+/// The first of likely_names; empty if there are no candidates.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
 
 }  // namespace ashlar

@@ -124,7 +124,7 @@ class Run {
     return status;
   }
 
-  /// Why the run failed, or what moves.
+  /// Why the run failed or where it was interrupted, or what moves.
   [[nodiscard]] const std::string& message() const { return message_; }
 
  private:
@@ -133,7 +133,7 @@ class Run {
     const double end_time = scene_.analysis.end_time;
     double saved_at = seconds_now();
     while (!simulation.reached(end_time)) {
-      if (interrupted != 0) return RunStatus::interrupted;
+      if (interrupted != 0) return interrupted_here();
       if (simulation.step(end_time) != StepStatus::accepted) {
         const Rejection& last = simulation.rejections().back();
         message_ = fmt::format("step {} at t = {} s was rejected down to a time step of {} s: {}",
@@ -166,6 +166,13 @@ class Run {
           return RunStatus::not_converged;
       }
     }
+    return interrupted_here();
+  }
+
+  RunStatus interrupted_here() {
+    message_ = fmt::format("interrupted after step {}", built_.simulation.steps());
+    if (scene_.analysis.type == SceneAnalysis::Type::dynamic)
+      message_ += fmt::format(" at t = {} s of {} s", built_.simulation.time(), scene_.analysis.end_time);
     return RunStatus::interrupted;
   }
 
@@ -243,6 +250,9 @@ int run_command(const RunOptions& options, std::ostream& err) {
   }
   if (status == RunStatus::not_converged)
     err << fmt::format("ashlar: error: {}; the last state is in {}\n", run.message(), folder.string());
+  if (status == RunStatus::interrupted)
+    err << fmt::format("ashlar: {}; the state is saved in {}, the same command with --resume goes on\n",
+                       run.message(), folder.string());
   if (status == RunStatus::moving && !options.quiet) err << run.message() << '\n';
   if (status == RunStatus::equilibrium && !options.quiet) err << "equilibrium\n";
   if (options.view) {

@@ -55,6 +55,20 @@ void check_known(const Scene& scene, const std::string& key, const char* what, c
   diagnostics.error(scene.places.value(key), fmt::format("unknown {} (\"{}\"), {}", what, name, allowed));
 }
 
+void check_materials(const Scene& scene, const std::vector<std::string>& known, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.block.size(); ++i) {
+    const SceneBlock& block = scene.block[i];
+    const std::string key = entry_key("block", i, "material");
+    check_known(scene, key, "material", block.material, known, diagnostics);
+    if (block.fixed || scene.places.contains(key)) continue;
+    const std::string allowed = known.empty()
+                                    ? "there is no [[material]]"
+                                    : fmt::format("one of \"{}\" is needed", fmt::join(known, "\", \""));
+    diagnostics.error(scene.places.key(fmt::format("block.{}", i)),
+                      fmt::format("missing key (material), block \"{}\" has none, {}", block.name, allowed));
+  }
+}
+
 bool matches_a_pair(const SceneJoint& joint, const std::vector<std::string>& blocks) {
   for (std::size_t i = 0; i < blocks.size(); ++i)
     for (std::size_t j = 0; j < blocks.size(); ++j)
@@ -201,9 +215,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
   check_names(scene, scene.measure, "measure", diagnostics);
   check_measure_names(scene, diagnostics);
   const std::vector<std::string> materials = names_of(scene.material), blocks = names_of(scene.block);
-  for (std::size_t i = 0; i < scene.block.size(); ++i)
-    check_known(scene, entry_key("block", i, "material"), "material", scene.block[i].material, materials,
-                diagnostics);
+  check_materials(scene, materials, diagnostics);
   for (std::size_t i = 0; i < scene.measure.size(); ++i)
     check_known(scene, entry_key("measure", i, "block"), "block", scene.measure[i].block, blocks,
                 diagnostics);

@@ -140,13 +140,11 @@ const char* shape_key(const SceneShape& shape) {
   return keys[shape.index()];
 }
 
-// At the key of the shape, unless an argument has changed the mesh's file.
+// At the name of the mesh's file, which may come from an argument, or at the key of any other shape.
 Place shape_place(const Scene& scene, std::size_t index) {
-  const std::string key = fmt::format("block.{}.{}", index, shape_key(scene.block[index].shape));
-  const std::string file_key = key + ".file";
-  if (scene.places.contains(file_key) && scene.places.value(file_key).line == 0)
-    return scene.places.value(file_key);
-  return scene.places.key(key);
+  const SceneShape& shape = scene.block[index].shape;
+  const std::string key = fmt::format("block.{}.{}", index, shape_key(shape));
+  return std::holds_alternative<SceneMesh>(shape) ? scene.places.value(key + ".file") : scene.places.key(key);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "apps/verify_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -28,7 +29,7 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     err << fmt::format("ashlar: error: unknown case ({}), did you mean {}? --list names all\n", name,
-                       nearest_name(name, known));
+                       fmt::join(likely_names(name, known), " or "));
     good = false;
   }
   std::vector<VerificationCase> chosen;

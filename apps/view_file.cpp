@@ -126,10 +126,25 @@ struct ViewFrame {
   std::string data;  ///< base64 of append_blocks and append_contacts
 };
 
+/// The folder, if there are results in it.
+const std::filesystem::path& checked_folder(const std::filesystem::path& folder) {
+  constexpr const char* needed =
+      "the folder that `ashlar run SCENE` wrote is needed (SCENE.out, or that of --out)";
+  if (!std::filesystem::is_directory(folder)) {
+    throw std::runtime_error(fmt::format("no result folder ({} {}), {}", folder.string(),
+                                         std::filesystem::exists(folder) ? "is a file" : "does not exist",
+                                         needed));
+  }
+  if (!std::filesystem::exists(folder / "blocks.pvd"))
+    throw std::runtime_error(
+        fmt::format("no results in {} (blocks.pvd does not exist), {}", folder.string(), needed));
+  return folder;
+}
+
 class FrameReader {
  public:
   explicit FrameReader(const std::filesystem::path& folder)
-      : folder_(folder),
+      : folder_(checked_folder(folder)),
         blocks_(read_pvd(folder / "blocks.pvd")),
         contacts_(read_pvd(folder / "contacts.pvd")) {
     // A run that goes on has written one of the two first.

@@ -1,9 +1,12 @@
 #include "apps/nearest_name.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace ashlar::test {
 namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST(NearestName, EditDistanceCountsSingleChanges) {
   EXPECT_EQ(edit_distance("", ""), 0u);
@@ -25,6 +28,16 @@ TEST(NearestName, KnowsShortForms) {
   // yung -> name needs 4 changes, -> young (the beginning of young_modulus) 1, and 1 for the rest.
   EXPECT_EQ(nearest_name("yung", {"name", "young_modulus"}), "young_modulus");
   EXPECT_EQ(nearest_name("friction", {"function", "friction_angle"}), "friction_angle");
+}
+
+TEST(NearestName, NamesThatContainTheTextComeFirst) {
+  // slide needs one change to glide and to side, the beginning of side-slide, and four to incline.
+  EXPECT_THAT(likely_names("slide", {"glide", "Incline-Slide", "side-slide"}),
+              ElementsAre("side-slide", "Incline-Slide"));
+  EXPECT_EQ(nearest_name("slide", {"glide", "incline-slide"}), "incline-slide");
+  EXPECT_THAT(likely_names("slede", {"incline-slide", "glide"}), ElementsAre("glide"));
+  EXPECT_THAT(likely_names("or", {"for", "orders", "at"}), ElementsAre("for"));
+  EXPECT_THAT(likely_names("slide", {}), IsEmpty());
 }
 
 }  // namespace

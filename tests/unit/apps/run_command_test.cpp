@@ -1,6 +1,7 @@
 // `ashlar run` from its command line to its files.
 #include "apps/run_command.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/types.h>
@@ -327,8 +328,13 @@ TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
     const int status = run(name, {"--set", "analysis.end_time=1000"});
     sender.join();
     ASSERT_EQ(status, exit_status::interrupted) << faults_;
-    EXPECT_EQ(nlohmann::json::parse(text(name + "/summary.json"))["status"], "interrupted");
-    const int steps = nlohmann::json::parse(text(name + "/summary.json"))["steps"];
+    const auto summary = nlohmann::json::parse(text(name + "/summary.json"));
+    EXPECT_EQ(summary["status"], "interrupted");
+    const int steps = summary["steps"];
+    EXPECT_EQ(faults_,
+              fmt::format("ashlar: interrupted after step {} at t = {} s of 1000 s; the state is saved "
+                          "in {}, the same command with --resume goes on\n",
+                          steps, summary["time"].get<double>(), (folder_ / name).string()));
     const std::string end = "analysis.end_time=" + std::to_string(0.001 * (steps + 10));
     ASSERT_EQ(run(name, {"--resume", "--set", end}), exit_status::done) << faults_;
     ASSERT_EQ(run("straight", {"--set", end}), exit_status::done) << faults_;
@@ -381,6 +387,16 @@ TEST_F(RunCommand, StaticAnalysisNamesWhatMoves) {
   EXPECT_EQ(summary["moving"][0]["block"], "stone");
   // g (sin 30 - cos 30 tan 20) cos 30 down the slope, towards -x
   EXPECT_NEAR(summary["moving"][0]["acceleration"][0], -1.56994, 2e-3);
+}
+
+TEST_F(RunCommand, StaticAnalysisThatDoesNotConvergeFailsAndKeepsItsLastState) {
+  write_text(scene_, static_scene_text);
+  // Springs that make the numbers of the system overflow.
+  EXPECT_EQ(run("out", {"--set", "contact.normal_stiffness=1e300"}), exit_status::failed);
+  EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: no equilibrium was found"),
+                             HasSubstr("the last state is in " + (folder_ / "out").string())));
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "not converged");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint"));
 }
 
 TEST_F(RunCommand, StaticAnalysisRefusesABlockThatNothingHolds) {

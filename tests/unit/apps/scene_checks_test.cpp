@@ -47,6 +47,10 @@ INSTANTIATE_TEST_SUITE_P(
         FaultCase{7, "blocks = [\"A\", \"wall*\"]", "s.toml:7:10: error: joint names no block (\"wall*\")"},
         FaultCase{7, "blocks = [\"A\", \"A\"]",
                   "s.toml:7:10: error: joint between a block and itself (\"A\", \"A\")"},
+        FaultCase{15, "",
+                  "s.toml:13:1: error: missing key (material), block \"A\" has none, one of \"rock\" is "
+                  "needed"},
+        FaultCase{15, "material = 3", "s.toml:15:12: error: material has the wrong type (3)"},
         FaultCase{15, "material = \"rok\"",
                   "s.toml:15:12: error: unknown material (\"rok\"), did you mean \"rock\"?"},
         FaultCase{28, "block = \"D\"", "s.toml:28:9: error: unknown block (\"D\"), did you mean \"A\"?"},

@@ -69,7 +69,7 @@ TEST(SceneLoading, ListsFaultsOfEveryKindInFileOrder) {
                   StartsWith(file + ":9:11: error: density is out of range (-3600)"),
                   StartsWith(file + ":11:17: error: poisson_ratio is out of range (0.5)"),
                   StartsWith(file + ":15:9: error: order is out of range (0)"),
-                  StartsWith(file + ":16:1: error: mesh file cannot be used ("),
+                  StartsWith(file + ":16:17: error: mesh file cannot be used ("),
                   StartsWith(file + ":18:8: error: block named twice (\"A\""),
                   StartsWith(file + ":20:9: error: order is out of range (99)"),
                   StartsWith(file + ":22:13: error: velocity is not finite (nan)"),

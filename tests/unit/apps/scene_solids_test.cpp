@@ -113,8 +113,8 @@ class SceneMeshes : public ::testing::Test {
     solids_ = build_solids(scene, diagnostics);
     return printed(diagnostics);
   }
-  // Where block A's mesh is written.
-  [[nodiscard]] std::string mesh_place() const { return (folder_ / "s.toml").string() + ":16:3: error: "; }
+  // Where the name of block A's mesh file is written, after `  mesh = { file = `.
+  [[nodiscard]] std::string mesh_place() const { return (folder_ / "s.toml").string() + ":16:19: error: "; }
 
   TemporaryFolder folder_;
   std::vector<std::optional<Polyhedron>> solids_;
@@ -126,7 +126,7 @@ TEST_F(SceneMeshes, AreFoundBesideTheSceneAndScaled) {
   EXPECT_EQ(extent(*solids_[0]).second, Vector3(2, 2, 2));
 }
 
-TEST_F(SceneMeshes, MissingFileIsReportedAtTheMeshKey) {
+TEST_F(SceneMeshes, MissingFileIsReportedAtItsName) {
   EXPECT_THAT(faults(""), ElementsAre(AllOf(StartsWith(mesh_place() + "mesh file cannot be used ("),
                                             HasSubstr((folder_ / "stone.off").string()))));
 }

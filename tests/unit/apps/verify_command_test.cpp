@@ -89,6 +89,9 @@ TEST(VerifyCommand, UnknownCasesAreRefusedWithTheNearestName) {
   const Answer answer = verify({{"free-fal"}, false, false});
   EXPECT_EQ(answer.status, exit_status::bad_input);
   EXPECT_NE(answer.err.find("did you mean free-fall?"), std::string::npos);
+  EXPECT_NE(
+      verify({{"bar"}, false, false}).err.find("did you mean bar-impact or torsion-bar or spinning-bar?"),
+      std::string::npos);
 }
 
 TEST(Verification, AnErrorThatIsNoNumberDoesNotPass) {

@@ -161,8 +161,13 @@ TEST_F(ViewCommand, AFolderWithoutSummaryIsShown) {
 
 TEST_F(ViewCommand, FaultsNameTheFile) {
   EXPECT_EQ(run({"view", (folder / "none").string()}), exit_status::bad_input);
-  EXPECT_THAT(err.str(), HasSubstr("none/blocks.pvd: it cannot be opened"));
+  EXPECT_THAT(err.str(), AllOf(HasSubstr("error: no result folder ("), HasSubstr("/none does not exist), ")));
+  EXPECT_EQ(run({"view", folder.path().string()}), exit_status::bad_input);
+  EXPECT_THAT(err.str(),
+              HasSubstr("error: no results in " + folder.path().string() + " (blocks.pvd does not exist), "));
   simulate();
+  EXPECT_EQ(run({"view", (folder / "glide.toml").string()}), exit_status::bad_input);
+  EXPECT_THAT(err.str(), HasSubstr("glide.toml is a file), "));
   write_text(folder / "out/frames/blocks_0000002.vtu", "");
   EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::bad_input);
   EXPECT_THAT(err.str(), HasSubstr("blocks_0000002.vtu"));
