@@ -10,6 +10,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "apps/initial_state.hpp"
 #include "apps/name_pattern.hpp"
 #include "solver/automatic.hpp"
 
@@ -256,20 +257,22 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     }
     motions.push_back({block.velocity, block.angular_velocity});
   }
-  if (!diagnostics.empty()) return std::nullopt;
+  if (!diagnostics.good()) return std::nullopt;
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
   JointLaws laws(scene, blocks, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
-                        std::move(choices), parts.size()};
+                        std::move(choices),
+                        parts.size(),
+                        {}};
   try {
     tie_joints(scene, built.simulation, diagnostics);
   } catch (const std::invalid_argument& error) {
     diagnostics.error(scene.places.key("analysis.formulation"), error.what());
   }
-  if (!diagnostics.empty()) return std::nullopt;
+  if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
-    built.simulation.settle_supported_blocks();
+    built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);
   }
   return built;
 }

@@ -22,6 +22,8 @@ struct BuiltSimulation {
   Simulation simulation;
   std::vector<AutomaticChoice> choices;
   std::size_t different_blocks;  ///< that share neither basis and stiffness nor supports with others
+  /// Moving blocks that an initial_state of equilibrium does not settle.
+  std::vector<std::string> as_placed;
 };
 
 /// @param threads >= 1

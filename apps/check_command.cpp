@@ -21,10 +21,8 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
   if (loaded) built = build_simulation(*loaded, 1, diagnostics);
   if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
     refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
-  if (!diagnostics.empty()) {
-    diagnostics.print(err);
-    return exit_status::bad_input;
-  }
+  diagnostics.print(err);
+  if (!diagnostics.good()) return exit_status::bad_input;
   const Scene& scene = loaded->scene;
   const auto counted = [](std::size_t count, const char* noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");

@@ -14,11 +14,18 @@ std::string to_string(const Place& place) {
 }
 
 std::string to_string(const Diagnostic& diagnostic) {
-  std::string line = fmt::format("{}: error: {}", to_string(diagnostic.place), diagnostic.message);
+  std::string line =
+      fmt::format("{}: {}: {}", to_string(diagnostic.place),
+                  diagnostic.severity == Severity::error ? "error" : "warning", diagnostic.message);
   // Values of the user may hold line breaks.
   std::replace_if(
       line.begin(), line.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
   return line;
+}
+
+bool Diagnostics::good() const {
+  return std::none_of(all_.begin(), all_.end(),
+                      [](const Diagnostic& d) { return d.severity == Severity::error; });
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {

@@ -20,20 +20,30 @@ struct Place {
 /// "FILE:LINE:COLUMN", or only the origin if it has no lines.
 [[nodiscard]] std::string to_string(const Place& place);
 
+enum class Severity {
+  error,    ///< the input cannot be used
+  warning,  ///< it can, but hardly means what it says
+};
+
 /// One fault. The message reads "what is wrong (value), what is allowed", without a full stop.
 struct Diagnostic {
   Place place;
   std::string message;
+  Severity severity = Severity::error;
 };
 
-/// "PLACE: error: MESSAGE" in one line: control characters become blanks.
+/// "PLACE: error: MESSAGE" or "PLACE: warning: MESSAGE" in one line: control characters become blanks.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 
 /// All faults found so far.
 class Diagnostics {
  public:
   void error(Place place, std::string message) { all_.push_back({std::move(place), std::move(message)}); }
-  [[nodiscard]] bool empty() const { return all_.empty(); }
+  void warning(Place place, std::string message) {
+    all_.push_back({std::move(place), std::move(message), Severity::warning});
+  }
+  /// Whether the input can be used: there may be warnings, but no errors.
+  [[nodiscard]] bool good() const;
   /// In file order; faults of arguments come after those of files. Faults at one place keep the order in
   /// which they were found, and a fault found twice is listed once.
   [[nodiscard]] std::vector<Diagnostic> sorted() const;

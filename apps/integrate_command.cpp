@@ -54,7 +54,7 @@ int integrate_command(const IntegrateOptions& options, std::ostream& out, std::o
                     a, b, c, values[k]));
     break;
   }
-  if (!diagnostics.empty()) {
+  if (!diagnostics.good()) {
     diagnostics.print(err);
     return exit_status::bad_input;
   }

@@ -10,6 +10,7 @@
 
 #include "apps/atomic_file.hpp"
 #include "apps/command_line.hpp"
+#include "apps/initial_state.hpp"
 #include "apps/loose_blocks.hpp"
 #include "apps/progress.hpp"
 #include "apps/result_folder.hpp"
@@ -231,15 +232,16 @@ int run_command(const RunOptions& options, std::ostream& err) {
     refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
   std::optional<RunCheckpoint> earlier;
   if (built && options.resume) earlier = find_checkpoint(folder, *loaded, diagnostics);
-  if (!diagnostics.empty()) {
-    diagnostics.print(err);
-    return exit_status::bad_input;
-  }
+  diagnostics.print(err);
+  if (!diagnostics.good()) return exit_status::bad_input;
   if (earlier) built->simulation.restore(earlier->simulation);
   if (!options.quiet) {
     for (const AutomaticChoice& choice : built->choices) {
       err << fmt::format("chosen: {} = {:.4g} {}\n", choice.key, choice.value, choice.unit);
     }
+    if (!built->as_placed.empty())
+      err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
+                         first_names(built->as_placed));
   }
   const InterruptGuard guard;
   Run run(*loaded, std::move(*built), folder, earlier);

@@ -18,6 +18,11 @@
 
 namespace ashlar {
 
+/// Times of a static analysis of constant loads that does not give them, s; each gives way to the other one
+/// where that is given.
+inline constexpr double default_static_end_time = 1.0;
+inline constexpr double default_static_time_step = 1e-3;
+
 /// [analysis]
 struct SceneAnalysis {
   enum class Type {
@@ -37,8 +42,11 @@ struct SceneAnalysis {
   enum class Solver { automatic, cholmod, cg, dual };
 
   Type type = Type::dynamic;
-  double end_time = 0.0;   ///< s, > 0; required
-  double time_step = 0.0;  ///< s, the largest step; > 0, <= end_time; required
+  /// s, > 0; required unless the analysis is static and nothing has a history: then a time like any other
+  double end_time = 0.0;
+  /// s, > 0, <= end_time; required like end_time. The largest step; static: between the loads that a history
+  /// goes through, and how gently the first iteration starts
+  double time_step = 0.0;
   Integrator integrator = Integrator::dda;
   double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
   Formulation formulation = Formulation::total;

@@ -5,6 +5,7 @@
 #include "apps/scene_checks.hpp"
 #include "apps/scene_reader.hpp"
 #include "apps/scene_solids.hpp"
+#include "apps/soft_blocks.hpp"
 
 namespace ashlar {
 
@@ -16,7 +17,8 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics, &loaded.shapes);
   check_placement(loaded.scene, solids, diagnostics);
   check_initial_overlap(loaded.scene, solids, diagnostics);
-  if (!diagnostics.empty()) return std::nullopt;
+  if (!diagnostics.good()) return std::nullopt;
+  warn_of_soft_blocks(loaded.scene, solids, diagnostics);
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;
 }

@@ -20,9 +20,10 @@ struct LoadedScene {
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
 };
 
-/// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp.
+/// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
+/// soft_blocks.hpp.
 /// @param overrides "key.path=value" each, as given to --set, applied in order.
-/// @return nothing if the scene has any fault; all of them are then in diagnostics. Writes no file.
+/// @return nothing if the scene has any error; all of them are then in diagnostics. Writes no file.
 [[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                                     const std::vector<std::string>& overrides,
                                                     Diagnostics& diagnostics);

@@ -17,9 +17,7 @@
 namespace ashlar {
 namespace {
 
-void read_analysis(TomlTableReader table, SceneAnalysis& analysis) {
-  table.require("end_time");
-  table.require("time_step");
+void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("type", analysis.type, analysis_type_names);
   table.read_number("end_time", analysis.end_time, range::positive);
   table.read_number("time_step", analysis.time_step, range::positive);
@@ -30,6 +28,27 @@ void read_analysis(TomlTableReader table, SceneAnalysis& analysis) {
   table.read_vector("gravity", analysis.gravity);
   table.read_choice("solver", analysis.solver, solver_names);
   table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
+}
+
+bool has_history(const SceneBlock& block) {
+  return std::any_of(block.fix.begin(), block.fix.end(),
+                     [](const SceneFix& fix) { return !fix.displacement_history.empty(); }) ||
+         std::any_of(block.load.begin(), block.load.end(),
+                     [](const SceneLoad& load) { return !load.history.empty(); });
+}
+
+// A static analysis of constant loads has no use for times.
+void complete_times(TomlTableReader& table, Scene& scene) {
+  SceneAnalysis& analysis = scene.analysis;
+  const bool timeless = analysis.type == SceneAnalysis::Type::statics &&
+                        std::none_of(scene.block.begin(), scene.block.end(), has_history);
+  if (!timeless) {
+    table.require("end_time");
+    table.require("time_step");
+    return;
+  }
+  if (!table.given("end_time")) analysis.end_time = std::max(default_static_end_time, analysis.time_step);
+  if (!table.given("time_step")) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
 }
 
 void read_contact(TomlTableReader table, SceneContact& contact) {
@@ -119,13 +138,15 @@ void read_output(TomlTableReader table, SceneOutput& output) {
 
 void read_tables(TomlTableReader top, Scene& scene) {
   top.read_text("title", scene.title);
-  read_analysis(top.table_or_empty("analysis"), scene.analysis);
+  TomlTableReader analysis = top.table_or_empty("analysis");
+  read_analysis(analysis, scene.analysis);
   read_contact(top.table_or_empty("contact"), scene.contact);
   for (TomlTableReader& table : top.tables("joint")) scene.joint.push_back(read_joint(table));
   for (TomlTableReader& table : top.tables("material")) scene.material.push_back(read_material(table));
   for (TomlTableReader& table : top.tables("block")) scene.block.push_back(read_block(table));
   for (TomlTableReader& table : top.tables("measure")) scene.measure.push_back(read_measure(table));
   read_output(top.table_or_empty("output"), scene.output);
+  complete_times(analysis, scene);
   if (scene.block.empty()) top.error_at_table("no block (0), at least one [[block]] is needed");
 }
 

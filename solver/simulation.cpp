@@ -80,11 +80,13 @@ bool Simulation::is_tied(std::size_t block) const {
                      [&](const TiedBlocks& tie) { return tie.a == index || tie.b == index; });
 }
 
-void Simulation::settle_supported_blocks() {
+std::vector<int> Simulation::settle_supported_blocks() {
+  std::vector<int> settled;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k] || !blocks_[k].supported() || is_tied(k)) continue;
     auto position = blocks_[k].equilibrium(settings_.gravity, 0.0);
     if (!position) continue;
+    settled.push_back(static_cast<int>(k));
     if (blocks_[k].incremental() == nullptr) {
       states_[k].position = std::move(*position);
       continue;
@@ -102,6 +104,7 @@ void Simulation::settle_supported_blocks() {
   note_elastic_energies();
   measure_energies(ledger_);
   start_balance_ = ledger_.balance();
+  return settled;
 }
 
 bool Simulation::reached(double end_time) const {

@@ -108,8 +108,8 @@ class Simulation {
 
   /// Moves every block whose supports leave no rigid motion to its equilibrium under gravity and the loads at
   /// time 0, contacts off, at rest. To be called before the first step. Incremental blocks go there in steps,
-  /// as far as settings.settling_steps takes them.
-  void settle_supported_blocks();
+  /// as far as settings.settling_steps takes them. @return the blocks that are there
+  std::vector<int> settle_supported_blocks();
 
   /// Bonds two blocks over the faces they have in common (tie.hpp), and looks for no contacts between them.
   /// To be called before settle_supported_blocks(), which leaves tied blocks as they are. @param a,b a < b

@@ -33,6 +33,7 @@ TEST_P(DemoScene, TakesItsFirstSteps) {
   auto built = build_simulation(*loaded, 1, diagnostics);
   diagnostics.print(text);
   ASSERT_TRUE(built) << text.str();
+  EXPECT_EQ(text.str(), "");
   Simulation& simulation = built->simulation;
   const double end_time = loaded->scene.analysis.end_time;
   for (int k = 0; k < 5; ++k) {

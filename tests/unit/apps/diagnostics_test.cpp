@@ -32,12 +32,23 @@ TEST(Diagnostics, PrintsEachFaultInOneLine) {
 
 TEST(Diagnostics, ListsTheSameFaultOnce) {
   Diagnostics diagnostics;
-  EXPECT_TRUE(diagnostics.empty());
+  EXPECT_TRUE(diagnostics.good());
   diagnostics.error({"s.toml", 1, 1}, "twice");
   diagnostics.error({"s.toml", 1, 1}, "twice");
   diagnostics.error({"s.toml", 2, 1}, "twice");
-  EXPECT_FALSE(diagnostics.empty());
+  EXPECT_FALSE(diagnostics.good());
   EXPECT_EQ(diagnostics.sorted().size(), 2u);
+}
+
+TEST(Diagnostics, WarningsAreListedButNoFaults) {
+  Diagnostics diagnostics;
+  diagnostics.warning({"s.toml", 2, 1}, "soft (5)");
+  EXPECT_TRUE(diagnostics.good());
+  diagnostics.error({"s.toml", 1, 1}, "wrong");
+  EXPECT_FALSE(diagnostics.good());
+  std::ostringstream stream;
+  diagnostics.print(stream);
+  EXPECT_EQ(stream.str(), "s.toml:1:1: error: wrong\ns.toml:2:1: warning: soft (5)\n");
 }
 
 }  // namespace

@@ -124,10 +124,10 @@ TEST(InitialOverlap, TwoFixedBlocksMayOverlap) {
                                                          box({0, 0, 0}, {4, 1, 1})};
   scene.block[0].fixed = scene.block[1].fixed = true;
   check_initial_overlap(scene, solids, diagnostics);
-  EXPECT_TRUE(diagnostics.empty());
+  EXPECT_TRUE(diagnostics.good());
   scene.block[1].fixed = false;
   check_initial_overlap(scene, solids, diagnostics);
-  EXPECT_FALSE(diagnostics.empty());
+  EXPECT_FALSE(diagnostics.good());
 }
 
 }  // namespace

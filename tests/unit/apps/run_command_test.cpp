@@ -26,6 +26,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // A cube of 450 kg set on a clamped beam with 0.5 m/s: springs of 1.25e7 N/m throw it back after some 19 ms.
@@ -205,6 +206,23 @@ TEST_F(RunCommand, QuietSaysNothingOthersSayWhatWasChosen) {
   EXPECT_THAT(printed_, IsEmpty());
 }
 
+TEST_F(RunCommand, WarningsAreSaidEvenQuietlyAndNamesOfBlocksThatDoNotSettle) {
+  EXPECT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--set",
+                     "analysis.initial_state=equilibrium"}),
+            exit_status::done);
+  EXPECT_THAT(faults_,
+              HasSubstr("\nnot settled: A (initial_state settles blocks that their own supports hold)\n"));
+  EXPECT_THAT(faults_, Not(HasSubstr("warning")));
+  // 3600 kg/m^3 x 9.81 m/s^2 x 1 m of B is 0.35 of 1e5 Pa.
+  EXPECT_EQ(run("soft", {"--set", "material.rock.young_modulus=1e5", "--set", "analysis.end_time=0.001"}),
+            exit_status::done);
+  EXPECT_THAT(faults_, StartsWith("--set material.rock.young_modulus=1e5: warning: young_modulus is small"));
+  EXPECT_EQ(command({"check", scene_.string(), "--set", "material.rock.young_modulus=1e5"}),
+            exit_status::done);
+  EXPECT_THAT(faults_, HasSubstr("warning: young_modulus is small"));
+  EXPECT_THAT(printed_, HasSubstr("s.toml: good: 2 blocks"));
+}
+
 TEST_F(RunCommand, FramesByTimeStandAtTheNearestSteps) {
   std::string by_time = scene_text;
   by_time.replace(by_time.find("every = 10"), 10, "interval = 0.0094");
@@ -371,6 +389,14 @@ TEST_F(RunCommand, StaticAnalysisEndsInEquilibrium) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
   ASSERT_EQ(run("out", {"--resume"}), exit_status::done) << faults_;
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+}
+
+TEST_F(RunCommand, StaticAnalysisOfConstantLoadsNeedsNoTimes) {
+  std::string scene = static_scene_text;
+  scene.erase(scene.find("end_time"), std::string("end_time = 1\ntime_step = 1e-2\n").size());
+  write_text(scene_, scene);
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
   EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
 }
 

@@ -287,6 +287,35 @@ TEST(SceneReader, EmptySceneMissesWhatEverySceneNeeds) {
                           "s.toml:1:1: error: no block (0), at least one [[block]] is needed"));
 }
 
+TEST(SceneReader, StaticAnalysisOfConstantLoadsNeedsNoTimes) {
+  Diagnostics diagnostics;
+  const auto times = [&](const std::string& lines) {
+    const Scene scene = parse_scene(sample_with(2, "type = \"static\"\n" + lines), "s.toml",
+                                    {"analysis.time_step=0.5"}, diagnostics);
+    return std::pair(scene.analysis.end_time, scene.analysis.time_step);
+  };
+  EXPECT_EQ(times(""), std::pair(1.0, 0.5));
+  EXPECT_EQ(times("end_time = 3"), std::pair(3.0, 0.5));
+  const auto times_alone = [&](const std::string& lines) {
+    std::string text = sample_with(2, "type = \"static\"\n" + lines);
+    text.erase(text.find("time_step = 0.01"), 16);
+    const Scene scene = parse_scene(text, "s.toml", {}, diagnostics);
+    return std::pair(scene.analysis.end_time, scene.analysis.time_step);
+  };
+  EXPECT_EQ(times_alone(""), std::pair(1.0, 1e-3));
+  EXPECT_EQ(times_alone("end_time = 1e-6"), std::pair(1e-6, 1e-6));
+  EXPECT_THAT(printed(diagnostics), IsEmpty());
+}
+
+TEST(SceneReader, StaticAnalysisOfLoadsWithHistoriesNeedsTimes) {
+  const std::string missing = "s.toml:1:2: error: missing key (end_time), analysis needs it";
+  EXPECT_THAT(reading_faults(sample_with(2, ""), {"analysis.type=static", "block.B.load.0.history=[[0, 1]]"}),
+              ElementsAre(missing));
+  EXPECT_THAT(reading_faults(sample_with(2, ""),
+                             {"analysis.type=static", "block.B.fix.0.displacement_history=[[0, 0, 0, 0]]"}),
+              ElementsAre(missing));
+}
+
 TEST(SceneReader, SingleBracketsAreNoListOfTables) {
   EXPECT_THAT(
       reading_faults(sample_with(8, "[material]")),

@@ -1,0 +1,53 @@
+#include "apps/initial_state.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace ashlar {
+namespace {
+
+bool has_tie(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.block.begin(), scene.block.end(), [&](const SceneBlock& other) {
+    return other.name != name && joint_law_between(scene, name, other.name).tied;
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& simulation,
+                                              Diagnostics& diagnostics) {
+  const std::vector<int> settled = simulation.settle_supported_blocks();
+  const Place place = scene.places.value("analysis.initial_state");
+  std::vector<std::string> as_placed;
+  bool any_held = false;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    const bool is_settled = std::find(settled.begin(), settled.end(), static_cast<int>(k)) != settled.end();
+    if (block.fixed() || is_settled) continue;
+    as_placed.push_back(block.name());
+    if (!block.space().held() || has_tie(scene, block.name())) continue;
+    any_held = true;
+    diagnostics.warning(place,
+                        fmt::format("initial_state (\"equilibrium\") was not found for block \"{}\": it "
+                                    "starts as placed; less load or more supports may help",
+                                    block.name()));
+  }
+  if (settled.empty() && !any_held) {
+    diagnostics.warning(place,
+                        "initial_state has no effect (\"equilibrium\"): it settles blocks that their own "
+                        "supports hold, and there is none; all start as placed");
+  }
+  return as_placed;
+}
+
+std::string first_names(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 5;
+  const std::vector<std::string> first(
+      names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), shown)));
+  const std::string list = fmt::format("{}", fmt::join(first, ", "));
+  return names.size() <= shown ? list : fmt::format("{} and {} more", list, names.size() - shown);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,23 @@
+// analysis.initial_state = "equilibrium", and whom it leaves as placed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/diagnostics.hpp"
+#include "apps/scene.hpp"
+#include "solver/simulation.hpp"
+
+namespace ashlar {
+
+/// Settles the blocks that their own supports hold (Simulation::settle_supported_blocks). Warns where that is
+/// none, and of each block that they hold but whose equilibrium was not found (its load buckles it).
+/// @return the names of the moving blocks that start as placed: those with a rigid motion left, tied ones,
+/// and those without equilibrium
+std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& simulation,
+                                              Diagnostics& diagnostics);
+
+/// "A, B, C, D, E and 3 more": the first names.
+[[nodiscard]] std::string first_names(const std::vector<std::string>& names);
+
+}  // namespace ashlar
