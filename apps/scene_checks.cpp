@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -139,6 +141,31 @@ void check_measure_names(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
+std::string in_words(const Vector3& vector) {
+  return fmt::format("[{}, {}, {}]", vector.x(), vector.y(), vector.z());
+}
+
+struct NearFace {
+  ScenePlane plane;
+  double offset;  ///< from the farthest of its corners to the plane it was looked for, m
+};
+
+NearFace nearest_face(const Polyhedron& solid, const ScenePlane& plane) {
+  const Vector3 normal = plane.normal.stableNormalized();
+  NearFace nearest{{}, std::numeric_limits<double>::infinity()};
+  for (const PolyhedronFace& face : solid.faces()) {
+    double offset = 0.0;
+    for (const auto& loop : face.loops)
+      for (const int corner : loop) {
+        const Vector3& point = solid.mesh().points[static_cast<std::size_t>(corner)];
+        offset = std::max(offset, std::abs(normal.dot(point - plane.point)));
+      }
+    const Vector3& first = solid.mesh().points[static_cast<std::size_t>(face.loops.front().front())];
+    if (offset < nearest.offset) nearest = {{first, face.normal}, offset};
+  }
+  return nearest;
+}
+
 class PlacementCheck {
  public:
   PlacementCheck(const Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
@@ -155,10 +182,9 @@ class PlacementCheck {
     if (outside.norm() <= allowed_offset(solid)) return;
     error(key,
           fmt::format(
-              "point is not in block \"{}\" ([{}, {}, {}]), a point of the placed block is needed: x {} to "
-              "{}, y {} to {}, z {} to {}",
-              block.name, point.x(), point.y(), point.z(), low.x(), high.x(), low.y(), high.y(), low.z(),
-              high.z()));
+              "point is not in block \"{}\" ({}), a point of the placed block is needed: x {} to {}, y {} to {}, "
+              "z {} to {}",
+              block.name, in_words(point), low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
   }
 
   void check_where(const std::string& key, const SceneBlock& block, const Polyhedron& solid,
@@ -171,13 +197,13 @@ class PlacementCheck {
     // A plane that was refused by the reader has been reported already.
     if (!plane.point.allFinite() || !plane.normal.allFinite() || plane.normal.isZero(0.0)) return;
     if (!faces_in_plane(solid, {plane.point, plane.normal}).empty()) return;
-    error(
-        key + ".plane",
-        fmt::format(
-            "no face of block \"{}\" lies in the plane (point [{}, {}, {}], normal [{}, {}, {}]), the plane "
-            "of a face of the placed block is needed",
-            block.name, plane.point.x(), plane.point.y(), plane.point.z(), plane.normal.x(), plane.normal.y(),
-            plane.normal.z()));
+    const NearFace nearest = nearest_face(solid, plane);
+    error(key + ".plane",
+          fmt::format("no face of block \"{}\" lies in the plane (point {}, normal {}), a plane within {:.2g} m "
+                      "of all corners of a face is needed; the nearest face is {:.2g} m off, its plane has "
+                      "point {}, normal {}",
+                      block.name, in_words(plane.point), in_words(plane.normal), allowed_offset(solid),
+                      nearest.offset, in_words(nearest.plane.point), in_words(nearest.plane.normal)));
   }
 
  private:

@@ -79,6 +79,21 @@ INSTANTIATE_TEST_SUITE_P(
                       FaultCase{25, "force = [0, 0, 1]\n[[block.load]]\npoint = [5, 0, 0]\nforce = [0, 0, 1]",
                                 "s.toml:27:9: error: point is not in block \"B\""}));
 
+TEST(SceneChecks, PlaneOfTooFewDigitsIsToldTheNearestFace) {
+  // A beam of 4 x 1 x 1 m, turned by a half turn about z into x from -4 to 0: its diagonal is 4.2 m. The plane
+  // leans by 0.001 over the 1 m of the face at x = -4.
+  EXPECT_THAT(
+      all_faults(sample_with(20, "box = { min = [0, 0, 0], max = [4, 1, 1] }\n"
+                                 "rotate = { axis = [0, 0, 1], angle = 180, about = [0, 0.5, 0] }"),
+                 {"measure.0.point=[-1, 0, 0]", "block.B.load=[]",
+                  "block.B.fix.0.plane={ point = [-4, 0, 0], normal = [1, 0, 0.001] }"}),
+      ElementsAre(
+          "--set block.B.fix.0.plane={ point = [-4, 0, 0], normal = [1, 0, 0.001] }: error: no face of block "
+          "\"B\" lies in the plane (point [-4, 0, 0], normal [1, 0, 0.001]), a plane within 4.2e-06 m of all "
+          "corners of a face is needed; the nearest face is 0.001 m off, its plane has point [-4, 1, 0], normal "
+          "[-1, 0, 0]"));
+}
+
 TEST(SceneChecks, MissingMaterialsAreSaidToBeMissing) {
   EXPECT_THAT(
       all_faults("[analysis]\nend_time = 1\ntime_step = 1\n[[block]]\nname = \"A\"\nmaterial = \"m\"\n"
