@@ -56,6 +56,14 @@ TEST_P(DemoScene, HasItsPicture) {
             std::string::npos);
 }
 
+TEST(DemoScenes, TheReadmeShowsTheSlopeAsItIs) {
+  const std::string slope = read_text(std::filesystem::path(ASHLAR_DATA_DIR) / "scenes/slope.toml");
+  const std::string scene = slope.substr(slope.find("title"));
+  EXPECT_NE(
+      read_text(std::filesystem::path(ASHLAR_DATA_DIR) / "../README.md").find("```toml\n" + scene + "```\n"),
+      std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, DemoScene, ::testing::ValuesIn(scenes()),
                          [](const auto& scene) { return scene.param.stem().string(); });
 

@@ -181,6 +181,17 @@ TEST_F(RunCommand, ContactsOfEveryFrameAreInTheTable) {
   for (std::size_t k = 1; k < rows.size(); ++k) EXPECT_THAT(rows[k], HasSubstr(",A,B,"));
 }
 
+TEST_F(RunCommand, EveryColumnIsInTheReferenceOfResults) {
+  write_text(scene_, std::string(scene_text).replace(std::string(scene_text).find("\"tip\""), 5, "\"NAME\""));
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const std::string reference = read_text(ASHLAR_DATA_DIR "/README.md");
+  for (const char* table : {"out/history.csv", "out/contacts.csv"}) {
+    std::istringstream columns(lines(table).at(0));
+    for (std::string column; std::getline(columns, column, ',');)
+      EXPECT_THAT(reference, HasSubstr("`" + column + "`")) << table;
+  }
+}
+
 TEST_F(RunCommand, SummaryTellsWhatWasDone) {
   ASSERT_EQ(run("out", {"--set", "contact.friction_angle=20"}), exit_status::done) << faults_;
   const auto summary = nlohmann::json::parse(text("out/summary.json"));
