@@ -28,6 +28,11 @@ void sync_folder(const std::filesystem::path& folder) {
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability durability) {
+  // A rename would take the place of a device or a pipe.
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {
+    throw std::system_error(std::make_error_code(std::errc::invalid_argument),
+                            "cannot write " + path.string() + ", which is no regular file");
+  }
   std::filesystem::path temporary = path;
   temporary += ".tmp";
   try {

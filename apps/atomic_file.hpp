@@ -15,7 +15,8 @@ enum class Durability {
 /// Writes `content` to `path` + ".tmp" and renames that onto `path`. A failure leaves `path` untouched and no
 /// temporary file behind.
 /// @param path its folder must exist.
-/// @throws std::system_error (a std::runtime_error) with the path and the system's reason.
+/// @throws std::system_error (a std::runtime_error) with the path and the system's reason, also if `path` is
+/// a folder, a device or a pipe
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability durability);
 

@@ -48,7 +48,7 @@ SceneShape read_mesh_shape(TomlTableReader table) {
   SceneMesh mesh;
   std::string file;
   table.require("file");
-  const bool file_good = table.read_text("file", file);
+  const bool file_good = table.read_name("file", file);
   const bool scale_good = table.read_number("scale", mesh.scale, range::positive) || !table.given("scale");
   mesh.file = file;
   if (!file_good || !scale_good) return {};
@@ -133,7 +133,7 @@ void read_components(TomlTableReader& table, std::array<bool, 3>& components) {
     components[static_cast<std::size_t>(axis)] = std::find(words.begin(), words.end(), name) != words.end();
 }
 
-SceneFix read_fix(TomlTableReader table) {
+SceneFix read_fix(TomlTableReader& table) {
   SceneFix fix;
   fix.where = read_where(table);
   read_components(table, fix.components);
@@ -154,7 +154,7 @@ SceneFix read_fix(TomlTableReader table) {
   return fix;
 }
 
-SceneLoad read_load(TomlTableReader table) {
+SceneLoad read_load(TomlTableReader& table) {
   SceneLoad load;
   load.where = read_where(table);
   const bool traction_given = table.given("traction"), force_given = table.given("force");
@@ -204,8 +204,8 @@ SceneBlock read_block(TomlTableReader& table) {
   if (!table.read_vector("translate", block.translate) && table.given("translate")) block.shape = {};
   table.read_vector("velocity", block.velocity);
   table.read_vector("angular_velocity", block.angular_velocity);
-  for (TomlTableReader& fix : table.tables("fix")) block.fix.push_back(read_fix(fix));
-  for (TomlTableReader& load : table.tables("load")) block.load.push_back(read_load(load));
+  block.fix = table.read_tables("fix", read_fix);
+  block.load = table.read_tables("load", read_load);
   refuse_motion_if_fixed(table, block);
   return block;
 }

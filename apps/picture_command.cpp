@@ -7,6 +7,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <ostream>
 #include <vector>
@@ -130,7 +131,8 @@ void declare_picture_command(CLI::App& program, CommandContext& context) {
   const auto options = std::make_shared<PictureOptions>();
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max(), ">= 0"));
   command->add_option("--size", options->size, "Pixels (default: " + options->size + ")")->type_name("WxH");
   command->add_option("--from", options->from, "Direction to the eye (default: " + options->from + ")")
       ->type_name("X,Y,Z");

@@ -67,6 +67,7 @@ void write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
 RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
   std::ifstream input(path, std::ios::binary);
   if (!input) throw CheckpointError("no checkpoint to resume from, run without --resume first");
+  if (std::filesystem::is_directory(path)) throw CheckpointError("not a checkpoint but a folder");
   const std::string bytes{std::istreambuf_iterator<char>(input), {}};
   if (!bytes.starts_with(magic)) throw CheckpointError("not a checkpoint of this program");
   ByteReader reader(std::string_view(bytes).substr(magic.size()));

@@ -135,9 +135,15 @@ class Run {
     double saved_at = seconds_now();
     while (!simulation.reached(end_time)) {
       if (interrupted != 0) return interrupted_here();
-      if (simulation.step(end_time) != StepStatus::accepted) {
+      StepStatus status = StepStatus::accepted;
+      try {
+        status = simulation.step(end_time);
+      } catch (const std::exception& error) {
+        return failed_in_step(error);
+      }
+      if (status != StepStatus::accepted) {
         const Rejection& last = simulation.rejections().back();
-        message_ = fmt::format("step {} at t = {} s was rejected down to a time step of {} s: {}",
+        message_ = fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
                                simulation.steps() + 1, simulation.time(), last.step, to_string(last.reason));
         return RunStatus::failed;
       }
@@ -151,7 +157,12 @@ class Run {
     double saved_at = seconds_now();
     while (interrupted == 0) {
       const int before = simulation.steps();
-      const StaticStatus status = simulation.static_step(scene_.analysis.end_time);
+      StaticStatus status = StaticStatus::balancing;
+      try {
+        status = simulation.static_step(scene_.analysis.end_time);
+      } catch (const std::exception& error) {
+        return failed_in_step(error);
+      }
       if (simulation.steps() > before) record_step(start, saved_at, progress);
       switch (status) {
         case StaticStatus::balancing:
@@ -170,10 +181,18 @@ class Run {
     return interrupted_here();
   }
 
+  /// What no check of the scene foresaw: the state is that before the step.
+  RunStatus failed_in_step(const std::exception& error) {
+    message_ = fmt::format("step {} at t = {:.9g} s cannot be taken: {}", built_.simulation.steps() + 1,
+                           built_.simulation.time(), error.what());
+    return RunStatus::failed;
+  }
+
   RunStatus interrupted_here() {
     message_ = fmt::format("interrupted after step {}", built_.simulation.steps());
     if (scene_.analysis.type == SceneAnalysis::Type::dynamic)
-      message_ += fmt::format(" at t = {} s of {} s", built_.simulation.time(), scene_.analysis.end_time);
+      message_ +=
+          fmt::format(" at t = {:.9g} s of {:.9g} s", built_.simulation.time(), scene_.analysis.end_time);
     return RunStatus::interrupted;
   }
 

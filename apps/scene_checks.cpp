@@ -62,7 +62,8 @@ void check_materials(const Scene& scene, const std::vector<std::string>& known, 
     const SceneBlock& block = scene.block[i];
     const std::string key = entry_key("block", i, "material");
     check_known(scene, key, "material", block.material, known, diagnostics);
-    if (block.fixed || scene.places.contains(key)) continue;
+    if (block.fixed || scene.places.contains(key) || !scene.places.contains(fmt::format("block.{}", i)))
+      continue;
     const std::string allowed = known.empty()
                                     ? "there is no [[material]]"
                                     : fmt::format("one of \"{}\" is needed", fmt::join(known, "\", \""));
@@ -181,10 +182,10 @@ class PlacementCheck {
     const Vector3 outside = (low - point).cwiseMax(point - high).cwiseMax(0.0);
     if (outside.norm() <= allowed_offset(solid)) return;
     error(key,
-          fmt::format(
-              "point is not in block \"{}\" ({}), a point of the placed block is needed: x {} to {}, y {} to {}, "
-              "z {} to {}",
-              block.name, in_words(point), low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
+          fmt::format("point is not in block \"{}\" ({}), a point of the placed block is needed: x {} to {}, "
+                      "y {} to {}, "
+                      "z {} to {}",
+                      block.name, in_words(point), low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
   }
 
   void check_where(const std::string& key, const SceneBlock& block, const Polyhedron& solid,
@@ -199,11 +200,12 @@ class PlacementCheck {
     if (!faces_in_plane(solid, {plane.point, plane.normal}).empty()) return;
     const NearFace nearest = nearest_face(solid, plane);
     error(key + ".plane",
-          fmt::format("no face of block \"{}\" lies in the plane (point {}, normal {}), a plane within {:.2g} m "
-                      "of all corners of a face is needed; the nearest face is {:.2g} m off, its plane has "
-                      "point {}, normal {}",
-                      block.name, in_words(plane.point), in_words(plane.normal), allowed_offset(solid),
-                      nearest.offset, in_words(nearest.plane.point), in_words(nearest.plane.normal)));
+          fmt::format(
+              "no face of block \"{}\" lies in the plane (point {}, normal {}), a plane within {:.2g} m "
+              "of all corners of a face is needed; the nearest face is {:.2g} m off, its plane has "
+              "point {}, normal {}",
+              block.name, in_words(plane.point), in_words(plane.normal), allowed_offset(solid),
+              nearest.offset, in_words(nearest.plane.point), in_words(nearest.plane.normal)));
   }
 
  private:

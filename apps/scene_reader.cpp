@@ -78,7 +78,7 @@ void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::
   if (table.read_number_or_auto(key, stiffness, range::positive)) result.emplace(stiffness);
 }
 
-SceneJoint read_joint(TomlTableReader table) {
+SceneJoint read_joint(TomlTableReader& table) {
   SceneJoint joint;
   std::vector<std::string> blocks;
   table.require("blocks");
@@ -100,7 +100,7 @@ SceneJoint read_joint(TomlTableReader table) {
   return joint;
 }
 
-SceneMaterial read_material(TomlTableReader table) {
+SceneMaterial read_material(TomlTableReader& table) {
   SceneMaterial material;
   for (const char* key : {"name", "density", "young_modulus", "poisson_ratio"}) table.require(key);
   table.read_name("name", material.name);
@@ -111,7 +111,7 @@ SceneMaterial read_material(TomlTableReader table) {
   return material;
 }
 
-SceneMeasure read_measure(TomlTableReader table) {
+SceneMeasure read_measure(TomlTableReader& table) {
   SceneMeasure measure;
   // Not finite until read, so that no later check is made on a point that is not there.
   measure.point.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -141,10 +141,10 @@ void read_tables(TomlTableReader top, Scene& scene) {
   TomlTableReader analysis = top.table_or_empty("analysis");
   read_analysis(analysis, scene.analysis);
   read_contact(top.table_or_empty("contact"), scene.contact);
-  for (TomlTableReader& table : top.tables("joint")) scene.joint.push_back(read_joint(table));
-  for (TomlTableReader& table : top.tables("material")) scene.material.push_back(read_material(table));
-  for (TomlTableReader& table : top.tables("block")) scene.block.push_back(read_block(table));
-  for (TomlTableReader& table : top.tables("measure")) scene.measure.push_back(read_measure(table));
+  scene.joint = top.read_tables("joint", read_joint);
+  scene.material = top.read_tables("material", read_material);
+  scene.block = top.read_tables("block", read_block);
+  scene.measure = top.read_tables("measure", read_measure);
   read_output(top.table_or_empty("output"), scene.output);
   complete_times(analysis, scene);
   if (scene.block.empty()) top.error_at_table("no block (0), at least one [[block]] is needed");

@@ -61,7 +61,13 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
     return exit_status::bad_input;
   }
   const std::filesystem::path folder = options.folder.value_or(options.name + ".study");
-  std::filesystem::create_directories(folder);
+  std::error_code fault;
+  std::filesystem::create_directories(folder, fault);
+  if (fault) {
+    err << fmt::format("ashlar: error: cannot create the result folder {}: {}\n", folder.string(),
+                       fault.message());
+    return exit_status::bad_input;
+  }
   const StudyResult result = study->run();
   const std::filesystem::path table = folder / (options.name + ".csv");
   const std::filesystem::path picture = folder / (options.name + ".svg");

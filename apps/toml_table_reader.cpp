@@ -298,20 +298,21 @@ TomlTableReader TomlTableReader::table_or_empty(std::string_view key) {
   return {reading_, empty, path(key), child_name(key)};
 }
 
-std::vector<TomlTableReader> TomlTableReader::tables(std::string_view key) {
+std::vector<std::optional<TomlTableReader>> TomlTableReader::tables(std::string_view key) {
   const std::string name = child_name(key);
   const toml::array* array = find_array(key, fmt::format("a list of tables, each headed [[{}]],", name));
-  std::vector<TomlTableReader> result;
+  std::vector<std::optional<TomlTableReader>> result;
   if (!array) return result;
   for (std::size_t i = 0; i < array->size(); ++i) {
     const toml::node& entry = *array->get(i);
     const std::string entry_path = fmt::format("{}.{}", path(key), i);
     if (!entry.is_table()) {
       wrong_type(entry, key, "a table");
+      result.emplace_back();
       continue;
     }
     reading_.record_place(entry_path, entry);
-    result.emplace_back(reading_, *entry.as_table(), entry_path, name);
+    result.emplace_back(std::in_place, reading_, *entry.as_table(), entry_path, name);
   }
   return result;
 }

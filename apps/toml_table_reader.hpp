@@ -79,10 +79,19 @@ class TomlTableReader {
   [[nodiscard]] std::optional<TomlTableReader> table(std::string_view key);
   /// A table; an absent or faulty one reads as empty, so that its keys are known all the same.
   [[nodiscard]] TomlTableReader table_or_empty(std::string_view key);
-  /// The entries of an array of tables; none if absent or faulty.
-  [[nodiscard]] std::vector<TomlTableReader> tables(std::string_view key);
+  /// What `read` makes of each entry of an array of tables. An entry that is no table is a fault and an
+  /// untouched result, so that indices stay; none if absent or no array.
+  template <typename Entry>
+  [[nodiscard]] std::vector<Entry> read_tables(std::string_view key, Entry (*read)(TomlTableReader&)) {
+    std::vector<Entry> entries;
+    for (std::optional<TomlTableReader>& table : tables(key))
+      entries.push_back(table ? read(*table) : Entry());
+    return entries;
+  }
 
  private:
+  /// Null where an entry is no table.
+  [[nodiscard]] std::vector<std::optional<TomlTableReader>> tables(std::string_view key);
   [[nodiscard]] const toml::node* find(std::string_view key);
   [[nodiscard]] std::optional<std::size_t> read_word(std::string_view key,
                                                      const std::vector<std::string>& words);

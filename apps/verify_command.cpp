@@ -92,6 +92,13 @@ nlohmann::ordered_json to_json(const Outcome& outcome) {
 }  // namespace
 
 int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream& err) {
+  if (options.list && options.json) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const VerificationCase& listed : all_verification_cases())
+      list.push_back({{"name", listed.name}, {"description", listed.description}});
+    out << list.dump(2) << '\n';
+    return exit_status::done;
+  }
   if (options.list) {
     for (const VerificationCase& listed : all_verification_cases())
       out << fmt::format("{:26} {}\n", listed.name, listed.description);

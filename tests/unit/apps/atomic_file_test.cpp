@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <stdexcept>
 
@@ -39,6 +40,15 @@ TEST_P(AtomicFile, DoesNotTouchTheOldFile) {
   std::filesystem::create_hard_link(folder / "a", folder / "reader");
   write_file_atomically(folder / "a", "new", GetParam());
   EXPECT_EQ(read_text(folder / "reader"), "old content");
+}
+
+TEST_P(AtomicFile, PipesAndDevicesAreNotReplaced) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT([&] { write_file_atomically(folder / "pipe", "x", GetParam()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("pipe, which is no regular file")));
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+  EXPECT_EQ(folder.entry_count(), 1U);
 }
 
 TEST_P(AtomicFile, FailsWithoutATrace) {

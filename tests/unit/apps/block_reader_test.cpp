@@ -51,6 +51,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "s.toml:16:15: error: min is not below max in y (1 and 1)"},
         FaultCase{16, "box = { min = [0, 0, 0], max = [1, 1] }",
                   "s.toml:16:32: error: max has the wrong length (2 entries)"},
+        FaultCase{16, "mesh = { file = \"a\\u0000.off\" }",
+                  "s.toml:16:17: error: file cannot be used as a name (\"a"},
         FaultCase{16, "mesh = { scale = 1.0 }",
                   "s.toml:16:1: error: missing key (file), block.mesh needs it"},
         FaultCase{16, "mesh = { file = \"a.off\", scale = -1 }",

@@ -82,6 +82,11 @@ TEST_F(PictureCommand, RefusesUnknownColoursAndFrames) {
   EXPECT_THAT(err.str(), HasSubstr("no frame 2, the last one is 1"));
 }
 
+TEST_F(PictureCommand, RefusesFramesBelowZero) {
+  EXPECT_EQ(picture({"--frame", "-1"}), exit_status::bad_input);
+  EXPECT_THAT(err.str(), HasSubstr("--frame: Value -1 not in range"));
+}
+
 TEST_F(PictureCommand, ABrowserThatFailsIsNamed) {
   EXPECT_EQ(picture({}), exit_status::failed);
   EXPECT_THAT(err.str(), HasSubstr("/bin/false failed"));

@@ -278,6 +278,17 @@ TEST_F(RunCommand, FailedRunSavesItsLastState) {
   }
 }
 
+TEST_F(RunCommand, StepThatCannotBeTakenFailsTheRun) {
+  // A needle so thin that its long edges are one as soon as it moves.
+  EXPECT_EQ(run("out", {"--set", "block.A.box={min=[0, 0, 0.5], max=[1e-100, 1e-100, 0.5000001]}", "--set",
+                        "contact.normal_stiffness=auto"}),
+            exit_status::failed);
+  EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: step 1 at t = 0 s cannot be taken: "),
+                             HasSubstr("the last accepted state is in " + (folder_ / "out").string())));
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "failed");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint"));
+}
+
 TEST_F(RunCommand, ResumedIncrementalRunIsTheRunThatNeverStopped) {
   const std::vector<std::string> incremental = {"--set", "analysis.formulation=incremental"};
   ASSERT_EQ(run("straight", incremental), exit_status::done) << faults_;
@@ -361,7 +372,7 @@ TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
     EXPECT_EQ(summary["status"], "interrupted");
     const int steps = summary["steps"];
     EXPECT_EQ(faults_,
-              fmt::format("ashlar: interrupted after step {} at t = {} s of 1000 s; the state is saved "
+              fmt::format("ashlar: interrupted after step {} at t = {:.9g} s of 1000 s; the state is saved "
                           "in {}, the same command with --resume goes on\n",
                           steps, summary["time"].get<double>(), (folder_ / name).string()));
     const std::string end = "analysis.end_time=" + std::to_string(0.001 * (steps + 10));

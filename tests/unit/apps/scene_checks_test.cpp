@@ -80,17 +80,19 @@ INSTANTIATE_TEST_SUITE_P(
                                 "s.toml:27:9: error: point is not in block \"B\""}));
 
 TEST(SceneChecks, PlaneOfTooFewDigitsIsToldTheNearestFace) {
-  // A beam of 4 x 1 x 1 m, turned by a half turn about z into x from -4 to 0: its diagonal is 4.2 m. The plane
-  // leans by 0.001 over the 1 m of the face at x = -4.
+  // A beam of 4 x 1 x 1 m, turned by a half turn about z into x from -4 to 0: its diagonal is 4.2 m. The
+  // plane leans by 0.001 over the 1 m of the face at x = -4.
   EXPECT_THAT(
-      all_faults(sample_with(20, "box = { min = [0, 0, 0], max = [4, 1, 1] }\n"
-                                 "rotate = { axis = [0, 0, 1], angle = 180, about = [0, 0.5, 0] }"),
+      all_faults(sample_with(20,
+                             "box = { min = [0, 0, 0], max = [4, 1, 1] }\n"
+                             "rotate = { axis = [0, 0, 1], angle = 180, about = [0, 0.5, 0] }"),
                  {"measure.0.point=[-1, 0, 0]", "block.B.load=[]",
                   "block.B.fix.0.plane={ point = [-4, 0, 0], normal = [1, 0, 0.001] }"}),
       ElementsAre(
           "--set block.B.fix.0.plane={ point = [-4, 0, 0], normal = [1, 0, 0.001] }: error: no face of block "
           "\"B\" lies in the plane (point [-4, 0, 0], normal [1, 0, 0.001]), a plane within 4.2e-06 m of all "
-          "corners of a face is needed; the nearest face is 0.001 m off, its plane has point [-4, 1, 0], normal "
+          "corners of a face is needed; the nearest face is 0.001 m off, its plane has point [-4, 1, 0], "
+          "normal "
           "[-1, 0, 0]"));
 }
 
@@ -109,6 +111,13 @@ TEST(SceneChecks, FaultyValuesAreNotComplainedAboutAgain) {
   EXPECT_THAT(all_faults(sample_with(20, "box = { min = [0, 0, 0], max = [4, 1] }")),
               ElementsAre(StartsWith("s.toml:20:32: error: max has the wrong length")));
   EXPECT_THAT(all_faults(sample_with(2, "end_time = -1")), ElementsAre(StartsWith("s.toml:2:12: error:")));
+}
+
+TEST(SceneChecks, EntriesThatAreNoTablesDoNotShiftOthers) {
+  // The first block is none; the second one's place is still that of the second.
+  EXPECT_THAT(all_faults(sample_with(19, ""), {"block.A=1", "joint=[]"}),
+              ElementsAre(StartsWith("s.toml:17:1: error: missing key (material), block \"B\" has none"),
+                          "--set block.A=1: error: block has the wrong type (1), a table is needed"));
 }
 
 TEST(SceneChecks, FixedBlockNeedsNoMaterial) {

@@ -21,6 +21,15 @@ TEST(StudyCommand, UnknownNamesAreRefused) {
   EXPECT_NE(err.str().find("did you mean subfaces?"), std::string::npos);
 }
 
+TEST(StudyCommand, AFolderThatCannotBeMadeIsNamed) {
+  const TemporaryFolder folder;
+  write_text(folder / "file", "in the way");
+  std::ostringstream out, err;
+  EXPECT_EQ(study_command({"conditioning", folder / "file"}, out, err), exit_status::bad_input);
+  EXPECT_EQ(err.str(), "ashlar: error: cannot create the result folder " + (folder / "file").string() +
+                           ": Not a directory\n");
+}
+
 TEST(StudyCommand, WritesTableAndPicture) {
   const TemporaryFolder folder;
   std::ostringstream out, err;

@@ -85,6 +85,15 @@ std::vector<const char*> case_names() {
 
 INSTANTIATE_TEST_SUITE_P(Verify, EveryCase, testing::ValuesIn(case_names()));
 
+TEST(VerifyCommand, ListsCasesAsJson) {
+  const Answer answer = verify({{}, true, true});
+  EXPECT_EQ(answer.status, exit_status::done);
+  const auto json = nlohmann::json::parse(answer.out);
+  ASSERT_EQ(json.size(), all_verification_cases().size());
+  EXPECT_EQ(json[0]["name"], all_verification_cases()[0].name);
+  EXPECT_EQ(json[0]["description"], all_verification_cases()[0].description);
+}
+
 TEST(VerifyCommand, UnknownCasesAreRefusedWithTheNearestName) {
   const Answer answer = verify({{"free-fal"}, false, false});
   EXPECT_EQ(answer.status, exit_status::bad_input);
