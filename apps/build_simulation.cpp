@@ -273,6 +273,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
     built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);
+    if (!diagnostics.good()) return std::nullopt;
   }
   return built;
 }

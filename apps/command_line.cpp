@@ -64,7 +64,9 @@ int run_command_line(std::vector<std::string> arguments, std::ostream& out, std:
     err << "ashlar: error: " << error.what() << '\n';
     return exit_status::failed;
   }
-  return context.status;
+  if (out.flush()) return context.status;
+  err << "ashlar: error: standard output cannot be written\n";
+  return exit_status::failed;
 }
 
 }  // namespace ashlar

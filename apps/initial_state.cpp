@@ -14,6 +14,17 @@ bool has_tie(const Scene& scene, const std::string& name) {
   });
 }
 
+/// Whether some corner's neighbourhood has no volume any more.
+bool is_inside_out(const BlockModel& block, const BlockState& state) {
+  const auto inverted = [&](int corner) {
+    const Vector3& point = block.solid().mesh().points[static_cast<std::size_t>(corner)];
+    const Eigen::Matrix3d gradient = state.position.transpose() * block.basis().gradients(point);
+    return !(gradient.determinant() > 0.0);
+  };
+  const std::vector<int>& corners = block.solid().corners();
+  return block.incremental() == nullptr && std::any_of(corners.begin(), corners.end(), inverted);
+}
+
 }  // namespace
 
 std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& simulation,
@@ -25,6 +36,11 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     const BlockModel& block = simulation.blocks()[k];
     const bool is_settled = std::find(settled.begin(), settled.end(), static_cast<int>(k)) != settled.end();
+    if (is_settled && is_inside_out(block, simulation.states()[k])) {
+      diagnostics.error(place, fmt::format("initial_state (\"equilibrium\") turns block \"{}\" inside out, a "
+                                           "load that its stiffness can bear is needed",
+                                           block.name()));
+    }
     if (block.fixed() || is_settled) continue;
     as_placed.push_back(block.name());
     if (!block.space().held() || has_tie(scene, block.name())) continue;

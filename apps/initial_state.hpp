@@ -11,7 +11,8 @@
 namespace ashlar {
 
 /// Settles the blocks that their own supports hold (Simulation::settle_supported_blocks). Warns where that is
-/// none, and of each block that they hold but whose equilibrium was not found (its load buckles it).
+/// none, and of each block that they hold but whose equilibrium was not found (its load buckles it). An
+/// equilibrium that turns a corner of a block inside out is an error: a soft block under a large load.
 /// @return the names of the moving blocks that start as placed: those with a rigid motion left, tied ones,
 /// and those without equilibrium
 std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& simulation,

@@ -36,7 +36,7 @@ struct Assignment {
 std::vector<std::string> parse_path(const std::string& key) {
   std::vector<std::string> path;
   try {
-    const toml::table parsed = toml::parse(key + " = 0");
+    const toml::table parsed = parse_toml(key + " = 0", {});
     const toml::table* table = &parsed;
     while (table) {
       if (table->size() != 1) throw OverrideError(fmt::format("malformed key ({}), one is needed", key));
@@ -60,7 +60,7 @@ std::string quoted(std::string_view text) {
 
 toml::table parse_tree(const std::string& key, std::string_view value, const std::string& origin) {
   try {
-    return toml::parse(fmt::format("{} = {}", key, value), std::string_view(origin));
+    return parse_toml(fmt::format("{} = {}", key, value), origin);
   } catch (const toml::parse_error& error) {
     const std::size_t start = value.find_first_not_of(" \t");
     if (start == std::string_view::npos)
@@ -70,7 +70,7 @@ toml::table parse_tree(const std::string& key, std::string_view value, const std
           fmt::format("malformed value ({}: {}), a TOML value is needed", value, error.description()));
   }
   try {
-    return toml::parse(fmt::format("{} = {}", key, quoted(value)), std::string_view(origin));
+    return parse_toml(fmt::format("{} = {}", key, quoted(value)), origin);
   } catch (const toml::parse_error& error) {
     throw OverrideError(
         fmt::format("malformed value ({}: {}), a TOML value is needed", value, error.description()));

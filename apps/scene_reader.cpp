@@ -159,7 +159,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   const Place start{file.string(), 1, 1};
   scene.places.record("", {start, start});
   try {
-    toml::table document = toml::parse(text, std::string_view(start.origin));
+    toml::table document = parse_toml(text, start.origin);
     apply_overrides(document, overrides, diagnostics);
     TomlReading reading(start.origin, diagnostics, scene.places);
     read_tables(TomlTableReader(reading, document, "", ""), scene);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <vector>
 
@@ -27,7 +29,36 @@ std::string as_text(const toml::node& node) {
   return stream.str();
 }
 
+// Where a run of letters that can stand in a dotted key has too many dots; the end if there is none. Numbers
+// have commas between them.
+std::string_view::const_iterator find_deep_key(std::string_view text) {
+  constexpr int most_parts = 1000;
+  int dots = 0;
+  return std::find_if(text.begin(), text.end(), [&](unsigned char letter) {
+    const bool in_key =
+        std::isalnum(letter) != 0 || letter >= 0x80 ||
+        std::string_view("_-\"' \t").find(static_cast<char>(letter)) != std::string_view::npos;
+    if (letter == '.')
+      ++dots;
+    else if (!in_key)
+      dots = 0;
+    return dots >= most_parts;
+  });
+}
+
 }  // namespace
+
+toml::table parse_toml(std::string_view text, std::string_view origin) {
+  const auto deep = find_deep_key(text);
+  if (deep != text.end()) {
+    const std::string_view before(text.begin(), deep);
+    toml::source_position position;
+    position.line = static_cast<toml::source_index>(1 + std::count(before.begin(), before.end(), '\n'));
+    position.column = static_cast<toml::source_index>(before.size() - (before.rfind('\n') + 1) + 1);
+    throw toml::parse_error("a key of more than 1000 parts", position);
+  }
+  return toml::parse(text, origin);
+}
 
 std::string describe(const toml::node& node) {
   constexpr std::size_t longest_shown = 60;

@@ -51,6 +51,10 @@ class TomlReading {
   std::list<KnownTable> tables_;  // readers keep references
 };
 
+/// Parses a document as toml::parse does. @throws toml::parse_error, also where a dotted key has more than a
+/// thousand parts: every part is a nested table, and the parser's recursion would exhaust the stack
+[[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view origin);
+
 /// A value as shown in a message: short ones as TOML, long ones by their kind.
 [[nodiscard]] std::string describe(const toml::node& node);
 

@@ -89,6 +89,13 @@ TEST(CommandLine, CheckListsEveryFaultAndWritesNothing) {
   EXPECT_EQ(folder.entry_count(), 1u);
 }
 
+TEST(CommandLine, OutputThatCannotBeWrittenIsAFailure) {
+  std::ostringstream out, err;
+  out.setstate(std::ios::badbit);
+  EXPECT_EQ(run_command_line({"verify", "--list"}, out, err), exit_status::failed);
+  EXPECT_EQ(err.str(), "ashlar: error: standard output cannot be written\n");
+}
+
 TEST(CommandLine, RunOfABadSceneEndsWithTwoAndLeavesNoFolder) {
   const TemporaryFolder folder;
   const std::string file = (folder / "s.toml").string();

@@ -10,6 +10,7 @@ namespace ashlar::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -59,6 +60,19 @@ TEST_F(InitialState, ABlockWithoutEquilibriumIsWarnedOf) {
   EXPECT_THAT(printed_, ElementsAre(HasSubstr("warning: young_modulus is small"),
                                     AllOf(StartsWith("--set analysis.initial_state=equilibrium: warning: "),
                                           HasSubstr("was not found for block \"B\""))));
+}
+
+TEST_F(InitialState, ABlockTurnedInsideOutIsRefused) {
+  // Of order 1, without lateral contraction, pressed towards its clamped face: strain -1e5 / E.
+  const auto settle = [&](const char* young_modulus) {
+    return as_placed({"material.rock.poisson_ratio=0", "analysis.gravity=[0, 0, 0]",
+                      "block.B.load.0.traction=[-1e5, 0, 0]",
+                      std::string("material.rock.young_modulus=") + young_modulus});
+  };
+  EXPECT_THAT(settle("1.01e5"), ElementsAre("A"));
+  EXPECT_THAT(settle("0.99e5"), ElementsAre("not built"));
+  EXPECT_THAT(printed_, Contains(StartsWith("--set analysis.initial_state=equilibrium: error: initial_state "
+                                            "(\"equilibrium\") turns block \"B\" inside out")));
 }
 
 TEST_F(InitialState, FixedBlocksAreNotNamed) {

@@ -9,7 +9,9 @@
 namespace ashlar::test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
@@ -278,6 +280,22 @@ TEST(SceneReader, MalformedTomlIsReportedAtItsPlace) {
   EXPECT_THAT(reading_faults("a = 1\na = 2\n"), ElementsAre(StartsWith("s.toml:2:5: error: malformed TOML")));
   EXPECT_THAT(reading_faults("title = \"\xff\""),
               ElementsAre(StartsWith("s.toml:1:9: error: malformed TOML")));
+}
+
+TEST(SceneReader, KeysOfThousandsOfPartsAreRefused) {
+  std::string key = "a";
+  for (int k = 0; k < 200000; ++k) key += ".a";
+  // The thousandth dot stands in column 2000.
+  for (const std::string& text : {key + " = 1", "[" + key + "]", "x = {" + key + " = 1}"})
+    EXPECT_THAT(
+        reading_faults("# comment\n" + text),
+        ElementsAre(AllOf(StartsWith("s.toml:2:20"), HasSubstr("malformed TOML (a key of more than"))));
+  EXPECT_THAT(reading_faults(sample(), {key + "=1"}),
+              ElementsAre(HasSubstr(": error: malformed key (a key of more than 1000 parts)")));
+  // Dots of numbers, as a hull has them.
+  std::string points = "hull = { points = [";
+  for (int k = 0; k < 2000; ++k) points += "[0.5, 1.5, 0.25],";
+  EXPECT_THAT(reading_faults(sample_with(16, points + "] }")), IsEmpty());
 }
 
 TEST(SceneReader, EmptySceneMissesWhatEverySceneNeeds) {
