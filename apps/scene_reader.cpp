@@ -174,12 +174,20 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  Diagnostics& diagnostics) {
-  std::ifstream stream(file, std::ios::binary);
+  std::error_code ignored;
+  std::string reason;
+  if (std::filesystem::is_directory(file, ignored)) reason = "is a folder";
+  // Some devices have no end.
+  if (std::filesystem::is_character_file(file, ignored)) reason = "is a device";
+  std::ifstream stream;
   std::ostringstream text;
-  // An empty file sets failbit on the output stream only; a folder opens but fails to be read.
-  if (stream) text << stream.rdbuf();
-  if (!stream.is_open() || stream.bad() || std::filesystem::is_directory(file)) {
-    const std::string reason = std::filesystem::is_directory(file) ? "is a folder" : std::strerror(errno);
+  if (reason.empty()) {
+    stream.open(file, std::ios::binary);
+    // An empty file sets failbit on the output stream only.
+    if (stream) text << stream.rdbuf();
+    if (!stream.is_open() || stream.bad()) reason = std::strerror(errno);
+  }
+  if (!reason.empty()) {
     diagnostics.error({file.string(), 1, 1},
                       fmt::format("scene file cannot be read ({}), a readable TOML file is needed", reason));
     Scene none;

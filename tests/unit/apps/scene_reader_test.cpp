@@ -341,9 +341,10 @@ TEST(SceneReader, SingleBracketsAreNoListOfTables) {
                   "[[material]], is needed"));
 }
 
-TEST(SceneReader, MissingFileAndFolderAreReported) {
+TEST(SceneReader, MissingFilesFoldersAndDevicesAreReported) {
   const std::filesystem::path folder = ::testing::TempDir();
-  for (const std::filesystem::path& file : {folder / "no-such-scene.toml", folder}) {
+  for (const std::filesystem::path& file :
+       {folder / "no-such-scene.toml", folder, std::filesystem::path("/dev/zero")}) {
     Diagnostics diagnostics;
     (void)read_scene(file, {}, diagnostics);
     EXPECT_THAT(printed(diagnostics),
