@@ -1,6 +1,7 @@
 #include "apps/scene_loading.hpp"
 
 #include "apps/available_features.hpp"
+#include "apps/idle_keys.hpp"
 #include "apps/initial_overlap.hpp"
 #include "apps/scene_checks.hpp"
 #include "apps/scene_reader.hpp"
@@ -18,6 +19,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   check_placement(loaded.scene, solids, diagnostics);
   check_initial_overlap(loaded.scene, solids, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
+  warn_of_idle_keys(loaded.scene, diagnostics);
   warn_of_soft_blocks(loaded.scene, solids, diagnostics);
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;

@@ -21,7 +21,7 @@ struct LoadedScene {
 };
 
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
-/// soft_blocks.hpp.
+/// soft_blocks.hpp, idle_keys.hpp.
 /// @param overrides "key.path=value" each, as given to --set, applied in order.
 /// @return nothing if the scene has any error; all of them are then in diagnostics. Writes no file.
 [[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
