@@ -1,12 +1,14 @@
 #include "apps/run_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <csignal>
 #include <optional>
 #include <ostream>
+#include <string_view>
 
 #include "apps/atomic_file.hpp"
 #include "apps/command_line.hpp"
@@ -24,9 +26,13 @@ namespace {
 constexpr const char* checkpoint_name = "checkpoint";
 
 volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t on_terminal = 0;
 
 extern "C" void on_interrupt(int) {
   interrupted = 1;
+  // A step may take long, and a second Ctrl-C loses what was not saved.
+  constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
+  if (on_terminal != 0) (void)!::write(STDERR_FILENO, note.data(), note.size());
 }
 
 /// Turns an interrupt into a request to stop after the present step; a second one ends the program at once.
@@ -34,6 +40,7 @@ class InterruptGuard {
  public:
   InterruptGuard() {
     interrupted = 0;
+    on_terminal = ::isatty(STDERR_FILENO);
     struct sigaction action {};
     action.sa_handler = on_interrupt;
     action.sa_flags = static_cast<int>(SA_RESETHAND);
