@@ -245,6 +245,38 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
   }
 }
 
+void tell_choices(const BuiltSimulation& built, std::ostream& err) {
+  for (const AutomaticChoice& choice : built.choices)
+    err << fmt::format("chosen: {} = {:.4g} {}\n", choice.key, choice.value, choice.unit);
+  if (!built.as_placed.empty())
+    err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
+                       first_names(built.as_placed));
+}
+
+void tell_end(RunStatus status, const std::string& message, const std::filesystem::path& folder, bool quiet,
+              std::ostream& err) {
+  switch (status) {
+    case RunStatus::failed:
+      err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message, folder.string());
+      break;
+    case RunStatus::not_converged:
+      err << fmt::format("ashlar: error: {}; the last state is in {}\n", message, folder.string());
+      break;
+    case RunStatus::interrupted:
+      err << fmt::format("ashlar: {}; the state is saved in {}, the same command with --resume goes on\n",
+                         message, folder.string());
+      break;
+    case RunStatus::moving:
+      if (!quiet) err << message << '\n';
+      break;
+    case RunStatus::equilibrium:
+      if (!quiet) err << "equilibrium\n";
+      break;
+    case RunStatus::completed:
+      break;
+  }
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options, std::ostream& err) {
@@ -261,28 +293,19 @@ int run_command(const RunOptions& options, std::ostream& err) {
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
   if (earlier) built->simulation.restore(earlier->simulation);
-  if (!options.quiet) {
-    for (const AutomaticChoice& choice : built->choices) {
-      err << fmt::format("chosen: {} = {:.4g} {}\n", choice.key, choice.value, choice.unit);
-    }
-    if (!built->as_placed.empty())
-      err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
-                         first_names(built->as_placed));
-  }
+  if (!options.quiet) tell_choices(*built, err);
   const InterruptGuard guard;
-  Run run(*loaded, std::move(*built), folder, earlier);
-  const RunStatus status = run.go(start, options.quiet, err);
-  if (status == RunStatus::failed) {
-    err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", run.message(),
-                       folder.string());
+  std::optional<Run> started;
+  try {
+    started.emplace(*loaded, std::move(*built), folder, earlier);
+  } catch (const std::exception& error) {
+    // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
+    err << "ashlar: error: " << error.what() << '\n';
+    return exit_status::bad_input;
   }
-  if (status == RunStatus::not_converged)
-    err << fmt::format("ashlar: error: {}; the last state is in {}\n", run.message(), folder.string());
-  if (status == RunStatus::interrupted)
-    err << fmt::format("ashlar: {}; the state is saved in {}, the same command with --resume goes on\n",
-                       run.message(), folder.string());
-  if (status == RunStatus::moving && !options.quiet) err << run.message() << '\n';
-  if (status == RunStatus::equilibrium && !options.quiet) err << "equilibrium\n";
+  Run& run = *started;
+  const RunStatus status = run.go(start, options.quiet, err);
+  tell_end(status, run.message(), folder, options.quiet, err);
   if (options.view) {
     (void)write_view_file(folder, folder / "view.html");
     if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());

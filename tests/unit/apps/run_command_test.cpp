@@ -259,7 +259,7 @@ TEST_F(RunCommand, BadInputLeavesNothingBehind) {
 
 TEST_F(RunCommand, ResultsThatCannotBeWrittenEndTheRunWithTheReason) {
   write_text(folder_ / "file", "in the way");
-  EXPECT_EQ(run("file/out"), exit_status::failed);
+  EXPECT_EQ(run("file/out"), exit_status::bad_input);
   EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: cannot create the result folder "),
                              HasSubstr((folder_ / "file/out").string()), HasSubstr("Not a directory")));
 }
@@ -347,6 +347,17 @@ TEST_F(RunCommand, ResumeNeedsTheCheckpointOfTheSameScene) {
   EXPECT_EQ(run("out", {"--resume"}), exit_status::bad_input);
   EXPECT_THAT(faults_, HasSubstr("checkpoint: error: checkpoint is damaged"));
   EXPECT_EQ(text("out/history.csv"), history);
+}
+
+TEST_F(RunCommand, ResumeNeedsTheTablesOfTheCheckpoint) {
+  ASSERT_EQ(run("out", {"--set", "analysis.end_time=0.005"}), exit_status::done) << faults_;
+  const std::string history = text("out/history.csv");
+  write_text(folder_ / "out/history.csv", history.substr(0, history.rfind("\n4,") + 1));
+  EXPECT_EQ(run("out", {"--resume"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: cannot resume "),
+                             HasSubstr("history.csv: its rows end at step 3, before step 5")));
+  write_text(folder_ / "out/history.csv", history);
+  EXPECT_EQ(run("out", {"--resume"}), exit_status::done) << faults_;
 }
 
 TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
