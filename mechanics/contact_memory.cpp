@@ -8,6 +8,12 @@
 namespace ashlar {
 namespace {
 
+double largest_area_of(const std::vector<ContactMemory::Entry>& entries) {
+  double largest = 0.0;
+  for (const ContactMemory::Entry& entry : entries) largest = std::max(largest, entry.area);
+  return largest;
+}
+
 double area_of(const std::vector<ContactMemory::Entry>& entries) {
   return std::accumulate(entries.begin(), entries.end(), 0.0,
                          [](double sum, const ContactMemory::Entry& entry) { return sum + entry.area; });
@@ -22,13 +28,15 @@ Vector3 turned(const Vector3& vector, const Vector3& normal) {
 
 }  // namespace
 
-ContactMemory::ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held,
-                             double bulge)
+ContactMemory::ContactMemory(std::vector<Entry> entries, std::vector<PressureCut> cuts, double deepest,
+                             const SpringEnergy& held, double bulge)
     : entries_(std::move(entries)),
+      cuts_(std::move(cuts)),
       deepest_(deepest),
       bulge_(bulge),
       held_(held),
-      squared_reach_(area_of(entries_)) {}
+      squared_reach_(area_of(entries_)),
+      largest_area_(largest_area_of(entries_)) {}
 
 ContactMemory::Places ContactMemory::places() const {
   const auto count = static_cast<Eigen::Index>(entries_.size());
@@ -50,10 +58,12 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
           .colwise()
           .squaredNorm()
           .cwiseMin((places.of_b.colwise() - point.material_b).colwise().squaredNorm());
+  constexpr double sliver = 1e-6;  // of the largest area: where such points lie is known badly
   double least_squared = too_far;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const Entry& entry = entries_[k];
     double& squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
+    if (entry.area < sliver * largest_area_) squared_distance = too_far;
     if (same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
                    : entry.normal.dot(point.normal) < least_cosine)
       squared_distance = too_far;
@@ -62,7 +72,7 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
   if (!(least_squared <= squared_reach_)) return std::nullopt;
   // Old points on one place, as on the cut between two cells, are equally far.
   const double blur = 1e-6 * std::sqrt(squared_reach_);
-  const double farthest = 1.1 * (std::sqrt(least_squared) + blur) - blur;
+  const double farthest = 1.5 * (std::sqrt(least_squared) + blur) - blur;
   PointMemory result;
   result.intact = true;
   double sum = 0.0;
@@ -111,23 +121,31 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
 }
 
 void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
-                          double deepest, const SpringEnergy& held, double bulge) {
+                          double deepest, const SpringEnergy& held, double bulge,
+                          std::vector<PressureCut> cuts) {
   entries_.clear();
   entries_.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
     entries_.push_back({points[k].material_a, points[k].material_b, points[k].face_a, points[k].face_b,
                         points[k].normal, points[k].area, memory[k]});
   }
+  cuts_ = std::move(cuts);
   deepest_ = deepest;
   bulge_ = bulge;
   held_ = held;
   squared_reach_ = area_of(entries_);
+  largest_area_ = largest_area_of(entries_);
 }
 
 void ContactMemory::carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved) {
   for (Entry& entry : entries_) {
     Vector3& material = of_a ? entry.material_a : entry.material_b;
     material = moved(material);
+  }
+  for (PressureCut& cut : cuts_) {
+    if (cut.of_a != of_a) continue;
+    cut.start = moved(cut.start);
+    cut.end = moved(cut.end);
   }
 }
 

@@ -1,9 +1,9 @@
 // What contact points remember from step to step: elastic slip, state, multipliers and whether the joint is
 // still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
-// the nearest old one, nearest in the material of both blocks, or from all that are within a tenth as near: a
-// new point in the middle of old ones has their mean, whichever rounding calls the nearest. Where the contact
-// passes on to another face, over an edge that is not sharp, slip goes with it; a bond does not, as new
-// surface is not bonded.
+// the nearest old one, nearest in the material of both blocks, or from all that are within half as near
+// again: a new point in the middle of old ones has their mean, whichever rounding calls the nearest. Where
+// the contact passes on to another face, over an edge that is not sharp, slip goes with it; a bond does not,
+// as new surface is not bonded.
 #pragma once
 
 #include <functional>
@@ -42,8 +42,9 @@ class ContactMemory {
   };
 
   ContactMemory() = default;
-  /// As `entries`, `deepest`, `held` and `bulge` of an earlier one.
-  ContactMemory(std::vector<Entry> entries, double deepest, const SpringEnergy& held, double bulge);
+  /// As `entries`, `cuts`, `deepest`, `held` and `bulge` of an earlier one.
+  ContactMemory(std::vector<Entry> entries, std::vector<PressureCut> cuts, double deepest,
+                const SpringEnergy& held, double bulge);
 
   /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
   /// old points of the same faces, or, if none of those is as near as the whole contact was wide, of any
@@ -55,7 +56,7 @@ class ContactMemory {
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
   /// springs at its end
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
-             const SpringEnergy& held, double bulge = 0.0);
+             const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {});
 
   /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
   void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);
@@ -67,6 +68,7 @@ class ContactMemory {
   /// What the springs held at the end of the last step; nothing where there was no contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
 
  private:
   /// Material coordinates of all entries, (3, #entries).
@@ -75,16 +77,19 @@ class ContactMemory {
     Eigen::Matrix3Xd of_b;
   };
   [[nodiscard]] Places places() const;
-  /// Mean memory of the nearest old points, those within a tenth as near counting the less the farther they
-  /// are; intact where all of them are.
+  /// Mean memory of the nearest old points, those within half as near again counting the less the farther
+  /// they are; intact where all of them are. Slivers, points of less than a millionth of the largest area,
+  /// are not asked.
   [[nodiscard]] std::optional<PointMemory> near(const ContactPoint& point, const Places& places,
                                                 bool same_faces) const;
 
   std::vector<Entry> entries_;
+  std::vector<PressureCut> cuts_;
   double deepest_ = 0.0;
   double bulge_ = 0.0;
   SpringEnergy held_;
   double squared_reach_ = 0.0;  ///< area of all entries, m^2
+  double largest_area_ = 0.0;   ///< of an entry, m^2
 };
 
 }  // namespace ashlar

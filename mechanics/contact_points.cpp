@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "mechanics/overlap_outline.hpp"
 #include "mechanics/quadrature.hpp"
@@ -60,6 +62,11 @@ class CellMap {
   }
   [[nodiscard]] Vector3 placed(const Eigen::Vector2d& place) const {
     return placed_ + placed_slope_ * (place - first_);
+  }
+  /// Where the point of the cell's plane that is nearest to a reference point is seen.
+  [[nodiscard]] Eigen::Vector2d place(const Vector3& reference) const {
+    const Eigen::Matrix2d squares = reference_slope_.transpose() * reference_slope_;
+    return first_ + squares.inverse() * (reference_slope_.transpose() * (reference - reference_));
   }
 
  private:
@@ -154,6 +161,8 @@ class OverlapPoints {
     complete(point);
     return point;
   }
+  /// The map of the cell whose points are carried along.
+  [[nodiscard]] const CellMap& slave() const { return master_is_a_ ? map_b_ : map_a_; }
 
  private:
   const ContactBody& a_;
@@ -169,41 +178,62 @@ bool is_affine(const ContactBody& body) {
   return body.model->fixed() || body.model->order() == 1;
 }
 
-/// Whether pressure may end inside an overlap: neither is all of it pressed, nor is all of it open. What only
-/// touches is taken for such, as rounding may not choose.
-bool partly_open(const std::vector<ContactPoint>& points, double tolerance) {
-  constexpr double nearly_open = 0.05;  // of the deepest
-  const auto [least, most] =
-      std::minmax_element(points.begin(), points.end(),
-                          [](const ContactPoint& x, const ContactPoint& y) { return x.gap < y.gap; });
-  if (least == points.end() || least->gap > tolerance) return false;
-  return least->gap > -tolerance || most->gap > nearly_open * least->gap;
+/// Rounding of gaps, m: of the coordinates they are differences of.
+double gap_rounding(const PlacedSurface& a, const PlacedSurface& b) {
+  double farthest = 0.0;
+  for (const Box& box : {a.box(), b.box()})
+    farthest = std::max({farthest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
+  return 64.0 * std::numeric_limits<double>::epsilon() * farthest;
 }
 
-/// Area springs: a quadrature rule on every cell overlap, between affine blocks a finer one where pressure
-/// ends inside. (Where all is pressed both are exact for them, so that changing from one to the other changes
-/// nothing; blocks of higher order would go to and fro.)
+/// A remembered cut as seen in an overlap. @param slave the map of its cell
+PressureEnd seen(const PressureCut& cut, const CellMap& slave) {
+  const Eigen::Vector2d start = slave.place(cut.start);
+  const Eigen::Vector2d along = slave.place(cut.end) - start;
+  return {start, {-along.y(), along.x()}};
+}
+
+PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool of_a, const CellMap& slave,
+                       double length) {
+  const Eigen::Vector2d along = length * Eigen::Vector2d(end.open.y(), -end.open.x()).normalized();
+  return {overlap.cell_a, overlap.cell_b, of_a, slave.reference(end.point),
+          slave.reference(end.point + along)};
+}
+
+/// Area springs: a quadrature rule on every cell overlap, or on both of its parts where pressure ends inside.
 void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
                       bool master_is_a, const ContactPointSettings& settings,
-                      std::vector<ContactPoint>& points) {
+                      const std::vector<PressureCut>& known, ContactPoints& result) {
   // A uniform pressure acts on every function exactly, however coarse the division is.
   const int degree = std::max({2, a.model->order(), b.model->order()});
-  constexpr int degree_of_kinks = 6;
-  const double tolerance = outline_tolerance(*a.placed, *b.placed);
-  const std::vector<Eigen::Vector2d> outline = outline_of(places_of(overlap), tolerance);
+  const std::vector<Eigen::Vector2d> outline =
+      outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed));
   const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
-  const auto points_of = [&](int exact_to) {
-    const PolygonRule rule = polygon_rule(outline, exact_to);
-    std::vector<ContactPoint> result;
-    result.reserve(rule.points.size());
+  const auto add_points = [&](const PolygonRule& rule, std::vector<ContactPoint>& to) {
     for (std::size_t k = 0; k < rule.points.size(); ++k)
-      result.push_back(make.at_place(rule.points[k], rule.weights[k]));
-    return result;
+      to.push_back(make.at_place(rule.points[k], rule.weights[k]));
   };
-  std::vector<ContactPoint> found = points_of(degree);
-  if (is_affine(a) && is_affine(b) && partly_open(found, tolerance))
-    found = points_of(std::max(degree, degree_of_kinks));
-  points.insert(points.end(), found.begin(), found.end());
+  const PolygonRule whole = polygon_rule(outline, degree);
+  std::vector<ContactPoint> points;
+  add_points(whole, points);
+  std::vector<double> gaps;
+  for (const ContactPoint& point : points) gaps.push_back(point.gap);
+  // Where flat sub-faces of blocks that bend part is not where their pressure ends.
+  const bool true_gaps = settings.curved || (is_affine(a) && is_affine(b));
+  const auto cut = std::find_if(known.begin(), known.end(), [&](const PressureCut& one) {
+    return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
+  });
+  std::optional<PressureEnd> last;
+  if (cut != known.end()) last = seen(*cut, make.slave());
+  const auto end = true_gaps ? end_of_pressure(outline, whole, gaps, gap_rounding(*a.placed, *b.placed), last)
+                             : std::nullopt;
+  if (end) {
+    points.clear();
+    add_points(polygon_rule(part_under_pressure(outline, *end), degree), points);
+    add_points(polygon_rule(part_without_pressure(outline, *end), degree), points);
+    result.cuts.push_back(remembered(*end, overlap, !master_is_a, make.slave(), std::sqrt(area_of(outline))));
+  }
+  result.points.insert(result.points.end(), points.begin(), points.end());
 }
 
 /// Point springs: one at every vertex of the faces' overlap polygon, with an equal share of its area.
@@ -304,20 +334,20 @@ bool first_is_master(const ContactBody& a, const ContactBody& b) {
   return a.model->basis().volume() > equal_volumes * b.model->basis().volume();
 }
 
-std::vector<ContactPoint> contact_points(const ContactBody& a, const ContactBody& b,
-                                         const PairContacts& contacts, const ContactPointSettings& settings) {
-  std::vector<ContactPoint> points;
+ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
+                             const ContactPointSettings& settings, const std::vector<PressureCut>& known) {
+  ContactPoints result;
   const bool master_is_a = first_is_master(a, b);
   if (settings.area_springs) {
     for (const CellOverlap& overlap : contacts.overlaps)
-      add_area_springs(a, b, overlap, master_is_a, settings, points);
+      add_area_springs(a, b, overlap, master_is_a, settings, known, result);
   } else {
     for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
-      add_point_springs(a, b, face, contacts.overlaps, master_is_a, settings, points);
+      add_point_springs(a, b, face, contacts.overlaps, master_is_a, settings, result.points);
   }
-  for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, points);
-  for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, points);
-  return points;
+  for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
+  for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
+  return result;
 }
 
 }  // namespace ashlar

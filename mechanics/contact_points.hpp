@@ -2,10 +2,10 @@
 // and one of block b with the outward unit normal of b's surface between them (theory.md sections 6.4, 6.5
 // and 7).
 //
-// Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells, a
-// finer one between affine blocks where it is in part open: pressure that ends inside has a kink, which the
-// rule for whole contacts would spread over a fifth of the face. Per point (the paper's springs) they are the
-// vertices of the faces' overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a
+// Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells, one
+// on each of its parts where it is in part open (pressure_end.hpp; not where flat sub-faces stand for blocks
+// that bend). Per point (the paper's springs) they are
+// the vertices of the faces' overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a
 // tributary area. With curved surfaces, the point on the master block is the closest one on its true
 // polynomial surface, so that x_a - x_b is along the normal; with flat surfaces both points stay on their
 // sub-face planes.
@@ -17,6 +17,7 @@
 #include "geometry/face_overlap.hpp"
 #include "mechanics/block_model.hpp"
 #include "mechanics/joint_law.hpp"
+#include "mechanics/pressure_end.hpp"
 
 namespace ashlar {
 
@@ -59,9 +60,15 @@ struct ContactPointSettings {
 /// then undivided surfaces, then larger volume by more than rounding; ties go to b.
 [[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
 
-/// All contact points of a pair, in a fixed order.
-[[nodiscard]] std::vector<ContactPoint> contact_points(const ContactBody& a, const ContactBody& b,
-                                                       const PairContacts& contacts,
-                                                       const ContactPointSettings& settings);
+/// Of a pair of blocks.
+struct ContactPoints {
+  std::vector<ContactPoint> points;
+  std::vector<PressureCut> cuts;  ///< of overlaps that are in part open
+};
+
+/// All contact points of a pair, in a fixed order. @param known cuts of the step before
+[[nodiscard]] ContactPoints contact_points(const ContactBody& a, const ContactBody& b,
+                                           const PairContacts& contacts, const ContactPointSettings& settings,
+                                           const std::vector<PressureCut>& known);
 
 }  // namespace ashlar

@@ -122,7 +122,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       const double bulge =
           finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
       memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest,
-                                         ContactPair::energies(after), bulge);
+                                         ContactPair::energies(after), bulge, pair.cuts());
       // Forces that acted: with average-acceleration not those at the end.
       std::vector<PointResponse> acted = after.points;
       for (std::size_t k = 0; k < acted.size(); ++k) acted[k].force = after.means[k].force;

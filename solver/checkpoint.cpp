@@ -29,13 +29,18 @@ static void visit_members(Archive& archive, ContactMemory::Entry& entry) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, PressureCut& cut) {
+  archive(cut.cell_a, cut.cell_b, cut.of_a, cut.start, cut.end);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, SpringEnergy& held) {
   archive(held.normal, held.shear);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, RememberedPair& pair) {
-  archive(pair.blocks, pair.entries, pair.deepest, pair.bulge, pair.held);
+  archive(pair.blocks, pair.entries, pair.cuts, pair.deepest, pair.bulge, pair.held);
 }
 
 template <class Archive>
@@ -160,7 +165,8 @@ SimulationSnapshot Simulation::snapshot() const {
   result.accelerations = accelerations_;
   result.spin_debts = spin_debts_;
   for (const auto& [blocks, memory] : memory_) {
-    result.memory.push_back({blocks, memory.entries(), memory.deepest(), memory.bulge(), memory.held()});
+    result.memory.push_back(
+        {blocks, memory.entries(), memory.cuts(), memory.deepest(), memory.bulge(), memory.held()});
   }
   result.contact_work = contact_work_;
   result.finder = finder_.state();
@@ -206,7 +212,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   spin_debts_ = snapshot.spin_debts;
   memory_.clear();
   for (const RememberedPair& pair : snapshot.memory) {
-    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.deepest, pair.held, pair.bulge));
+    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.cuts, pair.deepest, pair.held, pair.bulge));
   }
   contact_work_ = snapshot.contact_work;
   finder_.restore(snapshot.finder);

@@ -15,6 +15,7 @@ namespace ashlar {
 struct RememberedPair {
   std::array<int, 2> blocks;
   std::vector<ContactMemory::Entry> entries;
+  std::vector<PressureCut> cuts;
   double deepest;  ///< m
   double bulge;    ///< m
   SpringEnergy held;

@@ -115,9 +115,11 @@ Eigen::VectorXd turning_force(Eigen::MatrixX3d position, const Vector3& torque) 
 
 ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
                          const JointLaw& law, const std::vector<ContactPoint>& points,
-                         std::vector<PointMemory> memory)
+                         std::vector<PointMemory> memory, std::vector<PressureCut> cuts)
     : ContactPair(a, b, body_a, body_b, law, points, std::move(memory),
-                  values_at(*body_a.model, points, true), values_at(*body_b.model, points, false), nullptr) {}
+                  values_at(*body_a.model, points, true), values_at(*body_b.model, points, false), nullptr) {
+  cuts_ = std::move(cuts);
+}
 
 ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
                          double stiffness)

@@ -41,9 +41,11 @@ struct PairResponse {
 /// rows_a, Q = rows_b).
 class ContactPair {
  public:
-  /// @param a,b indices of the blocks, used by the solver only
+  /// @param a,b indices of the blocks, used by the solver only. @param cuts that the points come from, to be
+  /// remembered
   ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
-              const std::vector<ContactPoint>& points, std::vector<PointMemory> memory);
+              const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
+              std::vector<PressureCut> cuts = {});
 
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
   /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
@@ -58,6 +60,7 @@ class ContactPair {
   [[nodiscard]] int b() const { return b_; }
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
+  [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
 
   /// Laws of the points at the start of the step.
   [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
@@ -132,6 +135,7 @@ class ContactPair {
   int b_;
   std::vector<ContactPoint> points_;
   std::vector<PointMemory> memory_;
+  std::vector<PressureCut> cuts_ = {};
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;         ///< gap at which each normal spring is at rest, m, <= 0

@@ -228,16 +228,16 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const auto& [a, b] = blocks;
     const ContactBody body_a = body_at_start(a);
     const ContactBody body_b = body_at_start(b);
-    const auto points = contact_points(body_a, body_b, contacts, point_settings);
+    const ContactMemory& known = memory_[blocks];
+    auto [points, cuts] = contact_points(body_a, body_b, contacts, point_settings, known.cuts());
     counts_.contact_points += points.size();
     // Faces that share no area to the last bit are found, but have no points.
     if (points.empty()) continue;
-    const ContactMemory& known = memory_[blocks];
     auto memory = known.recall(
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
-    pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory));
+    pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

@@ -32,6 +32,20 @@ std::array<int, 3> contact_states(const StepReport& report) {
   return {report.open, report.locked, report.sliding};
 }
 
+/// Blocks that slide on each other: nothing between them is locked. Where pressure ends, some points slide
+/// whatever the blocks do.
+std::vector<std::array<int, 2>> sliding_joints(const std::vector<PairRecord>& records) {
+  std::vector<std::array<int, 2>> joints;
+  for (const PairRecord& record : records) {
+    const auto any = [&](ContactState state) {
+      return std::any_of(record.responses.begin(), record.responses.end(),
+                         [&](const PointResponse& response) { return response.state == state; });
+    };
+    if (any(ContactState::sliding) && !any(ContactState::locked)) joints.push_back({record.a, record.b});
+  }
+  return joints;
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
@@ -139,12 +153,13 @@ StaticStatus Simulation::static_step(double end_time) {
       }
     } else {
       const std::array<int, 3> before = contact_states(report_);
+      const std::vector<std::array<int, 2>> slid_before = sliding_joints(records_);
       const bool balanced = note_balance(scheme, trial);
       accept(scheme, trial);
       if (balanced) {
         forget_accelerations();
       } else {
-        note_accelerations(scheme, trial, report_.sliding == 0 || before == contact_states(report_));
+        note_accelerations(scheme, trial, slid_before == sliding_joints(records_));
       }
       report_.step = step;
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);

@@ -72,6 +72,7 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
                         Vector3(0, 0, 1),
                         0.5,
                         {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 26.0}}},
+                      {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}},
                       9,
                       27,
                       {24.0, 25.0}}};
@@ -99,6 +100,10 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.state, ContactState::sliding);
   EXPECT_TRUE(entry.memory.intact);
   EXPECT_EQ(entry.memory.compression, 26.0);
+  ASSERT_EQ(back.memory[0].cuts.size(), 1U);
+  EXPECT_EQ(back.memory[0].cuts[0].cell_b, 29);
+  EXPECT_TRUE(back.memory[0].cuts[0].of_a);
+  EXPECT_EQ(back.memory[0].cuts[0].end, Vector3(33, 34, 35));
   EXPECT_EQ(back.memory[0].deepest, 9.0);
   EXPECT_EQ(back.memory[0].bulge, 27.0);
   EXPECT_EQ(back.memory[0].held.normal, 24.0);

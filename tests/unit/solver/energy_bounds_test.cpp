@@ -28,7 +28,7 @@ ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 
 }
 
 ContactMemory that_held(double normal, double shear = 0.0) {
-  return {{}, 0.0, {normal, shear}, 0.0};
+  return {{}, {}, 0.0, {normal, shear}, 0.0};
 }
 
 std::vector<double> normal_bounds(const std::vector<ContactPair>& pairs, const Memory& memory,
