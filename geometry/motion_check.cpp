@@ -105,34 +105,56 @@ std::optional<double> first_touch(Distance distance_at, double speed, double nea
   return share;
 }
 
-/// Where contacts are known, and between which faces.
+/// Where a contact is known, and between which faces: near both of two points or convex polygons.
 struct KnownPlace {
   int face_a;
   int face_b;
-  Box box;
+  std::array<std::vector<Vector3>, 2> outlines;
 };
 
-std::vector<KnownPlace> places_of(const PlacedSurface& a, const PlacedSurface& b, const PairContacts& known,
-                                  double reach) {
+double distance_to_place(const Vector3& p, const std::vector<Vector3>& outline) {
+  double least = (p - outline[0]).norm();
+  for (std::size_t k = 1; k + 1 < outline.size(); ++k)
+    least = std::min(least, distance_to_triangle(p, {outline[0], outline[k], outline[k + 1]}));
+  return least;
+}
+
+/// Of the segment from `start` to `end`.
+double distance_to_place(const Vector3& start, const Vector3& end, const std::vector<Vector3>& outline) {
+  if (outline.size() == 1) return (closest_on_segment(outline[0], start, end) - outline[0]).norm();
+  double least = std::min(distance_to_place(start, outline), distance_to_place(end, outline));
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vector3& corner = outline[k];
+    const Vector3& next = outline[(k + 1) % outline.size()];
+    const auto [s, t] = nearest_shares(start, end, corner, next);
+    least = std::min(least, (start + s * (end - start) - corner - t * (next - corner)).norm());
+  }
+  return least;
+}
+
+std::vector<KnownPlace> places_of(const PlacedSurface& a, const PlacedSurface& b, const PairContacts& known) {
   std::vector<KnownPlace> places;
   const auto face = [](const PlacedSurface& s, int cell) { return s.surface().cells[at(cell)].face; };
+  const auto corners = [](const PlacedSurface& s, int cell) {
+    std::vector<Vector3> result;
+    for (const int corner : s.surface().cells[at(cell)].corners) result.push_back(s.point(corner));
+    return result;
+  };
   for (const CellOverlap& overlap : known.overlaps) {
-    Box box = a.cell_box(overlap.cell_a);
-    box.low = box.low.cwiseMax(b.cell_box(overlap.cell_b).grown(reach).low);
-    box.high = box.high.cwiseMin(b.cell_box(overlap.cell_b).grown(reach).high);
-    places.push_back({face(a, overlap.cell_a), face(b, overlap.cell_b), box.grown(reach)});
+    places.push_back({face(a, overlap.cell_a),
+                      face(b, overlap.cell_b),
+                      {corners(a, overlap.cell_a), corners(b, overlap.cell_b)}});
   }
   for (const VertexContact& contact : known.vertices) {
     const Vector3& place = contact.vertex_of_a ? a.point(contact.point) : b.point(contact.point);
     const int of_a = contact.vertex_of_a ? contact.own_cell : contact.cell;
     const int of_b = contact.vertex_of_a ? contact.cell : contact.own_cell;
-    places.push_back({face(a, of_a), face(b, of_b), Box{place, place}.grown(reach)});
+    places.push_back({face(a, of_a), face(b, of_b), {{{place}, {place}}}});
   }
   for (const EdgeContact& contact : known.edges) {
     const auto& ends = contact.of_a.ends;
     const Vector3 place = a.point(ends[0]) + contact.of_a.along * (a.point(ends[1]) - a.point(ends[0]));
-    places.push_back(
-        {face(a, contact.of_a.cell), face(b, contact.of_b.cell), Box{place, place}.grown(reach)});
+    places.push_back({face(a, contact.of_a.cell), face(b, contact.of_b.cell), {{{place}, {place}}}});
   }
   return places;
 }
@@ -208,7 +230,7 @@ class MotionCheck {
  public:
   MotionCheck(const MovingSurface& a, const MovingSurface& b, const PairContacts& known,
               const MotionLimits& limits)
-      : a_(a), b_(b), limits_(limits), known_(places_of(*a.start, *b.start, known, limits.reach)) {}
+      : a_(a), b_(b), limits_(limits), known_(places_of(*a.start, *b.start, known)) {}
 
   std::vector<Touch> run() {
     const double near = limits_.tolerance;
@@ -235,13 +257,22 @@ class MotionCheck {
     return result;
   }
 
-  [[nodiscard]] bool is_known(const Feature& of_a, const Feature& of_b) const {
+  /// Whether a known contact of two features is where one of them is at the start or the end of the step.
+  /// @param moved the point or side of surface s among them
+  [[nodiscard]] bool is_known(const Feature& of_a, const Feature& of_b, const Feature& moved,
+                              const MovingSurface& s) const {
     const auto has = [](const std::vector<int>& faces, int face) {
       return std::find(faces.begin(), faces.end(), face) != faces.end();
     };
-    const Box around = swept_box(a_, of_a.points);
+    const Path first = path_of(s, moved.points.front()), last = path_of(s, moved.points.back());
+    const auto is_near = [&](const Vector3& start, const Vector3& end, const KnownPlace& place) {
+      return std::all_of(place.outlines.begin(), place.outlines.end(), [&](const auto& outline) {
+        return distance_to_place(start, end, outline) <= limits_.reach;
+      });
+    };
     return std::any_of(known_.begin(), known_.end(), [&](const KnownPlace& place) {
-      return has(of_a.faces, place.face_a) && has(of_b.faces, place.face_b) && place.box.meets(around);
+      return has(of_a.faces, place.face_a) && has(of_b.faces, place.face_b) &&
+             (is_near(first.at(0.0), last.at(0.0), place) || is_near(first.at(1.0), last.at(1.0), place));
     });
   }
 
@@ -252,7 +283,7 @@ class MotionCheck {
          meeting_boxes(boxes(with_point, points, limits_.tolerance), boxes(with_cell, cells, 0.0))) {
       const Feature& point = points[at(i)];
       const Feature& cell = cells[at(j)];
-      if (point_of_a ? is_known(point, cell) : is_known(cell, point)) continue;
+      if (point_of_a ? is_known(point, cell, point, a_) : is_known(cell, point, point, b_)) continue;
       const Path p = path_of(with_point, point.points[0]);
       const Path first = path_of(with_cell, cell.points[0]);
       for (std::size_t k = 1; k + 1 < cell.points.size(); ++k) {
@@ -298,7 +329,7 @@ class MotionCheck {
   }
 
   void check_sides(const Feature& of_a, const Feature& of_b) {
-    if (is_known(of_a, of_b)) return;
+    if (is_known(of_a, of_b, of_a, a_)) return;
     const std::array<Path, 2> a = {path_of(a_, of_a.points[0]), path_of(a_, of_a.points[1])};
     const std::array<Path, 2> b = {path_of(b_, of_b.points[0]), path_of(b_, of_b.points[1])};
     const auto across = [&](double share) {

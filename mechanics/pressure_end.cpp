@@ -64,7 +64,7 @@ std::optional<PressureEnd> end_of_pressure(const Corners& polygon, const Polygon
                                            const std::vector<double>& gaps, double tolerance,
                                            const std::optional<PressureEnd>& known) {
   if (gaps.empty()) return std::nullopt;
-  constexpr double share = 0.02;
+  constexpr double share = 0.05;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   std::optional<PressureEnd> end;
   Corners pressed = polygon;

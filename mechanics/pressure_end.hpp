@@ -40,7 +40,7 @@ struct PressureCut {
                                                                  const PressureEnd& end);
 
 /// The line at which to cut an overlap: where the affine function nearest to the gaps is 0, if at least half
-/// of how they vary is affine, or the known line if what is under pressure differs by at most a fiftieth of
+/// of how they vary is affine, or the known line if what is under pressure differs by at most a twentieth of
 /// its area; the pressure is wrong by the square of that.
 /// @param polygon the overlap, counter-clockwise. @param rule of the whole overlap. @param gaps at its
 /// points, m. @param tolerance m, gaps within it count as 0: rounding must not cut what is flush

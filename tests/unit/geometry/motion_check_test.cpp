@@ -125,6 +125,35 @@ TEST(MotionCheck, KnownContactsStandForTheirFeatures) {
   EXPECT_FALSE(find_touches(cube.moving(), floor.moving(), {}, limits).empty());
 }
 
+// A plate that leans on one corner falls through the floor: the known contact of that corner stands for none
+// of the others, 1 m away, whichever block comes first and however the scene lies.
+TEST(MotionCheck, KnownContactsStandForNothingFarFromThem) {
+  const Eigen::Quaterniond lean(Eigen::AngleAxisd(0.02, Vector3(1, 1, 0).normalized()));
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.3 * k, Vector3(1, 2, 0.1 * k).normalized()));
+    const Vector3 down = turn * Vector3(0, 0, -0.2);
+    const Polyhedron plate = turned(box({0, 0, 0}, {1, 1, 0.1}), lean, Vector3::Zero());
+    double lowest = 1.0;
+    for (const Vector3& point : plate.mesh().points) lowest = std::min(lowest, point.z());
+    const Mover leaning(turned(plate, turn, turn * Vector3(0, 0, 5e-4 - lowest)), shift(down));
+    const Mover floor(turned(box({-2, -2, -1}, {2, 2, 0}), turn, Vector3::Zero()), shift({0, 0, 0}));
+    for (const bool floor_first : {false, true}) {
+      const Mover& a = floor_first ? floor : leaning;
+      const Mover& b = floor_first ? leaning : floor;
+      const PairContacts known = find_contacts(a.start, b.start, {1e-3, 1e-3, 0.01});
+      ASSERT_EQ(known.vertices.size(), 1U) << k;
+      ASSERT_TRUE(known.overlaps.empty() && known.edges.empty()) << k;
+      std::vector<int> corners;
+      for (const Touch& touch : find_touches(a.moving(), b.moving(), known, limits)) {
+        const auto* vertex = std::get_if<VertexContact>(&touch.contact);
+        if (vertex != nullptr && vertex->vertex_of_a != floor_first) corners.push_back(vertex->point);
+      }
+      EXPECT_EQ(corners.size(), 7U) << k << floor_first;
+      EXPECT_EQ(std::count(corners.begin(), corners.end(), known.vertices[0].point), 0) << k << floor_first;
+    }
+  }
+}
+
 TEST(MotionCheck, RandomFlightsAreCaughtBeforeTheyTouch) {
   // Two cubes fly at each other's centres: a touch must be found, no later than their true first touch, which
   // a fine sampling of their overlap along the axes of the first gives from above.

@@ -73,13 +73,13 @@ TEST(PressureEnd, JointsThatBulgeHaveNoLine) {
 
 TEST(PressureEnd, ACutStaysUntilPressureEndsElsewhere) {
   const PressureEnd known{{0.6, 0.0}, {1.0, 0.0}};
-  // At 0.61 the pressed part, 1.22, differs by 0.02: a sixtieth. At 0.62 it is a thirty-first.
+  // At 0.61 the pressed part, 1.22, differs by 0.02: a sixtieth. At 0.65 it is a thirteenth.
   const auto same = end_of(-0.305, {0.5, 0.0}, known);
   ASSERT_TRUE(same.has_value());
   EXPECT_EQ(same->point, known.point);
-  const auto other = end_of(-0.31, {0.5, 0.0}, known);
+  const auto other = end_of(-0.325, {0.5, 0.0}, known);
   ASSERT_TRUE(other.has_value());
-  EXPECT_NEAR(other->point.x(), 0.62, 1e-14);
+  EXPECT_NEAR(other->point.x(), 0.65, 1e-14);
   // Turned about (0.6, 1) by a tenth: two triangles of 0.05 differ, the pressed area does not.
   const auto turned = end_of(-0.7, {1.0, 0.1}, known);
   ASSERT_TRUE(turned.has_value());
@@ -90,7 +90,7 @@ TEST(PressureEnd, ASliverIsNotCutOff) {
   // Open beyond x = 1.99: a two hundredth of the pressed part. Beyond 1.9 it is a nineteenth.
   EXPECT_FALSE(end_of(-1.99, {1.0, 0.0}).has_value());
   EXPECT_TRUE(end_of(-1.9, {1.0, 0.0}).has_value());
-  // Once cut, it stays cut until all is pressed but a fiftieth.
+  // Once cut, it stays cut until all but a twentieth is pressed.
   const PressureEnd known{{1.98, 0.0}, {1.0, 0.0}};
   EXPECT_TRUE(end_of(-1.99, {1.0, 0.0}, known).has_value());
   const PressureEnd left{{1.8, 0.0}, {1.0, 0.0}};
