@@ -34,37 +34,40 @@ std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std:
                               const std::vector<double>& remembered, double held) {
   const std::size_t count = gaps.size();
   const double target = std::sqrt(2.0 * held);
-  // Root of twice the energy with a share of the remembered rests, and its derivative.
+  std::vector<double> known(count);
+  for (std::size_t k = 0; k < count; ++k) known[k] = std::max(remembered[k], std::min(0.0, gaps[k]));
+  // Root of twice the energy with a share of the known rests, and its derivative.
   const auto root = [&](double share) {
     double squares = 0.0;
     double slope = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
-      const double depth = share * remembered[k] - gaps[k];
+      const double depth = share * known[k] - gaps[k];
       if (!(depth > 0.0)) continue;
       squares += stiffnesses[k] * depth * depth;
-      slope += stiffnesses[k] * depth * remembered[k];
+      slope += stiffnesses[k] * depth * known[k];
     }
     const double value = std::sqrt(squares);
     return std::array{value, value > 0.0 ? slope / value : 0.0};
   };
   std::vector<double> rests(count, 0.0);
-  if (root(1.0)[0] > target) {
-    std::vector<double> lowered(count);
-    for (std::size_t k = 0; k < count; ++k) lowered[k] = gaps[k] - remembered[k];
-    const double below = rest_gap(stiffnesses, lowered, held);
-    for (std::size_t k = 0; k < count; ++k) rests[k] = remembered[k] + below;
-    return rests;
+  if (root(0.0)[0] <= target) return rests;
+  constexpr double less = 1.0 - 1e-9;
+  double share = 1.0;
+  if (root(1.0)[0] < less * target) {
+    // A convex function of the share that falls: Newton's iterates come up to the solution from below.
+    share = 0.0;
+    while (share < 1.0) {
+      const auto [value, slope] = root(share);
+      if (!(value > target) || slope == 0.0) break;
+      const double next = std::min(1.0, share - (value - target) / slope);
+      if (!(next > share)) break;
+      share = next;
+    }
   }
-  // A convex function of the share that falls: Newton's iterates come up to the solution from below.
-  double share = 0.0;
-  while (share < 1.0) {
-    const auto [value, slope] = root(share);
-    if (!(value > target) || slope == 0.0) break;
-    const double next = std::min(1.0, share - (value - target) / slope);
-    if (!(next > share)) break;
-    share = next;
-  }
-  for (std::size_t k = 0; k < count; ++k) rests[k] = share * remembered[k];
+  std::vector<double> lowered(count);
+  for (std::size_t k = 0; k < count; ++k) lowered[k] = gaps[k] - share * known[k];
+  const double below = rest_gap(stiffnesses, lowered, held);
+  for (std::size_t k = 0; k < count; ++k) rests[k] = share * known[k] + below;
   return rests;
 }
 

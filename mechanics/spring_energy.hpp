@@ -29,9 +29,10 @@ inline constexpr SpringEnergy any_spring_energy{std::numeric_limits<double>::inf
 [[nodiscard]] double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double>& gaps,
                               double held);
 
-/// Rests of normal springs that are found anew, m, <= 0: all 0, the surface, if the springs hold at most
-/// `held` then; else a share of the remembered ones, the least that does; else, where these hold too much,
-/// all of them and rest_gap() below.
+/// Rests of normal springs found anew, m, <= 0: all 0, the surface, if they hold at most `held` then; else
+/// the remembered ones, those of springs that are open there at their gaps; of these the least share that
+/// holds at most `held`, or, where they all hold that (to a billionth: rounding must not choose) or more, all
+/// of them and rest_gap() below these.
 /// @param remembered rests <= 0, m, one for each point; others as in rest_gap()
 [[nodiscard]] std::vector<double> rest_gaps(const std::vector<double>& stiffnesses,
                                             const std::vector<double>& gaps,

@@ -61,18 +61,34 @@ TEST(SpringEnergy, RestsAreOnTheSurfaceWhereThatIsNoGain) {
 
 TEST(SpringEnergy, APointFoundDeepStartsWithoutForce) {
   // The first spring held 1/2 J and goes on to; nothing was known at the place of the second one.
-  const std::vector<double> rests = rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 0.5);
-  EXPECT_EQ(rests[0], 0.0);
-  // Its energy is a square: what is below rounding, 1e-16, is 1e-8 m.
-  EXPECT_NEAR(rests[1], -3.0, 2e-8);
+  EXPECT_EQ(rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 0.5), (std::vector<double>{0.0, -3.0}));
+}
+
+TEST(SpringEnergy, ASpringThatIsOpenIsAtRestWhereItIs) {
+  // The second one was known to be open by 3 m; whether the first holds as much as before to the last bit
+  // does not matter.
+  for (const double held : {0.5, 0.5 * (1.0 + 1e-15), 0.5 * (1.0 - 1e-15)}) {
+    const std::vector<double> rests = rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -6.0}, held);
+    EXPECT_NEAR(rests[0], 0.0, 1e-14);
+    EXPECT_NEAR(rests[1], -3.0, 1e-14);
+  }
 }
 
 TEST(SpringEnergy, RestsMoveBackAsFarAsTheEnergyAllows) {
   // With a share s of the remembered rest the second spring is 3 - 3 s deep: 1/2 + 2 (3 - 3 s)^2 J, 5 J at
   // 1/2.
   const std::vector<double> rests = rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 5.0);
-  EXPECT_EQ(rests[0], 0.0);
+  EXPECT_NEAR(rests[0], 0.0, 1e-15);
   EXPECT_NEAR(rests[1], -1.5, 1e-15);
+}
+
+TEST(SpringEnergy, RestsThatHoldWhatTheyHeldStay) {
+  // Both 1 m deep, 5/2 J, again and again: they do not move by the rounding of what they hold.
+  std::vector<double> rests = {-1.0, -2.0};
+  for (int step = 0; step < 100; ++step)
+    rests = rest_gaps({1.0, 4.0}, {-2.0, -3.0}, rests, 2.5 * (1.0 + 1e-16 * (step % 3 - 1)));
+  EXPECT_NEAR(rests[0], -1.0, 1e-13);
+  EXPECT_NEAR(rests[1], -2.0, 1e-13);
 }
 
 TEST(SpringEnergy, RestsGoBelowWhatIsRememberedWhereThatHoldsTooMuch) {
