@@ -219,7 +219,7 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
   std::vector<double> gaps;
   for (const ContactPoint& point : points) gaps.push_back(point.gap);
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
-  const bool true_gaps = settings.curved || (is_affine(a) && is_affine(b));
+  const bool true_gaps = !settings.multipliers && (settings.curved || (is_affine(a) && is_affine(b)));
   const auto cut = std::find_if(known.begin(), known.end(), [&](const PressureCut& one) {
     return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
   });

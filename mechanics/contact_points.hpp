@@ -4,11 +4,11 @@
 //
 // Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells, one
 // on each of its parts where it is in part open (pressure_end.hpp; not where flat sub-faces stand for blocks
-// that bend). Per point (the paper's springs) they are
-// the vertices of the faces' overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a
-// tributary area. With curved surfaces, the point on the master block is the closest one on its true
-// polynomial surface, so that x_a - x_b is along the normal; with flat surfaces both points stay on their
-// sub-face planes.
+// that bend, nor with multipliers). Per point (the paper's springs) they are the vertices of the faces'
+// overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a tributary area. With
+// curved surfaces, the point on the master block is the closest one on its true polynomial surface, so that
+// x_a - x_b is along the normal;
+// with flat surfaces both points stay on their sub-face planes.
 #pragma once
 
 #include <vector>
@@ -51,6 +51,8 @@ struct ContactPoint {
 struct ContactPointSettings {
   bool area_springs = true;
   bool curved = true;
+  /// Multipliers leave next to no gap where they press, which then does not tell where pressure ends.
+  bool multipliers = false;
 };
 
 /// Current positions of a surface's points. @return (#surface.points), m

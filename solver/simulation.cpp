@@ -223,7 +223,8 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
 std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found, bool hold_energy) {
   const Stopwatch watch(seconds_.contact_points);
   std::vector<ContactPair> pairs;
-  const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface};
+  const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface,
+                                            settings_.augmented};
   for (const auto& [blocks, contacts] : found) {
     const auto& [a, b] = blocks;
     const ContactBody body_a = body_at_start(a);
