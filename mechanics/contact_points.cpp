@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "mechanics/overlap_outline.hpp"
@@ -178,14 +177,6 @@ bool is_affine(const ContactBody& body) {
   return body.model->fixed() || body.model->order() == 1;
 }
 
-/// Rounding of gaps, m: of the coordinates they are differences of.
-double gap_rounding(const PlacedSurface& a, const PlacedSurface& b) {
-  double farthest = 0.0;
-  for (const Box& box : {a.box(), b.box()})
-    farthest = std::max({farthest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
-  return 64.0 * std::numeric_limits<double>::epsilon() * farthest;
-}
-
 /// A remembered cut as seen in an overlap. @param slave the map of its cell
 PressureEnd seen(const PressureCut& cut, const CellMap& slave) {
   const Eigen::Vector2d start = slave.place(cut.start);
@@ -200,6 +191,22 @@ PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool 
           slave.reference(end.point + along)};
 }
 
+/// Where an overlap is to be cut, if at all. @param points of the rule on all of it
+std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<Eigen::Vector2d>& outline,
+                                  const PolygonRule& rule, const std::vector<ContactPoint>& points,
+                                  const CellMap& slave, double rounding,
+                                  const std::vector<PressureCut>& known) {
+  std::vector<double> gaps;
+  gaps.reserve(points.size());
+  for (const ContactPoint& point : points) gaps.push_back(point.gap);
+  const auto cut = std::find_if(known.begin(), known.end(), [&](const PressureCut& one) {
+    return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
+  });
+  std::optional<PressureEnd> last;
+  if (cut != known.end()) last = seen(*cut, slave);
+  return end_of_pressure(outline, rule, gaps, rounding, last);
+}
+
 /// Area springs: a quadrature rule on every cell overlap, or on both of its parts where pressure ends inside.
 void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
                       bool master_is_a, const ContactPointSettings& settings,
@@ -209,28 +216,23 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
   const std::vector<Eigen::Vector2d> outline =
       outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed));
   const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
-  const auto add_points = [&](const PolygonRule& rule, std::vector<ContactPoint>& to) {
+  std::vector<ContactPoint> points;
+  const auto add_points = [&](const PolygonRule& rule) {
     for (std::size_t k = 0; k < rule.points.size(); ++k)
-      to.push_back(make.at_place(rule.points[k], rule.weights[k]));
+      points.push_back(make.at_place(rule.points[k], rule.weights[k]));
   };
   const PolygonRule whole = polygon_rule(outline, degree);
-  std::vector<ContactPoint> points;
-  add_points(whole, points);
-  std::vector<double> gaps;
-  for (const ContactPoint& point : points) gaps.push_back(point.gap);
+  add_points(whole);
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
   const bool true_gaps = !settings.multipliers && (settings.curved || (is_affine(a) && is_affine(b)));
-  const auto cut = std::find_if(known.begin(), known.end(), [&](const PressureCut& one) {
-    return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
-  });
-  std::optional<PressureEnd> last;
-  if (cut != known.end()) last = seen(*cut, make.slave());
-  const auto end = true_gaps ? end_of_pressure(outline, whole, gaps, gap_rounding(*a.placed, *b.placed), last)
-                             : std::nullopt;
+  std::optional<PressureEnd> end;
+  if (true_gaps)
+    end = cut_of(overlap, outline, whole, points, make.slave(), coordinate_rounding(*a.placed, *b.placed),
+                 known);
   if (end) {
     points.clear();
-    add_points(polygon_rule(part_under_pressure(outline, *end), degree), points);
-    add_points(polygon_rule(part_without_pressure(outline, *end), degree), points);
+    add_points(polygon_rule(part_under_pressure(outline, *end), degree));
+    add_points(polygon_rule(part_without_pressure(outline, *end), degree));
     result.cuts.push_back(remembered(*end, overlap, !master_is_a, make.slave(), std::sqrt(area_of(outline))));
   }
   result.points.insert(result.points.end(), points.begin(), points.end());

@@ -56,13 +56,16 @@ Vector3 lifted(const CellOverlap& overlap, int corner) {
 
 }  // namespace
 
-double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b) {
-  constexpr double share = 1e-10;
+double coordinate_rounding(const PlacedSurface& a, const PlacedSurface& b) {
   double farthest = 0.0;
   for (const Box& box : {a.box(), b.box()})
     farthest = std::max({farthest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
-  return std::max(share * std::min(a.size(), b.size()),
-                  16.0 * std::numeric_limits<double>::epsilon() * farthest);
+  return 16.0 * std::numeric_limits<double>::epsilon() * farthest;
+}
+
+double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b) {
+  constexpr double share = 1e-10;
+  return std::max(share * std::min(a.size(), b.size()), coordinate_rounding(a, b));
 }
 
 std::vector<Eigen::Vector2d> places_of(const CellOverlap& overlap) {

@@ -10,8 +10,12 @@
 
 namespace ashlar {
 
+/// Rounding of the bodies' coordinates and of differences of them, m: 16 units in the last place of the
+/// farthest from the origin.
+[[nodiscard]] double coordinate_rounding(const PlacedSurface& a, const PlacedSurface& b);
+
 /// How far corners may be off by rounding, m: 1e-10 of the smaller body's size (PlacedSurface::size), and
-/// never less than the rounding of its coordinates.
+/// never less than coordinate_rounding().
 [[nodiscard]] double outline_tolerance(const PlacedSurface& a, const PlacedSurface& b);
 
 /// Corners of an overlap, in order, in its frame.

@@ -38,6 +38,7 @@ TEST(OverlapOutline, TheToleranceIsOfTheSmallerBodyAndOfCoordinates) {
   EXPECT_NEAR(outline_tolerance(small.placed, large.placed), 1.3e-10, 1e-20);
   const Body far(box({1e6, 0, 0}, {1e6 + 1, 1, 1}));
   EXPECT_NEAR(outline_tolerance(far.placed, far.placed), 16.0 * 0x1p-52 * (1e6 + 1), 1e-22);
+  EXPECT_EQ(coordinate_rounding(far.placed, far.placed), outline_tolerance(far.placed, far.placed));
 }
 
 struct Whole {
