@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <set>
+#include <span>
 
 #include "geometry/box_pairs.hpp"
 
@@ -329,7 +331,7 @@ class MotionCheck {
   }
 
   void check_sides(const Feature& of_a, const Feature& of_b) {
-    if (is_known(of_a, of_b, of_a, a_)) return;
+    if (is_known(of_a, of_b, of_a, a_) && is_known(of_a, of_b, of_b, b_)) return;
     const std::array<Path, 2> a = {path_of(a_, of_a.points[0]), path_of(a_, of_a.points[1])};
     const std::array<Path, 2> b = {path_of(b_, of_b.points[0]), path_of(b_, of_b.points[1])};
     const auto across = [&](double share) {

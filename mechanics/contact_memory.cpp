@@ -74,8 +74,8 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
   const double blur = 1e-6 * std::sqrt(squared_reach_);
   const double farthest = 1.5 * (std::sqrt(least_squared) + blur) - blur;
   PointMemory result;
-  result.intact = true;
   double sum = 0.0;
+  double intact = 0.0;
   double most = 0.0;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const double squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
@@ -90,8 +90,10 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
     result.compression += weight * memory.compression;
     result.normal_multiplier += weight * memory.normal_multiplier;
     result.shear_multiplier += weight * memory.shear_multiplier;
-    result.intact = result.intact && memory.intact;
+    if (memory.intact) intact += weight;
   }
+  // A bond halfway between a whole and a broken one is broken, whatever rounding says.
+  result.intact = intact > (0.5 + 1e-6) * sum;
   result.slip /= sum;
   result.compression /= sum;
   result.normal_multiplier /= sum;

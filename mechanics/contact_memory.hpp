@@ -78,7 +78,7 @@ class ContactMemory {
   };
   [[nodiscard]] Places places() const;
   /// Mean memory of the nearest old points, those within half as near again counting the less the farther
-  /// they are; intact where all of them are. Slivers, points of less than a millionth of the largest area,
+  /// they are; intact where most of it is. Slivers, points of less than a millionth of the largest area,
   /// are not asked.
   [[nodiscard]] std::optional<PointMemory> near(const ContactPoint& point, const Places& places,
                                                 bool same_faces) const;

@@ -94,7 +94,11 @@ TEST(ContactMemory, APointInTheMiddleOfOthersHasTheirMean) {
     const PointMemory mean = memory.recall({point_at(middle, middle, 7, {0, 0, 1})}, never)[0];
     EXPECT_LT((mean.slip - Vector3(0, 3e-6, 0)).norm(), 1e-16) << off;
     EXPECT_NEAR(mean.compression, 1.5e-6, 1e-16) << off;
-    EXPECT_FALSE(mean.intact);
+    EXPECT_TRUE(mean.intact);
+    // A crack that has taken half of them has reached the middle.
+    memories[2].intact = false;
+    memory.store(points, memories, 0.0, {});
+    EXPECT_FALSE(memory.recall({point_at(middle, middle, 7, {0, 0, 1})}, never)[0].intact) << off;
   }
 }
 
