@@ -65,13 +65,14 @@ std::optional<PressureEnd> end_of_pressure(const Corners& polygon, const Polygon
                                            const std::optional<PressureEnd>& known) {
   if (gaps.empty()) return std::nullopt;
   constexpr double share = 0.05;
-  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  const double least = *std::min_element(gaps.begin(), gaps.end());
+  const double most = *std::max_element(gaps.begin(), gaps.end());
   std::optional<PressureEnd> end;
   Corners pressed = polygon;
-  if (*least<-tolerance&& * most> tolerance) {
+  if (least < -tolerance && most > tolerance) {
     end = zero_line(rule, gaps);
     if (end) pressed = part_under_pressure(polygon, *end);
-  } else if (*most > tolerance) {
+  } else if (most > tolerance) {
     pressed.clear();
   }
   const Corners known_pressed = known ? part_under_pressure(polygon, *known) : polygon;

@@ -52,22 +52,23 @@ std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std:
   std::vector<double> rests(count, 0.0);
   if (root(0.0)[0] <= target) return rests;
   constexpr double less = 1.0 - 1e-9;
-  double share = 1.0;
-  if (root(1.0)[0] < less * target) {
-    // A convex function of the share that falls: Newton's iterates come up to the solution from below.
-    share = 0.0;
-    while (share < 1.0) {
-      const auto [value, slope] = root(share);
-      if (!(value > target) || slope == 0.0) break;
-      const double next = std::min(1.0, share - (value - target) / slope);
-      if (!(next > share)) break;
-      share = next;
-    }
+  if (!(root(1.0)[0] < less * target)) {
+    std::vector<double> lowered(count);
+    for (std::size_t k = 0; k < count; ++k) lowered[k] = gaps[k] - known[k];
+    const double below = rest_gap(stiffnesses, lowered, held);
+    for (std::size_t k = 0; k < count; ++k) rests[k] = known[k] + below;
+    return rests;
   }
-  std::vector<double> lowered(count);
-  for (std::size_t k = 0; k < count; ++k) lowered[k] = gaps[k] - share * known[k];
-  const double below = rest_gap(stiffnesses, lowered, held);
-  for (std::size_t k = 0; k < count; ++k) rests[k] = share * known[k] + below;
+  // A convex function of the share that falls: Newton's iterates come up to the solution from below.
+  double share = 0.0;
+  while (share < 1.0) {
+    const auto [value, slope] = root(share);
+    if (!(value > target) || slope == 0.0) break;
+    const double next = std::min(1.0, share - (value - target) / slope);
+    if (!(next > share)) break;
+    share = next;
+  }
+  for (std::size_t k = 0; k < count; ++k) rests[k] = share * known[k];
   return rests;
 }
 

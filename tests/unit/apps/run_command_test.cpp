@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "support/temporary_folder.hpp"
+#include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
 namespace {
@@ -28,98 +28,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
-
-// A cube of 450 kg set on a clamped beam with 0.5 m/s: springs of 1.25e7 N/m throw it back after some 19 ms.
-constexpr const char* scene_text = R"(title = "test"
-[analysis]
-end_time = 0.04
-time_step = 1e-3
-[contact]
-normal_stiffness = 5e7
-shear_stiffness = 5e7
-friction_angle = 30
-[[material]]
-name = "rock"
-density = 3600
-young_modulus = 5e8
-poisson_ratio = 0.2
-[[block]]
-name = "A"
-material = "rock"
-box = { min = [3.0, -0.25, 0.5], max = [3.5, 0.25, 1.0] }
-velocity = [0.1, 0, -0.5]
-[[block]]
-name = "B"
-material = "rock"
-order = 2
-box = { min = [0, -0.5, -0.5], max = [4, 0.5, 0.5] }
-[[block.fix]]
-plane = { point = [0, 0, 0], normal = [-1, 0, 0] }
-[[measure]]
-name = "tip"
-block = "B"
-point = [4, 0, 0]
-[output]
-every = 10
-)";
-
-class RunCommand : public ::testing::Test {
- protected:
-  RunCommand() { write_text(scene_, scene_text); }
-
-  /// Runs into the folder `out` of the test's own folder. @return exit status
-  int run(const std::string& out, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {"run", scene_.string(), "--out", (folder_ / out).string(),
-                                          "--quiet"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return command(std::move(arguments));
-  }
-
-  int command(std::vector<std::string> arguments) {
-    std::ostringstream out;
-    std::ostringstream err;
-    const int status = run_command_line(std::move(arguments), out, err);
-    printed_ = out.str();
-    faults_ = err.str();
-    return status;
-  }
-
-  [[nodiscard]] std::string text(const std::string& path) const { return read_text(folder_ / path); }
-
-  [[nodiscard]] std::vector<std::string> lines(const std::string& path) const {
-    std::istringstream input(text(path));
-    std::vector<std::string> result;
-    for (std::string line; std::getline(input, line);) result.push_back(line);
-    return result;
-  }
-
-  /// Names of the files in a folder, sorted.
-  [[nodiscard]] std::vector<std::string> files(const std::string& path) const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / path)) {
-      names.push_back(entry.path().filename().string());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  /// Everything but what is measured in wall time.
-  void expect_same_results(const std::string& a, const std::string& b) const {
-    for (const char* file : {"history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd"}) {
-      EXPECT_EQ(text(a + "/" + file), text(b + "/" + file)) << file;
-    }
-    const std::string frames_a = a + "/frames/", frames_b = b + "/frames/";
-    ASSERT_EQ(files(frames_a), files(frames_b));
-    for (const std::string& frame : files(frames_a)) {
-      EXPECT_TRUE(text(frames_a + frame) == text(frames_b + frame)) << frame;
-    }
-  }
-
-  TemporaryFolder folder_;
-  std::filesystem::path scene_ = folder_ / "s.toml";
-  std::string printed_;
-  std::string faults_;
-};
 
 TEST_F(RunCommand, WritesTheResultFolder) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
@@ -393,103 +301,6 @@ TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
     expect_same_results("straight", name);
   }
 }
-
-constexpr const char* static_scene_text = R"(title = "static"
-[analysis]
-type = "static"
-end_time = 1
-time_step = 1e-2
-[contact]
-friction_angle = 31
-[[material]]
-name = "rock"
-density = 2700
-young_modulus = 1e10
-poisson_ratio = 0.2
-[[block]]
-name = "slope"
-fixed = true
-box = { min = [-6, -2, -1], max = [2, 2, 0] }
-rotate = { axis = [0, -1, 0], angle = 30 }
-[[block]]
-name = "stone"
-material = "rock"
-box = { min = [-0.5, -0.5, 0], max = [0.5, 0.5, 1] }
-rotate = { axis = [0, -1, 0], angle = 30 }
-)";
-
-TEST_F(RunCommand, StaticAnalysisEndsInEquilibrium) {
-  write_text(scene_, static_scene_text);
-  ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
-  ASSERT_EQ(run("out", {"--resume"}), exit_status::done) << faults_;
-  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
-}
-
-TEST_F(RunCommand, StaticAnalysisOfConstantLoadsNeedsNoTimes) {
-  std::string scene = static_scene_text;
-  scene.erase(scene.find("end_time"), std::string("end_time = 1\ntime_step = 1e-2\n").size());
-  write_text(scene_, scene);
-  ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
-}
-
-TEST_F(RunCommand, StaticAnalysisNamesWhatMoves) {
-  write_text(scene_, static_scene_text);
-  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--set",
-                     "contact.friction_angle=20"}),
-            exit_status::done)
-      << faults_;
-  EXPECT_THAT(faults_, HasSubstr("no equilibrium: block stone moves, acceleration [-1.5"));
-  const auto summary = nlohmann::json::parse(text("out/summary.json"));
-  EXPECT_EQ(summary["status"], "moving");
-  ASSERT_EQ(summary["moving"].size(), 1U);
-  EXPECT_EQ(summary["moving"][0]["block"], "stone");
-  // g (sin 30 - cos 30 tan 20) cos 30 down the slope, towards -x
-  EXPECT_NEAR(summary["moving"][0]["acceleration"][0], -1.56994, 2e-3);
-}
-
-TEST_F(RunCommand, StaticAnalysisThatDoesNotConvergeFailsAndKeepsItsLastState) {
-  write_text(scene_, static_scene_text);
-  // Springs that make the numbers of the system overflow.
-  EXPECT_EQ(run("out", {"--set", "contact.normal_stiffness=1e300"}), exit_status::failed);
-  EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: no equilibrium was found"),
-                             HasSubstr("the last state is in " + (folder_ / "out").string())));
-  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "not converged");
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint"));
-}
-
-TEST_F(RunCommand, StaticAnalysisRefusesABlockThatNothingHolds) {
-  write_text(scene_, static_scene_text);
-  EXPECT_EQ(run("out", {"--set", "block.stone.translate=[0,0,0.5]"}), exit_status::bad_input);
-  EXPECT_THAT(faults_, AllOf(HasSubstr("block stone has no contact"), HasSubstr("any rigid motion")));
-}
-
-TEST_F(RunCommand, CheckNamesWhatAStaticAnalysisCannotHold) {
-  // Two points on the x axis: the beam may turn about it.
-  write_text(scene_, R"([analysis]
-type = "static"
-end_time = 1
-time_step = 1
-[[material]]
-name = "rock"
-density = 2700
-young_modulus = 1e10
-poisson_ratio = 0.2
-[[block]]
-name = "beam"
-material = "rock"
-box = { min = [0, 0, 0], max = [4, 1, 1] }
-[[block.fix]]
-point = [0, 0, 0]
-[[block.fix]]
-point = [4, 0, 0]
-)");
-  EXPECT_EQ(command({"check", scene_.string()}), exit_status::bad_input);
-  EXPECT_THAT(faults_, AllOf(HasSubstr(":10:1: error: block beam has no contact"),
-                             HasSubstr("rotation about [1, 0, 0] through [2, 0, 0]")));
-}
-
 TEST_F(RunCommand, OrderThatAShapeDoesNotBearIsRefusedWithTheHighestThatItDoes) {
   write_text(folder_ / "ell.off", R"(OFF
 12 8 0

@@ -126,7 +126,7 @@ TEST(MotionCheck, KnownContactsStandForTheirFeatures) {
 }
 
 // A plate that leans on one corner falls through the floor: the known contact of that corner stands for none
-// of the others, 1 m away, whichever block comes first and however the scene lies.
+// of the seven others, 0.1 m away or more, whichever block comes first and however the scene lies.
 TEST(MotionCheck, KnownContactsStandForNothingFarFromThem) {
   const Eigen::Quaterniond lean(Eigen::AngleAxisd(0.02, Vector3(1, 1, 0).normalized()));
   for (int k = 0; k < 20; ++k) {

@@ -78,7 +78,7 @@ TEST(SpringEnergy, RestsMoveBackAsFarAsTheEnergyAllows) {
   // With a share s of the remembered rest the second spring is 3 - 3 s deep: 1/2 + 2 (3 - 3 s)^2 J, 5 J at
   // 1/2.
   const std::vector<double> rests = rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 5.0);
-  EXPECT_NEAR(rests[0], 0.0, 1e-15);
+  EXPECT_EQ(rests[0], 0.0);
   EXPECT_NEAR(rests[1], -1.5, 1e-15);
 }
 

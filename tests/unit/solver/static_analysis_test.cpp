@@ -162,7 +162,7 @@ TEST(StaticAnalysis, TallBlockTopples) {
   const double soft = excess(1e11);
   const double stiff = excess(1e13);
   const double stiffest = excess(1e15);
-  EXPECT_LT(soft, 0.06);
+  EXPECT_LT(soft, 0.05);
   EXPECT_LT(stiff, 0.01);
   EXPECT_LT(stiffest, 0.002);
   EXPECT_GT(soft, stiff);

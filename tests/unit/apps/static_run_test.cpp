@@ -1,0 +1,116 @@
+// `ashlar run` and `ashlar check` of static analyses.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/run_command.hpp"
+#include "unit/apps/run_fixture.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class StaticRun : public RunCommand {};
+
+constexpr const char* static_scene_text = R"(title = "static"
+[analysis]
+type = "static"
+end_time = 1
+time_step = 1e-2
+[contact]
+friction_angle = 31
+[[material]]
+name = "rock"
+density = 2700
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "slope"
+fixed = true
+box = { min = [-6, -2, -1], max = [2, 2, 0] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+[[block]]
+name = "stone"
+material = "rock"
+box = { min = [-0.5, -0.5, 0], max = [0.5, 0.5, 1] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+)";
+
+TEST_F(StaticRun, EndsInEquilibrium) {
+  write_text(scene_, static_scene_text);
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+  ASSERT_EQ(run("out", {"--resume"}), exit_status::done) << faults_;
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+}
+
+TEST_F(StaticRun, NeedsNoTimesWithConstantLoads) {
+  std::string scene = static_scene_text;
+  scene.erase(scene.find("end_time"), std::string("end_time = 1\ntime_step = 1e-2\n").size());
+  write_text(scene_, scene);
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
+}
+
+TEST_F(StaticRun, NamesWhatMoves) {
+  write_text(scene_, static_scene_text);
+  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string(), "--set",
+                     "contact.friction_angle=20"}),
+            exit_status::done)
+      << faults_;
+  EXPECT_THAT(faults_, HasSubstr("no equilibrium: block stone moves, acceleration [-1.5"));
+  const auto summary = nlohmann::json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "moving");
+  ASSERT_EQ(summary["moving"].size(), 1U);
+  EXPECT_EQ(summary["moving"][0]["block"], "stone");
+  // g (sin 30 - cos 30 tan 20) cos 30 down the slope, towards -x
+  EXPECT_NEAR(summary["moving"][0]["acceleration"][0], -1.56994, 2e-3);
+}
+
+TEST_F(StaticRun, FailsWhereItDoesNotConvergeAndKeepsItsLastState) {
+  write_text(scene_, static_scene_text);
+  // Springs that make the numbers of the system overflow.
+  EXPECT_EQ(run("out", {"--set", "contact.normal_stiffness=1e300"}), exit_status::failed);
+  EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: no equilibrium was found"),
+                             HasSubstr("the last state is in " + (folder_ / "out").string())));
+  EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "not converged");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint"));
+}
+
+TEST_F(StaticRun, RefusesABlockThatNothingHolds) {
+  write_text(scene_, static_scene_text);
+  EXPECT_EQ(run("out", {"--set", "block.stone.translate=[0,0,0.5]"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(HasSubstr("block stone has no contact"), HasSubstr("any rigid motion")));
+}
+
+TEST_F(StaticRun, CheckNamesWhatAStaticAnalysisCannotHold) {
+  // Two points on the x axis: the beam may turn about it.
+  write_text(scene_, R"([analysis]
+type = "static"
+end_time = 1
+time_step = 1
+[[material]]
+name = "rock"
+density = 2700
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "beam"
+material = "rock"
+box = { min = [0, 0, 0], max = [4, 1, 1] }
+[[block.fix]]
+point = [0, 0, 0]
+[[block.fix]]
+point = [4, 0, 0]
+)");
+  EXPECT_EQ(command({"check", scene_.string()}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(HasSubstr(":10:1: error: block beam has no contact"),
+                             HasSubstr("rotation about [1, 0, 0] through [2, 0, 0]")));
+}
+
+}  // namespace
+}  // namespace ashlar
