@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
 #include "apps/scene_json.hpp"
+#include "geometry/hull_solid.hpp"
 #include "geometry/mesh_io.hpp"
 #include "geometry/shapes.hpp"
 
@@ -59,6 +61,15 @@ std::vector<Vector3> turned_points(std::vector<Vector3> points, double scale, co
   return points;
 }
 
+// What given coordinates are known to, m: they may have been turned before, in double precision and some
+// operations, by whoever wrote them.
+double resolution_of(const std::vector<Vector3>& points) {
+  constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
+  double largest = 0.0;
+  for (const Vector3& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  return std::isfinite(largest) ? share * largest : 0.0;
+}
+
 // A shape that bounds no solid, with the whole message.
 struct ShapeError : std::runtime_error {
   using runtime_error::runtime_error;
@@ -82,7 +93,9 @@ std::string describe_defects(const MeshError& error) {
 Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
   const std::filesystem::path file = scene.file.parent_path() / shape.file;
   try {
-    return Polyhedron(read_mesh(file));
+    TriangleMesh mesh = read_mesh(file);
+    const double resolution = resolution_of(mesh.points);
+    return Polyhedron(std::move(mesh), resolution);
   } catch (const MeshFileError& error) {
     const std::string place = to_string(Place{file.string(), error.line(), error.column()});
     throw ShapeError(
@@ -103,7 +116,9 @@ struct SolidBuilder {
   Polyhedron operator()(std::monostate) const { throw std::logic_error("block without a shape"); }
   Polyhedron operator()(const SceneBox& box) const { return Polyhedron(make_box(box.min, box.max)); }
   Polyhedron operator()(const SceneMesh& mesh) const { return build_mesh_solid(scene, mesh); }
-  Polyhedron operator()(const SceneHull& hull) const { return Polyhedron(make_convex_hull(hull.points)); }
+  Polyhedron operator()(const SceneHull& hull) const {
+    return make_hull_solid(hull.points, resolution_of(hull.points));
+  }
   Polyhedron operator()(const SceneSphere& sphere) const {
     return Polyhedron(make_sphere(sphere.center, sphere.radius, sphere.subdivisions));
   }

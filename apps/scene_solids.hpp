@@ -12,10 +12,11 @@
 
 namespace ashlar {
 
-/// Builds and places the shape of every block, in the scene's order. Faces are merged before placing, where
-/// they are exactly flat, so a rotated box still has six. Without rotate a box keeps exactly its corners
-/// (plus translate); turns by multiples of 90 degrees about a coordinate axis have an exact rotation matrix.
-/// A shape that bounds no solid is reported at its key, a mesh with its file and the faulty elements, and
+/// Builds and places the shape of every block, in the scene's order. Faces are merged before placing: where
+/// they are exactly flat, of meshes and hulls also where they are flat to 2^-46 of the largest coordinate
+/// (1.4e-14), so that a rotated box still has six. Without rotate a box keeps exactly its corners (plus
+/// translate); turns by multiples of 90 degrees about a coordinate axis have an exact rotation matrix. A
+/// shape that bounds no solid is reported at its key, a mesh with its file and the faulty elements, and
 /// leaves an empty entry. Equal shapes are built once.
 /// @param shapes if given, (#blocks): each solid as it was before translate, shared by equal ones; null where
 /// the solid is empty

@@ -10,26 +10,10 @@
 #include "geometry/exact_surface.hpp"
 #include "geometry/mesh_edges.hpp"
 #include "geometry/self_intersection.hpp"
+#include "geometry/union_find.hpp"
 
 namespace ashlar {
 namespace {
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The smaller root wins, so a root is the first member of its set.
-  void unite(int i, int j) {
-    const auto [low, high] = std::minmax({find(i), find(j)});
-    parent_[high] = low;
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 class DefectSearch {
  public:

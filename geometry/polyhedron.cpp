@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +12,10 @@
 
 #include "geometry/contact_direction.hpp"
 #include "geometry/exact_surface.hpp"
+#include "geometry/flat_regions.hpp"
 #include "geometry/mesh_edges.hpp"
 #include "geometry/rounding_mode.hpp"
+#include "geometry/union_find.hpp"
 
 namespace ashlar {
 namespace {
@@ -23,9 +26,13 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // the faces are the connected sets of triangles between sharp edges. The flat fans at a point with two sharp
 // edges lie in two planes whose common line carries both edges: such a point is inside a straight side. One
 // sharp edge alone cannot end at a point, so corners are the points with three or more.
+//
+// At a resolution, where that makes any difference, flat_regions() says which edges are flat, bends are those
+// between the faces' planes, and points off a straight side are corners too.
 class FaceBuilder {
  public:
-  FaceBuilder(const TriangleMesh& mesh, const std::vector<int>& twins) : mesh_(mesh), twins_(twins) {}
+  FaceBuilder(const TriangleMesh& mesh, const std::vector<int>& twins, double resolution)
+      : mesh_(mesh), twins_(twins), resolution_(resolution) {}
 
   void build() {
     bend_.assign(twins_.size(), CGAL::ZERO);
@@ -33,8 +40,10 @@ class FaceBuilder {
       const NearestRounding nearest;
       find_bends();
     }
-    find_sharp_edges();
+    if (resolution_ > 0.0) flatten_regions();
     collect_faces();
+    if (rounded_) find_bends_of_faces();
+    find_sharp_edges();
     collect_edges();
     for (PolyhedronFace& face : faces) finish_face(face);
   }
@@ -48,19 +57,54 @@ class FaceBuilder {
  private:
   [[nodiscard]] int start(int h) const { return origin(mesh_.triangles, h); }
   [[nodiscard]] bool is_sharp(int h) const { return bend_[h] != CGAL::ZERO; }
-  [[nodiscard]] bool is_corner(int v) const { return sharp_degree_[v] > 2; }
+  [[nodiscard]] bool is_corner(int v) const { return is_corner_[v]; }
 
   void find_sharp_edges() {
-    sharp_degree_.assign(mesh_.points.size(), 0);
+    std::vector<std::vector<int>> sharp_neighbours(mesh_.points.size());
     for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
       const int twin = twins_[h];
       if (twin < h || !is_sharp(h)) continue;
       convex = convex && bend_[h] == CGAL::NEGATIVE;
-      ++sharp_degree_[start(h)];
-      ++sharp_degree_[start(twin)];
+      sharp_neighbours[start(h)].push_back(start(twin));
+      sharp_neighbours[start(twin)].push_back(start(h));
     }
+    is_corner_.assign(mesh_.points.size(), false);
     for (int v = 0; v < static_cast<int>(mesh_.points.size()); ++v) {
-      if (is_corner(v)) corners.push_back(v);
+      const std::vector<int>& ends = sharp_neighbours[v];
+      is_corner_[v] = ends.size() > 2 ||
+                      (rounded_ && ends.size() == 2 && distance_from_line(v, ends[0], ends[1]) > resolution_);
+      if (is_corner_[v]) corners.push_back(v);
+    }
+  }
+
+  [[nodiscard]] double distance_from_line(int v, int from, int to) const {
+    const std::vector<Vector3>& x = mesh_.points;
+    return (x[v] - x[from]).cross((x[to] - x[from]).stableNormalized()).norm();
+  }
+
+  /// Edges within a region are flat, and those that are flat to the last bit unite regions.
+  void flatten_regions() {
+    const std::vector<int> regions = flat_regions(mesh_, twins_, resolution_);
+    UnionFind united(mesh_.triangles.size());
+    const auto region = [&](int h) { return united.find(regions[h / 3]); };
+    for (int h = 0; h < static_cast<int>(twins_.size()); ++h)
+      if (!is_sharp(h)) united.unite(region(h), region(twins_[h]));
+    for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
+      if (!is_sharp(h) || region(h) != region(twins_[h])) continue;
+      bend_[h] = bend_[twins_[h]] = CGAL::ZERO;
+      rounded_ = true;
+    }
+  }
+
+  /// Of sharp edges, by the planes of their faces.
+  void find_bends_of_faces() {
+    for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
+      if (twins_[h] < h || !is_sharp(h)) continue;
+      const Vector3 along = mesh_.points[start(twins_[h])] - mesh_.points[start(h)];
+      const Vector3& left = faces[face_of_triangle[h / 3]].normal;
+      const Vector3& right = faces[face_of_triangle[twins_[h] / 3]].normal;
+      const double turn = left.cross(right).dot(along);
+      if (turn != 0.0) bend_[h] = bend_[twins_[h]] = turn > 0.0 ? CGAL::NEGATIVE : CGAL::POSITIVE;
     }
   }
 
@@ -100,6 +144,7 @@ class FaceBuilder {
         }
       }
       std::sort(face.triangles.begin(), face.triangles.end());
+      face.normal = area_direction(mesh_, face.triangles);
     }
   }
 
@@ -124,7 +169,6 @@ class FaceBuilder {
   }
 
   void finish_face(PolyhedronFace& face) {
-    face.normal = area_direction(mesh_, face.triangles);
     for (const int t : face.triangles) {
       for (int h = 3 * t; h < 3 * t + 3; ++h) {
         if (is_sharp(h) && is_corner(start(h)) && !visited(h)) trace_loop(h, face.loops);
@@ -192,16 +236,21 @@ class FaceBuilder {
     };
     const CGAL::Orientation reflex = normal[axis] > 0.0 ? CGAL::CLOCKWISE : CGAL::COUNTERCLOCKWISE;
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      if (CGAL::orientation(point(i), point(i + 1), point(i + 2)) == reflex) return false;
+      if (CGAL::orientation(point(i), point(i + 1), point(i + 2)) != reflex) continue;
+      const auto corner = [&](std::size_t k) { return loop[k % loop.size()]; };
+      if (rounded_ && distance_from_line(corner(i + 1), corner(i), corner(i + 2)) <= resolution_) continue;
+      return false;
     }
     return true;
   }
 
   const TriangleMesh& mesh_;
   const std::vector<int>& twins_;
-  std::vector<CGAL::Sign> bend_;   // by half-edge
-  std::vector<int> sharp_degree_;  // by point
-  std::vector<char> visited_;      // by half-edge
+  double resolution_;             // m
+  bool rounded_ = false;          // the resolution makes a difference
+  std::vector<CGAL::Sign> bend_;  // by half-edge
+  std::vector<bool> is_corner_;   // by point
+  std::vector<char> visited_;     // by half-edge
 };
 
 }  // namespace
@@ -210,12 +259,12 @@ std::vector<MeshDefect> Polyhedron::find_defects(const TriangleMesh& mesh, std::
   return check_mesh(mesh, limit).defects;
 }
 
-Polyhedron::Polyhedron(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+Polyhedron::Polyhedron(TriangleMesh mesh, double resolution) : mesh_(std::move(mesh)) {
   constexpr std::size_t listed_defects = 10;
   MeshCheck check = check_mesh(mesh_, listed_defects);
   if (!check.defects.empty()) throw MeshError(std::move(check.defects));
   volume_ = check.volume;
-  FaceBuilder builder(mesh_, check.twins);
+  FaceBuilder builder(mesh_, check.twins, resolution);
   builder.build();
   faces_ = std::move(builder.faces);
   edges_ = std::move(builder.edges);

@@ -39,8 +39,10 @@ class Polyhedron {
   /// Every defect of a mesh, at most `limit` of each kind; empty when it bounds a solid.
   [[nodiscard]] static std::vector<MeshDefect> find_defects(const TriangleMesh& mesh, std::size_t limit = 10);
 
-  /// Builds a solid. @throws MeshError carrying all defects if there are any.
-  explicit Polyhedron(TriangleMesh mesh);
+  /// Builds a solid. @param resolution m, >= 0: what the coordinates are known to. 0: they are exact, and so
+  /// is what is flat and straight; else pieces that are flat to it are one face (flat_regions()).
+  /// @throws MeshError carrying all defects, which are always decided exactly, if there are any.
+  explicit Polyhedron(TriangleMesh mesh, double resolution = 0.0);
 
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<PolyhedronFace>& faces() const { return faces_; }

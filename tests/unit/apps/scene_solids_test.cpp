@@ -1,9 +1,13 @@
 #include "apps/scene_solids.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/shapes.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
@@ -161,6 +165,25 @@ TEST_F(SceneMeshes, InsideOutMeshIsRefused) {
 TEST_F(SceneMeshes, FileFromAnArgumentIsReportedThere) {
   EXPECT_THAT(faults(cube_off, {"block.A.mesh.file=no.off"}),
               ElementsAre(StartsWith("--set block.A.mesh.file=no.off: error: mesh file cannot be used (")));
+}
+
+// Corners turned by whoever wrote the scene are off the planes of their faces by some units in the last
+// place.
+TEST_F(SceneMeshes, AndHullsOfTurnedCornersKeepTheirFlatFaces) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3(2, -1, 3).normalized()).toRotationMatrix();
+  std::vector<Vector3> corners = make_box({10, 20, 30}, {11, 22, 33}).points;
+  for (Vector3& corner : corners) corner = turn * corner;
+  const Polyhedron hull = only_solid(block_of(SceneHull{corners}));
+  EXPECT_THAT(hull.faces(), SizeIs(6));
+  EXPECT_THAT(hull.mesh().triangles, SizeIs(12));
+  ASSERT_GT(Polyhedron(make_convex_hull(corners)).faces().size(), 6U);
+  std::string off = "OFF\n8 6 0\n";
+  for (const Vector3& corner : corners)
+    off += fmt::format("{:.17g} {:.17g} {:.17g}\n", corner.x(), corner.y(), corner.z());
+  const Polyhedron box(make_box({0, 0, 0}, {1, 1, 1}));
+  for (const PolyhedronFace& face : box.faces()) off += fmt::format("4 {}\n", fmt::join(face.loops[0], " "));
+  EXPECT_THAT(faults(off), ::testing::IsEmpty());
+  EXPECT_THAT(solids_.at(0)->faces(), SizeIs(6));
 }
 
 TEST(SceneSolids, FlatHullIsReportedAtItsKey) {
