@@ -1,6 +1,6 @@
 // What contact points remember from step to step: elastic slip, state, multipliers and whether the joint is
 // still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
-// the nearest old one, nearest in the material of both blocks, or from all that are within half as near
+// the nearest old one, nearest in the material of either block, or from all that are within half as near
 // again: a new point in the middle of old ones has their mean, whichever rounding calls the nearest. Where
 // the contact passes on to another face, over an edge that is not sharp, slip goes with it; a bond does not,
 // as new surface is not bonded.
@@ -54,7 +54,7 @@ class ContactMemory {
                                                 double bond_distance) const;
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
-  /// springs at its end
+  /// springs at its end; normal energy of multipliers: what they have taken so far and not given back
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
              const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {});
 
@@ -65,7 +65,7 @@ class ContactMemory {
   [[nodiscard]] double deepest() const { return deepest_; }
   /// How much deeper the blocks may be between the points, m, >= 0.
   [[nodiscard]] double bulge() const { return bulge_; }
-  /// What the springs held at the end of the last step; nothing where there was no contact.
+  /// What store() was told of the last step; nothing where there was no contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }

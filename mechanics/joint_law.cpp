@@ -20,15 +20,16 @@ double shear_limit(const PointLaw& law, double normal) {
 }  // namespace
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
+  const double height = gap - law.rest;
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
-  const double normal = law.normal_multiplier - law.normal_stiffness * gap;
+  const double normal = law.normal_multiplier - law.normal_stiffness * height;
   const bool open =
-      normal < -law.tension || (gap > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
+      normal < -law.tension || (height > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
   if (open && law.held_limit <= 0.0) return response;
   if (!open) {
     response.force[0] = normal;
     response.tangent(0, 0) = law.normal_stiffness;
-    response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
+    if (!law.augmented) response.normal_energy = 0.5 * law.normal_stiffness * height * height;
   }
   const double limit = shear_limit(law, normal);
   const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;
@@ -37,7 +38,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
     response.state = ContactState::locked;
     response.force.tail<2>() = trial;
     response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(law.shear_stiffness);
-    response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
+    if (!law.augmented) response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
     return response;
   }
   response.state = ContactState::sliding;
@@ -103,7 +104,8 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   set_mean_normal(law, start, start_place[0], end, end_place[0], mean);
   const bool end_open = end.state == ContactState::open;
   if (law.held_limit <= 0.0 && end_open && start.state == ContactState::open) return step;
-  const Eigen::Vector2d start_slip = elastic_slip(law, start, start_place.tail<2>());
+  Eigen::Vector2d start_slip = start_place.tail<2>();
+  if (start.state == ContactState::sliding) start_slip = elastic_slip(law, start, start_slip);
   const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
   const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
   const double length = trial.norm();
@@ -129,15 +131,21 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   return step;
 }
 
+Eigen::Vector2d borne_slip(const PointLaw& law, double normal, const Eigen::Vector2d& slip) {
+  const double force = law.shear_stiffness * slip.norm();
+  const double limit = shear_limit(law, normal);
+  return force > limit ? Eigen::Vector2d(limit / force * slip) : slip;
+}
+
 Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
                              const Eigen::Vector2d& slip) {
+  if (law.augmented) return Eigen::Vector2d::Zero();
   switch (response.state) {
     case ContactState::open:
       return Eigen::Vector2d::Zero();
     case ContactState::locked:
       return slip;
     case ContactState::sliding:
-      if (law.augmented) return Eigen::Vector2d::Zero();
       return -response.force.tail<2>() / law.shear_stiffness;
   }
   return slip;

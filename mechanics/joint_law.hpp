@@ -12,7 +12,11 @@
 // cohesion there is no strength that sliding could take; under tension such a joint slides without
 // resistance.
 //
-// With multipliers (augmented contact) N = lambda_n - kn g and the trial shear force is lambda_s - ks s.
+// With multipliers (augmented contact) N = lambda_n - kn (g - r) and the trial shear force is
+// lambda_s - ks s. Where the forces repeat the multipliers, N > 0 means g = r, a locked point has s = 0 and a
+// sliding one has its force along -s: contact that does not give way. The springs only lead there, so that
+// they hold no energy.
+//
 // With a held limit the shear force is bounded by that limit whatever N is, also across an open gap: the
 // forces are then the gradient of a convex function of (g, s), which Coulomb's law has not.
 #pragma once
@@ -47,7 +51,8 @@ struct PointLaw {
   double cohesion;           ///< c A of an intact joint, else 0, N
   double tension;            ///< T A of an intact joint, else 0, N; infinity: a joint that must not break now
   double held_limit = -1.0;  ///< N; >= 0: the bound of the shear force, whatever the normal force is
-  bool augmented = false;    ///< a sliding point keeps no elastic slip: its force is the next multiplier
+  bool augmented = false;    ///< its forces become the next multipliers; its springs hold no energy
+  double rest = 0.0;         ///< m, <= 0: the gap above which a point does not push, with multipliers
   double normal_multiplier = 0.0;                              ///< lambda_n, N
   Eigen::Vector2d shear_multiplier = Eigen::Vector2d::Zero();  ///< lambda_s, N
 };
@@ -98,14 +103,19 @@ struct AveragedStep {
 ///     -F . (s1 - s0) - ks (e1^2 - e0^2)/2 = -F . (s1 - s0 - e1 + e0) = 2 L (|s| - L/ks) >= 0
 /// where it slides and nothing where it stays locked. In full sliding friction is L whatever the forces at
 /// both ends are, which alternate where contacts are stiff. Where a point opens, its shear spring is lost.
-/// Multipliers take no part in an energy: augmented points act with their forces at the end.
+/// Augmented points, which have no energy, act with their forces at the end.
 /// @param start at the start of the step. @param start_place,end_place gap and trial slip, m
 [[nodiscard]] AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
                                          const Eigen::Vector3d& start_place,
                                          const Eigen::Vector3d& end_place);
 
+/// As much of an elastic slip, in its direction, as friction and cohesion bear under a normal force. Across
+/// an open gap cohesion bears it too: of points that are found at the surface to rounding, rounding must not
+/// say which keep theirs. @param normal N, 0 where the gap is open
+[[nodiscard]] Eigen::Vector2d borne_slip(const PointLaw& law, double normal, const Eigen::Vector2d& slip);
+
 /// The elastic slip that is left after a step with this trial slip: the spring of a sliding point stays at
-/// the limit, that of an augmented one is taken over by the multiplier.
+/// the limit. Augmented points keep none: multipliers hold them where they are.
 [[nodiscard]] Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
                                            const Eigen::Vector2d& slip);
 

@@ -100,14 +100,16 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       const std::vector<PointLaw>& laws = results[i].laws[n];
       const Eigen::VectorXd& ya = bodies[at(pair.a())].change;
       const Eigen::VectorXd& yb = bodies[at(pair.b())].change;
-      const double work = (ya.size() > 0 ? ya.dot(after.total_on_a()) : 0.0) +
-                          (yb.size() > 0 ? yb.dot(after.total_on_b()) : 0.0) + pair.prescribed_work(after);
+      const double work = pair.work(after, ya, yb);
       ledger_.applied -= pair.prescribed_work(after);
       potential_work += work;
-      potential_change += ContactPair::energy(after) - pair.start_energy();
-      ledger_.contact += ContactPair::energy(after);
+      SpringEnergy held = ContactPair::energies(after);
+      potential_change += held.normal + held.shear - pair.start_energy();
+      ledger_.contact += held.normal + held.shear;
       if (pair.tied()) continue;
-      friction += pair.friction_work(after, laws, ya, yb);
+      const double slid = pair.friction_work(after, laws, ya, yb);
+      friction += slid;
+      if (settings_.augmented && !scheme.from_rest) held.normal = take_for_multipliers(pair, -work - slid);
       auto gaps = pair.gaps(ya, yb);
       double deepest = 0.0;
       for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -121,8 +123,8 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       report_.penetration = std::max(report_.penetration, deepest);
       const double bulge =
           finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
-      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest,
-                                         ContactPair::energies(after), bulge, pair.cuts());
+      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest, held,
+                                         bulge, pair.cuts());
       // Forces that acted: with average-acceleration not those at the end.
       std::vector<PointResponse> acted = after.points;
       for (std::size_t k = 0; k < acted.size(); ++k) acted[k].force = after.means[k].force;
@@ -179,6 +181,15 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
     ledger_.numerical -= gain;
     spin_debts_[at(body.front())] = std::min(0.0, limit - gain);
   }
+}
+
+double Simulation::take_for_multipliers(const ContactPair& pair, double work) {
+  const auto known = memory_.find({pair.a(), pair.b()});
+  const double taken = (known == memory_.end() ? 0.0 : known->second.held().normal) + work;
+  if (taken >= 0.0) return taken;
+  ledger_.refound_gained -= taken;
+  ledger_.numerical -= taken;
+  return 0.0;
 }
 
 void Simulation::note_elastic_energy(std::size_t k) {

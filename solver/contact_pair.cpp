@@ -136,6 +136,7 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       points_(std::move(points)),
       memory_(std::move(memory)),
       rests_(points_.size(), 0.0),
+      lifts_(points_.size(), 0.0),
       start_(3, static_cast<Eigen::Index>(points_.size())),
       rows_a_(contact_rows(*body_a.model, points_, phi_a)),
       rows_b_(contact_rows(*body_b.model, points_, phi_b)),
@@ -178,6 +179,21 @@ bool ContactPair::can_be_bounded() const {
                                  [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
 }
 
+void ContactPair::hold_where_found(double tolerance, double taken) {
+  constexpr double lifted_share = 0.3;  // in one step more throws blocks out that are found deep
+  const double slack = 0.5 * tolerance;
+  taken_ = taken;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const double gap = points_[k].gap;
+    const bool bonded = laws_[k].tension > 0.0;
+    if (!bonded)
+      lifts_[k] = std::clamp(-slack - gap, 0.0, slack) + lifted_share * std::max(0.0, -tolerance - gap);
+    rests_[k] = (bonded ? gap : std::min(0.0, gap)) + lifts_[k];
+    start_(0, static_cast<Eigen::Index>(k)) = gap - rests_[k];
+  }
+  respond_at_start();
+}
+
 void ContactPair::hold_at_most(const SpringEnergy& held) {
   if (!can_be_bounded()) return;
   std::vector<double> stiffnesses, gaps, remembered;
@@ -192,13 +208,18 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
   respond_at_start();
   // What friction does not bear is cut off in any case: where that is what makes the energies equal, their
   // rounding must not choose.
-  const double shear = sum_of(start_responses_).shear;
-  const double share = shear > held.shear ? std::sqrt(held.shear / shear) : 1.0;
+  double shear = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    auto start = start_.col(static_cast<Eigen::Index>(k));
-    start.tail<2>() = share * elastic_slip(laws_[k], start_responses_[k], start.tail<2>());
+    auto slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
+    slip = borne_slip(laws_[k], start_responses_[k].force[0], slip);
+    shear += 0.5 * laws_[k].shear_stiffness * slip.squaredNorm();
   }
+  if (shear > held.shear) start_.bottomRows<2>() *= std::sqrt(held.shear / shear);
   respond_at_start();
+  // Also of points that are open to rounding only.
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_responses_[k].shear_energy =
+        0.5 * laws_[k].shear_stiffness * start_.col(static_cast<Eigen::Index>(k)).tail<2>().squaredNorm();
 }
 
 Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
@@ -237,6 +258,12 @@ double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::Vecto
   };
   return 2.0 * std::numeric_limits<double>::epsilon() * laws_.front().normal_stiffness *
          (part(rows_a_, ya) + part(rows_b_, yb));
+}
+
+double ContactPair::work(const PairResponse& response, const Eigen::VectorXd& ya,
+                         const Eigen::VectorXd& yb) const {
+  return (ya.size() > 0 ? ya.dot(response.total_on_a()) : 0.0) +
+         (yb.size() > 0 ? yb.dot(response.total_on_b()) : 0.0) + prescribed_work(response);
 }
 
 double ContactPair::prescribed_work(const PairResponse& response) const {
@@ -358,8 +385,7 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
     memory.intact = memory_[k].intact && !torn && !sheared;
     if (laws[k].augmented && point.state != ContactState::open) {
-      // The slip since locking stays known, so that multipliers go on to undo it.
-      const Eigen::Vector2d shear = point.force.tail<2>() + laws_[k].shear_stiffness * slip;
+      const Eigen::Vector2d shear = point.force.tail<2>();
       const double scale = multiplier_scale(points_[k]);
       memory.normal_multiplier = point.force[0] / scale;
       memory.shear_multiplier = (shear[0] * points_[k].tangent_1 + shear[1] * points_[k].tangent_2) / scale;
@@ -376,8 +402,11 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
     if (point.state != ContactState::sliding) continue;
-    const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
-    work += response.means[k].force.tail<2>().dot(elastic_slip(laws[k], point, slip) - slip);
+    const auto column = static_cast<Eigen::Index>(k);
+    const Eigen::Vector2d slip = place.col(column).tail<2>();
+    const Eigen::Vector2d elastic =
+        laws[k].augmented ? start_.col(column).tail<2>() : elastic_slip(laws[k], point, slip);
+    work += response.means[k].force.tail<2>().dot(elastic - slip);
   }
   return work;
 }

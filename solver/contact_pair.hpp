@@ -74,15 +74,28 @@ class ContactPair {
     return respond(ya, yb, averaged, laws_);
   }
   /// Takes the springs to be at rest where, found anew, they hold no more than this (spring_energy.hpp);
-  /// elastic slip shrinks in proportion. Pairs with multipliers or bonds that can take tension, and tied
-  /// ones, stay as they are.
+  /// elastic slip shrinks in proportion. Pairs with bonds that can take tension, and tied ones, stay as they
+  /// are, and so do pairs with multipliers.
   void hold_at_most(const SpringEnergy& held);
+  /// Points with multipliers, which hold no energy, are held where they are found below the surface, bonds
+  /// also above it. Those deeper than half the tolerance are lifted to there if that is within the tolerance,
+  /// else by half the tolerance and 0.3 of what is left. The open-close iteration lifts them by less where
+  /// that takes more work than the pair has taken from its blocks before.
+  /// @param tolerance of penetrations, m. @param taken J, >= 0
+  void hold_where_found(double tolerance, double taken);
+  /// How far hold_where_found() lifts each point, m, >= 0.
+  [[nodiscard]] const std::vector<double>& lifts() const { return lifts_; }
+  /// What hold_where_found() was told.
+  [[nodiscard]] double taken() const { return taken_; }
   [[nodiscard]] bool can_be_bounded() const;
   /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
   /// 3), empty: none
   void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
                  const Eigen::MatrixX3d& change_b);
-  /// Work of the contact forces on prescribed motion, J.
+  /// Work of the contact forces on both blocks, on prescribed motion too, J.
+  [[nodiscard]] double work(const PairResponse& response, const Eigen::VectorXd& ya,
+                            const Eigen::VectorXd& yb) const;
+  /// Its part on prescribed motion, J.
   [[nodiscard]] double prescribed_work(const PairResponse& response) const;
 
   /// Spring energy at the start of the step, J.
@@ -112,7 +125,8 @@ class ContactPair {
                                                       const std::vector<PointLaw>& laws,
                                                       const Eigen::VectorXd& ya,
                                                       const Eigen::VectorXd& yb) const;
-  /// Work that sliding takes in the step, J, >= 0.
+  /// Work that sliding takes in the step, J, >= 0; with multipliers, which hold none, all that points take
+  /// that slide.
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Spring energy at the end of the step, J.
@@ -138,7 +152,9 @@ class ContactPair {
   std::vector<PressureCut> cuts_ = {};
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
-  std::vector<double> rests_;         ///< gap at which each normal spring is at rest, m, <= 0
+  std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
+  std::vector<double> lifts_;
+  double taken_ = 0.0;
   Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
   Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
   Eigen::MatrixXd

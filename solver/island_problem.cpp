@@ -192,12 +192,10 @@ std::vector<ContactState> IslandProblem::states() const {
   return result;
 }
 
-std::vector<std::vector<double>> IslandProblem::gaps() const {
-  std::vector<std::vector<double>> result;
-  result.reserve(pairs());
-  for (std::size_t k = 0; k < pairs(); ++k)
-    result.push_back(pair(k).gaps(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change));
-  return result;
+double IslandProblem::given(std::size_t k) const {
+  const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+  const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+  return pair(k).work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
 }
 
 void IslandProblem::hand_over(IslandResult& result) {

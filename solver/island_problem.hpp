@@ -53,7 +53,8 @@ class IslandProblem {
   [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
-  [[nodiscard]] std::vector<std::vector<double>> gaps() const;
+  /// Work of a pair's contact on its blocks at the last responses, that of sliding left out, J.
+  [[nodiscard]] double given(std::size_t pair) const;
   /// Moves responses and laws out, when the iteration has ended.
   void hand_over(IslandResult& result);
 

@@ -5,8 +5,10 @@
 // Refound: each step finds its contacts anew. Where the springs of a pair then hold another energy than at
 // the end of the step before, because polygons, quadrature points, feet or the kind of a contact changed,
 // that much energy has come in or gone without any force doing work. Springs that would hold more are taken
-// to be at rest deeper (spring_energy.hpp), so that nothing but rounding is gained, bonds under tension and
-// multipliers apart. What is lost is an error of the method, measured exactly for each pair and step.
+// to be at rest deeper (spring_energy.hpp), so that nothing but rounding is gained, bonds under tension
+// apart. What is lost is an error of the method, measured exactly for each pair and step. Multipliers store
+// nothing: what they take is numerical, and what they give a pair of blocks beyond what they took from it is
+// gained.
 #pragma once
 
 namespace ashlar {

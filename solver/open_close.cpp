@@ -30,8 +30,9 @@ class OpenClose {
       }
       if (outcome != Outcome::settled) return outcome;
       if (!break_joints()) {
-        if (!settings_.augmented || within_tolerance()) return outcome;
+        if (!settings_.augmented || (within_tolerance() && !gives_too_much())) return outcome;
         if (++updates > settings_.multiplier_updates) return Outcome::stalled;
+        if (updates == 1) lift_points();
         update_multipliers();
       }
       problem_.respond();
@@ -117,25 +118,75 @@ class OpenClose {
   /// How far points are from where multipliers alone would hold them, m.
   [[nodiscard]] double farthest() const {
     double most = 0.0;
-    const auto gaps = problem_.gaps();
-    for (std::size_t pair = 0; pair < gaps.size(); ++pair) {
-      for (std::size_t k = 0; k < gaps[pair].size(); ++k) {
+    const auto look_at = [&most](double force, double stiffness) {
+      if (stiffness > 0.0) most = std::max(most, force / stiffness);
+    };
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         const PointLaw& law = problem_.laws()[pair][k];
         const PointResponse& point = problem_.responses()[pair].points[k];
         if (!law.augmented || point.state == ContactState::open) continue;
-        most = std::max(most, std::abs(gaps[pair][k]));
-        if (point.state != ContactState::locked || law.shear_stiffness == 0.0) continue;
-        most = std::max(most, (law.shear_multiplier - point.force.tail<2>()).norm() / law.shear_stiffness);
+        look_at(std::abs(law.normal_multiplier - point.force[0]), law.normal_stiffness);
+        look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness);
       }
     }
     return most;
   }
 
+  /// Points are held at most half of the tolerance deep (ContactPair::hold_where_found); the other half is
+  /// theirs.
   [[nodiscard]] bool within_tolerance() {
     const double last = farthest_;
     farthest_ = farthest();
     slow_ = farthest_ > settings_.slow_update * last;
-    return farthest_ <= settings_.penetration_tolerance;
+    return farthest_ <= 0.5 * settings_.penetration_tolerance;
+  }
+
+  /// Points are lifted by half the tolerance, which they need not follow, and beyond that as far as the
+  /// springs do it in one balance: to insist would strain the blocks.
+  void lift_points() {
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      const std::vector<double>& lifts = problem_.pair(pair).lifts();
+      for (std::size_t k = 0; k < lifts.size(); ++k) {
+        PointLaw& law = problem_.laws()[pair][k];
+        const PointResponse& point = problem_.responses()[pair].points[k];
+        if (lifts[k] == 0.0 || point.state == ContactState::open) continue;
+        const double place = law.rest + (law.normal_multiplier - point.force[0]) / law.normal_stiffness;
+        const double beyond = std::max(0.0, lifts[k] - 0.5 * settings_.penetration_tolerance);
+        law.rest = std::clamp(place, std::min(-beyond, law.rest), law.rest);
+      }
+    }
+  }
+
+  /// Whether a pair gives its blocks more than it has taken from them. Its points are then lifted by less;
+  /// where that is not why, multipliers have to be more accurate.
+  bool gives_too_much() {
+    constexpr double margin = 1.5;   // forces change when points are lowered
+    constexpr int refinements = 20;  // at most: the accuracy may be below rounding
+    if (problem_.scheme().from_rest) return false;
+    const double accuracy = settings_.multiplier_accuracy * settings_.penetration_tolerance;
+    bool lowered = false;
+    bool inaccurate = false;
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      std::vector<PointLaw>& laws = problem_.laws()[pair];
+      if (laws.empty() || !laws.front().augmented) continue;
+      const std::vector<double>& lifts = problem_.pair(pair).lifts();
+      double force = 0.0;
+      double work = 0.0;
+      for (std::size_t k = 0; k < laws.size(); ++k) {
+        const double normal = std::max(0.0, problem_.responses()[pair].points[k].force[0]);
+        force += normal;
+        work += normal * (lifts[k] + laws[k].rest);
+      }
+      const double excess = problem_.given(pair) - problem_.pair(pair).taken();
+      if (!(excess > accuracy * force)) continue;
+      inaccurate = inaccurate || farthest_ > accuracy;
+      if (!(work > 0.0)) continue;
+      lowered = true;
+      const double share = std::min(1.0, margin * excess / work);
+      for (std::size_t k = 0; k < laws.size(); ++k) laws[k].rest -= share * (lifts[k] + laws[k].rest);
+    }
+    return lowered || (inaccurate && refinements_++ < refinements);
   }
 
   /// Uzawa: the forces become the multipliers. Springs too soft to get anywhere are stiffened for this step.
@@ -146,7 +197,7 @@ class OpenClose {
         const PointResponse& point = problem_.responses()[pair].points[k];
         if (!law.augmented) continue;
         law.normal_multiplier = point.force[0];
-        if (point.state == ContactState::locked) law.shear_multiplier = point.force.tail<2>();
+        law.shear_multiplier = point.force.tail<2>();
         if (!slow_) continue;
         constexpr double stiffer = 10.0;
         law.normal_stiffness *= stiffer;
@@ -305,6 +356,7 @@ class OpenClose {
   std::vector<std::vector<double>> strengths_;                 ///< tensile strength of each point, N
   double farthest_ = std::numeric_limits<double>::infinity();  ///< farthest() at the last update
   bool slow_ = false;                                          ///< the last update did not get far
+  int refinements_ = 0;                                        ///< updates for accuracy beyond the tolerance
   double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
 };

@@ -18,8 +18,9 @@
 // the strength the joints that are overstressed most break, for good, and the iteration goes on: there are no
 // more rounds than joints.
 //
-// Augmented contact goes on with multipliers (Uzawa) until no point is deeper than
-// settings.penetration_tolerance and no locked one has slipped farther.
+// Augmented contact goes on with multipliers (Uzawa): after each balance the forces become the multipliers,
+// until they repeat themselves, so that no point is deeper than settings.penetration_tolerance, and no locked
+// one has slipped farther.
 #pragma once
 
 #include "solver/island_problem.hpp"

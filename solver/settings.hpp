@@ -69,8 +69,10 @@ struct SimulationSettings {
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
   bool augmented = false;  ///< multipliers take over from springs until:
   double penetration_tolerance = 1e-6;  ///< m, > 0: no contact is deeper, no locked one has slipped farther
-  int multiplier_updates = 60;          ///< in a step; more: the step is cut
-  double slow_update = 0.25;  ///< updates that leave more of the penetration raise the stiffness tenfold
+  /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
+  double multiplier_accuracy = 1e-6;
+  int multiplier_updates = 60;  ///< in a step; more: the step is cut
+  double slow_update = 0.25;    ///< updates that leave more of the penetration raise the stiffness tenfold
 
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
 

@@ -239,6 +239,8 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
+    if (hold_energy && steps_ > 0 && law.augmented)
+      pairs.back().hold_where_found(settings_.penetration_tolerance, known.held().normal);
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

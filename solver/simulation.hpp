@@ -225,6 +225,9 @@ class Simulation {
                              const std::vector<BlockState>& before, const std::vector<double>& dissipated);
   /// Books what the springs hold anew since the end of the last step.
   void book_refound(const std::vector<ContactPair>& pairs);
+  /// @param work that multipliers have taken from the blocks of a pair in the step, J; negative: given
+  /// @return what they have taken so far and not given back; what they gave beyond is booked as gained
+  double take_for_multipliers(const ContactPair& pair, double work);
   void note_elastic_energy(std::size_t block);
   void note_elastic_energies();
   /// Of the present state; elastic as noted.

@@ -125,7 +125,21 @@ TEST(JointLaw, MultipliersAddToTheSprings) {
   const PointResponse sliding = point_response(point, -1e-5, far);
   EXPECT_EQ(sliding.state, ContactState::sliding);
   EXPECT_NEAR(sliding.force[1], 1250.0, 1e-9);
+  EXPECT_EQ(sliding.energy() + locked.energy(), 0.0);
   EXPECT_TRUE(elastic_slip(point, sliding, far).isZero(0.0));
+  EXPECT_TRUE(elastic_slip(point, locked, {1e-6, 0}).isZero(0.0));
+  point.rest = -1e-5;
+  EXPECT_NEAR(point_response(point, -1e-5, {0, 0}).force[0], 500.0, 1e-9);
+}
+
+TEST(JointLaw, CohesionBearsSlipOnBothSidesOfTheSurface) {
+  const PointLaw point =
+      point_law({2e9, 1e9, 0.5, 1e4, 0.0, true}, 0.1, true);  // c A = 1000 N, ks A = 1e8 N/m
+  EXPECT_NEAR(borne_slip(point, 0.0, {3e-5, 4e-5})[1], 8e-6, 1e-18);
+  EXPECT_NEAR(borne_slip(point, 2000.0, {3e-5, 4e-5})[1], 1.6e-5, 1e-18);
+  EXPECT_EQ(borne_slip(point, 0.0, {6e-6, 0}), Eigen::Vector2d(6e-6, 0));
+  const PointLaw broken = point_law({2e9, 1e9, 0.5, 1e4, 0.0, true}, 0.1, false);
+  EXPECT_TRUE(borne_slip(broken, 0.0, {3e-5, 4e-5}).isZero(0.0));
 }
 
 TEST(JointLaw, MeanForceDoesExactlyTheWorkOfTheSpring) {

@@ -173,6 +173,51 @@ TEST(ContactPair, SlipThatFrictionDoesNotBearIsCutWhateverIsHeld) {
   EXPECT_NEAR(response.points[0].force[2], -2.5e8 * 1e-4, 1e-6);
 }
 
+// Points that are found where pressure ends are at the surface to rounding.
+TEST(ContactPair, WhatCohesionHeldIsKeptOnBothSidesOfTheSurface) {
+  // c A = 2.5e4 N is 1e-4 m of slip at ks A = 2.5e8 N/m, which holds 1.25 J; the blocks have not moved.
+  for (const double gap : {-1e-18, 0.0, 1e-18}) {
+    const Setting setting = skew_setting(gap);
+    PointMemory memory;
+    memory.slip = 3e-4 * setting.points[0].tangent_1;
+    memory.intact = true;
+    ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 1e5, 0.0, true}, memory);
+    pair.hold_at_most({0.0, 10.0});
+    EXPECT_NEAR(pair.start_energy(), 1.25, 1e-9) << gap;
+    const Eigen::MatrixX3d down =
+        setting.a.basis().linear_field(-1e-6 * setting.points[0].normal, Eigen::Matrix3d::Zero());
+    const PairResponse pressed = pair.respond(Eigen::Map<const Eigen::VectorXd>(down.data(), down.size()),
+                                              Eigen::VectorXd::Zero(setting.b.unknowns()), false);
+    EXPECT_NEAR(pressed.points[0].force[1], -2.5e4, 1e-6) << gap;
+  }
+}
+
+JointLaw multiplier_law() {
+  JointLaw law{2e9, 1e9, 0.1, 0.0, 0.0, true};
+  law.augmented = true;
+  return law;
+}
+
+TEST(ContactPair, MultipliersHoldPointsWhereTheyAreFound) {
+  PointMemory memory;
+  memory.normal_multiplier = 4e4;  // Pa, over 0.25 m^2: 1e4 N
+  const auto start_force = [&](double gap, double taken) {
+    const Setting setting = skew_setting(gap);
+    ContactPair pair = pair_of(setting, multiplier_law(), memory);
+    pair.hold_where_found(4e-6, taken);
+    EXPECT_EQ(pair.start_energy(), 0.0);
+    const PairResponse response = pair.respond(Eigen::VectorXd::Zero(setting.a.unknowns()),
+                                               Eigen::VectorXd::Zero(setting.b.unknowns()), false);
+    return response.points[0].force[0];
+  };
+  // Within half the tolerance of 4e-6 m nothing pushes back; above the surface the spring of 5e8 N/m pulls.
+  EXPECT_NEAR(start_force(-1e-6, 0.0), 1e4, 1e-6);
+  EXPECT_NEAR(start_force(1e-6, 0.0), 1e4 - 500.0, 1e-6);
+  // To 2e-6 m below it, by 1e-6 m; from 9e-6 m by 2e-6 m and 0.3 of the 5e-6 m beyond the tolerance.
+  EXPECT_NEAR(start_force(-3e-6, 1.0), 1e4 + 500.0, 1e-6);
+  EXPECT_NEAR(start_force(-9e-6, 1.0), 1e4 + 1750.0, 1e-6);
+}
+
 TEST(ContactPair, WithoutPointsThereAreNoForces) {
   Setting setting = skew_setting(0.0);
   setting.points.clear();
