@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/polygon_triangulation.hpp"
 #include "geometry/shapes.hpp"
 
 namespace ashlar {
@@ -20,9 +21,7 @@ TriangleMesh fans_of_faces(const Polyhedron& solid) {
     if (face.loops.empty()) continue;
     std::vector<int> loop = face.loops.front();
     for (int& corner : loop) corner = place[corner];
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-      fans.triangles.push_back({loop[0], loop[k], loop[k + 1]});
+    append_fan(std::move(loop), fans.triangles);
   }
   std::sort(fans.triangles.begin(), fans.triangles.end());
   return fans;

@@ -101,4 +101,9 @@ void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int
   }
 }
 
+void append_fan(std::vector<int> loop, std::vector<std::array<int, 3>>& triangles) {
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k) triangles.push_back({loop[0], loop[k], loop[k + 1]});
+}
+
 }  // namespace ashlar

@@ -16,4 +16,8 @@ namespace ashlar {
 void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int> corners,
                          std::vector<std::array<int, 3>>& triangles);
 
+/// Appends a convex polygon as a fan from the smallest of its indices, wherever its loop begins.
+/// @param loop at least 3 indices
+void append_fan(std::vector<int> loop, std::vector<std::array<int, 3>>& triangles);
+
 }  // namespace ashlar

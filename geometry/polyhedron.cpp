@@ -60,19 +60,24 @@ class FaceBuilder {
   [[nodiscard]] bool is_corner(int v) const { return is_corner_[v]; }
 
   void find_sharp_edges() {
-    std::vector<std::vector<int>> sharp_neighbours(mesh_.points.size());
+    std::vector<int> sharp_degree(mesh_.points.size(), 0);
+    std::vector<std::array<int, 2>> ends(mesh_.points.size());  // of the last sharp edges at each point
+    const auto count = [&](int from, int to) {
+      ++sharp_degree[from];
+      ends[from] = {ends[from][1], to};
+    };
     for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
       const int twin = twins_[h];
       if (twin < h || !is_sharp(h)) continue;
       convex = convex && bend_[h] == CGAL::NEGATIVE;
-      sharp_neighbours[start(h)].push_back(start(twin));
-      sharp_neighbours[start(twin)].push_back(start(h));
+      count(start(h), start(twin));
+      count(start(twin), start(h));
     }
     is_corner_.assign(mesh_.points.size(), false);
     for (int v = 0; v < static_cast<int>(mesh_.points.size()); ++v) {
-      const std::vector<int>& ends = sharp_neighbours[v];
-      is_corner_[v] = ends.size() > 2 ||
-                      (rounded_ && ends.size() == 2 && distance_from_line(v, ends[0], ends[1]) > resolution_);
+      const bool bent =
+          rounded_ && sharp_degree[v] == 2 && distance_from_line(v, ends[v][0], ends[v][1]) > resolution_;
+      is_corner_[v] = sharp_degree[v] > 2 || bent;
       if (is_corner_[v]) corners.push_back(v);
     }
   }

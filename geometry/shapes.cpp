@@ -15,6 +15,7 @@
 #include <unordered_map>
 
 #include "geometry/hull_surface.hpp"
+#include "geometry/polygon_triangulation.hpp"
 #include "geometry/rounding_mode.hpp"
 
 namespace ashlar {
@@ -116,9 +117,7 @@ TriangleMesh fans_of_facets(std::span<const Vector3> input, const TriangleMesh& 
     if (surface.group(t) != t) continue;
     std::vector<int> loop = boundaries.loop(t);
     for (int& v : loop) v = corner_of_point[v];
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-      result.triangles.push_back({loop[0], loop[k], loop[k + 1]});
+    append_fan(std::move(loop), result.triangles);
   }
   std::sort(result.triangles.begin(), result.triangles.end());
   return result;

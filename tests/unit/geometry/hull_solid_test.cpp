@@ -54,7 +54,13 @@ TEST(HullSolid, WithoutAResolutionIsExact) {
 
 TEST(HullSolid, ThinnerThanTheResolutionIsStillASolid) {
   std::vector<Vector3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-15}};
-  EXPECT_GT(make_hull_solid(points, 1e-14).volume(), 0.0);
+  const Polyhedron solid = make_hull_solid(points, 1e-14);
+  EXPECT_GT(solid.volume(), 0.0);
+  EXPECT_EQ(solid.corners().size(), 4U);
+  for (const PolyhedronFace& face : solid.faces()) {
+    ASSERT_EQ(face.loops.size(), 1U);
+    EXPECT_GE(face.loops[0].size(), 3U);
+  }
 }
 
 }  // namespace

@@ -186,9 +186,11 @@ TEST(ContactPair, WhatCohesionHeldIsKeptOnBothSidesOfTheSurface) {
     EXPECT_NEAR(pair.start_energy(), 1.25, 1e-9) << gap;
     const Eigen::MatrixX3d down =
         setting.a.basis().linear_field(-1e-6 * setting.points[0].normal, Eigen::Matrix3d::Zero());
-    const PairResponse pressed = pair.respond(Eigen::Map<const Eigen::VectorXd>(down.data(), down.size()),
-                                              Eigen::VectorXd::Zero(setting.b.unknowns()), false);
-    EXPECT_NEAR(pressed.points[0].force[1], -2.5e4, 1e-6) << gap;
+    for (const bool averaged : {false, true}) {
+      const PairResponse pressed = pair.respond(Eigen::Map<const Eigen::VectorXd>(down.data(), down.size()),
+                                                Eigen::VectorXd::Zero(setting.b.unknowns()), averaged);
+      EXPECT_NEAR(pressed.means[0].force[1], -2.5e4, 1e-6) << gap << averaged;
+    }
   }
 }
 
