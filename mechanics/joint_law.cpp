@@ -62,7 +62,8 @@ Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& respo
 }
 
 MeanResponse end_response(const PointLaw& law, const PointResponse& end) {
-  return {end.force, end.tangent, sliding_coupling(law, end)};
+  const double limit = end.state == ContactState::open ? 0.0 : shear_limit(law, end.force[0]);
+  return {end.force, end.tangent, sliding_coupling(law, end), limit};
 }
 
 namespace {
@@ -87,6 +88,22 @@ void set_mean_normal(const PointLaw& law, const PointResponse& start, double sta
   }
 }
 
+/// Share of a step in which a point is closed, its gap linear in time, and the derivative by the end gap.
+struct ClosedShare {
+  double value;
+  double by_end_gap;
+};
+
+/// Bonds are closed until they are torn.
+ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap, bool end_open,
+                         double end_gap) {
+  if (start_open && end_open) return {0.0, 0.0};
+  if (start_open == end_open || law.tension > 0.0) return {1.0, 0.0};
+  const double difference = end_gap - start_gap;
+  return end_open ? ClosedShare{-start_gap / difference, start_gap / (difference * difference)}
+                  : ClosedShare{end_gap / difference, -start_gap / (difference * difference)};
+}
+
 }  // namespace
 
 AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
@@ -98,18 +115,21 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   PointLaw normal_only = law;
   normal_only.held_limit = -1.0;
   AveragedStep step{point_response(normal_only, end_place[0], Eigen::Vector2d::Zero()),
-                    {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero()}};
+                    {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0}};
   PointResponse& end = step.end;
   MeanResponse& mean = step.mean;
   set_mean_normal(law, start, start_place[0], end, end_place[0], mean);
   const bool end_open = end.state == ContactState::open;
-  if (law.held_limit <= 0.0 && end_open && start.state == ContactState::open) return step;
+  const bool start_open = start.state == ContactState::open;
+  const ClosedShare closed = closed_share(law, start_open, start_place[0], end_open, end_place[0]);
+  mean.limit = std::max(mean.force[0], 0.0) * law.friction + closed.value * law.cohesion;
+  const double limit = law.held_limit >= 0.0 ? law.held_limit : mean.limit;
+  if (limit <= 0.0 && end_open) return step;
   Eigen::Vector2d start_slip = start_place.tail<2>();
   if (start.state == ContactState::sliding) start_slip = elastic_slip(law, start, start_slip);
   const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
   const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
   const double length = trial.norm();
-  const double limit = shear_limit(law, mean.force[0]);
   Eigen::Vector2d end_slip = start_slip + way;
   auto tangent = mean.tangent.bottomRightCorner<2, 2>();
   if (length <= limit) {
@@ -120,8 +140,10 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
     mean.force.tail<2>() = limit * direction;
     tangent = 0.5 * law.shear_stiffness * limit / length *
               (Eigen::Matrix2d::Identity() - direction * direction.transpose());
-    if (law.held_limit < 0.0 && mean.force[0] > 0.0)
-      mean.coupling = law.friction * mean.tangent(0, 0) * direction;
+    if (law.held_limit < 0.0) {
+      mean.coupling = -law.cohesion * closed.by_end_gap * direction;
+      if (mean.force[0] > 0.0) mean.coupling += law.friction * mean.tangent(0, 0) * direction;
+    }
     end_slip = -2.0 / law.shear_stiffness * mean.force.tail<2>() - start_slip;
     if (!end_open) end.state = ContactState::sliding;
   }

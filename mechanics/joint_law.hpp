@@ -85,6 +85,7 @@ struct MeanResponse {
   Eigen::Vector3d force;     ///< N
   Eigen::Matrix3d tangent;   ///< N/m, derivative by the end of the step, positive semi-definite
   Eigen::Vector2d coupling;  ///< -d (shear force) / d g, what the tangent leaves out, N/m
+  double limit;              ///< what Coulomb's law lets the shear force be, N; 0 where the point is open
 };
 /// The response at the end of a step as what acts over it.
 [[nodiscard]] MeanResponse end_response(const PointLaw& law, const PointResponse& end);
@@ -97,8 +98,9 @@ struct AveragedStep {
 /// Mean forces such that contacts give no more work than their energy falls. The work of the normal force N
 /// is the change of its spring's energy exactly, also when the point opens or closes on the way (a discrete
 /// gradient). The shear force is that of the spring at the middle of the step, s = e0 + (s1 - s0)/2 with e0
-/// the elastic slip at the start, bounded by friction under N:
-///     F = -ks s  if that is within  L = N tan(phi) + c,  else  F = -L s/|s|,
+/// the elastic slip at the start, bounded by friction under N and by cohesion c for the share w of the step
+/// in which the point is closed (its gap linear in time):
+///     F = -ks s  if that is within  L = N tan(phi) + w c,  else  F = -L s/|s|,
 /// and the spring ends at e1 with  F = -ks (e0 + e1)/2. What is lost is
 ///     -F . (s1 - s0) - ks (e1^2 - e0^2)/2 = -F . (s1 - s0 - e1 + e0) = 2 L (|s| - L/ks) >= 0
 /// where it slides and nothing where it stays locked. In full sliding friction is L whatever the forces at

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -139,19 +140,23 @@ void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, Pol
   }
 }
 
-/// Triangles from the centroid to the sides.
+/// Triangles from the centroid to the sides. Slivers that are no higher than rounding moves corners have
+/// none: their centroid might be anywhere.
 void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
+  constexpr double sliver = 1e-13;  // of the squared length, some hundred rounding errors
   const std::size_t corners = polygon.size();
   double doubled_area = 0.0;
+  double squared_length = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   for (std::size_t k = 1; k + 1 < corners; ++k) {
     const Eigen::Vector2d a = polygon[k] - polygon[0];
     const Eigen::Vector2d b = polygon[k + 1] - polygon[0];
     const double part = cross(a, b);
+    squared_length = std::max({squared_length, a.squaredNorm(), b.squaredNorm()});
     doubled_area += part;
     centroid += part * (a + b) / 3.0;
   }
-  if (!(doubled_area > 0.0)) return;
+  if (!(doubled_area > sliver * squared_length)) return;
   centroid = polygon[0] + centroid / doubled_area;
 
   const SegmentRule inward = radau_for_triangles((degree + 3) / 2);
@@ -167,6 +172,7 @@ void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
       const Eigen::Vector2d rim = start + along.points[v] * (end - start);
       const double share = v == 0 ? along.weights.front() * area + along.weights.back() * area_before
                                   : along.weights[v] * area;
+      if (!(share > 0.0)) continue;  // of corners that are one
       for (std::size_t u = 0; u < inward.points.size(); ++u) {
         rule.points.emplace_back(rim + inward.points[u] * (centroid - rim));
         rule.weights.push_back(inward.weights[u] * share);

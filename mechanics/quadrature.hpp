@@ -37,7 +37,8 @@ struct PolygonRule {
 /// on shared cuts are joined. Corners that are nearly straight (lower than a thousandth of the distance
 /// between their neighbours) are cut off as triangles with inner points before: where two edges that lie
 /// almost on each other cross is known badly, and what is large must not be divided there.
-/// @param polygon (#corners >= 3, 2), counter-clockwise, convex; area 0 gives an empty rule
+/// @param polygon (#corners >= 3, 2), counter-clockwise, convex but for rounding; where it has no area but
+/// rounding (1e-13 of the squared length), the rule may be empty; no area gives an empty rule
 /// @param degree polynomials integrated exactly, 1 to 60
 [[nodiscard]] PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree);
 

@@ -251,11 +251,7 @@ class OpenClose {
   [[nodiscard]] std::vector<double> bounds() {
     std::vector<double> result;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-        const PointLaw& law = problem_.laws()[pair][k];
-        const double normal = problem_.responses()[pair].means[k].force[0];
-        result.push_back(std::max(normal, 0.0) * law.friction + law.cohesion);
-      }
+      for (const MeanResponse& mean : problem_.responses()[pair].means) result.push_back(mean.limit);
     }
     return result;
   }

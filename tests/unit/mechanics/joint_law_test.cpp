@@ -218,6 +218,27 @@ TEST(JointLaw, MeanFrictionIsThatOfTheMeanNormalForce) {
   EXPECT_NEAR((out.mean.force.tail<2>() + 0.5 * normal * way.normalized()).norm(), 0.0, 1e-9 * normal);
 }
 
+TEST(JointLaw, MeanCohesionIsThatOfTheTimeInContact) {
+  JointLaw joint = law;
+  joint.friction = joint.tensile_strength = 0.0;
+  const PointLaw point = point_law(joint, 0.1, true);
+  const Eigen::Vector2d way(3e-2, 4e-2);  // far beyond the limit
+  const auto mean = [&](double g0, double g1) {
+    return averaged_step(point, point_response(point, g0, {0, 0}), {g0, 0, 0}, {g1, way.x(), way.y()}).mean;
+  };
+  // From 1 deep to 3 above: a quarter of the time. From 3 above to 1 deep likewise.
+  for (const auto& [g0, g1, share] :
+       {std::tuple{-1e-5, 3e-5, 0.25}, {3e-5, -1e-5, 0.25}, {-1e-5, -3e-5, 1.0}, {1e-5, 3e-5, 0.0}}) {
+    EXPECT_NEAR((mean(g0, g1).force.tail<2>() + share * point.cohesion * way.normalized()).norm(), 0.0,
+                1e-12 * point.cohesion);
+    EXPECT_NEAR(mean(g0, g1).limit, share * point.cohesion, 1e-12 * point.cohesion);
+  }
+  // Blocks that are placed at the surface: the side of it that rounding puts them on does not matter.
+  for (const double g1 : {-1e-5, 1e-5}) {
+    EXPECT_NEAR((mean(1e-17, g1).force - mean(-1e-17, g1).force).norm(), 0.0, 1e-9 * point.cohesion);
+  }
+}
+
 TEST(JointLaw, MeanCouplingIsWhatTheMeanTangentLeavesOut) {
   const PointLaw point = point_law(law, 0.1, false);
   // Locked with much shear under much pressure, then little pressure: cut, whether it slides on or not.
@@ -232,6 +253,19 @@ TEST(JointLaw, MeanCouplingIsWhatTheMeanTangentLeavesOut) {
     test_support::expect_derivative(
         [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return mean(x).force; }, place, -whole, 1e-9,
         1e-6);
+  }
+  // With cohesion, opening and closing.
+  JointLaw cohesive = law;
+  cohesive.tensile_strength = 0.0;
+  const PointLaw intact = point_law(cohesive, 0.1, true);
+  for (const auto& [g0, g1] : {std::pair{-2e-5, 3e-5}, {3e-5, -2e-5}}) {
+    const Eigen::Vector3d from(g0, 0.0, 0.0), to(g1, 9e-3, -7e-3);
+    const PointResponse at_start = point_response(intact, g0, {0, 0});
+    const auto mean = [&](const Eigen::Vector3d& x) { return averaged_step(intact, at_start, from, x).mean; };
+    Eigen::Matrix3d whole = mean(to).tangent;
+    whole.col(0).tail<2>() += mean(to).coupling;
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return mean(x).force; }, to, -whole, 1e-9, 1e-6);
   }
 }
 

@@ -113,6 +113,29 @@ TEST(Quadrature, WhereSidesAlmostOnEachOtherCrossDoesNotMatter) {
   }
 }
 
+TEST(Quadrature, WhatRoundingMakesOfALineStaysThere) {
+  // Parts of a fan of 1 and -1 times 1e-16 or so: a centroid would be anywhere.
+  for (const double h : {1e-17, 1e-16, 3e-15}) {
+    for (const auto& sliver : {std::vector<Eigen::Vector2d>{{0, 0}, {0.5, -h}, {1, 0}, {0.5, -0.9 * h}},
+                               {{0, 0}, {0.5, 0.9 * h}, {1, 0}, {0.5, h}},
+                               {{0, 0}, {1, 0}, {1, h}, {0.4, h}}}) {
+      const PolygonRule rule = polygon_rule(sliver, 4);
+      double area = 0.0;
+      for (std::size_t k = 0; k < rule.points.size(); ++k) {
+        EXPECT_GT(rule.weights[k], 0.0);
+        EXPECT_LE((rule.points[k] - Eigen::Vector2d(0.5, 0)).norm(), 0.6);
+        area += rule.weights[k];
+      }
+      EXPECT_LE(area, h);
+    }
+  }
+  // Corners that are one to rounding: still the unit square, weights positive.
+  const PolygonRule rule =
+      polygon_rule({{0, 0}, {1e-17, -1e-17}, {1, 0}, {1, 1e-16}, {1, 1}, {1 - 1e-16, 1}, {0, 1}}, 4);
+  EXPECT_NEAR(integrate(rule, [](const Eigen::Vector2d& p) { return p.x() * p.y(); }), 0.25, 1e-14);
+  for (const double weight : rule.weights) EXPECT_GT(weight, 0.0);
+}
+
 TEST(Quadrature, TriangleRuleIsExact) {
   const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
   for (int degree = 0; degree <= 12; ++degree) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/simulations.hpp"
 
 namespace ashlar {
@@ -37,6 +39,28 @@ TEST(Tie, SquaredGapIsThatOfTheCommonPartOfTheFaces) {
   const Vector3 at_centroid = gradient * below.centroid();
   const double squared = (tie.a * below.linear_field(at_centroid, gradient)).squaredNorm();
   EXPECT_NEAR(squared, 7.0 / 3.0, 1e-12);
+}
+
+TEST(Tie, RoundedCornersLoseNothing) {
+  // The diagonals of both faces almost lie on each other; what they cut off has no area but rounding.
+  std::mt19937_64 random(20261122);
+  const auto jittered = [&](const Vector3& low, const Vector3& high) {
+    TriangleMesh box = make_box(low, high);
+    for (Vector3& point : box.points) {
+      for (double& x : point) x += 0x1p-52 * static_cast<double>(static_cast<int>(random() % 3) - 1);
+    }
+    return Polyhedron(box, 0x1p-46);
+  };
+  for (int trial = 0; trial < 300; ++trial) {
+    const Polyhedron lower = jittered({0, 0, 0}, {1.7, 1.1, 1}), upper = jittered({0, 0, 1}, {1.7, 1.1, 2});
+    const PolynomialBasis below(lower, 2), above(upper, 2);
+    const Tie tie = tie_between(lower, below, upper, above);
+    EXPECT_NEAR(tie.area, 1.87, 1e-13);
+    // The squared gap of a block moved by 1 m along z is the area.
+    const Eigen::VectorXd ones = (tie.a * below.linear_field({0, 0, 1}, Eigen::Matrix3d::Zero())).col(2);
+    ASSERT_NEAR(ones.squaredNorm(), 1.87, 1e-12) << trial;
+    ASSERT_EQ(tie.a.rows(), 6) << trial;  // 1, x, y, x^2, x y, y^2
+  }
 }
 
 TEST(Tie, BlocksThatMeetInAnEdgeHaveNoCommonFace) {
