@@ -78,7 +78,7 @@ struct SceneContact {
   std::optional<double> angle;            ///< deg, 0 to 45; empty: auto
   std::optional<double> chord_tolerance;  ///< m, > 0; empty: auto, or subdivisions
   std::optional<int> subdivisions;        ///< uniform levels, 0 to 8; excludes chord_tolerance
-  bool augmented = false;                 ///< Uzawa updates down to penetration_tolerance
+  bool augmented = false;                 ///< multipliers: no deeper than penetration_tolerance
   std::optional<double> penetration_tolerance;  ///< m, > 0; empty: auto
 };
 

@@ -67,6 +67,8 @@ class ContactMemory {
   [[nodiscard]] double bulge() const { return bulge_; }
   /// What store() was told of the last step; nothing where there was no contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
+  /// Changes what multipliers have taken so far. @param energy J, >= 0
+  void set_taken(double energy) { held_.normal = energy; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
 

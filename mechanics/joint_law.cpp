@@ -20,16 +20,15 @@ double shear_limit(const PointLaw& law, double normal) {
 }  // namespace
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
-  const double height = gap - law.rest;
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
-  const double normal = law.normal_multiplier - law.normal_stiffness * height;
+  const double normal = law.normal_multiplier - law.normal_stiffness * gap;
   const bool open =
-      normal < -law.tension || (height > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
+      normal < -law.tension || (gap > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
   if (open && law.held_limit <= 0.0) return response;
   if (!open) {
     response.force[0] = normal;
     response.tangent(0, 0) = law.normal_stiffness;
-    if (!law.augmented) response.normal_energy = 0.5 * law.normal_stiffness * height * height;
+    if (!law.augmented) response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
   }
   const double limit = shear_limit(law, normal);
   const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;

@@ -8,14 +8,14 @@
 //     locked   |ks s| <= max(N, 0) tan(phi) + c A     shear force on a: -ks s
 //     sliding  otherwise                              shear force on a: -(max(N, 0) tan(phi) + c A) s/|s|
 //
-// A joint fails where it opens, or where it slides and has cohesion: both strengths are lost then. Without
-// cohesion there is no strength that sliding could take; under tension such a joint slides without
-// resistance.
+// A joint fails where it opens (by more than rounding), or where it slides and has cohesion: both strengths
+// are lost then. Without cohesion there is no strength that sliding could take; under tension such a joint
+// slides without resistance.
 //
-// With multipliers (augmented contact) N = lambda_n - kn (g - r) and the trial shear force is
-// lambda_s - ks s. Where the forces repeat the multipliers, N > 0 means g = r, a locked point has s = 0 and a
-// sliding one has its force along -s: contact that does not give way. The springs only lead there, so that
-// they hold no energy.
+// With multipliers (augmented contact) N = lambda_n - kn g and the trial shear force is lambda_s - ks s.
+// Where the forces repeat the multipliers, N > 0 means g = 0, a locked point has s = 0 and a sliding one has
+// its force along -s: contact that does not give way. The springs only lead there, so that they hold no
+// energy.
 //
 // With a held limit the shear force is bounded by that limit whatever N is, also across an open gap: the
 // forces are then the gradient of a convex function of (g, s), which Coulomb's law has not.
@@ -52,7 +52,6 @@ struct PointLaw {
   double tension;            ///< T A of an intact joint, else 0, N; infinity: a joint that must not break now
   double held_limit = -1.0;  ///< N; >= 0: the bound of the shear force, whatever the normal force is
   bool augmented = false;    ///< its forces become the next multipliers; its springs hold no energy
-  double rest = 0.0;         ///< m, <= 0: the gap above which a point does not push, with multipliers
   double normal_multiplier = 0.0;                              ///< lambda_n, N
   Eigen::Vector2d shear_multiplier = Eigen::Vector2d::Zero();  ///< lambda_s, N
 };

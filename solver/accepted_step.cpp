@@ -92,6 +92,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   ledger_.contact = 0.0;
   double friction = 0.0;
   std::map<PairKey, ContactMemory> memory;
+  const double tearing_gap = settings_.tearing_share * settings_.contact_distance;
   for (std::size_t i = 0; i < islands.size(); ++i) {
     report_.iterations = std::max(report_.iterations, results[i].iterations);
     for (std::size_t n = 0; n < islands[i].pairs.size(); ++n) {
@@ -109,7 +110,8 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       if (pair.tied()) continue;
       const double slid = pair.friction_work(after, laws, ya, yb);
       friction += slid;
-      if (settings_.augmented && !scheme.from_rest) held.normal = take_for_multipliers(pair, -work - slid);
+      if (settings_.augmented && !scheme.from_rest)
+        held.normal = take_for_multipliers(pair, -pair.spring_work(after, ya, yb) - slid);
       auto gaps = pair.gaps(ya, yb);
       double deepest = 0.0;
       for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -123,8 +125,8 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       report_.penetration = std::max(report_.penetration, deepest);
       const double bulge =
           finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
-      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb), deepest, held,
-                                         bulge, pair.cuts());
+      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb, tearing_gap),
+                                         deepest, held, bulge, pair.cuts());
       // Forces that acted: with average-acceleration not those at the end.
       std::vector<PointResponse> acted = after.points;
       for (std::size_t k = 0; k < acted.size(); ++k) acted[k].force = after.means[k].force;

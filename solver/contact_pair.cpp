@@ -136,7 +136,6 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       points_(std::move(points)),
       memory_(std::move(memory)),
       rests_(points_.size(), 0.0),
-      lifts_(points_.size(), 0.0),
       start_(3, static_cast<Eigen::Index>(points_.size())),
       rows_a_(contact_rows(*body_a.model, points_, phi_a)),
       rows_b_(contact_rows(*body_b.model, points_, phi_b)),
@@ -179,19 +178,41 @@ bool ContactPair::can_be_bounded() const {
                                  [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
 }
 
-void ContactPair::hold_where_found(double tolerance, double taken) {
-  constexpr double lifted_share = 0.3;  // in one step more throws blocks out that are found deep
-  const double slack = 0.5 * tolerance;
+void ContactPair::hold_where_found(double taken) {
   taken_ = taken;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const double gap = points_[k].gap;
-    const bool bonded = laws_[k].tension > 0.0;
-    if (!bonded)
-      lifts_[k] = std::clamp(-slack - gap, 0.0, slack) + lifted_share * std::max(0.0, -tolerance - gap);
-    rests_[k] = (bonded ? gap : std::min(0.0, gap)) + lifts_[k];
+    rests_[k] = laws_[k].tension > 0.0 ? gap : std::min(0.0, gap);
     start_(0, static_cast<Eigen::Index>(k)) = gap - rests_[k];
   }
   respond_at_start();
+}
+
+double ContactPair::depth_found() const {
+  double depth = 0.0;
+  for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
+    if (laws_[k].tension == 0.0) depth = std::max(depth, -points_[k].gap);
+  }
+  return depth;
+}
+
+ContactPair ContactPair::moved_apart(double depth) const {
+  ContactPair pair = *this;
+  pair.start_.setZero();
+  pair.prescribed_.resize(3, 0);
+  const JointLaw bond = tie_law(1.0);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    PointLaw& law = pair.laws_[k];
+    const bool bonded = tied() || law.tension > 0.0;
+    law = {law.normal_stiffness, bonded ? law.shear_stiffness : 0.0, 0.0, bonded ? bond.cohesion : 0.0,
+           bonded ? bond.tensile_strength : 0.0};
+    law.augmented = !tied();
+    if (bonded) continue;
+    pair.rests_[k] = -depth;
+    pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap + depth;
+  }
+  pair.respond_at_start();
+  return pair;
 }
 
 void ContactPair::hold_at_most(const SpringEnergy& held) {
@@ -251,19 +272,27 @@ void ContactPair::prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_
   }
 }
 
-double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  if (!tied() || laws_.empty()) return 0.0;
+double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                   const std::vector<PointLaw>& laws) const {
+  double stiffness = 0.0;
+  for (const PointLaw& law : laws)
+    stiffness = std::max({stiffness, law.normal_stiffness, law.shear_stiffness});
   const auto part = [](const Eigen::MatrixXd& rows, const Eigen::VectorXd& change) {
     return rows.size() > 0 ? rows.rowwise().squaredNorm().maxCoeff() * change.norm() : 0.0;
   };
-  return 2.0 * std::numeric_limits<double>::epsilon() * laws_.front().normal_stiffness *
-         (part(rows_a_, ya) + part(rows_b_, yb));
+  return 2.0 * std::numeric_limits<double>::epsilon() * stiffness * (part(rows_a_, ya) + part(rows_b_, yb));
 }
 
 double ContactPair::work(const PairResponse& response, const Eigen::VectorXd& ya,
                          const Eigen::VectorXd& yb) const {
   return (ya.size() > 0 ? ya.dot(response.total_on_a()) : 0.0) +
          (yb.size() > 0 ? yb.dot(response.total_on_b()) : 0.0) + prescribed_work(response);
+}
+
+double ContactPair::spring_work(const PairResponse& response, const Eigen::VectorXd& ya,
+                                const Eigen::VectorXd& yb) const {
+  return (ya.size() > 0 ? ya.dot(response.force_on_a) : 0.0) +
+         (yb.size() > 0 ? yb.dot(response.force_on_b) : 0.0) + prescribed_work(response);
 }
 
 double ContactPair::prescribed_work(const PairResponse& response) const {
@@ -369,8 +398,8 @@ std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::Ve
 
 std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
                                                    const std::vector<PointLaw>& laws,
-                                                   const Eigen::VectorXd& ya,
-                                                   const Eigen::VectorXd& yb) const {
+                                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                                   double tearing_gap) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   std::vector<PointMemory> result;
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -381,7 +410,9 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
     memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
-    const bool torn = point.state == ContactState::open || (laws_[k].tension > 0.0 && laws[k].tension == 0.0);
+    const bool open = point.state == ContactState::open;
+    const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension == 0.0
+                                             : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
     memory.intact = memory_[k].intact && !torn && !sheared;
     if (laws[k].augmented && point.state != ContactState::open) {

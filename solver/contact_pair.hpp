@@ -53,8 +53,9 @@ class ContactPair {
   ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
               double stiffness);
   [[nodiscard]] bool tied() const { return tie_ != nullptr; }
-  /// Size of the rounding errors of the forces of a tie, 0 of contacts, in the norm of a block's unknowns.
-  [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
+  [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                      const std::vector<PointLaw>& laws) const;
 
   [[nodiscard]] int a() const { return a_; }
   [[nodiscard]] int b() const { return b_; }
@@ -78,15 +79,16 @@ class ContactPair {
   /// are, and so do pairs with multipliers.
   void hold_at_most(const SpringEnergy& held);
   /// Points with multipliers, which hold no energy, are held where they are found below the surface, bonds
-  /// also above it. Those deeper than half the tolerance are lifted to there if that is within the tolerance,
-  /// else by half the tolerance and 0.3 of what is left. The open-close iteration lifts them by less where
-  /// that takes more work than the pair has taken from its blocks before.
-  /// @param tolerance of penetrations, m. @param taken J, >= 0
-  void hold_where_found(double tolerance, double taken);
-  /// How far hold_where_found() lifts each point, m, >= 0.
-  [[nodiscard]] const std::vector<double>& lifts() const { return lifts_; }
+  /// also above it.
+  /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
+  void hold_where_found(double taken);
   /// What hold_where_found() was told.
   [[nodiscard]] double taken() const { return taken_; }
+  /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.
+  [[nodiscard]] double depth_found() const;
+  /// The pair without friction and forces, for moving blocks apart: points push from a depth on, bonds and
+  /// ties hold blocks as they are to each other. @param depth m, >= 0
+  [[nodiscard]] ContactPair moved_apart(double depth) const;
   [[nodiscard]] bool can_be_bounded() const;
   /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
   /// 3), empty: none
@@ -95,6 +97,9 @@ class ContactPair {
   /// Work of the contact forces on both blocks, on prescribed motion too, J.
   [[nodiscard]] double work(const PairResponse& response, const Eigen::VectorXd& ya,
                             const Eigen::VectorXd& yb) const;
+  /// Its part without that of what balances the couple, J.
+  [[nodiscard]] double spring_work(const PairResponse& response, const Eigen::VectorXd& ya,
+                                   const Eigen::VectorXd& yb) const;
   /// Its part on prescribed motion, J.
   [[nodiscard]] double prescribed_work(const PairResponse& response) const;
 
@@ -121,10 +126,12 @@ class ContactPair {
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Memory after an accepted step. @param laws that gave the response
+  /// @param tearing_gap m, >= 0: cohesion without tensile strength lasts where a point opens no farther: of
+  /// points without pressure rounding must not say which have failed
   [[nodiscard]] std::vector<PointMemory> memory_after(const PairResponse& response,
                                                       const std::vector<PointLaw>& laws,
-                                                      const Eigen::VectorXd& ya,
-                                                      const Eigen::VectorXd& yb) const;
+                                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                                      double tearing_gap) const;
   /// Work that sliding takes in the step, J, >= 0; with multipliers, which hold none, all that points take
   /// that slide.
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
@@ -153,7 +160,6 @@ class ContactPair {
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
-  std::vector<double> lifts_;
   double taken_ = 0.0;
   Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
   Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none

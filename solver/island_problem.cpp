@@ -64,7 +64,7 @@ Balance IslandProblem::balance() const {
   Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size),
                  std::vector<double>(island_.bodies.size(), 0.0), 0.0};
   std::vector<double> scale(island_.bodies.size(), 0.0);
-  std::vector<double> tie_rounding(island_.bodies.size(), 0.0);
+  std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
   const auto add = [&](int body, const Eigen::VectorXd& force) {
     result.left.segment(solver_.matrix.offset(body), force.size()) += force;
     scale[at(body)] = std::max(scale[at(body)], force.norm());
@@ -83,15 +83,15 @@ Balance IslandProblem::balance() const {
     if (a >= 0) add(a, responses_[k].total_on_a());
     if (b >= 0) add(b, responses_[k].total_on_b());
     const double rounding =
-        pair(k).force_rounding(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change);
-    if (a >= 0) tie_rounding[at(a)] += rounding;
-    if (b >= 0) tie_rounding[at(b)] += rounding;
+        pair(k).force_rounding(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change, laws_[k]);
+    if (a >= 0) contact_rounding[at(a)] += rounding;
+    if (b >= 0) contact_rounding[at(b)] += rounding;
   }
   const double tolerance =
       scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
-    const double rounding = body.roundoff_force + tie_rounding[k] +
+    const double rounding = body.roundoff_force + contact_rounding[k] +
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
@@ -195,7 +195,7 @@ std::vector<ContactState> IslandProblem::states() const {
 double IslandProblem::given(std::size_t k) const {
   const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
   const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
-  return pair(k).work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
+  return pair(k).spring_work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
 }
 
 void IslandProblem::hand_over(IslandResult& result) {

@@ -22,7 +22,7 @@ class OpenClose {
   Outcome run() {
     bond();
     start();
-    for (int updates = 0;;) {
+    for (int rounds = 0;;) {
       Outcome outcome = newton(settings_.newton_iterations, false);
       if (outcome == Outcome::stalled) {
         ++result_.fallbacks;
@@ -30,10 +30,8 @@ class OpenClose {
       }
       if (outcome != Outcome::settled) return outcome;
       if (!break_joints()) {
-        if (!settings_.augmented || (within_tolerance() && !gives_too_much())) return outcome;
-        if (++updates > settings_.multiplier_updates) return Outcome::stalled;
-        if (updates == 1) lift_points();
-        update_multipliers();
+        if (!settings_.augmented || !(stiffen() || lower_multipliers())) return outcome;
+        if (++rounds > settings_.augmented_rounds) return Outcome::stalled;
       }
       problem_.respond();
     }
@@ -115,95 +113,68 @@ class OpenClose {
     return true;
   }
 
-  /// How far points are from where multipliers alone would hold them, m.
-  [[nodiscard]] double farthest() const {
+  /// How far the points of a pair are from where multipliers alone would hold them, m.
+  [[nodiscard]] double farthest(std::size_t pair) const {
     double most = 0.0;
     const auto look_at = [&most](double force, double stiffness) {
       if (stiffness > 0.0) most = std::max(most, force / stiffness);
     };
-    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-        const PointLaw& law = problem_.laws()[pair][k];
-        const PointResponse& point = problem_.responses()[pair].points[k];
-        if (!law.augmented || point.state == ContactState::open) continue;
-        look_at(std::abs(law.normal_multiplier - point.force[0]), law.normal_stiffness);
-        look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness);
-      }
+    for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
+      const PointLaw& law = problem_.laws()[pair][k];
+      const PointResponse& point = problem_.responses()[pair].points[k];
+      if (!law.augmented || point.state == ContactState::open) continue;
+      look_at(std::abs(law.normal_multiplier - point.force[0]), law.normal_stiffness);
+      look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness);
     }
     return most;
   }
 
-  /// Points are held at most half of the tolerance deep (ContactPair::hold_where_found); the other half is
-  /// theirs.
-  [[nodiscard]] bool within_tolerance() {
-    const double last = farthest_;
-    farthest_ = farthest();
-    slow_ = farthest_ > settings_.slow_update * last;
-    return farthest_ <= 0.5 * settings_.penetration_tolerance;
-  }
-
-  /// Points are lifted by half the tolerance, which they need not follow, and beyond that as far as the
-  /// springs do it in one balance: to insist would strain the blocks.
-  void lift_points() {
+  /// Makes springs beside multipliers as stiff as the step's change of forces asks for. @return whether any
+  /// were too soft
+  bool stiffen() {
+    constexpr double margin = 4.0;  // forces grow when springs do
+    constexpr double most = 1e4;    // at once
+    const double allowed = multiplier_share * settings_.penetration_tolerance;
+    bool stiffer = false;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      const std::vector<double>& lifts = problem_.pair(pair).lifts();
-      for (std::size_t k = 0; k < lifts.size(); ++k) {
-        PointLaw& law = problem_.laws()[pair][k];
-        const PointResponse& point = problem_.responses()[pair].points[k];
-        if (lifts[k] == 0.0 || point.state == ContactState::open) continue;
-        const double place = law.rest + (law.normal_multiplier - point.force[0]) / law.normal_stiffness;
-        const double beyond = std::max(0.0, lifts[k] - 0.5 * settings_.penetration_tolerance);
-        law.rest = std::clamp(place, std::min(-beyond, law.rest), law.rest);
+      const double found = farthest(pair);
+      if (found <= allowed) continue;
+      stiffer = true;
+      const double factor = std::min(margin * found / allowed, most);
+      for (PointLaw& law : problem_.laws()[pair]) {
+        law.normal_stiffness *= factor;
+        law.shear_stiffness *= factor;
       }
     }
+    return stiffer;
   }
 
-  /// Whether a pair gives its blocks more than it has taken from them. Its points are then lifted by less;
-  /// where that is not why, multipliers have to be more accurate.
-  bool gives_too_much() {
-    constexpr double margin = 1.5;   // forces change when points are lowered
-    constexpr int refinements = 20;  // at most: the accuracy may be below rounding
+  /// Where a pair gives its blocks more than it has taken from them, its points start the step from less
+  /// force than they end it with: then they take. @return whether there is such a pair
+  bool lower_multipliers() {
+    constexpr double less = 0.8;  // of the force, the first time; its powers later
     if (problem_.scheme().from_rest) return false;
     const double accuracy = settings_.multiplier_accuracy * settings_.penetration_tolerance;
     bool lowered = false;
-    bool inaccurate = false;
+    share_kept_ *= less;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       std::vector<PointLaw>& laws = problem_.laws()[pair];
       if (laws.empty() || !laws.front().augmented) continue;
-      const std::vector<double>& lifts = problem_.pair(pair).lifts();
+      const std::vector<PointResponse>& points = problem_.responses()[pair].points;
       double force = 0.0;
-      double work = 0.0;
+      for (const PointResponse& point : points) force += std::max(0.0, point.force[0]);
+      if (!(problem_.given(pair) - problem_.pair(pair).taken() > accuracy * force)) continue;
       for (std::size_t k = 0; k < laws.size(); ++k) {
-        const double normal = std::max(0.0, problem_.responses()[pair].points[k].force[0]);
-        force += normal;
-        work += normal * (lifts[k] + laws[k].rest);
-      }
-      const double excess = problem_.given(pair) - problem_.pair(pair).taken();
-      if (!(excess > accuracy * force)) continue;
-      inaccurate = inaccurate || farthest_ > accuracy;
-      if (!(work > 0.0)) continue;
-      lowered = true;
-      const double share = std::min(1.0, margin * excess / work);
-      for (std::size_t k = 0; k < laws.size(); ++k) laws[k].rest -= share * (lifts[k] + laws[k].rest);
-    }
-    return lowered || (inaccurate && refinements_++ < refinements);
-  }
-
-  /// Uzawa: the forces become the multipliers. Springs too soft to get anywhere are stiffened for this step.
-  void update_multipliers() {
-    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-        PointLaw& law = problem_.laws()[pair][k];
-        const PointResponse& point = problem_.responses()[pair].points[k];
-        if (!law.augmented) continue;
-        law.normal_multiplier = point.force[0];
-        law.shear_multiplier = point.force.tail<2>();
-        if (!slow_) continue;
-        constexpr double stiffer = 10.0;
-        law.normal_stiffness *= stiffer;
-        law.shear_stiffness *= stiffer;
+        const double normal = points[k].force[0];
+        const Eigen::Vector2d shear = points[k].force.tail<2>();
+        const bool pushes = normal < laws[k].normal_multiplier;
+        const bool drags = shear.dot(laws[k].shear_multiplier - shear) > 0.0;
+        lowered = lowered || pushes || drags;
+        if (pushes) laws[k].normal_multiplier = share_kept_ * std::max(0.0, normal);
+        if (drags) laws[k].shear_multiplier = share_kept_ * shear;
       }
     }
+    return lowered;
   }
 
   /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
@@ -275,8 +246,7 @@ class OpenClose {
     problem_.set_guess(best_);
     problem_.respond();
     std::vector<double> limits = bounds();
-    double share = 1.0;
-    double last_change = std::numeric_limits<double>::infinity();
+    Eigen::VectorXd last_change;
     for (int pass = 0; pass < settings_.fallback_passes; ++pass) {
       hold(limits);
       // A minimum need not be met better than its bounds are known; newton() sees to the rest.
@@ -288,13 +258,22 @@ class OpenClose {
       const Outcome finished = newton(settings_.newton_iterations, true);
       if (finished == Outcome::settled) return finished;
       problem_.set_guess(guess);
-      double change = 0.0;
-      for (std::size_t k = 0; k < next.size(); ++k) change = std::max(change, std::abs(next[k] - limits[k]));
-      if (change > 0.9 * last_change) share = std::max(0.5 * share, settings_.least_relaxation);
+      Eigen::Map<Eigen::VectorXd> held(limits.data(), static_cast<Eigen::Index>(limits.size()));
+      const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(next.data(), held.size()) - held;
+      const double share = pass < settings_.plain_passes || pass % 3 != 2 ? 1.0 : way_on(change, last_change);
+      held = (held + share * change).cwiseMax(0.0);
       last_change = change;
-      for (std::size_t k = 0; k < next.size(); ++k) limits[k] += share * (next[k] - limits[k]);
     }
     return Outcome::stalled;
+  }
+
+  /// Where a repetition whose changes shrink, grow or turn round by a factor leads, in units of the last one.
+  /// Forces are bounded: what grows meets another solution ahead.
+  static double way_on(const Eigen::VectorXd& change, const Eigen::VectorXd& last_change) {
+    constexpr double farthest = 10.0;
+    const double last = last_change.squaredNorm();
+    const double factor = last > 0.0 ? change.dot(last_change) / last : 0.0;
+    return 1.0 / std::max(1.0 / farthest, 1.0 - factor);
   }
 
   /// The minimum with the present bounds held. @param target of Balance::worst
@@ -346,15 +325,16 @@ class OpenClose {
     }
   }
 
+  /// Of the penetration tolerance: how far springs beside multipliers give way in a step.
+  static constexpr double multiplier_share = 0.25;
+
   IslandProblem& problem_;
   const SimulationSettings& settings_;
   IslandResult& result_;
-  std::vector<std::vector<double>> strengths_;                 ///< tensile strength of each point, N
-  double farthest_ = std::numeric_limits<double>::infinity();  ///< farthest() at the last update
-  bool slow_ = false;                                          ///< the last update did not get far
-  int refinements_ = 0;                                        ///< updates for accuracy beyond the tolerance
-  double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
-  std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
+  std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
+  double share_kept_ = 1.0;                     ///< of forces, by lower_multipliers()
+  double least_ = 0.0;                          ///< Balance::worst of the last newton() at its best
+  std::vector<Eigen::VectorXd> best_;           ///< the guess that was the best of the first newton()
 };
 
 }  // namespace

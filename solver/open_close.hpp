@@ -11,16 +11,17 @@
 // a convex function of the changes: inertia and elastic energy, penalty springs, friction potentials that are
 // quadratic about no slip and linear beyond the bound. Newton with an exact line search converges to its one
 // minimum from anywhere. Then the bounds are set anew from the normal forces: a fixed-point iteration that
-// contracts for moderate friction, with shorter steps where it does not. Between two passes Newton may finish
-// what has come near enough.
+// contracts for moderate friction and is extrapolated, from its last two changes, where it goes slowly, to
+// and fro, or away. Between two passes Newton may finish what has come near enough.
 //
 // Joints with tensile strength hold within these iterations whatever pulls; where the balanced pull exceeds
 // the strength the joints that are overstressed most break, for good, and the iteration goes on: there are no
 // more rounds than joints.
 //
-// Augmented contact goes on with multipliers (Uzawa): after each balance the forces become the multipliers,
-// until they repeat themselves, so that no point is deeper than settings.penetration_tolerance, and no locked
-// one has slipped farther.
+// Augmented contact starts each step with the forces of the last one as multipliers (Uzawa, one update a
+// step). What the forces change by is left to springs, made as stiff as it takes to hold points within a
+// quarter of settings.penetration_tolerance of where they were. A pair that would so give its blocks more
+// than it has taken from them starts from less force instead.
 #pragma once
 
 #include "solver/island_problem.hpp"

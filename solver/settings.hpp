@@ -51,6 +51,8 @@ struct SimulationSettings {
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
   double smallest_cut = 0.01;
 
+  double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
+
   // Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
   // where the others are exceeded the step is cut.
   int newton_iterations = 16;
@@ -59,20 +61,23 @@ struct SimulationSettings {
   int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
   double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
   int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
-  int minimiser_iterations = 60;   ///< of one pass
+  int minimiser_iterations = 150;  ///< of one pass
   double minimiser_share = 1e-2;   ///< of what is left under Coulomb's law: how well one pass is solved
   int line_search_steps = 30;
   double line_search_tolerance = 0.05;  ///< of the work at the start of a line
-  double least_relaxation = 0.1;        ///< 0 to 1: smallest share of a change of bounds that is taken
+  int plain_passes = 8;                 ///< before bounds are extrapolated
   double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
   double residual_tolerance =
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
   bool augmented = false;  ///< multipliers take over from springs until:
-  double penetration_tolerance = 1e-6;  ///< m, > 0: no contact is deeper, no locked one has slipped farther
+  double penetration_tolerance =
+      1e-6;  ///< m, > 0: no contact is deeper, no locked one slips farther in a step
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
-  int multiplier_updates = 60;  ///< in a step; more: the step is cut
-  double slow_update = 0.25;    ///< updates that leave more of the penetration raise the stiffness tenfold
+  /// before a step, of blocks that are deeper in each other: contacts are others after each (moved_apart.cpp)
+  int moves_apart = 4;
+  double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart
+  int augmented_rounds = 40;     ///< balances of a step with other stiffness or multipliers; more: it is cut
 
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
 

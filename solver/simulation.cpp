@@ -119,7 +119,16 @@ StepStatus Simulation::step(double end_time) {
     accelerations_ = smooth_accelerations();
   std::vector<FoundContacts> found = find_contacts(step);
   Trial trial;
-  trial.pairs = make_pairs(found, true);
+  int moves = 0;
+  const auto pair_up = [&] {
+    trial.pairs = make_pairs(found, true);
+    while (moves < settings_.moves_apart && move_apart(step, trial.pairs, found)) {
+      ++moves;
+      found = find_contacts(step);
+      trial.pairs = make_pairs(found, true);
+    }
+  };
+  pair_up();
   int cuts = 0;
   int additions = 0;
   bool unsettled = false;
@@ -157,7 +166,7 @@ StepStatus Simulation::step(double end_time) {
     ++additions;
     add_contacts(passing, found);
     counts_.passing_contacts += passing.size();
-    trial.pairs = make_pairs(found, true);
+    pair_up();
   }
   return StepStatus::too_many_cuts;
 }
@@ -239,8 +248,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
-    if (hold_energy && steps_ > 0 && law.augmented)
-      pairs.back().hold_where_found(settings_.penetration_tolerance, known.held().normal);
+    if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(known.held().normal);
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

@@ -207,6 +207,19 @@ class Simulation {
   /// Adds contacts for blocks that would pass through each other, pairs kept in order.
   static void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found);
 
+  // moved_apart.cpp
+  /// Moves blocks that multipliers hold apart where they have got into each other by more than the
+  /// penetration tolerance allows. @param step s. @return whether any was moved: contacts have to be found
+  /// anew then
+  bool move_apart(double step, const std::vector<ContactPair>& pairs,
+                  const std::vector<FoundContacts>& found);
+  /// Whether nothing but its own blocks acts on an island beside gravity and loads.
+  [[nodiscard]] bool is_free(const Island& island, const std::vector<ContactPair>& pairs) const;
+  /// Energy that a motion without velocity takes from outside: of elasticity and gravity without the work of
+  /// loads, J. @param bodies of an island
+  [[nodiscard]] double energy_of_motion(const std::vector<int>& island,
+                                        const std::vector<BodyStep>& bodies) const;
+
   // block_changes.cpp
   [[nodiscard]] bool any_incremental() const;
   /// Makes the next steps of incremental blocks. @return false if one would be no block any more

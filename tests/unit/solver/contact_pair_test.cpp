@@ -46,6 +46,11 @@ Setting skew_setting(double gap) {
   return setting;
 }
 
+/// No change of a block.
+Eigen::VectorXd none(const BlockModel& block) {
+  return Eigen::VectorXd::Zero(block.unknowns());
+}
+
 Eigen::VectorXd joined(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   Eigen::VectorXd result(a.size() + b.size());
   result << a, b;
@@ -203,21 +208,45 @@ JointLaw multiplier_law() {
 TEST(ContactPair, MultipliersHoldPointsWhereTheyAreFound) {
   PointMemory memory;
   memory.normal_multiplier = 4e4;  // Pa, over 0.25 m^2: 1e4 N
-  const auto start_force = [&](double gap, double taken) {
+  const auto start_force = [&](double gap) {
     const Setting setting = skew_setting(gap);
     ContactPair pair = pair_of(setting, multiplier_law(), memory);
-    pair.hold_where_found(4e-6, taken);
+    pair.hold_where_found(2.0);
+    EXPECT_EQ(pair.taken(), 2.0);
+    EXPECT_EQ(pair.depth_found(), std::max(0.0, -gap));
     EXPECT_EQ(pair.start_energy(), 0.0);
-    const PairResponse response = pair.respond(Eigen::VectorXd::Zero(setting.a.unknowns()),
-                                               Eigen::VectorXd::Zero(setting.b.unknowns()), false);
-    return response.points[0].force[0];
+    return pair.respond(none(setting.a), none(setting.b), false).points[0].force[0];
   };
-  // Within half the tolerance of 4e-6 m nothing pushes back; above the surface the spring of 5e8 N/m pulls.
-  EXPECT_NEAR(start_force(-1e-6, 0.0), 1e4, 1e-6);
-  EXPECT_NEAR(start_force(1e-6, 0.0), 1e4 - 500.0, 1e-6);
-  // To 2e-6 m below it, by 1e-6 m; from 9e-6 m by 2e-6 m and 0.3 of the 5e-6 m beyond the tolerance.
-  EXPECT_NEAR(start_force(-3e-6, 1.0), 1e4 + 500.0, 1e-6);
-  EXPECT_NEAR(start_force(-9e-6, 1.0), 1e4 + 1750.0, 1e-6);
+  // Nothing pushes back, however deep; above the surface the spring of 5e8 N/m pulls.
+  EXPECT_NEAR(start_force(-1e-6), 1e4, 1e-6);
+  EXPECT_NEAR(start_force(-9e-3), 1e4, 1e-6);
+  EXPECT_NEAR(start_force(1e-6), 1e4 - 500.0, 1e-6);
+}
+
+TEST(ContactPair, MovedApartPushesFromADepthOnAndKeepsBonds) {
+  PointMemory memory;
+  memory.normal_multiplier = 4e4;
+  memory.slip = Vector3(1e-3, 0, 0);
+  memory.state = ContactState::locked;
+  const auto force_at = [&](double gap, double tensile_strength, bool intact) {
+    memory.intact = intact;
+    JointLaw law = multiplier_law();
+    law.tensile_strength = tensile_strength;
+    law.cohesion = 1e5;
+    const Setting setting = skew_setting(gap);
+    ContactPair pair = pair_of(setting, law, memory);
+    pair.hold_where_found(0.0);
+    EXPECT_EQ(pair.depth_found(), intact && tensile_strength > 0.0 ? 0.0 : std::max(0.0, -gap));
+    return Eigen::Vector3d(
+        pair.moved_apart(2e-6).respond(none(setting.a), none(setting.b), false).points[0].force);
+  };
+  // From 9e-6 m deep to 2e-6 m: 5e8 N/m times 7e-6 m, without shear; nothing from less deep or above.
+  EXPECT_NEAR((force_at(-9e-6, 0.0, false) - Eigen::Vector3d(3500, 0, 0)).norm(), 0.0, 1e-6);
+  EXPECT_EQ(force_at(-1e-6, 0.0, true), Eigen::Vector3d::Zero());
+  EXPECT_EQ(force_at(1e-6, 1e6, false), Eigen::Vector3d::Zero());
+  // A bond that is whole is at rest wherever it is, deep or open.
+  EXPECT_EQ(force_at(-9e-6, 1e6, true), Eigen::Vector3d::Zero());
+  EXPECT_EQ(force_at(1e-6, 1e6, true), Eigen::Vector3d::Zero());
 }
 
 TEST(ContactPair, WithoutPointsThereAreNoForces) {
@@ -243,6 +272,23 @@ TEST(ContactPair, BondsKeepTheirRest) {
   ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 0.0, 1e6, true}, memory);
   pair.hold_at_most({250.0, 0.0});
   EXPECT_NEAR(pair.start_energy(), 1000.0, 1e-9);
+}
+
+TEST(ContactPair, CohesionLastsWhereAPointOpensByRounding) {
+  PointMemory memory;
+  memory.intact = true;
+  const auto intact_after = [&](double gap, double tensile_strength) {
+    const Setting setting = skew_setting(gap);
+    const ContactPair pair = pair_of(setting, {2e9, 1e9, 0.1, 1e5, tensile_strength, true}, memory);
+    const Eigen::VectorXd ya = none(setting.a), yb = none(setting.b);
+    return pair.memory_after(pair.respond(ya, yb, false), pair.laws(), ya, yb, 1e-9)[0].intact;
+  };
+  EXPECT_TRUE(intact_after(-1e-17, 0.0));
+  EXPECT_TRUE(intact_after(1e-17, 0.0));
+  EXPECT_FALSE(intact_after(1e-8, 0.0));
+  // 2e9 Pa/m times 1e-4 m is 2e5 Pa.
+  EXPECT_TRUE(intact_after(1e-4, 2.1e5));
+  EXPECT_FALSE(intact_after(1e-4, 1.9e5));
 }
 
 TEST(ContactPair, TotalForcesHaveNoResultantAndNoTorque) {
@@ -313,7 +359,7 @@ TEST(ContactPair, SlidingInACircleTakesFrictionTimesThePathOfTheSpringsFoot) {
       work += pair.friction_work(response, pair.laws(), ya, {});
       turned += memory.slip.norm() / steps;
     }
-    memory = pair.memory_after(response, pair.laws(), ya, {})[0];
+    memory = pair.memory_after(response, pair.laws(), ya, {}, 0.0)[0];
   }
   EXPECT_NEAR(turned, length, 1e-9 * length);
   const double expected = limit * 2.0 * std::numbers::pi * std::sqrt(radius * radius - length * length);

@@ -1,0 +1,152 @@
+// Where contact is augmented, multipliers hold points at the depth where they are found. What a step does not
+// see, corners and faces that turn while it moves them straight, adds to that depth from step to step. Blocks
+// that are deeper in each other than the tolerance allows are therefore moved apart between two steps, by the
+// least motion that does it: they keep their velocities. To push them apart within a step would give them a
+// velocity of depth over step.
+//
+// The motion lifts weights and strains blocks a little. It takes no more energy for that than the contacts of
+// the island have taken from the blocks before. Free blocks that move apart as they pass each other would
+// have another angular momentum: the set of them gets it back as a spin.
+#include <algorithm>
+
+#include "solver/angular_momentum.hpp"
+#include "solver/simulation.hpp"
+#include "solver/stopwatch.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double tolerated_share = 0.75;  // of the tolerance: where blocks are moved
+constexpr double pushed_from = 0.25;      // to between this
+constexpr double inertia_share = 0.01;    // of that of a step: blocks move rather than strain
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// A block that can turn, where it is but without strain: under stress, blocks that hardly have inertia would
+/// rather turn than move.
+BlockState relaxed(const BlockModel& block, const BlockState& state) {
+  if (!block.space().can_turn() || block.incremental() != nullptr) return state;
+  const Eigen::Matrix3d gradient = state.position.transpose() * block.parts()->mean_gradients;
+  const Eigen::Matrix3d rotation = polar_decomposition(gradient).rotation;
+  return {block.basis().identity_map() * rotation.transpose(), state.velocity};
+}
+
+}  // namespace
+
+double Simulation::energy_of_motion(const std::vector<int>& island,
+                                    const std::vector<BodyStep>& bodies) const {
+  double energy = 0.0;
+  for (const int k : island) {
+    const Eigen::MatrixX3d motion = bodies[at(k)].motion();
+    const BlockModel& block = blocks_[at(k)];
+    const BlockState after{states_[at(k)].position + motion, states_[at(k)].velocity};
+    energy += block.elastic(after.position).energy - elastic_energies_[at(k)] -
+              motion.cwiseProduct(block.external_force(settings_.gravity, time_)).sum();
+  }
+  return energy;
+}
+
+bool Simulation::is_free(const Island& island, const std::vector<ContactPair>& pairs) const {
+  const auto in_free_body = [&](int block) {
+    return std::any_of(free_bodies_.begin(), free_bodies_.end(), [&](const std::vector<int>& body) {
+      return std::find(body.begin(), body.end(), block) != body.end();
+    });
+  };
+  return std::all_of(island.bodies.begin(), island.bodies.end(), in_free_body) &&
+         std::all_of(island.pairs.begin(), island.pairs.end(), [&](int index) {
+           return moving_[at(pairs[at(index)].a())] && moving_[at(pairs[at(index)].b())];
+         });
+}
+
+bool Simulation::move_apart(double step, const std::vector<ContactPair>& pairs,
+                            const std::vector<FoundContacts>& found) {
+  const double tolerance = settings_.penetration_tolerance;
+  if (!settings_.augmented || steps_ == 0) return false;
+  if (std::none_of(pairs.begin(), pairs.end(),
+                   [&](const ContactPair& pair) { return pair.depth_found() > tolerated_share * tolerance; }))
+    return false;
+  TimeScheme scheme;
+  scheme.from_rest = true;
+  scheme.inertia = inertia_share * 2.0 / (step * step);
+  SimulationSettings settings = settings_;
+  settings.static_residual_tolerance = settings_.apart_residual;
+  Trial trial;
+  for (const ContactPair& pair : pairs) trial.pairs.push_back(pair.moved_apart(pushed_from * tolerance));
+  trial.islands = find_islands(moving_, trial.pairs);
+  trial.bodies = prepare_bodies(scheme);
+  std::vector<BlockState> relaxed_states;
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    relaxed_states.push_back(moving_[k] ? relaxed(blocks_[k], states_[k]) : states_[k]);
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    BodyStep& body = trial.bodies[k];
+    body.prescribed.resize(0, 3);
+    if (!moving_[k]) continue;
+    body.free_change.setZero();
+    body.change = body.free_change;
+    body.state = &relaxed_states[k];
+    body.external_force = blocks_[k].space().restrict(blocks_[k].elastic(relaxed_states[k].position).force);
+  }
+  struct MovedIsland {
+    const Island* island;
+    double taken;  // by its contacts before
+    double energy;
+    Vector3 momentum;  // angular, before
+  };
+  const auto momentum_of = [&](const Island& island) {
+    Vector3 sum = Vector3::Zero();
+    for (const int k : island.bodies) sum += blocks_[at(k)].angular_momentum(states_[at(k)]);
+    return sum;
+  };
+  std::vector<MovedIsland> moved;
+  for (const Island& island : trial.islands) {
+    double taken = 0.0;
+    double deepest = 0.0;
+    for (const int index : island.pairs) {
+      taken += pairs[at(index)].taken();
+      deepest = std::max(deepest, pairs[at(index)].depth_found());
+    }
+    if (!(deepest > tolerated_share * tolerance)) continue;
+    const Stopwatch watch(seconds_.solve);
+    const IslandResult result = solve_island(island, trial.bodies, trial.pairs, scheme, settings, solvers_);
+    counts_.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
+    double energy = energy_of_motion(island.bodies, trial.bodies);
+    const double share = result.status != IslandStatus::settled ? 0.0 : energy > taken ? taken / energy : 1.0;
+    for (const int k : island.bodies) trial.bodies[at(k)].change *= share;
+    if (share == 0.0) continue;
+    if (share < 1.0) energy = energy_of_motion(island.bodies, trial.bodies);
+    moved.push_back({&island, taken, energy, momentum_of(island)});
+  }
+  if (moved.empty() || !check_motion(trial, found).empty() || !carry_blocks(trial)) return false;
+  finder_.accept_motion();
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    const Eigen::MatrixX3d motion = trial.bodies[k].motion();
+    ledger_.applied += motion.cwiseProduct(blocks_[k].load_force(time_)).sum();
+    states_[k].position += motion;
+    note_elastic_energy(k);
+  }
+  for (const auto& [island, taken, energy, momentum] : moved) {
+    double left = std::max(0.0, taken - energy);
+    double used = energy;
+    if (is_free(*island, pairs)) {
+      const double gain = add_spin(blocks_, island->bodies, momentum - momentum_of(*island), left, states_);
+      left = std::max(0.0, left - gain);
+      used += gain;
+    }
+    ledger_.numerical -= used;
+    const auto contacts = std::count_if(island->pairs.begin(), island->pairs.end(),
+                                        [&](int index) { return !pairs[at(index)].tied(); });
+    for (const int index : island->pairs) {
+      const ContactPair& pair = pairs[at(index)];
+      if (pair.tied()) continue;
+      const double part = taken > 0.0 ? pair.taken() / taken : 1.0 / static_cast<double>(contacts);
+      memory_[{pair.a(), pair.b()}].set_taken(part * left);
+    }
+  }
+  for (auto& [block, next] : trial.carried) start_carried_step(block, std::move(next));
+  return true;
+}
+
+}  // namespace ashlar

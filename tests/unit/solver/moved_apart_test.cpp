@@ -1,0 +1,86 @@
+// Blocks that multipliers hold apart stay out of each other, whatever turns, and gain nothing by it.
+#include <gtest/gtest.h>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::same_law;
+
+constexpr double tolerance = 1e-6;  // m
+
+/// Three dominoes, the first on its way to the second: they lean on each other and rub, face on edge and edge
+/// on face, by 0.005 rad a step.
+Simulation dominoes(Integrator integrator, int order) {
+  const Material rock{2500, 1e9, 0.2};
+  SimulationSettings settings;
+  settings.integrator = integrator;
+  settings.time_step = 2e-3;
+  settings.augmented = true;
+  settings.penetration_tolerance = tolerance;
+  BlockDefinition plate = block_of("plate", Polyhedron(make_box({-5, -5, -1}, {5, 5, 0})), rock, 1);
+  plate.fixed = true;
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions(4);
+  blocks.emplace_back(std::move(plate));
+  for (const double x : {0.0, 0.8, 1.6})
+    blocks.emplace_back(
+        block_of("domino", Polyhedron(make_box({x, -0.5, 0}, {x + 0.2, 0.5, 2})), rock, order));
+  motions[1] = {{1.5, 0, -0.1}, {0, 1.5, 0}};  // about the far lower edge
+  return {std::move(blocks), motions, same_law({1e9, 5e8, 0.4, 0.0, 0.0, true}), settings};
+}
+
+class MovedApart : public ::testing::TestWithParam<Integrator> {};
+
+TEST_P(MovedApart, NothingIsDeeperThanTheToleranceAndNothingIsGained) {
+  for (const int order : GetParam() == Integrator::dda ? std::vector{1, 2} : std::vector{1}) {
+    Simulation simulation = dominoes(GetParam(), order);
+    while (!simulation.reached(1.3)) {
+      ASSERT_EQ(simulation.step(1.3), StepStatus::accepted);
+      EXPECT_LE(simulation.report().penetration, tolerance) << order << ' ' << simulation.time();
+    }
+    // The last one is falling.
+    EXPECT_LT(test_support::place_of(simulation, 3, {1.7, 0, 2}).z(), 1.9);
+    for (const Rejection& rejection : simulation.rejections())
+      EXPECT_EQ(rejection.reason, RejectionReason::passing) << rejection.time;
+    EXPECT_LE(simulation.ledger().refound_gained, 1e-9 * simulation.largest_energy());
+    EXPECT_LE(simulation.largest_step_residual(), 1e-9 * simulation.largest_energy());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, MovedApart,
+                         ::testing::Values(Integrator::dda, Integrator::average_acceleration,
+                                           Integrator::generalized_alpha));
+
+TEST(MovedApartFree, KeepsMomentumAndAngularMomentum) {
+  // Three blocks that turn meet, rub and part.
+  const Material rock{2500, 1e9, 0.2};
+  SimulationSettings settings;
+  settings.gravity.setZero();
+  settings.augmented = true;
+  settings.penetration_tolerance = tolerance;
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(block_of("a", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1));
+  blocks.emplace_back(block_of("b", Polyhedron(make_box({1.3, 0.3, 0.2}, {2.0, 1.5, 2.0})), rock, 2));
+  blocks.emplace_back(block_of("c", Polyhedron(make_box({2.2, 0.5, 0.5}, {3.0, 1.5, 2.2})), rock, 1));
+  const std::vector<InitialMotion> motions{
+      {{2, 0.3, 0}, {0.5, 1.5, 0.7}}, {{0, 0, 0}, {0.1, -0.5, 0.9}}, {{-1, 0, 0}, {0, 0, 0}}};
+  Simulation simulation(std::move(blocks), motions, same_law({1e9, 5e8, 0.6, 0.0, 0.0, true}), settings);
+  const Vector3 momentum = simulation.momentum();
+  const Vector3 angular = simulation.angular_momentum();
+  int touching = 0;
+  while (!simulation.reached(1.0)) {
+    ASSERT_EQ(simulation.step(1.0), StepStatus::accepted);
+    EXPECT_LE(simulation.report().penetration, tolerance);
+    touching += simulation.report().locked + simulation.report().sliding > 0 ? 1 : 0;
+  }
+  EXPECT_GT(touching, 10);
+  EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-11 * momentum.norm());
+  EXPECT_LT((simulation.angular_momentum() - angular).norm(), 1e-10 * angular.norm());
+  EXPECT_LE(simulation.largest_step_residual(), 1e-10 * simulation.largest_energy());
+}
+
+}  // namespace
+}  // namespace ashlar
