@@ -60,8 +60,8 @@ bool Simulation::is_free(const Island& island, const std::vector<ContactPair>& p
          });
 }
 
-bool Simulation::move_apart(double step, const std::vector<ContactPair>& pairs,
-                            const std::vector<FoundContacts>& found) {
+bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::vector<FoundContacts>& found,
+                            int additions) {
   const double tolerance = settings_.penetration_tolerance;
   if (!settings_.augmented || steps_ == 0) return false;
   if (std::none_of(pairs.begin(), pairs.end(),
@@ -118,7 +118,14 @@ bool Simulation::move_apart(double step, const std::vector<ContactPair>& pairs,
     if (share < 1.0) energy = energy_of_motion(island.bodies, trial.bodies);
     moved.push_back({&island, taken, energy, momentum_of(island)});
   }
-  if (moved.empty() || !check_motion(trial, found).empty() || !carry_blocks(trial)) return false;
+  if (moved.empty()) return false;
+  if (const auto passing = check_motion(trial, found); !passing.empty()) {
+    if (additions == 0) return false;
+    add_contacts(passing, found);
+    pairs = make_pairs(found, true);
+    return move_apart(step, pairs, found, additions - 1);
+  }
+  if (!carry_blocks(trial)) return false;
   finder_.accept_motion();
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;

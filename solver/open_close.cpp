@@ -149,14 +149,14 @@ class OpenClose {
     return stiffer;
   }
 
-  /// Where a pair gives its blocks more than it has taken from them, its points start the step from less
-  /// force than they end it with: then they take. @return whether there is such a pair
+  /// Where a pair gives its blocks more than it has taken from them, points whose force falls in the step
+  /// start it from less force than they end it with: then they take. Forces that hardly fall hardly change,
+  /// so that rounding says nothing. @return whether there is such a pair
   bool lower_multipliers() {
-    constexpr double less = 0.8;  // of the force, the first time; its powers later
     if (problem_.scheme().from_rest) return false;
     const double accuracy = settings_.multiplier_accuracy * settings_.penetration_tolerance;
     bool lowered = false;
-    share_kept_ *= less;
+    beyond_ *= 2.0;  // 1 the first time
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       std::vector<PointLaw>& laws = problem_.laws()[pair];
       if (laws.empty() || !laws.front().augmented) continue;
@@ -165,13 +165,12 @@ class OpenClose {
       for (const PointResponse& point : points) force += std::max(0.0, point.force[0]);
       if (!(problem_.given(pair) - problem_.pair(pair).taken() > accuracy * force)) continue;
       for (std::size_t k = 0; k < laws.size(); ++k) {
-        const double normal = points[k].force[0];
         const Eigen::Vector2d shear = points[k].force.tail<2>();
-        const bool pushes = normal < laws[k].normal_multiplier;
-        const bool drags = shear.dot(laws[k].shear_multiplier - shear) > 0.0;
-        lowered = lowered || pushes || drags;
-        if (pushes) laws[k].normal_multiplier = share_kept_ * std::max(0.0, normal);
-        if (drags) laws[k].shear_multiplier = share_kept_ * shear;
+        const double fall = std::max(0.0, laws[k].normal_multiplier - points[k].force[0]);
+        const double along = std::max(0.0, shear.dot(laws[k].shear_multiplier - shear));
+        lowered = lowered || fall > 0.0 || along > 0.0;
+        laws[k].normal_multiplier = std::max(0.0, laws[k].normal_multiplier - (1.0 + beyond_) * fall);
+        if (along > 0.0) laws[k].shear_multiplier -= (1.0 + beyond_) * along / shear.squaredNorm() * shear;
       }
     }
     return lowered;
@@ -332,9 +331,9 @@ class OpenClose {
   const SimulationSettings& settings_;
   IslandResult& result_;
   std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
-  double share_kept_ = 1.0;                     ///< of forces, by lower_multipliers()
-  double least_ = 0.0;                          ///< Balance::worst of the last newton() at its best
-  std::vector<Eigen::VectorXd> best_;           ///< the guess that was the best of the first newton()
+  double beyond_ = 0.5;                ///< multiples of a fall of force that multipliers are lowered below it
+  double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
+  std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
 };
 
 }  // namespace

@@ -122,7 +122,7 @@ StepStatus Simulation::step(double end_time) {
   int moves = 0;
   const auto pair_up = [&] {
     trial.pairs = make_pairs(found, true);
-    while (moves < settings_.moves_apart && move_apart(step, trial.pairs, found)) {
+    while (moves < settings_.moves_apart && move_apart(step, trial.pairs, found, settings_.moves_apart)) {
       ++moves;
       found = find_contacts(step);
       trial.pairs = make_pairs(found, true);

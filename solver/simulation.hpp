@@ -209,10 +209,11 @@ class Simulation {
 
   // moved_apart.cpp
   /// Moves blocks that multipliers hold apart where they have got into each other by more than the
-  /// penetration tolerance allows. @param step s. @return whether any was moved: contacts have to be found
-  /// anew then
-  bool move_apart(double step, const std::vector<ContactPair>& pairs,
-                  const std::vector<FoundContacts>& found);
+  /// penetration tolerance allows. @param step s. @param additions times that contacts may be added for
+  /// blocks that would pass through each other. @return whether any was moved: contacts have to be found anew
+  /// then
+  bool move_apart(double step, std::vector<ContactPair>& pairs, std::vector<FoundContacts>& found,
+                  int additions);
   /// Whether nothing but its own blocks acts on an island beside gravity and loads.
   [[nodiscard]] bool is_free(const Island& island, const std::vector<ContactPair>& pairs) const;
   /// Energy that a motion without velocity takes from outside: of elasticity and gravity without the work of
