@@ -16,12 +16,15 @@
 namespace ashlar {
 namespace {
 
-constexpr double tolerated_share = 0.75;  // of the tolerance: where blocks are moved
-constexpr double pushed_from = 0.25;      // to between this
-constexpr double inertia_share = 0.01;    // of that of a step: blocks move rather than strain
+constexpr double inertia_share = 0.01;  // of that of a step: blocks move rather than strain
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
+}
+
+/// A step may add what springs give way by.
+double tolerated_depth(const SimulationSettings& settings) {
+  return (1.0 - settings.multiplier_share) * settings.penetration_tolerance;
 }
 
 /// A block that can turn, where it is but without strain: under stress, blocks that hardly have inertia would
@@ -41,8 +44,7 @@ double Simulation::energy_of_motion(const std::vector<int>& island,
   for (const int k : island) {
     const Eigen::MatrixX3d motion = bodies[at(k)].motion();
     const BlockModel& block = blocks_[at(k)];
-    const BlockState after{states_[at(k)].position + motion, states_[at(k)].velocity};
-    energy += block.elastic(after.position).energy - elastic_energies_[at(k)] -
+    energy += block.elastic(states_[at(k)].position + motion).energy - elastic_energies_[at(k)] -
               motion.cwiseProduct(block.external_force(settings_.gravity, time_)).sum();
   }
   return energy;
@@ -60,34 +62,34 @@ bool Simulation::is_free(const Island& island, const std::vector<ContactPair>& p
          });
 }
 
+bool Simulation::too_deep(const std::vector<ContactPair>& pairs) const {
+  return settings_.augmented && steps_ > 0 &&
+         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
+           return pair.depth_found() > tolerated_depth(settings_);
+         });
+}
+
 bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::vector<FoundContacts>& found,
                             int additions) {
-  const double tolerance = settings_.penetration_tolerance;
-  if (!settings_.augmented || steps_ == 0) return false;
-  if (std::none_of(pairs.begin(), pairs.end(),
-                   [&](const ContactPair& pair) { return pair.depth_found() > tolerated_share * tolerance; }))
-    return false;
+  // As much is left for what springs give way by in this motion.
+  const double pushed_from = settings_.multiplier_share * settings_.penetration_tolerance;
   TimeScheme scheme;
   scheme.from_rest = true;
   scheme.inertia = inertia_share * 2.0 / (step * step);
   SimulationSettings settings = settings_;
   settings.static_residual_tolerance = settings_.apart_residual;
   Trial trial;
-  for (const ContactPair& pair : pairs) trial.pairs.push_back(pair.moved_apart(pushed_from * tolerance));
+  for (const ContactPair& pair : pairs) trial.pairs.push_back(pair.moved_apart(pushed_from));
   trial.islands = find_islands(moving_, trial.pairs);
-  trial.bodies = prepare_bodies(scheme);
-  std::vector<BlockState> relaxed_states;
-  for (std::size_t k = 0; k < blocks_.size(); ++k)
-    relaxed_states.push_back(moving_[k] ? relaxed(blocks_[k], states_[k]) : states_[k]);
+  trial.bodies.resize(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     BodyStep& body = trial.bodies[k];
-    body.prescribed.resize(0, 3);
-    if (!moving_[k]) continue;
-    body.free_change.setZero();
-    body.change = body.free_change;
-    body.state = &relaxed_states[k];
-    body.external_force = blocks_[k].space().restrict(blocks_[k].elastic(relaxed_states[k].position).force);
+    body.model = &blocks_[k];
+    body.state = &states_[k];
+    body.roundoff_force = roundoff_force_[k];
+    body.free_change = body.change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
   }
+  std::vector<BlockState> relaxed_states(blocks_.size());  // of blocks that are moved
   struct MovedIsland {
     const Island* island;
     double taken;  // by its contacts before
@@ -107,8 +109,15 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
       taken += pairs[at(index)].taken();
       deepest = std::max(deepest, pairs[at(index)].depth_found());
     }
-    if (!(deepest > tolerated_share * tolerance)) continue;
+    if (!(deepest > tolerated_depth(settings_))) continue;
     const Stopwatch watch(seconds_.solve);
+    for (const int k : island.bodies) {
+      BodyStep& body = trial.bodies[at(k)];
+      relaxed_states[at(k)] = relaxed(blocks_[at(k)], states_[at(k)]);
+      body.state = &relaxed_states[at(k)];
+      body.external_force =
+          blocks_[at(k)].space().restrict(blocks_[at(k)].elastic(body.state->position).force);
+    }
     const IslandResult result = solve_island(island, trial.bodies, trial.pairs, scheme, settings, solvers_);
     counts_.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
     double energy = energy_of_motion(island.bodies, trial.bodies);

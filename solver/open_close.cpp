@@ -134,7 +134,7 @@ class OpenClose {
   bool stiffen() {
     constexpr double margin = 4.0;  // forces grow when springs do
     constexpr double most = 1e4;    // at once
-    const double allowed = multiplier_share * settings_.penetration_tolerance;
+    const double allowed = settings_.multiplier_share * settings_.penetration_tolerance;
     bool stiffer = false;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       const double found = farthest(pair);
@@ -151,7 +151,7 @@ class OpenClose {
 
   /// Where a pair gives its blocks more than it has taken from them, points whose force falls in the step
   /// start it from less force than they end it with: then they take. Forces that hardly fall hardly change,
-  /// so that rounding says nothing. @return whether there is such a pair
+  /// so that rounding says nothing. @return whether any was lowered
   bool lower_multipliers() {
     if (problem_.scheme().from_rest) return false;
     const double accuracy = settings_.multiplier_accuracy * settings_.penetration_tolerance;
@@ -323,9 +323,6 @@ class OpenClose {
       (found > 0.0 ? work_low : work_high) = found;
     }
   }
-
-  /// Of the penetration tolerance: how far springs beside multipliers give way in a step.
-  static constexpr double multiplier_share = 0.25;
 
   IslandProblem& problem_;
   const SimulationSettings& settings_;

@@ -69,9 +69,12 @@ struct SimulationSettings {
   double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
   double residual_tolerance =
       1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
-  bool augmented = false;  ///< multipliers take over from springs until:
+  bool augmented = false;  ///< multipliers take over from springs, see open_close.hpp
   double penetration_tolerance =
       1e-6;  ///< m, > 0: no contact is deeper, no locked one slips farther in a step
+  /// 0 to 1/3, of penetration_tolerance: how far springs beside multipliers give way in a step. Blocks are
+  /// moved apart where they are so near to the tolerance that a step could exceed it, to twice this at most
+  double multiplier_share = 0.25;
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
   /// before a step, of blocks that are deeper in each other: contacts are others after each (moved_apart.cpp)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solver/angular_momentum.hpp"
+#include "solver/checkpoint.hpp"
 #include "solver/energy_bounds.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -120,9 +121,12 @@ StepStatus Simulation::step(double end_time) {
   std::vector<FoundContacts> found = find_contacts(step);
   Trial trial;
   int moves = 0;
+  std::optional<SimulationSnapshot> unmoved;
   const auto pair_up = [&] {
     trial.pairs = make_pairs(found, true);
-    while (moves < settings_.moves_apart && move_apart(step, trial.pairs, found, settings_.moves_apart)) {
+    while (moves < settings_.moves_apart && too_deep(trial.pairs)) {
+      if (!unmoved) unmoved = snapshot();
+      if (!move_apart(step, trial.pairs, found, settings_.moves_apart)) break;
       ++moves;
       found = find_contacts(step);
       trial.pairs = make_pairs(found, true);
@@ -167,6 +171,12 @@ StepStatus Simulation::step(double end_time) {
     add_contacts(passing, found);
     counts_.passing_contacts += passing.size();
     pair_up();
+  }
+  if (moves > 0) {
+    unmoved->rejections = rejections_;
+    unmoved->counts = counts();
+    unmoved->seconds = seconds_;
+    restore(*unmoved);
   }
   return StepStatus::too_many_cuts;
 }

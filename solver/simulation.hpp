@@ -208,10 +208,11 @@ class Simulation {
   static void add_contacts(const std::vector<PassingBlocks>& passing, std::vector<FoundContacts>& found);
 
   // moved_apart.cpp
-  /// Moves blocks that multipliers hold apart where they have got into each other by more than the
-  /// penetration tolerance allows. @param step s. @param additions times that contacts may be added for
-  /// blocks that would pass through each other. @return whether any was moved: contacts have to be found anew
-  /// then
+  /// Whether multipliers hold points so deep that a step could leave them beyond the penetration tolerance.
+  [[nodiscard]] bool too_deep(const std::vector<ContactPair>& pairs) const;
+  /// Moves the blocks of such points apart. @param step s. @param additions times that contacts may be added
+  /// for blocks that would pass through each other. @return whether any was moved: contacts have to be found
+  /// anew then
   bool move_apart(double step, std::vector<ContactPair>& pairs, std::vector<FoundContacts>& found,
                   int additions);
   /// Whether nothing but its own blocks acts on an island beside gravity and loads.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "mechanics/moments.hpp"
 #include "support/sample_solids.hpp"
@@ -114,20 +115,23 @@ TEST(Quadrature, WhereSidesAlmostOnEachOtherCrossDoesNotMatter) {
 }
 
 TEST(Quadrature, WhatRoundingMakesOfALineStaysThere) {
-  // Parts of a fan of 1 and -1 times 1e-16 or so: a centroid would be anywhere.
-  for (const double h : {1e-17, 1e-16, 3e-15}) {
-    for (const auto& sliver : {std::vector<Eigen::Vector2d>{{0, 0}, {0.5, -h}, {1, 0}, {0.5, -0.9 * h}},
-                               {{0, 0}, {0.5, 0.9 * h}, {1, 0}, {0.5, h}},
-                               {{0, 0}, {1, 0}, {1, h}, {0.4, h}}}) {
-      const PolygonRule rule = polygon_rule(sliver, 4);
-      double area = 0.0;
-      for (std::size_t k = 0; k < rule.points.size(); ++k) {
-        EXPECT_GT(rule.weights[k], 0.0);
-        EXPECT_LE((rule.points[k] - Eigen::Vector2d(0.5, 0)).norm(), 0.6);
-        area += rule.weights[k];
-      }
-      EXPECT_LE(area, h);
+  // Corners of three to five sides along the diagonal of a face, on either side of it by rounding: parts of
+  // either sign whose centroid would be anywhere.
+  std::mt19937_64 random(20261122);
+  const auto any = [&] { return 0x1p-53 * static_cast<double>(random() >> 11U); };
+  const Eigen::Vector2d diagonal(1.7, 1.1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Eigen::Vector2d> sliver;
+    for (int k = 0; k < 3 + trial % 3; ++k)
+      sliver.push_back(any() * diagonal + 4e-16 * Eigen::Vector2d(any() - 0.5, any() - 0.5));
+    const PolygonRule rule = polygon_rule(sliver, 4);
+    double area = 0.0;
+    for (std::size_t k = 0; k < rule.points.size(); ++k) {
+      ASSERT_GT(rule.weights[k], 0.0) << trial;
+      ASSERT_LE((rule.points[k] - 0.5 * diagonal).norm(), 0.51 * diagonal.norm()) << trial;
+      area += rule.weights[k];
     }
+    ASSERT_LE(area, 1e-14) << trial;
   }
   // Corners that are one to rounding: still the unit square, weights positive.
   const PolygonRule rule =
