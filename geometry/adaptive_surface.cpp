@@ -42,16 +42,17 @@ AdaptiveSurface::AdaptiveSurface(const Polyhedron& solid, int order, int levels,
   leaf_count_ = root_count_;
 }
 
-/// The longest side is compared as (squared length, ends), the same from both sides of it: a total order, so
-/// that cutting longer sides of neighbours first comes to an end.
+/// The longest side is compared as (length, ends), the same from both sides of it: a total order, so that
+/// cutting longer sides of neighbours first comes to an end. In single precision lengths that are equal but
+/// for rounding, as those of a square's sides in a turned scene, are equal.
 AdaptiveSurface::Node AdaptiveSurface::make_node(int face, const std::array<int, 3>& corners,
                                                  const std::array<int, 3>& rim, std::uint64_t path,
                                                  int bisections) const {
   Node node{face, corners, rim, path, {-1, -1}, 0, bisections, false};
-  std::tuple<double, std::array<int, 2>> best{-1.0, {}};
+  std::tuple<float, std::array<int, 2>> best{-1.0F, {}};
   for (int side = 0; side < 3; ++side) {
     const std::array<int, 2> ends = sorted(corners[at(side)], corners[at((side + 1) % 3)]);
-    const std::tuple length{(points_[at(ends[1])] - points_[at(ends[0])]).squaredNorm(), ends};
+    const std::tuple length{static_cast<float>((points_[at(ends[1])] - points_[at(ends[0])]).norm()), ends};
     if (length <= best) continue;
     best = length;
     node.longest = side;

@@ -1,6 +1,7 @@
 #include "geometry/convex_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/rounding_mode.hpp"
 
@@ -234,6 +235,8 @@ void turn_to_entrance(const ConvexSurface& a, const ConvexSurface& b, const Entr
   contacts.type = exact.region.type;
   contacts.counts.filter += exact.decided_by.filter;
   contacts.counts.exact += exact.decided_by.exact;
+  const bool touching = exact.relation == Relation::touching;
+  if (contacts.empty() && (touching ? 0.0 : std::abs(exact.gap)) < history.rounding) return history.entrance;
   const bool crossing = exact.relation == Relation::crossing;
   const std::optional<Entrance> entrance =
       crossing ? exact.entrance : find_entrance(a.shape(), b.shape(), known);
@@ -242,7 +245,7 @@ void turn_to_entrance(const ConvexSurface& a, const ConvexSurface& b, const Entr
   ContactMaker maker(a, b, exact, contacts);
   if (!crossing) {
     // Edges that lie along each other are no features that face each other, but can bear.
-    if (exact.relation == Relation::touching && contacts.empty()) maker.make();
+    if (touching && contacts.empty()) maker.make();
     return name;
   }
   const bool corner_alone =

@@ -55,6 +55,10 @@ struct ContactHistory {
   std::optional<EntranceName> entrance;
   /// m: blocks that are deeper in each other along it have not met through it
   double depth = 0.0;
+  /// m, >= 0, what gaps may be by rounding of coordinates: blocks nearer to touching than this, without
+  /// features that face each other, as diagonal neighbours in a grid, do not bear on each other yet, and
+  /// through which facet they will meet is not known
+  double rounding = 0.0;
 };
 
 /// Completes the contacts that a search found (contact_search.hpp), with no faces over each other, by what

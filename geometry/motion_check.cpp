@@ -330,6 +330,23 @@ class MotionCheck {
                                              tributary_area(with_point.start->surface(), {point.cell})}});
   }
 
+  /// Whether two sides diverge by less than the tolerance where they are beside each other, all along the
+  /// step. Such sides meet at their ends, which are over the cells beside the other one; where their own
+  /// lines cross is rounding.
+  [[nodiscard]] bool are_parallel(const std::array<Path, 2>& a, const std::array<Path, 2>& b) const {
+    const auto along = [](const std::array<Path, 2>& side, double share) {
+      return Vector3(side[1].at(share) - side[0].at(share));
+    };
+    double longest = 0.0;
+    double most = 0.0;  // Bernstein coefficients of the cross product over the step
+    for (const double share : {0.0, 1.0}) {
+      longest = std::max({longest, along(a, share).norm(), along(b, share).norm()});
+      most = std::max(most, along(a, share).cross(along(b, share)).norm());
+    }
+    const Vector3 middle = along(a, 0.0).cross(along(b, 1.0)) + along(a, 1.0).cross(along(b, 0.0));
+    return std::max(most, 0.5 * middle.norm()) <= limits_.tolerance * longest;
+  }
+
   void check_sides(const Feature& of_a, const Feature& of_b) {
     if (is_known(of_a, of_b, of_a, a_) && is_known(of_a, of_b, of_b, b_)) return;
     const std::array<Path, 2> a = {path_of(a_, of_a.points[0]), path_of(a_, of_a.points[1])};
@@ -337,6 +354,7 @@ class MotionCheck {
     const auto across = [&](double share) {
       return Vector3((a[1].at(share) - a[0].at(share)).cross(b[1].at(share) - b[0].at(share)));
     };
+    if (are_parallel(a, b)) return;
     // The volume is positive while b is ahead of a along u x v; apart are the two where that leads into b.
     auto volume = signed_volume(b[0], a[0], a[1], b[1]);
     const double sign = across(0.0).dot(of_a.outward - of_b.outward) < 0.0 ? -1.0 : 1.0;

@@ -6,8 +6,12 @@ namespace ashlar {
 
 PointLaw point_law(const JointLaw& law, double area, bool intact) {
   const double scale = law.area_springs ? area : 1.0;
-  return {law.normal_stiffness * scale, law.shear_stiffness * scale, law.friction,
-          intact ? law.cohesion * area : 0.0, intact ? law.tensile_strength * area : 0.0};
+  return {law.normal_stiffness * scale,
+          law.shear_stiffness * scale,
+          law.friction,
+          intact ? law.cohesion * area : 0.0,
+          intact ? law.tensile_strength * area : 0.0,
+          law.rounding};
 }
 
 namespace {
@@ -17,25 +21,36 @@ double shear_limit(const PointLaw& law, double normal) {
   return law.held_limit >= 0.0 ? law.held_limit : std::max(normal, 0.0) * law.friction + law.cohesion;
 }
 
+/// Whether a trial shear force is within the limit but for rounding. Nothing locks what has no friction.
+bool is_locked(const PointLaw& law, double trial, double limit) {
+  const bool smooth =
+      law.held_limit >= 0.0 ? law.held_limit == 0.0 : law.friction == 0.0 && law.cohesion == 0.0;
+  return trial <= (smooth ? limit : limit + law.shear_stiffness * law.rounding);
+}
+
+Eigen::Vector2d within(double limit, const Eigen::Vector2d& trial, double length) {
+  return length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
+}
+
 }  // namespace
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
   const double normal = law.normal_multiplier - law.normal_stiffness * gap;
-  const bool open =
-      normal < -law.tension || (gap > 0.0 && law.tension == 0.0 && law.normal_multiplier == 0.0);
+  const bool open = normal < -(law.tension + law.normal_stiffness * law.rounding);
   if (open && law.held_limit <= 0.0) return response;
   if (!open) {
-    response.force[0] = normal;
+    response.force[0] = std::max(normal, -law.tension);
     response.tangent(0, 0) = law.normal_stiffness;
-    if (!law.augmented) response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
+    if (!law.augmented && response.force[0] != 0.0)
+      response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
   }
   const double limit = shear_limit(law, normal);
   const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;
   const double length = trial.norm();
-  if (length <= limit) {
+  if (is_locked(law, length, limit)) {
     response.state = ContactState::locked;
-    response.force.tail<2>() = trial;
+    response.force.tail<2>() = within(limit, trial, length);
     response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(law.shear_stiffness);
     if (!law.augmented) response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
     return response;
@@ -54,7 +69,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
 Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response) {
   const Eigen::Vector2d shear = response.force.tail<2>();
   const double length = shear.norm();
-  if (response.state != ContactState::sliding || response.force[0] <= 0.0 || law.held_limit >= 0.0 ||
+  if (response.state != ContactState::sliding || response.force[0] < 0.0 || law.held_limit >= 0.0 ||
       length == 0.0)
     return Eigen::Vector2d::Zero();
   return law.friction * law.normal_stiffness / length * shear;
@@ -67,6 +82,11 @@ MeanResponse end_response(const PointLaw& law, const PointResponse& end) {
 
 namespace {
 
+/// A gap as a spring without tension sees it: one of rounding is none.
+double seen_gap(bool open, double gap) {
+  return open ? gap : std::min(0.0, gap);
+}
+
 /// Mean normal force and its tangent. @param start,end responses whose normal forces count
 void set_mean_normal(const PointLaw& law, const PointResponse& start, double start_gap,
                      const PointResponse& end, double end_gap, MeanResponse& mean) {
@@ -75,6 +95,8 @@ void set_mean_normal(const PointLaw& law, const PointResponse& start, double sta
   const bool start_open = start.state == ContactState::open;
   const bool end_open = end.state == ContactState::open;
   if (start_open == end_open || law.tension > 0.0) return;
+  start_gap = seen_gap(start_open, start_gap);
+  end_gap = seen_gap(end_open, end_gap);
   // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
   const double difference = end_gap - start_gap;
   if (start_open) {
@@ -98,6 +120,8 @@ ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap,
                          double end_gap) {
   if (start_open && end_open) return {0.0, 0.0};
   if (start_open == end_open || law.tension > 0.0) return {1.0, 0.0};
+  start_gap = seen_gap(start_open, start_gap);
+  end_gap = seen_gap(end_open, end_gap);
   const double difference = end_gap - start_gap;
   return end_open ? ClosedShare{-start_gap / difference, start_gap / (difference * difference)}
                   : ClosedShare{end_gap / difference, -start_gap / (difference * difference)};
@@ -131,8 +155,8 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   const double length = trial.norm();
   Eigen::Vector2d end_slip = start_slip + way;
   auto tangent = mean.tangent.bottomRightCorner<2, 2>();
-  if (length <= limit) {
-    mean.force.tail<2>() = trial;
+  if (is_locked(law, length, limit)) {
+    mean.force.tail<2>() = within(limit, trial, length);
     tangent.diagonal().setConstant(0.5 * law.shear_stiffness);
   } else {
     const Eigen::Vector2d direction = trial / length;
@@ -141,7 +165,7 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
               (Eigen::Matrix2d::Identity() - direction * direction.transpose());
     if (law.held_limit < 0.0) {
       mean.coupling = -law.cohesion * closed.by_end_gap * direction;
-      if (mean.force[0] > 0.0) mean.coupling += law.friction * mean.tangent(0, 0) * direction;
+      if (mean.force[0] >= 0.0) mean.coupling += law.friction * mean.tangent(0, 0) * direction;
     }
     end_slip = -2.0 / law.shear_stiffness * mean.force.tail<2>() - start_slip;
     if (!end_open) end.state = ContactState::sliding;

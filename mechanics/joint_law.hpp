@@ -8,6 +8,11 @@
 //     locked   |ks s| <= max(N, 0) tan(phi) + c A     shear force on a: -ks s
 //     sliding  otherwise                              shear force on a: -(max(N, 0) tan(phi) + c A) s/|s|
 //
+// Blocks that were placed in touch, or slid to where friction just holds them, have g = 0 or |ks s| = the
+// limit but for rounding, which must not choose the state: a point is closed up to a gap that may be a
+// rounding error, and locked up to such a slip over the limit. The forces stay those above: there they are
+// continuous. (Not so cohesion, whose limit ends at this gap then.)
+//
 // A joint fails where it opens (by more than rounding), or where it slides and has cohesion: both strengths
 // are lost then. Without cohesion there is no strength that sliding could take; under tension such a joint
 // slides without resistance.
@@ -41,6 +46,7 @@ struct JointLaw {
   double tensile_strength = 0.0;  ///< Pa
   bool area_springs = true;
   bool augmented = false;  ///< multipliers take over from springs until penetration is within a tolerance
+  double rounding = 0.0;   ///< m, >= 0: what gaps and slips of the pair may be by rounding errors
 };
 
 /// One point's constants within a step.
@@ -50,6 +56,7 @@ struct PointLaw {
   double friction;           ///< tan(phi)
   double cohesion;           ///< c A of an intact joint, else 0, N
   double tension;            ///< T A of an intact joint, else 0, N; infinity: a joint that must not break now
+  double rounding = 0.0;     ///< of gaps and slips, m
   double held_limit = -1.0;  ///< N; >= 0: the bound of the shear force, whatever the normal force is
   bool augmented = false;    ///< its forces become the next multipliers; its springs hold no energy
   double normal_multiplier = 0.0;                              ///< lambda_n, N

@@ -165,6 +165,7 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
   for (const std::vector<int>& body : free_bodies_) {
     Vector3 stray = Vector3::Zero();
     double limit = 0.0;
+    const Vector3 origin = centroid_of(blocks_, body, before);
     for (const int k : body) {
       limit += dissipated[at(k)] + spin_debts_[at(k)];
       spin_debts_[at(k)] = 0.0;
@@ -175,7 +176,7 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
           scheme.end_share * end.velocity + (1.0 - scheme.end_share) * start.velocity;
       const Eigen::MatrixX3d known =
           block.space().expand(forces[at(k)]) - scheme.mass_damping * block.material().density * damped;
-      stray += stray_angular_momentum(block, start, end, known, scheme.step);
+      stray += stray_angular_momentum(block, start, end, known, scheme.step, origin);
     }
     // generalized-alpha gives energy back that it took before.
     if (!accelerations_.empty()) limit = std::numeric_limits<double>::infinity();

@@ -48,27 +48,30 @@ std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
 }
 
 Vector3 stray_angular_momentum(const BlockModel& block, const BlockState& before, const BlockState& after,
-                               const Eigen::MatrixX3d& known, double step) {
+                               const Eigen::MatrixX3d& known, double step, const Vector3& origin) {
   const double density = block.material().density;
-  const Eigen::MatrixX3d place = 0.5 * (before.position + after.position);
+  const Eigen::MatrixX3d place =
+      from_point(0.5 * (before.position + after.position), block.basis().volume(), origin);
   const Eigen::MatrixX3d velocity = 0.5 * (before.velocity + after.velocity);
   const Eigen::MatrixX3d uneven = after.position - before.position - step * velocity;
   const Eigen::MatrixX3d unknown = density * (after.velocity - before.velocity) - step * known;
-  // Internal forces have no resultant: the constant function would only bring in its rounding.
-  const Eigen::Index others = place.rows() - 1;
-  return integral_of_cross(place.bottomRows(others), unknown.bottomRows(others)) +
-         density * integral_of_cross(uneven, velocity);
+  return integral_of_cross(place, unknown) + density * integral_of_cross(uneven, velocity);
+}
+
+Vector3 centroid_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                    const std::vector<BlockState>& states) {
+  double mass = 0.0;
+  Vector3 sum = Vector3::Zero();
+  for (const int k : body) {
+    mass += blocks[at(k)].mass();
+    sum += blocks[at(k)].mass() * mean_of(states[at(k)].position, blocks[at(k)].basis().volume());
+  }
+  return sum / mass;
 }
 
 double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
                 const Vector3& angular_momentum, double limit, std::vector<BlockState>& states) {
-  double mass = 0.0;
-  Vector3 centroid = Vector3::Zero();
-  for (const int k : body) {
-    mass += blocks[at(k)].mass();
-    centroid += blocks[at(k)].mass() * mean_of(states[at(k)].position, blocks[at(k)].basis().volume());
-  }
-  centroid /= mass;
+  const Vector3 centroid = centroid_of(blocks, body, states);
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (const int k : body) {
     inertia +=

@@ -27,11 +27,17 @@ namespace ashlar {
 [[nodiscard]] std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
                                                         const std::vector<std::array<int, 2>>& ties);
 
-/// Angular momentum that a step gave to a free block beside what known forces did, kg m^2/s.
+/// Angular momentum that a step gave to blocks of a free body beside what known forces did, kg m^2/s: the sum
+/// over the body, as what balances a tie's forces on one block need not be on that block, but for rounding.
 /// @param known contacts, ties, gravity, loads and damping as they act in the step, (p, 3), N m^-3/2
+/// @param origin about which, m: the same for all blocks of a body, near it
 [[nodiscard]] Vector3 stray_angular_momentum(const BlockModel& block, const BlockState& before,
                                              const BlockState& after, const Eigen::MatrixX3d& known,
-                                             double step);
+                                             double step, const Vector3& origin);
+
+/// Centroid of a body, m. @param body indices
+[[nodiscard]] Vector3 centroid_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                                  const std::vector<BlockState>& states);
 
 /// Adds to the velocities of blocks those of a rigid turn about their common centroid, or as much of them as
 /// does not exceed a limit of energy. @param body indices. @param angular_momentum that they gain, kg m^2/s

@@ -6,6 +6,7 @@
 
 #include "geometry/box_pairs.hpp"
 #include "geometry/rounded_convexity.hpp"
+#include "mechanics/overlap_outline.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -86,6 +87,15 @@ double distance_bound(const PlacedSurface& a, const PlacedSurface& b) {
   for (int cell = 0; cell < static_cast<int>(b.surface().cells.size()); ++cell)
     bound = std::max(bound, slab_between(a, b, -b.normal(cell)));
   return bound;
+}
+
+/// Overlaps so thin that they have no contact points: whether faces beside each other have one is rounding,
+/// and must not say that they meet.
+void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairContacts& contacts) {
+  const double tolerance = outline_tolerance(a, b);
+  std::erase_if(contacts.overlaps, [tolerance](const CellOverlap& overlap) {
+    return outline_of(places_of(overlap), tolerance).empty();
+  });
 }
 
 }  // namespace
@@ -213,6 +223,7 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
     // What the last step has not left so deep was not met through that facet.
     history.depth =
         settings_.passing_share * settings_.contact_distance + 2.0 * deepest(blocks[0], blocks[1]);
+    history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
     settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });
   for (std::size_t k = 0; k < open.size(); ++k)
@@ -245,6 +256,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
     const auto& [a, b] = searched[k].blocks;
     searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
+    leave_out_slivers(placed(a), placed(b), searched[k].contacts);
   });
   settle_convex_pairs(searched, deepest);
   std::vector<FoundContacts> found;

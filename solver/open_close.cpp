@@ -30,7 +30,10 @@ class OpenClose {
       }
       if (outcome != Outcome::settled) return outcome;
       if (!break_joints()) {
-        if (!settings_.augmented || !(stiffen() || lower_multipliers())) return outcome;
+        if (!settings_.augmented || !(stiffen() || lower_multipliers())) {
+          if (factorized_) polish();
+          return outcome;
+        }
         if (++rounds > settings_.augmented_rounds) return Outcome::stalled;
       }
       problem_.respond();
@@ -41,6 +44,9 @@ class OpenClose {
   /// Blocks at rest on others stay, those that slide coast, those that meet nothing fall: the guess that
   /// lacks less balance, one for all bodies or for each its own.
   void start() {
+    // Not 1/2 or 1, which symmetric scenes have but for rounding.
+    constexpr double least_gain = 0.45;
+    constexpr double least_gain_of_one = 0.9;
     problem_.predict(FirstGuess::falling);
     problem_.respond();
     if (problem_.scheme().from_rest || problem_.pairs() == 0) return;
@@ -49,7 +55,7 @@ class OpenClose {
     double least = falling.worst;
     bool at_best = true;
     const auto compare = [&](double worst) {
-      at_best = worst <= 0.5 * least;
+      at_best = worst <= least_gain * least;
       if (!at_best) return;
       least = worst;
       best = problem_.guess();
@@ -63,7 +69,7 @@ class OpenClose {
       const Balance balance = problem_.balance();
       const std::vector<Eigen::VectorXd> guess = problem_.guess();
       for (std::size_t k = 0; k < own.size(); ++k) {
-        if (balance.shares[k] > shares[k]) continue;
+        if (balance.shares[k] > least_gain_of_one * shares[k]) continue;
         shares[k] = balance.shares[k];
         own[k] = guess[k];
         kinds[k] = kind;
@@ -77,6 +83,17 @@ class OpenClose {
     }
     if (at_best) return;
     problem_.set_guess(best);
+    problem_.respond();
+  }
+
+  /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
+  /// nothing damps make more of it. The last factor takes most of it away.
+  void polish() {
+    const std::vector<Eigen::VectorXd> guess = problem_.guess();
+    problem_.apply(problem_.solve(problem_.balance().left, true), 1.0);
+    problem_.respond();
+    if (problem_.balance().settled()) return;
+    problem_.set_guess(guess);
     problem_.respond();
   }
 
@@ -205,6 +222,7 @@ class OpenClose {
       // The last factor will do for what is left.
       const bool nearly = as_before && !last_factor && balance.worst <= settings_.nearly_settled;
       last_factor = nearly;
+      factorized_ = true;
       if (!nearly && problem_.factorize() != FactorStatus::success) return Outcome::singular;
       const Eigen::VectorXd change = problem_.solve(balance.left, true);
       if (closing) {
@@ -329,6 +347,7 @@ class OpenClose {
   IslandResult& result_;
   std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
   double beyond_ = 0.5;                ///< multiples of a fall of force that multipliers are lowered below it
+  bool factorized_ = false;            ///< by newton()
   double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
 };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "mechanics/overlap_outline.hpp"
 #include "solver/angular_momentum.hpp"
 #include "solver/checkpoint.hpp"
 #include "solver/energy_bounds.hpp"
@@ -257,6 +258,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
         points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
+    law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(known.held().normal);
   }

@@ -147,6 +147,32 @@ TEST(AdaptiveSurface, ATurnedSceneIsDividedAsBeforeAlongItsOwnAxes) {
   EXPECT_NE(along_space.wanted(), straight.wanted());
 }
 
+TEST(AdaptiveSurface, RoundingOfCornersDoesNotSayWhichSideIsLongest) {
+  // Half the diagonals of a rectangle: the two long sides of a triangle are equal but for rounding.
+  const Polyhedron solid(make_box({0, 0, 0}, {4, 2.2, 1.4}));
+  AdaptiveSurface straight(solid, 2, 0);
+  straight.move(bent(straight, 0.1));
+  EXPECT_TRUE(straight.divide({1e-3, everywhere}));
+  for (int k = 0; k < 20; ++k) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.3 * k, Vector3(1, 2 - k, 3).normalized()).toRotationMatrix();
+    std::vector<Vector3> corners;
+    for (const Vector3& point : solid.mesh().points) corners.emplace_back(turn * point);
+    const Polyhedron lies_elsewhere(TriangleMesh{corners, solid.mesh().triangles}, 0x1p-46);
+    ASSERT_EQ(lies_elsewhere.faces().size(), 6U);
+    AdaptiveSurface turned(lies_elsewhere, 2, 0, turn);
+    Eigen::Matrix3Xd values(3, static_cast<Eigen::Index>(turned.domain_points().size()));
+    for (Eigen::Index n = 0; n < values.cols(); ++n) {
+      const Vector3 x = turn.transpose() * turned.domain_points()[static_cast<std::size_t>(n)];
+      values.col(n) = turn * Vector3(x.x(), x.y(), x.z() + 0.1 * x.x() * x.x());
+    }
+    turned.move(values);
+    EXPECT_TRUE(turned.divide({1e-3, everywhere}));
+    EXPECT_EQ(turned.wanted(), straight.wanted()) << k;
+    EXPECT_EQ(turned.surface().cells.size(), straight.surface().cells.size());
+  }
+}
+
 TEST(AdaptiveSurface, NonConvexFacesAndUniformLevelsAreConforming) {
   const Polyhedron solid(test_support::l_shaped_prism());
   for (const int levels : {0, 1}) {

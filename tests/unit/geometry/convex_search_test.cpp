@@ -198,6 +198,30 @@ TEST(ConvexSearch, AnEdgeThatJustTouchesARidgeOfItsOwnSlopesIsHeldByTheHulls) {
   }
 }
 
+TEST(ConvexSearch, DiagonalNeighboursBearWhenTheyAreDeeperThanRounding) {
+  const Body low(box({-1, 0, -1}, {0, 1, 0}));
+  const double rounding = 1e-15;
+  for (const double x : {-1e-16, 0.0, 1e-16}) {
+    for (const double z : {-1e-16, 0.0, 1e-16}) {
+      const Body high(moved(box({0, 0, 0}, {1, 1, 1}), Eigen::AngleAxisd::Identity(), {x, 0, z}));
+      PairContacts contacts;
+      const ConvexSurface of_high(high.placed), of_low(low.placed);
+      EXPECT_FALSE(settle_convex_contacts(of_high, of_low, {{}, 0.001, rounding}, contacts).has_value());
+      EXPECT_TRUE(contacts.empty()) << x << " " << z;
+      // What was known of them before stays known.
+      const EntranceName known{EntranceKind::face_of_b, {-1, -1}, {of_low.cell_of_facet(0), -1}, false};
+      EXPECT_EQ(settle_convex_contacts(of_high, of_low, {known, 0.001, rounding}, contacts), known);
+    }
+  }
+  // The shortest way out is up.
+  const Body inside(box({-3e-6, 0, -2e-6}, {1, 1, 1}));
+  PairContacts contacts;
+  EXPECT_TRUE(settle_convex_contacts(ConvexSurface(inside.placed), ConvexSurface(low.placed),
+                                     {{}, 0.001, rounding}, contacts)
+                  .has_value());
+  EXPECT_FALSE(contacts.empty());
+}
+
 TEST(ConvexSearch, DirectionsOutlastTheRoundingOfATurn) {
   std::mt19937_64 random(20261121);
   const auto number = [&] { return static_cast<double>(random() % 2001) / 1000.0 - 1.0; };

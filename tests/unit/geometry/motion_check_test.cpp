@@ -104,6 +104,39 @@ TEST(MotionCheck, TurnedAndMovedScenesTouchAtTheSameTime) {
   EXPECT_NEAR(first_share(cube, plate), 0.2, 1e-5);
 }
 
+TEST(MotionCheck, SidesAlongEachOtherMeetAtTheirEndsOnly) {
+  // A box hangs over the end of a shelf, its lower side on the shelf's upper one but for rounding of either
+  // sign and any direction, and comes down along the shelf's end: which way their lines cross is rounding.
+  // Its corners meet the shelf, and its short sides cross the shelf's one.
+  const Polyhedron shelf = box({-2, -1, -1}, {0, 1, 0});
+  const auto along_y = [](const Mover& mover, const CrossedSide& side) {
+    const Vector3 along = mover.surface.points[static_cast<std::size_t>(side.ends[1])] -
+                          mover.surface.points[static_cast<std::size_t>(side.ends[0])];
+    return std::abs(along.y()) > 0.5 * along.norm();
+  };
+  for (const double error : {-1e-16, 0.0, 1e-16}) {
+    for (const double lean : {-1e-16, 0.0, 1e-16}) {
+      std::vector<Vector3> points = box({0, -0.5, 0}, {1, 0.5, 1}).mesh().points;
+      for (Vector3& point : points) point.x() += error + lean * point.y();
+      const Mover below(shelf, shift({0, 0, 0}));
+      const Mover above(shelf.with_points(points), shift({0, 0, -1e-5}));
+      const auto touches = find_touches(above.moving(), below.moving(), {}, limits);
+      EXPECT_FALSE(touches.empty());
+      for (const Touch& touch : touches) {
+        const auto* edges = std::get_if<EdgeContact>(&touch.contact);
+        EXPECT_FALSE(edges && along_y(above, edges->of_a) && along_y(below, edges->of_b))
+            << error << " " << lean;
+      }
+    }
+  }
+  // Ridges along each other meet too: at the corners that pass through the slopes.
+  const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vector3::UnitY()));
+  const Mover low(turned(box({-1, -2, -1}, {0, 2, 0}), on_edge, {0, 0, 0}), shift({0, 0, 0}));
+  const Mover high(turned(box({0, -1, 0}, {1, 1, 1}), on_edge.conjugate(), {0, 0, 1e-4}),
+                   shift({0, 0, -0.1}));
+  EXPECT_LT(first_share(high, low), 1.1e-3);
+}
+
 TEST(MotionCheck, ACornerThatPassesThroughAPlateAndOutOfItsSight) {
   // The corner ends behind the plate and beside it: neither end of the way shows a penetration.
   const Mover plate(box({-2, -2, -0.01}, {2, 2, 0}), shift({0, 0, 0}));

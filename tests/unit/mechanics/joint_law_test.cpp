@@ -38,6 +38,70 @@ TEST(JointLaw, SlidesAtTheCoulombLimit) {
   EXPECT_EQ(point_response(intact, -1e-5, {4.01e-5, 0}).state, ContactState::sliding);
 }
 
+TEST(JointLaw, RoundingDoesNotChooseTheState) {
+  JointLaw rounded = law;
+  rounded.rounding = 1e-14;
+  const PointLaw point = point_law(rounded, 0.1, false);
+  // In touch but for rounding: closed, without force.
+  for (const double gap : {-0.9e-14, 0.0, 0.9e-14}) {
+    const PointResponse touching = point_response(point, gap, {0, 0});
+    EXPECT_EQ(touching.state, ContactState::locked) << gap;
+    EXPECT_EQ(touching.force[0], std::max(0.0, -2e8 * gap));
+    EXPECT_EQ(touching.tangent(0, 0), 2e8);
+    EXPECT_EQ(touching.tangent(1, 1), 1e8);
+  }
+  EXPECT_EQ(point_response(point, 1.1e-14, {0, 0}).state, ContactState::open);
+  // At the limit of 1000 N but for rounding: locked, with the force of the limit.
+  for (const double slip : {1e-5 - 0.9e-14, 1e-5, 1e-5 + 0.9e-14}) {
+    const PointResponse held = point_response(point, -1e-5, {slip, 0});
+    EXPECT_EQ(held.state, ContactState::locked) << slip;
+    EXPECT_DOUBLE_EQ(held.force[1], -std::min(1000.0, 1e8 * slip));
+  }
+  EXPECT_EQ(point_response(point, -1e-5, {1e-5 + 1.1e-14, 0}).state, ContactState::sliding);
+  // Cohesion acts in touch, and as long as the gap may be rounding.
+  const PointLaw intact = point_law({2e9, 1e9, 0.5, 3e4, 0.0, true, false, 1e-14}, 0.1, true);
+  for (const double gap : {-0.9e-14, 0.9e-14})
+    EXPECT_NEAR(point_response(intact, gap, {1e-6, 0}).force[1], -100.0, 1e-9);
+  // A point in touch slides under its limit, and what friction gains where it is pressed is known.
+  const PointResponse sliding = point_response(point, 0.5e-14, {3e-5, 0});
+  EXPECT_EQ(sliding.state, ContactState::sliding);
+  const PointResponse apart = point_response(point, 1.1e-14, {3e-5, 0});
+  EXPECT_EQ(apart.state, ContactState::open);
+}
+
+TEST(JointLaw, WhatHasNoFrictionIsNeverLocked) {
+  const PointLaw smooth = point_law({2e9, 1e9, 0.0, 0.0, 0.0, true, false, 1e-14}, 0.1, true);
+  for (const double slip : {0.9e-14, 1e-5}) {
+    const PointResponse response = point_response(smooth, -1e-5, {slip, 0});
+    EXPECT_EQ(response.state, ContactState::sliding);
+    EXPECT_TRUE(response.force.tail<2>().isZero(0.0));
+    EXPECT_TRUE((response.tangent.bottomRightCorner<2, 2>().isZero(0.0)));
+  }
+}
+
+TEST(JointLaw, AMeanForceHasNoKinkWhereGapsAreRounding) {
+  JointLaw rounded = law;
+  rounded.rounding = 1e-14;
+  rounded.tensile_strength = 0.0;
+  for (const bool intact : {false, true}) {
+    const PointLaw point = point_law(rounded, 0.1, intact);
+    const auto mean = [&](double from, double to) {
+      const PointResponse start = point_response(point, from, {0, 0});
+      return averaged_step(point, start, {from, 0, 0}, {to, 1e-7, 0}).mean;
+    };
+    // Opens from touch, closes to it, presses from it.
+    for (const auto& [from, to] : {std::array{0.0, 1e-6}, std::array{1e-6, 0.0}, std::array{0.0, -1e-6}}) {
+      const MeanResponse exact = mean(from, to);
+      for (const double error : {-0.9e-14, 0.9e-14}) {
+        const MeanResponse other = mean(from == 0.0 ? error : from, to == 0.0 ? error : to);
+        EXPECT_LT((other.force - exact.force).norm(), 1e-4) << from << " " << to;
+        EXPECT_TRUE(std::isfinite(other.limit));
+        EXPECT_NEAR(other.limit, exact.limit, 1e-3);
+      }
+    }
+  }
+}
+
 TEST(JointLaw, PointSpringsDoNotScaleWithArea) {
   JointLaw per_point = law;
   per_point.area_springs = false;

@@ -44,22 +44,37 @@ TEST(FreeBodies, AreWhatTiesMakeOneAndNothingHolds) {
 }
 
 TEST(StrayAngularMomentum, IsWhatTheStepGivesBesideKnownForces) {
-  // L' - L less dt times the moment of the known forces about the mean place, whatever the step was: here
-  // known forces have the resultant that changes the momentum, as internal forces have none.
-  const BlockModel block(cube_at(3, 2));
-  const BlockState before = any_state(block, 1);
-  const BlockState after = any_state(block, 2);
+  // L' - L less dt times the moment of the known forces about the mean place, whatever the step was and
+  // whichever the point they are taken about: known forces have the resultant that changes the momentum, as
+  // internal forces have none. Of two blocks they need not have it on each, as the force that one is given by
+  // the other is known with an error.
+  const std::vector<BlockModel> blocks = {BlockModel(cube_at(3, 2)), BlockModel(cube_at(4, 1))};
   const double step = 0.01;
-  Eigen::MatrixX3d known = any_state(block, 3).velocity;
-  known.row(0) = 2500.0 / step * (after.velocity.row(0) - before.velocity.row(0));
-  Vector3 expected = block.angular_momentum(after) - block.angular_momentum(before);
-  for (Eigen::Index k = 0; k < known.rows(); ++k) {
-    const Vector3 place = 0.5 * (before.position.row(k) + after.position.row(k));
-    expected -= step * place.cross(Vector3(known.row(k)));
+  const Eigen::RowVector3d error(300.0, -200.0, 500.0);
+  Vector3 expected = Vector3::Zero();
+  Vector3 stray = Vector3::Zero();
+  Vector3 stray_about_another = Vector3::Zero();
+  double size = 0.0;
+  for (const std::size_t k : {0U, 1U}) {
+    const BlockModel& block = blocks[k];
+    const auto seed = static_cast<unsigned>(3 * k);
+    const BlockState before = any_state(block, seed + 1);
+    const BlockState after = any_state(block, seed + 2);
+    Eigen::MatrixX3d known = any_state(block, seed + 3).velocity;
+    known.row(0) = 2500.0 / step * (after.velocity.row(0) - before.velocity.row(0));
+    known.row(0) += k == 0 ? error : Eigen::RowVector3d(-error);
+    expected += block.angular_momentum(after) - block.angular_momentum(before);
+    for (Eigen::Index row = 0; row < known.rows(); ++row) {
+      const Vector3 place = 0.5 * (before.position.row(row) + after.position.row(row));
+      expected -= step * place.cross(Vector3(known.row(row)));
+    }
+    stray += stray_angular_momentum(block, before, after, known, step, {3.5, 0.5, 0.5});
+    stray_about_another += stray_angular_momentum(block, before, after, known, step, {-1, 2, 7});
+    size += block.angular_momentum(after).norm();
   }
-  const Vector3 stray = stray_angular_momentum(block, before, after, known, step);
   EXPECT_GT(expected.norm(), 100.0);
-  EXPECT_LT((stray - expected).norm(), 1e-12 * block.angular_momentum(after).norm());
+  EXPECT_LT((stray - expected).norm(), 1e-12 * size);
+  EXPECT_LT((stray_about_another - expected).norm(), 1e-12 * size);
 }
 
 TEST(AddSpin, GivesWhatIsAskedForToTheBodyAsAWhole) {
