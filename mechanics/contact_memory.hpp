@@ -54,7 +54,7 @@ class ContactMemory {
                                                 double bond_distance) const;
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
-  /// springs at its end; normal energy of multipliers: what they have taken so far and not given back
+  /// springs at its end
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
              const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {});
 
@@ -67,8 +67,6 @@ class ContactMemory {
   [[nodiscard]] double bulge() const { return bulge_; }
   /// What store() was told of the last step; nothing where there was no contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
-  /// Changes what multipliers have taken so far. @param energy J, >= 0
-  void set_taken(double energy) { held_.normal = energy; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
 

@@ -104,14 +104,14 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       const double work = pair.work(after, ya, yb);
       ledger_.applied -= pair.prescribed_work(after);
       potential_work += work;
-      SpringEnergy held = ContactPair::energies(after);
+      const SpringEnergy held = ContactPair::energies(after);
       potential_change += held.normal + held.shear - pair.start_energy();
       ledger_.contact += held.normal + held.shear;
       if (pair.tied()) continue;
       const double slid = pair.friction_work(after, laws, ya, yb);
       friction += slid;
       if (settings_.augmented && !scheme.from_rest)
-        held.normal = take_for_multipliers(pair, -pair.spring_work(after, ya, yb) - slid);
+        take_for_multipliers(pair, -pair.spring_work(after, ya, yb) - slid);
       auto gaps = pair.gaps(ya, yb);
       double deepest = 0.0;
       for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -186,13 +186,13 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
   }
 }
 
-double Simulation::take_for_multipliers(const ContactPair& pair, double work) {
-  const auto known = memory_.find({pair.a(), pair.b()});
-  const double taken = (known == memory_.end() ? 0.0 : known->second.held().normal) + work;
-  if (taken >= 0.0) return taken;
+void Simulation::take_for_multipliers(const ContactPair& pair, double work) {
+  double& taken = taken_[{pair.a(), pair.b()}];
+  taken += work;
+  if (taken >= 0.0) return;
   ledger_.refound_gained -= taken;
   ledger_.numerical -= taken;
-  return 0.0;
+  taken = 0.0;
 }
 
 void Simulation::note_elastic_energy(std::size_t k) {

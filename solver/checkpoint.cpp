@@ -132,7 +132,7 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
   archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.carried,
-          snapshot.accelerations, snapshot.spin_debts, snapshot.memory, snapshot.contact_work,
+          snapshot.accelerations, snapshot.spin_debts, snapshot.memory, snapshot.contact_work, snapshot.taken,
           snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger, snapshot.statics,
           snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
           snapshot.largest_penetration, snapshot.rejections, snapshot.counts, snapshot.seconds);
@@ -169,6 +169,7 @@ SimulationSnapshot Simulation::snapshot() const {
         {blocks, memory.entries(), memory.cuts(), memory.deepest(), memory.bulge(), memory.held()});
   }
   result.contact_work = contact_work_;
+  result.taken = taken_;
   result.finder = finder_.state();
   result.report = report_;
   result.records = records_;
@@ -215,6 +216,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
     memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.cuts, pair.deepest, pair.held, pair.bulge));
   }
   contact_work_ = snapshot.contact_work;
+  taken_ = snapshot.taken;
   finder_.restore(snapshot.finder);
   report_ = snapshot.report;
   records_ = snapshot.records;

@@ -260,7 +260,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     law.augmented = settings_.augmented;
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
-    if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(known.held().normal);
+    if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

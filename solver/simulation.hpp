@@ -240,9 +240,9 @@ class Simulation {
                              const std::vector<BlockState>& before, const std::vector<double>& dissipated);
   /// Books what the springs hold anew since the end of the last step.
   void book_refound(const std::vector<ContactPair>& pairs);
-  /// @param work that multipliers have taken from the blocks of a pair in the step, J; negative: given
-  /// @return what they have taken so far and not given back; what they gave beyond is booked as gained
-  double take_for_multipliers(const ContactPair& pair, double work);
+  /// Counts it; what multipliers give beyond what they have taken so far is booked as gained.
+  /// @param work that they have taken from the blocks of a pair in the step, J; negative: given
+  void take_for_multipliers(const ContactPair& pair, double work);
   void note_elastic_energy(std::size_t block);
   void note_elastic_energies();
   /// Of the present state; elastic as noted.
@@ -280,6 +280,8 @@ class Simulation {
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
+  /// By multipliers from every pair that ever touched, and not given back, J, >= 0
+  std::map<PairKey, double> taken_;
   std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;

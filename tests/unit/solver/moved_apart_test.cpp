@@ -53,6 +53,45 @@ INSTANTIATE_TEST_SUITE_P(Every, MovedApart,
                          ::testing::Values(Integrator::dda, Integrator::average_acceleration,
                                            Integrator::generalized_alpha));
 
+/// Largest penetration of a tall column that turns about its lower edge and takes nothing from what it turns
+/// on, alone or with a cube that falls far from it.
+double deepest_of_a_toppling_column(bool with_cube) {
+  const Material rock{2500, 1e9, 0.2};
+  SimulationSettings settings;
+  settings.integrator = Integrator::dda;
+  settings.time_step = 4e-3;
+  settings.augmented = true;
+  settings.penetration_tolerance = tolerance;
+  BlockDefinition plate = block_of("plate", Polyhedron(make_box({-50, -50, -1}, {50, 50, 0})), rock, 1);
+  plate.fixed = true;
+  std::vector<BlockModel> blocks;
+  blocks.reserve(3);
+  blocks.emplace_back(std::move(plate));
+  blocks.emplace_back(block_of("column", test_support::tilted_box({0, -0.5, 0}, {1, 0.5, 6}, 15.0), rock, 1));
+  std::vector<InitialMotion> motions(2);
+  const Vector3 spin(0, -0.5, 0);
+  motions[1] = {
+      spin.cross(Eigen::AngleAxisd(-15.0 * std::numbers::pi / 180.0, Vector3::UnitY()) * Vector3(0.5, 0, 3)),
+      spin};
+  if (with_cube) {
+    blocks.emplace_back(block_of("cube", Polyhedron(make_box({30, 0, 0.1}, {31, 1, 1.1})), rock, 1));
+    motions.push_back({{0, 0, -1}, {0, 0, 0}});
+  }
+  Simulation simulation(std::move(blocks), motions, same_law({1e10, 5e9, 1.0, 0.0, 0.0, true}), settings);
+  double deepest = 0.0;
+  for (int step = 0; step < 250; ++step) {
+    EXPECT_EQ(simulation.step(1e9), StepStatus::accepted);
+    if (step > 30) deepest = std::max(deepest, simulation.report().penetration);
+  }
+  EXPECT_LE(simulation.ledger().refound_gained, 1e-9 * simulation.largest_energy());
+  return deepest;
+}
+
+TEST(MovedApartLent, WhatOtherContactsHaveTakenIsLent) {
+  EXPECT_GT(deepest_of_a_toppling_column(false), tolerance);
+  EXPECT_LE(deepest_of_a_toppling_column(true), tolerance);
+}
+
 TEST(MovedApartFailed, LeavesTheLastAcceptedState) {
   // With so few balances allowed some step fails, and the dominoes are moved apart before most.
   int failed = 0;
