@@ -282,7 +282,7 @@ class Simulation {
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
   /// By multipliers from every pair that ever touched, and not given back, J, >= 0
   std::map<PairKey, double> taken_;
-  std::vector<double> elastic_energies_;    ///< by block, J
+  std::vector<double> elastic_energies_;  ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;
   double time_ = 0.0;
