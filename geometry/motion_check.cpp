@@ -330,21 +330,16 @@ class MotionCheck {
                                              tributary_area(with_point.start->surface(), {point.cell})}});
   }
 
-  /// Whether two sides diverge by less than the tolerance where they are beside each other, all along the
-  /// step. Such sides meet at their ends, which are over the cells beside the other one; where their own
-  /// lines cross is rounding.
+  /// Whether two sides diverge by less than the tolerance where they are beside each other, at the start or
+  /// the end of the step. Such sides meet at their ends, which go through the cells beside the other one;
+  /// where their own lines cross, and on which side of each other they are, is rounding.
   [[nodiscard]] bool are_parallel(const std::array<Path, 2>& a, const std::array<Path, 2>& b) const {
-    const auto along = [](const std::array<Path, 2>& side, double share) {
-      return Vector3(side[1].at(share) - side[0].at(share));
-    };
-    double longest = 0.0;
-    double most = 0.0;  // Bernstein coefficients of the cross product over the step
     for (const double share : {0.0, 1.0}) {
-      longest = std::max({longest, along(a, share).norm(), along(b, share).norm()});
-      most = std::max(most, along(a, share).cross(along(b, share)).norm());
+      const Vector3 u = a[1].at(share) - a[0].at(share);
+      const Vector3 v = b[1].at(share) - b[0].at(share);
+      if (u.cross(v).norm() <= limits_.tolerance * std::max(u.norm(), v.norm())) return true;
     }
-    const Vector3 middle = along(a, 0.0).cross(along(b, 1.0)) + along(a, 1.0).cross(along(b, 0.0));
-    return std::max(most, 0.5 * middle.norm()) <= limits_.tolerance * longest;
+    return false;
   }
 
   void check_sides(const Feature& of_a, const Feature& of_b) {
@@ -378,6 +373,13 @@ class MotionCheck {
     const auto share = first_touch(distance, speed, 0.25 * limits_.tolerance);
     if (!share || least_after(volume, *share) >= -allowed) return;
     const auto [s, t] = shares(*share);
+    // An end of one that meets the other goes through a cell beside it: which sides of a corner cross there
+    // is rounding.
+    const auto is_end = [&](const std::array<Path, 2>& side, double along) {
+      const double length = (side[1].at(*share) - side[0].at(*share)).norm();
+      return std::min(along, 1.0 - along) * length <= 0.25 * limits_.tolerance;
+    };
+    if (is_end(a, s) || is_end(b, t)) return;
     const Vector3 normal = -sign * across(*share).normalized();
     const Vector3 apart = place(a, s, 0.0) - place(b, t, 0.0);
     touches_.push_back({*share, EdgeContact{{{of_a.points[0], of_a.points[1]}, of_a.cell, s},

@@ -57,6 +57,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   }
   response.state = ContactState::sliding;
   const Eigen::Vector2d direction = trial / length;
+  response.direction = direction;
   response.force.tail<2>() = limit * direction;
   response.tangent.bottomRightCorner<2, 2>() =
       law.shear_stiffness * limit / length *
@@ -67,12 +68,10 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
 }
 
 Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response) {
-  const Eigen::Vector2d shear = response.force.tail<2>();
-  const double length = shear.norm();
-  if (response.state != ContactState::sliding || response.force[0] < 0.0 || law.held_limit >= 0.0 ||
-      length == 0.0)
+  // Also of a point in touch that has no force yet.
+  if (response.state != ContactState::sliding || response.force[0] < 0.0 || law.held_limit >= 0.0)
     return Eigen::Vector2d::Zero();
-  return law.friction * law.normal_stiffness / length * shear;
+  return law.friction * law.normal_stiffness * response.direction;
 }
 
 MeanResponse end_response(const PointLaw& law, const PointResponse& end) {

@@ -73,8 +73,9 @@ struct PointResponse {
   Eigen::Vector3d force;  ///< N
   Eigen::Matrix3d
       tangent;  ///< -d force / d (g, s1, s2) with the dependence of friction on N left out; symmetric
-  double normal_energy;  ///< of the normal spring, J
-  double shear_energy;   ///< of the shear spring, J
+  double normal_energy;                                 ///< of the normal spring, J
+  double shear_energy;                                  ///< of the shear spring, J
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< unit, of the shear force of a point that slides
 
   [[nodiscard]] double energy() const { return normal_energy + shear_energy; }
 };

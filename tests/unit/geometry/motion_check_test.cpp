@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
+#include <random>
 
 #include "geometry/shapes.hpp"
 
@@ -135,6 +136,23 @@ TEST(MotionCheck, SidesAlongEachOtherMeetAtTheirEndsOnly) {
   const Mover high(turned(box({0, -1, 0}, {1, 1, 1}), on_edge.conjugate(), {0, 0, 1e-4}),
                    shift({0, 0, -0.1}));
   EXPECT_LT(first_share(high, low), 1.1e-3);
+}
+
+TEST(MotionCheck, SidesCrossBetweenTheirEndsOnly) {
+  // Diagonal neighbours in a grid: their sides meet in corners, as many as rounding lets cross.
+  const Polyhedron low = box({0, 0, 0}, {1, 1, 1});
+  for (const Vector3& place : {Vector3(1, 0, 1), Vector3(1, 1, 1)}) {
+    std::mt19937_64 random(20261122);
+    for (int k = 0; k < 20; ++k) {
+      std::vector<Vector3> points = box(place, place + Vector3::Ones()).mesh().points;
+      for (Vector3& point : points)
+        for (double& x : point) x += 1e-16 * static_cast<double>(static_cast<int>(random() % 3) - 1);
+      const Mover below(low, shift({0, 0, 0}));
+      const Mover above(low.with_points(points), shift({-1e-5, 2e-5, -3e-5}));
+      for (const Touch& touch : find_touches(above.moving(), below.moving(), {}, limits))
+        EXPECT_TRUE(std::holds_alternative<VertexContact>(touch.contact));
+    }
+  }
 }
 
 TEST(MotionCheck, ACornerThatPassesThroughAPlateAndOutOfItsSight) {

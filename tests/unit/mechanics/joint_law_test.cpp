@@ -63,8 +63,11 @@ TEST(JointLaw, RoundingDoesNotChooseTheState) {
   for (const double gap : {-0.9e-14, 0.9e-14})
     EXPECT_NEAR(point_response(intact, gap, {1e-6, 0}).force[1], -100.0, 1e-9);
   // A point in touch slides under its limit, and what friction gains where it is pressed is known.
-  const PointResponse sliding = point_response(point, 0.5e-14, {3e-5, 0});
-  EXPECT_EQ(sliding.state, ContactState::sliding);
+  for (const double gap : {-0.5e-14, 0.0, 0.5e-14}) {
+    const PointResponse sliding = point_response(point, gap, {3e-5, 0});
+    EXPECT_EQ(sliding.state, ContactState::sliding);
+    EXPECT_EQ(sliding_coupling(point, sliding), Eigen::Vector2d(-0.5 * 2e8, 0)) << gap;
+  }
   const PointResponse apart = point_response(point, 1.1e-14, {3e-5, 0});
   EXPECT_EQ(apart.state, ContactState::open);
 }

@@ -141,6 +141,23 @@ TEST(TurnedScene, AnArch) {
   EXPECT_LT(largest_difference(scene, 3), 1e-6);
 }
 
+TEST(TurnedScene, AGridOfCubesWithOneThatSlides) {
+  // Diagonal neighbours share sides and corners, and the cube that slides rubs on two of its own.
+  for (const bool area_springs : {false, true}) {
+    Scene scene;
+    scene.pieces = {base({-1, -1, -1}, {3, 3, 0})};
+    for (const int x : {0, 1})
+      for (const int y : {0, 1})
+        for (const int z : {0, 1})
+          scene.pieces.push_back(brick(Vector3(x, y, z), Vector3(x + 1, y + 1, z + 1)));
+    scene.pieces[2].velocity = {0.3, 0, 0};
+    scene.law = {1e10, 5e9, 0.577, 0.0, 0.0, area_springs};
+    scene.settings.area_springs = area_springs;
+    scene.settings.contact_distance = 5e-4;
+    EXPECT_LT(largest_difference(scene), 1e-6) << area_springs;
+  }
+}
+
 TEST(TurnedScene, DominoesWhoseFacesAreDivided) {
   Scene scene;
   scene.pieces = {base({-1, -1, -0.5}, {2, 1, 0})};
