@@ -330,16 +330,13 @@ class MotionCheck {
                                              tributary_area(with_point.start->surface(), {point.cell})}});
   }
 
-  /// Whether two sides diverge by less than the tolerance where they are beside each other, at the start or
-  /// the end of the step. Such sides meet at their ends, which go through the cells beside the other one;
-  /// where their own lines cross, and on which side of each other they are, is rounding.
-  [[nodiscard]] bool are_parallel(const std::array<Path, 2>& a, const std::array<Path, 2>& b) const {
-    for (const double share : {0.0, 1.0}) {
-      const Vector3 u = a[1].at(share) - a[0].at(share);
-      const Vector3 v = b[1].at(share) - b[0].at(share);
-      if (u.cross(v).norm() <= limits_.tolerance * std::max(u.norm(), v.norm())) return true;
-    }
-    return false;
+  /// Whether two sides that start beside each other diverge by less than the tolerance there. They meet at
+  /// their ends, which go through the cells beside the other one; where their own lines cross, and on which
+  /// side of each other they start, is rounding.
+  [[nodiscard]] bool start_parallel(const std::array<Path, 2>& a, const std::array<Path, 2>& b) const {
+    const Vector3 u = a[1].start - a[0].start;
+    const Vector3 v = b[1].start - b[0].start;
+    return u.cross(v).norm() <= limits_.tolerance * std::max(u.norm(), v.norm());
   }
 
   void check_sides(const Feature& of_a, const Feature& of_b) {
@@ -349,7 +346,7 @@ class MotionCheck {
     const auto across = [&](double share) {
       return Vector3((a[1].at(share) - a[0].at(share)).cross(b[1].at(share) - b[0].at(share)));
     };
-    if (are_parallel(a, b)) return;
+    if (start_parallel(a, b)) return;
     // The volume is positive while b is ahead of a along u x v; apart are the two where that leads into b.
     auto volume = signed_volume(b[0], a[0], a[1], b[1]);
     const double sign = across(0.0).dot(of_a.outward - of_b.outward) < 0.0 ? -1.0 : 1.0;

@@ -5,7 +5,8 @@
 // Conservative: the distance of two features divided by the fastest approach of their points is time in which
 // they cannot touch; advancing by it again and again ends at a time before the first touch, or at the end of
 // the step. A touch counts when the features can be beyond each other afterwards: their signed volume, a
-// cubic in time, is bounded by its Bernstein coefficients.
+// cubic in time, is bounded by its Bernstein coefficients. Edges that start along each other, or meet where
+// one of them ends, are left to their ends.
 #pragma once
 
 #include <variant>

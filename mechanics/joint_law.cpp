@@ -28,6 +28,7 @@ bool is_locked(const PointLaw& law, double trial, double limit) {
   return trial <= (smooth ? limit : limit + law.shear_stiffness * law.rounding);
 }
 
+/// A trial shear force, cut to the limit. @param length of the trial
 Eigen::Vector2d within(double limit, const Eigen::Vector2d& trial, double length) {
   return length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
 }
