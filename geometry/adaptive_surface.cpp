@@ -44,7 +44,7 @@ AdaptiveSurface::AdaptiveSurface(const Polyhedron& solid, int order, int levels,
 
 /// The longest side is compared as (length, ends), the same from both sides of it: a total order, so that
 /// cutting longer sides of neighbours first comes to an end. In single precision lengths that are equal but
-/// for rounding, as those of a square's sides in a turned scene, are equal.
+/// for rounding, as half the diagonals of a rectangle in a turned scene, are equal.
 AdaptiveSurface::Node AdaptiveSurface::make_node(int face, const std::array<int, 3>& corners,
                                                  const std::array<int, 3>& rim, std::uint64_t path,
                                                  int bisections) const {

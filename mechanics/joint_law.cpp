@@ -83,8 +83,8 @@ MeanResponse end_response(const PointLaw& law, const PointResponse& end) {
 namespace {
 
 /// A gap as a spring without tension sees it: one of rounding is none.
-double seen_gap(bool open, double gap) {
-  return open ? gap : std::min(0.0, gap);
+double seen_gap(const PointLaw& law, const PointResponse& response, double gap) {
+  return law.tension > 0.0 || response.state == ContactState::open ? gap : std::min(0.0, gap);
 }
 
 /// Mean normal force and its tangent. @param start,end responses whose normal forces count
@@ -95,8 +95,6 @@ void set_mean_normal(const PointLaw& law, const PointResponse& start, double sta
   const bool start_open = start.state == ContactState::open;
   const bool end_open = end.state == ContactState::open;
   if (start_open == end_open || law.tension > 0.0) return;
-  start_gap = seen_gap(start_open, start_gap);
-  end_gap = seen_gap(end_open, end_gap);
   // E(g) = kn <-g>^2 / 2; the force is -(E1 - E0)/(g1 - g0). The gaps differ since their signs do.
   const double difference = end_gap - start_gap;
   if (start_open) {
@@ -120,8 +118,6 @@ ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap,
                          double end_gap) {
   if (start_open && end_open) return {0.0, 0.0};
   if (start_open == end_open || law.tension > 0.0) return {1.0, 0.0};
-  start_gap = seen_gap(start_open, start_gap);
-  end_gap = seen_gap(end_open, end_gap);
   const double difference = end_gap - start_gap;
   return end_open ? ClosedShare{-start_gap / difference, start_gap / (difference * difference)}
                   : ClosedShare{end_gap / difference, -start_gap / (difference * difference)};
@@ -141,10 +137,12 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
                     {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0}};
   PointResponse& end = step.end;
   MeanResponse& mean = step.mean;
-  set_mean_normal(law, start, start_place[0], end, end_place[0], mean);
+  const double start_gap = seen_gap(law, start, start_place[0]);
+  const double end_gap = seen_gap(law, end, end_place[0]);
+  set_mean_normal(law, start, start_gap, end, end_gap, mean);
   const bool end_open = end.state == ContactState::open;
   const bool start_open = start.state == ContactState::open;
-  const ClosedShare closed = closed_share(law, start_open, start_place[0], end_open, end_place[0]);
+  const ClosedShare closed = closed_share(law, start_open, start_gap, end_open, end_gap);
   mean.limit = std::max(mean.force[0], 0.0) * law.friction + closed.value * law.cohesion;
   const double limit = law.held_limit >= 0.0 ? law.held_limit : mean.limit;
   if (limit <= 0.0 && end_open) return step;

@@ -216,10 +216,14 @@ TEST(ConvexSearch, DiagonalNeighboursBearWhenTheyAreDeeperThanRounding) {
   // The shortest way out is up.
   const Body inside(box({-3e-6, 0, -2e-6}, {1, 1, 1}));
   PairContacts contacts;
-  EXPECT_TRUE(settle_convex_contacts(ConvexSurface(inside.placed), ConvexSurface(low.placed),
-                                     {{}, 0.001, rounding}, contacts)
-                  .has_value());
+  const auto entrance = settle_convex_contacts(ConvexSurface(inside.placed), ConvexSurface(low.placed),
+                                               {{}, 0.001, rounding}, contacts);
+  ASSERT_TRUE(entrance.has_value());
   EXPECT_FALSE(contacts.empty());
+  const Vector3 out_of_low = entrance->kind == EntranceKind::face_of_a
+                                 ? Vector3(-inside.placed.normal(entrance->a[0]))
+                                 : low.placed.normal(entrance->b[0]);
+  EXPECT_EQ(out_of_low, Vector3::UnitZ());
 }
 
 TEST(ConvexSearch, DirectionsOutlastTheRoundingOfATurn) {

@@ -102,6 +102,9 @@ TEST(JointLaw, AMeanForceHasNoKinkWhereGapsAreRounding) {
         EXPECT_NEAR(other.limit, exact.limit, 1e-3);
       }
     }
+    // What rounding has closed is closed for no share of a step to where it is open.
+    EXPECT_EQ(mean(0.9e-14, 1.1e-14).limit, 0.0);
+    EXPECT_EQ(mean(1.1e-14, 0.9e-14).limit, 0.0);
   }
 }
 

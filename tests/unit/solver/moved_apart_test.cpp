@@ -11,24 +11,36 @@ using test_support::same_law;
 
 constexpr double tolerance = 1e-6;  // m
 
+const Material rock{2500, 1e9, 0.2};
+
+SimulationSettings augmented(Integrator integrator, double time_step, SimulationSettings settings = {}) {
+  settings.integrator = integrator;
+  settings.time_step = time_step;
+  settings.augmented = true;
+  settings.penetration_tolerance = tolerance;
+  return settings;
+}
+
+/// Fixed, its top at z = 0. @param half_width m
+BlockModel plate(double half_width) {
+  BlockDefinition plate = block_of(
+      "plate", Polyhedron(make_box({-half_width, -half_width, -1}, {half_width, half_width, 0})), rock, 1);
+  plate.fixed = true;
+  return BlockModel(std::move(plate));
+}
+
 /// Three dominoes, the first on its way to the second: they lean on each other and rub, face on edge and edge
 /// on face, by 0.005 rad a step.
 Simulation dominoes(Integrator integrator, int order, SimulationSettings settings = {}) {
-  const Material rock{2500, 1e9, 0.2};
-  settings.integrator = integrator;
-  settings.time_step = 2e-3;
-  settings.augmented = true;
-  settings.penetration_tolerance = tolerance;
-  BlockDefinition plate = block_of("plate", Polyhedron(make_box({-5, -5, -1}, {5, 5, 0})), rock, 1);
-  plate.fixed = true;
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions(4);
-  blocks.emplace_back(std::move(plate));
+  blocks.emplace_back(plate(5));
   for (const double x : {0.0, 0.8, 1.6})
     blocks.emplace_back(
         block_of("domino", Polyhedron(make_box({x, -0.5, 0}, {x + 0.2, 0.5, 2})), rock, order));
   motions[1] = {{1.5, 0, -0.1}, {0, 1.5, 0}};  // about the far lower edge
-  return {std::move(blocks), motions, same_law({1e9, 5e8, 0.4, 0.0, 0.0, true}), settings};
+  return {std::move(blocks), motions, same_law({1e9, 5e8, 0.4, 0.0, 0.0, true}),
+          augmented(integrator, 2e-3, settings)};
 }
 
 class MovedApart : public ::testing::TestWithParam<Integrator> {};
@@ -56,17 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Every, MovedApart,
 /// Largest penetration of a tall column that turns about its lower edge and takes nothing from what it turns
 /// on, alone or with a cube that falls far from it.
 double deepest_of_a_toppling_column(bool with_cube) {
-  const Material rock{2500, 1e9, 0.2};
-  SimulationSettings settings;
-  settings.integrator = Integrator::dda;
-  settings.time_step = 4e-3;
-  settings.augmented = true;
-  settings.penetration_tolerance = tolerance;
-  BlockDefinition plate = block_of("plate", Polyhedron(make_box({-50, -50, -1}, {50, 50, 0})), rock, 1);
-  plate.fixed = true;
   std::vector<BlockModel> blocks;
-  blocks.reserve(3);
-  blocks.emplace_back(std::move(plate));
+  blocks.emplace_back(plate(50));
   blocks.emplace_back(block_of("column", test_support::tilted_box({0, -0.5, 0}, {1, 0.5, 6}, 15.0), rock, 1));
   std::vector<InitialMotion> motions(2);
   const Vector3 spin(0, -0.5, 0);
@@ -77,7 +80,8 @@ double deepest_of_a_toppling_column(bool with_cube) {
     blocks.emplace_back(block_of("cube", Polyhedron(make_box({30, 0, 0.1}, {31, 1, 1.1})), rock, 1));
     motions.push_back({{0, 0, -1}, {0, 0, 0}});
   }
-  Simulation simulation(std::move(blocks), motions, same_law({1e10, 5e9, 1.0, 0.0, 0.0, true}), settings);
+  Simulation simulation(std::move(blocks), motions, same_law({1e10, 5e9, 1.0, 0.0, 0.0, true}),
+                        augmented(Integrator::dda, 4e-3));
   double deepest = 0.0;
   for (int step = 0; step < 250; ++step) {
     EXPECT_EQ(simulation.step(1e9), StepStatus::accepted);
@@ -119,11 +123,8 @@ TEST(MovedApartFailed, LeavesTheLastAcceptedState) {
 
 TEST(MovedApartFree, KeepsMomentumAndAngularMomentum) {
   // Three blocks that turn meet, rub and part.
-  const Material rock{2500, 1e9, 0.2};
-  SimulationSettings settings;
+  SimulationSettings settings = augmented(Integrator::dda, 1e-3);
   settings.gravity.setZero();
-  settings.augmented = true;
-  settings.penetration_tolerance = tolerance;
   std::vector<BlockModel> blocks;
   blocks.emplace_back(block_of("a", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1));
   blocks.emplace_back(block_of("b", Polyhedron(make_box({1.3, 0.3, 0.2}, {2.0, 1.5, 2.0})), rock, 2));
