@@ -130,19 +130,15 @@ class OpenClose {
     return true;
   }
 
-  /// How far the points of a pair are from where multipliers alone would hold them, m.
-  [[nodiscard]] double farthest(std::size_t pair) const {
+  /// How far a point is from where multipliers alone would hold it, m.
+  static double given_way(const PointLaw& law, const PointResponse& point) {
+    if (!law.augmented || point.state == ContactState::open) return 0.0;
     double most = 0.0;
     const auto look_at = [&most](double force, double stiffness) {
       if (stiffness > 0.0) most = std::max(most, force / stiffness);
     };
-    for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-      const PointLaw& law = problem_.laws()[pair][k];
-      const PointResponse& point = problem_.responses()[pair].points[k];
-      if (!law.augmented || point.state == ContactState::open) continue;
-      look_at(std::abs(law.normal_multiplier - point.force[0]), law.normal_stiffness);
-      look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness);
-    }
+    look_at(std::abs(law.normal_multiplier - point.force[0]), law.normal_stiffness);
+    look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness);
     return most;
   }
 
@@ -154,11 +150,12 @@ class OpenClose {
     const double allowed = settings_.multiplier_share * settings_.penetration_tolerance;
     bool stiffer = false;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      const double found = farthest(pair);
-      if (found <= allowed) continue;
-      stiffer = true;
-      const double factor = std::min(margin * found / allowed, most);
-      for (PointLaw& law : problem_.laws()[pair]) {
+      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
+        PointLaw& law = problem_.laws()[pair][k];
+        const double found = given_way(law, problem_.responses()[pair].points[k]);
+        if (found <= allowed) continue;
+        stiffer = true;
+        const double factor = std::min(margin * found / allowed, most);
         law.normal_stiffness *= factor;
         law.shear_stiffness *= factor;
       }

@@ -19,9 +19,9 @@
 // more rounds than joints.
 //
 // Augmented contact starts each step with the forces of the last one as multipliers (Uzawa, one update a
-// step). What the forces change by is left to springs, made as stiff as it takes to hold points within a
-// quarter of settings.penetration_tolerance of where they were. A pair that would so give its blocks more
-// than it has taken from them starts from less force instead.
+// step). What the forces change by is left to springs, each made as stiff as it takes to hold its point
+// within a quarter of settings.penetration_tolerance of where it was. A pair that would so give its blocks
+// more than it has taken from them starts from less force instead.
 #pragma once
 
 #include "solver/island_problem.hpp"
