@@ -187,12 +187,9 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
 }
 
 void Simulation::take_for_multipliers(const ContactPair& pair, double work) {
-  double& taken = taken_[{pair.a(), pair.b()}];
-  taken += work;
-  if (taken >= 0.0) return;
-  ledger_.refound_gained -= taken;
-  ledger_.numerical -= taken;
-  taken = 0.0;
+  const double beyond = book(work, taken_[{pair.a(), pair.b()}]);
+  ledger_.refound_gained += beyond;
+  ledger_.numerical += beyond;
 }
 
 void Simulation::note_elastic_energy(std::size_t k) {

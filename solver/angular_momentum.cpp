@@ -69,6 +69,13 @@ Vector3 centroid_of(const std::vector<BlockModel>& blocks, const std::vector<int
   return sum / mass;
 }
 
+Vector3 angular_momentum_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                            const std::vector<BlockState>& states) {
+  Vector3 sum = Vector3::Zero();
+  for (const int k : body) sum += blocks[at(k)].angular_momentum(states[at(k)]);
+  return sum;
+}
+
 double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
                 const Vector3& angular_momentum, double limit, std::vector<BlockState>& states) {
   const Vector3 centroid = centroid_of(blocks, body, states);

@@ -39,6 +39,10 @@ namespace ashlar {
 [[nodiscard]] Vector3 centroid_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
                                   const std::vector<BlockState>& states);
 
+/// Of a body about the origin, kg m^2/s. @param body indices
+[[nodiscard]] Vector3 angular_momentum_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                                          const std::vector<BlockState>& states);
+
 /// Adds to the velocities of blocks those of a rigid turn about their common centroid, or as much of them as
 /// does not exceed a limit of energy. @param body indices. @param angular_momentum that they gain, kg m^2/s
 /// @param limit of what they gain of kinetic energy, J, >= 0. @return what they gain of it, J

@@ -33,7 +33,7 @@ struct SimulationSnapshot {
   std::vector<double> spin_debts;
   std::vector<RememberedPair> memory;
   std::map<std::array<int, 2>, double> contact_work;
-  std::map<std::array<int, 2>, double> taken;
+  ContactAccounts taken;
   FinderState finder;
   StepReport report;
   std::vector<PairRecord> records;

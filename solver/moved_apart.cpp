@@ -5,10 +5,9 @@
 // velocity of depth over step.
 //
 // The motion lifts weights and strains blocks a little. It takes no more energy for that than contacts have
-// taken from blocks before: those of the island first, then the others in proportion. Free blocks that move
+// taken from blocks before (contact_accounts.hpp). Free blocks that move
 // apart as they pass each other would have another angular momentum: the set of them gets it back as a spin.
 #include <algorithm>
-#include <set>
 
 #include "solver/angular_momentum.hpp"
 #include "solver/simulation.hpp"
@@ -91,38 +90,28 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     body.free_change = body.change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
   }
   std::vector<BlockState> relaxed_states(blocks_.size());  // of blocks that are moved
-  struct DeepIsland {
+  struct MovedIsland {
     const Island* island;
-    double taken;  // by its contacts before
-    double energy = 0.0;
-    Vector3 momentum = Vector3::Zero();  // angular, before
+    std::size_t place;  // in the funds
+    double energy;      // that its motion takes
+    Vector3 momentum;   // angular, before
   };
-  const auto momentum_of = [&](const Island& island) {
-    Vector3 sum = Vector3::Zero();
-    for (const int k : island.bodies) sum += blocks_[at(k)].angular_momentum(states_[at(k)]);
-    return sum;
-  };
-  std::vector<DeepIsland> deep;
+  std::vector<const Island*> deep;
+  std::vector<std::vector<PairKey>> contacts;
   for (const Island& island : trial.islands) {
-    double taken = 0.0;
     double deepest = 0.0;
-    for (const int index : island.pairs) {
-      taken += pairs[at(index)].taken();
-      deepest = std::max(deepest, pairs[at(index)].depth_found());
-    }
-    if (deepest > tolerated_depth(settings_)) deep.push_back({&island, taken});
+    for (const int index : island.pairs) deepest = std::max(deepest, pairs[at(index)].depth_found());
+    if (deepest <= tolerated_depth(settings_)) continue;
+    deep.push_back(&island);
+    contacts.emplace_back();
+    for (const int index : island.pairs)
+      if (!pairs[at(index)].tied()) contacts.back().push_back({pairs[at(index)].a(), pairs[at(index)].b()});
   }
-  // What other contacts have taken is lent.
-  std::set<PairKey> own;
-  for (const DeepIsland& island : deep)
-    for (const int index : island.island->pairs) own.insert({pairs[at(index)].a(), pairs[at(index)].b()});
-  double of_others = 0.0;
-  for (const auto& [blocks, taken] : taken_) of_others += own.count(blocks) > 0 ? 0.0 : taken;
-  double lent = 0.0;
-  std::vector<DeepIsland> moved;
-  for (DeepIsland& one : deep) {
+  IslandFunds funds(taken_, std::move(contacts));
+  std::vector<MovedIsland> moved;
+  for (std::size_t n = 0; n < deep.size(); ++n) {
     const Stopwatch watch(seconds_.solve);
-    const Island& island = *one.island;
+    const Island& island = *deep[n];
     for (const int k : island.bodies) {
       BodyStep& body = trial.bodies[at(k)];
       relaxed_states[at(k)] = relaxed(blocks_[at(k)], states_[at(k)]);
@@ -132,17 +121,14 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     }
     const IslandResult result = solve_island(island, trial.bodies, trial.pairs, scheme, settings, solvers_);
     counts_.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
-    one.energy = energy_of_motion(island.bodies, trial.bodies);
-    const double limit = one.taken + of_others - lent;
-    const double share = result.status != IslandStatus::settled ? 0.0
-                         : one.energy > limit                   ? limit / one.energy
-                                                                : 1.0;
+    double energy = energy_of_motion(island.bodies, trial.bodies);
+    const double limit = funds.available(n);
+    const double share = result.status != IslandStatus::settled ? 0.0 : energy > limit ? limit / energy : 1.0;
     for (const int k : island.bodies) trial.bodies[at(k)].change *= share;
     if (share == 0.0) continue;
-    if (share < 1.0) one.energy = energy_of_motion(island.bodies, trial.bodies);
-    lent += std::max(0.0, one.energy - one.taken);
-    one.momentum = momentum_of(island);
-    moved.push_back(one);
+    if (share < 1.0) energy = energy_of_motion(island.bodies, trial.bodies);
+    funds.use(n, energy);
+    moved.push_back({&island, n, energy, angular_momentum_of(blocks_, island.bodies, states_)});
   }
   if (moved.empty()) return false;
   if (const auto passing = check_motion(trial, found); !passing.empty()) {
@@ -160,29 +146,16 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     states_[k].position += motion;
     note_elastic_energy(k);
   }
-  for (const auto& [island, taken, energy, momentum] : moved) {
-    double used = energy;
-    if (is_free(*island, pairs)) {
-      const double limit = std::max(0.0, taken - used) + std::max(0.0, of_others - lent);
-      const double gain = add_spin(blocks_, island->bodies, momentum - momentum_of(*island), limit, states_);
-      lent += std::max(0.0, used + gain - taken) - std::max(0.0, used - taken);
-      used += gain;
-    }
-    ledger_.numerical -= used;
-    const double left = std::max(0.0, taken - used);
-    const auto contacts = std::count_if(island->pairs.begin(), island->pairs.end(),
-                                        [&](int index) { return !pairs[at(index)].tied(); });
-    for (const int index : island->pairs) {
-      const ContactPair& pair = pairs[at(index)];
-      if (pair.tied()) continue;
-      const double part = taken > 0.0 ? pair.taken() / taken : 1.0 / static_cast<double>(contacts);
-      taken_[{pair.a(), pair.b()}] = part * left;
-    }
+  for (const auto& [island, place, energy, momentum] : moved) {
+    ledger_.numerical -= energy;
+    if (!is_free(*island, pairs)) continue;
+    const double gain =
+        add_spin(blocks_, island->bodies, momentum - angular_momentum_of(blocks_, island->bodies, states_),
+                 funds.available(place), states_);
+    funds.use(place, gain);
+    ledger_.numerical -= gain;
   }
-  if (lent > 0.0) {
-    const double kept = std::max(0.0, 1.0 - lent / of_others);
-    for (auto& [blocks, taken] : taken_) taken *= own.count(blocks) > 0 ? 1.0 : kept;
-  }
+  funds.spend_from(taken_);
   for (auto& [block, next] : trial.carried) start_carried_step(block, std::move(next));
   return true;
 }

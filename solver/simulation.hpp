@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/contact_accounts.hpp"
 #include "solver/contact_finder.hpp"
 #include "solver/island.hpp"
 #include "solver/ledger.hpp"
@@ -280,9 +281,8 @@ class Simulation {
   std::vector<double> roundoff_force_;  ///< see BodyStep
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
-  /// By multipliers from every pair that ever touched, and not given back, J, >= 0
-  std::map<PairKey, double> taken_;
-  std::vector<double> elastic_energies_;  ///< by block, J
+  ContactAccounts taken_;                   ///< by multipliers, of every pair that ever touched
+  std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;
   double time_ = 0.0;
