@@ -85,6 +85,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   }
   if (gives_spin_back) keep_angular_momentum(scheme, trial, before, dissipated);
 
+  const std::vector<StoppedPair> stopped = stop_at_contacts(scheme, trial);
   book_refound(pairs);
   report_ = StepReport{};
   report_.step = scheme.step;
@@ -127,11 +128,15 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
           finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
       memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb, tearing_gap),
                                          deepest, held, bulge, pair.cuts());
-      // Forces that acted: with average-acceleration not those at the end.
+      // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.
+      const StoppedPair& stop = stopped[at(islands[i].pairs[n])];
       std::vector<PointResponse> acted = after.points;
-      for (std::size_t k = 0; k < acted.size(); ++k) acted[k].force = after.means[k].force;
+      for (std::size_t k = 0; k < acted.size(); ++k) {
+        acted[k].force = after.means[k].force;
+        if (!stop.forces.empty()) acted[k].force += stop.forces[k];
+      }
       records_.push_back({pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps),
-                          contact_work_[{pair.a(), pair.b()}] += work});
+                          contact_work_[{pair.a(), pair.b()}] += work + stop.work});
     }
   }
   memory_ = std::move(memory);

@@ -321,8 +321,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     }
     forces.segment<3>(3 * column) = response.means.back().force;
   }
-  if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
-  if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
+  set_block_forces(forces, response);
   if (free_pair_) {
     const Eigen::MatrixX3d middle_a = middle_of(position_a_, ya);
     const Eigen::MatrixX3d middle_b = middle_of(position_b_, yb);
@@ -332,6 +331,11 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     response.turning_on_b = turning_force(middle_b, -0.5 * couple);
   }
   return response;
+}
+
+void ContactPair::set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
+  if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
+  if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
 }
 
 ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {

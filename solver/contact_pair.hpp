@@ -30,6 +30,14 @@ struct PairResponse {
   }
 };
 
+/// How points that push are stopped (contact_impulses.cpp).
+struct Stop {
+  double stiffness = 0.0;  ///< of a point against the inertia it feels, without unit
+  double inertia_a = 0.0;  ///< density over the step squared, kg/(m^3 s^2); of no use if fixed
+  double inertia_b = 0.0;
+  double allowed_way = 0.0;  ///< m: points that their force moves by less in a step count for little
+};
+
 /// The force of a point acts on a at x_a and on b at x_b, the true places of the material points. Where these
 /// differ, by the gap, because a slides on b within the step or because feet are taken on flat sub-faces, the
 /// two forces are a couple r x F, r = x_a - x_b at the middle of the step, which would change the angular
@@ -123,6 +131,18 @@ class ContactPair {
   void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
                     Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
 
+  // contact_impulses.cpp
+  /// Whether any point pushes, or a bond of a contact holds.
+  [[nodiscard]] bool pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const;
+  /// Impulses per step, N, that stop points: along the normal where they push, along the surface too where
+  /// they are locked, and tied functions.
+  /// @param end at the end of the step. @param laws that gave it
+  /// @param ya,yb velocities of the unknowns times the step
+  [[nodiscard]] PairResponse stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
+                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                      const Stop& stop) const;
+
+  // contact_pair.cpp
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Memory after an accepted step. @param laws that gave the response
@@ -149,6 +169,8 @@ class ContactPair {
     return area_springs_ ? point.area : 1.0;
   }
   void respond_at_start();
+  /// @param forces (3 #points)
+  void set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
   /// Gap over the rest and trial slip of every point, linear in the changes. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
 

@@ -76,17 +76,18 @@ std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vec
   return islands;
 }
 
-IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
-                          const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
-                          const SimulationSettings& settings, IslandSolvers& solvers) {
+IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
+                                const std::vector<ContactPair>& pairs, SystemRole role,
+                                IslandSolvers& solvers) {
   std::map<int, int> place;
   std::vector<int> sizes;
+  std::vector<int> key = {static_cast<int>(role)};
   for (const int body : island.bodies) {
     place[body] = static_cast<int>(place.size());
     sizes.push_back(bodies[at(body)].model->unknowns());
+    key.push_back(body);
   }
   std::vector<std::array<int, 2>> links;
-  std::vector<int> key = island.bodies;
   for (const int pair : island.pairs) {
     const auto a = place.find(pairs[at(pair)].a());
     const auto b = place.find(pairs[at(pair)].b());
@@ -94,8 +95,15 @@ IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
     links.push_back({a->second, b->second});
     key.insert(key.end(), {a->second, b->second});
   }
+  return solvers.find(key, sizes, links);
+}
+
+IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                          const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                          const SimulationSettings& settings, IslandSolvers& solvers) {
   IslandResult result;
-  IslandProblem problem(island, bodies, pairs, scheme, settings, solvers.find(key, sizes, links));
+  IslandProblem problem(island, bodies, pairs, scheme, settings,
+                        solver_of(island, bodies, pairs, SystemRole::step, solvers));
   iterate_open_close(problem, settings, result);
   return result;
 }

@@ -52,7 +52,7 @@ class IslandSolvers {
     SparseCholesky factor;
     bool used = true;
   };
-  /// The solver of an island. @param key block indices, then pairs
+  /// The solver of an island. @param key role, block indices, then pairs
   [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,
                             const std::vector<std::array<int, 2>>& pairs);
   /// Forgets the solvers of islands that did not come up since the last call.
@@ -73,6 +73,13 @@ struct Island {
 /// Islands of moving blocks; fixed blocks join nothing. @param moving (#blocks)
 [[nodiscard]] std::vector<Island> find_islands(const std::vector<bool>& moving,
                                                const std::vector<ContactPair>& pairs);
+
+/// What a system is for; each keeps its own factor.
+enum class SystemRole { step, stop };
+/// The solver of an island's system.
+[[nodiscard]] IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
+                                              const std::vector<ContactPair>& pairs, SystemRole role,
+                                              IslandSolvers& solvers);
 
 /// Solves one island for the changes of its bodies' unknowns.
 /// @param bodies (#blocks), those of the island are read and their results written

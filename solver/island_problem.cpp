@@ -107,13 +107,29 @@ Balance IslandProblem::balance() const {
   return result;
 }
 
+Eigen::VectorXd IslandProblem::contact_forces() const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  const auto add = [&](int block, const Eigen::VectorXd& force) {
+    if (const int body = place(block); body >= 0)
+      sum.segment(solver_.matrix.offset(body), force.size()) += force;
+  };
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    add(pair(k).a(), responses_[k].total_on_a());
+    add(pair(k).b(), responses_[k].total_on_b());
+  }
+  return sum;
+}
+
 void IslandProblem::assemble(bool positive) {
   BlockMatrix& matrix = solver_.matrix;
   matrix.set_zero();
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     const BodyStep& body = bodies_[at(island_.bodies[k])];
-    matrix.add_diagonal(static_cast<int>(k), scheme_.force_weight * scheme_.end_share *
-                                                 body.model->tangent(taken_at(body), body.elastic, positive));
+    if (scheme_.force_weight > 0.0) {
+      matrix.add_diagonal(static_cast<int>(k),
+                          scheme_.force_weight * scheme_.end_share *
+                              body.model->tangent(taken_at(body), body.elastic, positive));
+    }
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
   }
   for (std::size_t k = 0; k < pairs(); ++k) {

@@ -34,7 +34,11 @@ class IslandProblem {
   void predict(FirstGuess guess);
   /// Elastic and contact responses at the present guess.
   void respond();
+  /// Takes responses that are not those of the laws. @param responses of the island's pairs
+  void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
   [[nodiscard]] Balance balance() const;
+  /// Forces of the last responses alone, N, in the island's unknowns.
+  [[nodiscard]] Eigen::VectorXd contact_forces() const;
   /// Assembles and factorises the symmetric part of the tangent at the last responses.
   [[nodiscard]] FactorStatus factorize();
   /// Change of the guess that the linearised equations ask for.

@@ -77,6 +77,9 @@ struct SimulationSettings {
   double multiplier_share = 0.25;
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
+  /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (contact_impulses.cpp).
+  /// Larger makes more of rounding, smaller lets forces alternate longer
+  double stop_stiffness = 300.0;
   /// before a step, of blocks that are deeper in each other: contacts are others after each (moved_apart.cpp)
   int moves_apart = 4;
   double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart

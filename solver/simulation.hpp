@@ -239,6 +239,21 @@ class Simulation {
   /// @param dissipated by the integrator in each block, J
   void keep_angular_momentum(const TimeScheme& scheme, const Trial& trial,
                              const std::vector<BlockState>& before, const std::vector<double>& dissipated);
+  // contact_impulses.cpp
+  /// What a pair's impulses at the end of a step do.
+  struct StoppedPair {
+    std::vector<Eigen::Vector3d>
+        forces;         ///< of its points in their frames, impulse over step, N; empty: none
+    double work = 0.0;  ///< on both blocks, J
+  };
+  /// Stops what pushes at the end of a step. @return by pair
+  std::vector<StoppedPair> stop_at_contacts(const TimeScheme& scheme, const Trial& trial);
+  /// @param bodies at rest at the end of the step. @param stopped of the island's pairs is written
+  void stop_island(double step, const Island& island, const std::vector<ContactPair>& pairs,
+                   const IslandResult& result, std::vector<BodyStep>& bodies,
+                   std::vector<StoppedPair>& stopped);
+
+  // accepted_step.cpp
   /// Books what the springs hold anew since the end of the last step.
   void book_refound(const std::vector<ContactPair>& pairs);
   /// Counts it; what multipliers give beyond what they have taken so far is booked as gained.

@@ -1,0 +1,159 @@
+// Where contact is augmented, a step ends with impulses that stop what pushes.
+//
+// A step that holds a point where it is, D = 0, ends with v' = -v, or nearly (time_scheme.hpp): the velocity
+// turns round in each further step, and the contact force alternates by 2 m v/dt. Springs damp that as far as
+// they give way (fastest at k dt^2/2m = 8), multipliers, whose springs are as stiff as it takes, do not. So
+// contact is enforced for velocities too, by impulses of their own (Bruels, Acary and Cardona, Computer
+// Methods in Applied Mechanics and Engineering 281, 2014):
+//
+//   M (v'' - v') = dt G^T j,   j = -c G v''
+//   c = stop_stiffness m/dt N/(N + N0)        m: inertia that a point feels, N: its normal force
+//
+// G: normal velocities of points that push, shear velocities too of those that are locked, and all of bonds
+// and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
+// little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
+// round point away; points that separate open in the next step. Friction has no part in them. They take
+// energy in any case, which is booked as numerical dissipation: impacts are plastic where blocks meet, and
+// what can deform bounces by its elasticity.
+#include <limits>
+
+#include "solver/angular_momentum.hpp"
+#include "solver/island_problem.hpp"
+#include "solver/simulation.hpp"
+#include "solver/stopwatch.hpp"
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+bool is_held(const PointLaw& law, const PointResponse& point) {
+  return point.state != ContactState::open && (point.force[0] > 0.0 || law.tension > 0.0);
+}
+
+}  // namespace
+
+bool ContactPair::pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const {
+  for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
+    if (is_held(laws[k], end.points[k])) return true;
+  }
+  return false;
+}
+
+PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
+                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                   const Stop& stop) const {
+  // What a force moves a row by in a step, m/N, mean of some rows: it does not depend on how axes lie.
+  const auto mobility = [&](Eigen::Index first, Eigen::Index count) {
+    const auto part = [&](const Eigen::MatrixXd& rows, double inertia) {
+      return rows.cols() > 0 ? rows.middleRows(first, count).squaredNorm() / inertia : 0.0;
+    };
+    return (part(rows_a_, stop.inertia_a) + part(rows_b_, stop.inertia_b)) / static_cast<double>(count);
+  };
+  const double of_tie = tied() ? mobility(0, 3 * static_cast<Eigen::Index>(points_.size())) : 0.0;
+  const Eigen::Matrix3Xd way = relative(ya, yb) - start_;
+  PairResponse result;
+  result.points = end.points;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(way.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const PointResponse& point = end.points[k];
+    MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0};
+    const auto stiffness = [&](double mobile) {
+      if (mobile <= 0.0) return 0.0;
+      const bool whole = tied() || laws[k].tension > 0.0;
+      const double share = whole ? 1.0 : point.force[0] / (point.force[0] + stop.allowed_way / mobile);
+      return share * stop.stiffness / mobile;
+    };
+    if (tied()) {
+      mean.tangent.diagonal().setConstant(stiffness(of_tie));
+    } else if (is_held(laws[k], point)) {
+      mean.tangent(0, 0) = stiffness(mobility(3 * column, 1));
+      if (point.state == ContactState::locked)
+        mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness(mobility(3 * column + 1, 2)));
+    }
+    mean.force = -(mean.tangent * way.col(column));
+    forces.segment<3>(3 * column) = mean.force;
+    result.means.push_back(mean);
+  }
+  set_block_forces(forces, result);
+  return result;
+}
+
+std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeScheme& scheme,
+                                                                  const Trial& trial) {
+  const Stopwatch watch(seconds_.solve);
+  std::vector<StoppedPair> stopped(trial.pairs.size());
+  if (!settings_.augmented || scheme.from_rest) return stopped;
+  std::vector<BodyStep> bodies = trial.bodies;
+  for (BodyStep& body : bodies) body.change.setZero();
+  for (std::size_t n = 0; n < trial.islands.size(); ++n) {
+    const Island& island = trial.islands[n];
+    const IslandResult& result = trial.results[n];
+    bool pushes = false;
+    for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
+      pushes = trial.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
+    if (pushes) stop_island(scheme.step, island, trial.pairs, result, bodies, stopped);
+  }
+  return stopped;
+}
+
+void Simulation::stop_island(double step, const Island& island, const std::vector<ContactPair>& pairs,
+                             const IslandResult& result, std::vector<BodyStep>& bodies,
+                             std::vector<StoppedPair>& stopped) {
+  TimeScheme scheme;
+  scheme.force_weight = 0.0;
+  scheme.inertia = 1.0 / (step * step);
+  IslandProblem problem(island, bodies, pairs, scheme, settings_,
+                        solver_of(island, bodies, pairs, SystemRole::stop, solvers_));
+  std::vector<Eigen::VectorXd> velocities(blocks_.size());  // times the step
+  for (const int k : island.bodies)
+    velocities[at(k)] = step * blocks_[at(k)].space().restrict(states_[at(k)].velocity);
+  const auto impulses = [&] {
+    const auto inertia = [&](int block) { return blocks_[at(block)].material().density * scheme.inertia; };
+    std::vector<PairResponse> responses;
+    for (std::size_t n = 0; n < island.pairs.size(); ++n) {
+      const ContactPair& pair = pairs[at(island.pairs[n])];
+      responses.push_back(pair.stopping(result.responses[n], result.laws[n], velocities[at(pair.a())],
+                                        velocities[at(pair.b())],
+                                        {settings_.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
+                                         settings_.multiplier_share * settings_.penetration_tolerance}));
+    }
+    return responses;
+  };
+  problem.set_responses(impulses());
+  if (problem.factorize() != FactorStatus::success) return;
+  problem.apply(problem.solve(problem.contact_forces(), false), 1.0);
+
+  const Vector3 momentum = angular_momentum_of(blocks_, island.bodies, states_);
+  double lost = 0.0;
+  for (const int k : island.bodies) {
+    const BlockModel& block = blocks_[at(k)];
+    BlockState& state = states_[at(k)];
+    lost += block.kinetic_energy(state);
+    velocities[at(k)] += bodies[at(k)].change;
+    state.velocity += block.space().expand(bodies[at(k)].change) / step;
+    lost -= block.kinetic_energy(state);
+  }
+  const std::vector<PairResponse> found = impulses();
+  for (const int k : island.bodies) velocities[at(k)] -= 0.5 * bodies[at(k)].change;
+  for (std::size_t n = 0; n < island.pairs.size(); ++n) {
+    const ContactPair& pair = pairs[at(island.pairs[n])];
+    StoppedPair& result_of_pair = stopped[at(island.pairs[n])];
+    for (const MeanResponse& mean : found[n].means) result_of_pair.forces.push_back(mean.force);
+    result_of_pair.work = pair.work(found[n], velocities[at(pair.a())], velocities[at(pair.b())]);
+    // Supports that move are pushed against.
+    ledger_.applied -= pair.prescribed_work(found[n]);
+    lost -= pair.prescribed_work(found[n]);
+  }
+  if (is_free(island, pairs)) {
+    // Opposite impulses act at places that are apart by the gap: what that turns is hardly any energy.
+    const Vector3 missing = momentum - angular_momentum_of(blocks_, island.bodies, states_);
+    lost -= add_spin(blocks_, island.bodies, missing, std::numeric_limits<double>::infinity(), states_);
+  }
+  ledger_.numerical += lost;
+}
+
+}  // namespace ashlar
