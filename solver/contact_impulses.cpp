@@ -6,11 +6,13 @@
 // contact is enforced for velocities too, by impulses of their own (Bruels, Acary and Cardona, Computer
 // Methods in Applied Mechanics and Engineering 281, 2014):
 //
-//   M (v'' - v') = dt G^T j,   j = -c G v''
+//   M (v'' - v') = dt G^T j,   j = -c G u,   u = v'' - (beta/gamma - 1/2) dt a'
 //   c = stop_stiffness m/dt N/(N + N0)        m: inertia that a point feels, N: its normal force
 //
-// G: normal velocities of points that push, shear velocities too of those that are locked, and all of bonds
-// and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
+// u is what stands still under a constant force that pushes: generalized-alpha keeps a velocity there, and
+// would lack the force that a steady impulse bears, and its friction. Other integrators have beta/gamma =
+// 1/2. G: normal velocities of points that push, shear velocities too of those that are locked, and all of
+// bonds and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
 // little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
 // round point away; points that separate open in the next step. Friction has no part in them. They take
 // energy in any case, which is booked as numerical dissipation: impacts are plastic where blocks meet, and
@@ -95,22 +97,28 @@ std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeSche
     bool pushes = false;
     for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
       pushes = trial.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
-    if (pushes) stop_island(scheme.step, island, trial.pairs, result, bodies, stopped);
+    if (pushes) stop_island(scheme, island, trial.pairs, result, bodies, stopped);
   }
   return stopped;
 }
 
-void Simulation::stop_island(double step, const Island& island, const std::vector<ContactPair>& pairs,
-                             const IslandResult& result, std::vector<BodyStep>& bodies,
-                             std::vector<StoppedPair>& stopped) {
+void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
+                             const std::vector<ContactPair>& pairs, const IslandResult& result,
+                             std::vector<BodyStep>& bodies, std::vector<StoppedPair>& stopped) {
+  const double step = of_step.step;
   TimeScheme scheme;
   scheme.force_weight = 0.0;
   scheme.inertia = 1.0 / (step * step);
   IslandProblem problem(island, bodies, pairs, scheme, settings_,
                         solver_of(island, bodies, pairs, SystemRole::stop, solvers_));
-  std::vector<Eigen::VectorXd> velocities(blocks_.size());  // times the step
-  for (const int k : island.bodies)
-    velocities[at(k)] = step * blocks_[at(k)].space().restrict(states_[at(k)].velocity);
+  // beta/gamma dt - dt/2, 0 but with generalized-alpha
+  const double shift = 1.0 / of_step.end_velocity.change - 0.5 * step;
+  std::vector<Eigen::VectorXd> velocities(blocks_.size());  // u times the step
+  for (const int k : island.bodies) {
+    Eigen::MatrixX3d velocity = states_[at(k)].velocity;
+    if (!accelerations_.empty()) velocity -= shift * accelerations_[at(k)];
+    velocities[at(k)] = step * blocks_[at(k)].space().restrict(velocity);
+  }
   const auto impulses = [&] {
     const auto inertia = [&](int block) { return blocks_[at(block)].material().density * scheme.inertia; };
     std::vector<PairResponse> responses;

@@ -249,7 +249,7 @@ class Simulation {
   /// Stops what pushes at the end of a step. @return by pair
   std::vector<StoppedPair> stop_at_contacts(const TimeScheme& scheme, const Trial& trial);
   /// @param bodies at rest at the end of the step. @param stopped of the island's pairs is written
-  void stop_island(double step, const Island& island, const std::vector<ContactPair>& pairs,
+  void stop_island(const TimeScheme& of_step, const Island& island, const std::vector<ContactPair>& pairs,
                    const IslandResult& result, std::vector<BodyStep>& bodies,
                    std::vector<StoppedPair>& stopped);
 

@@ -127,6 +127,29 @@ TEST(ContactImpulses, ASupportThatMovesPushesAndWorks) {
   EXPECT_LT(simulation.largest_step_residual(), 1e-11 * simulation.largest_energy());
 }
 
+TEST(ContactImpulses, FrictionIsThatOfAllThatBears) {
+  // Steady impulses would bear a quarter of the weight, without friction, where generalized-alpha's velocity
+  // of what stands still were taken for motion.
+  constexpr double speed = 1.0, friction = 0.3, time = 0.2;
+  for (const Integrator integrator :
+       {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
+    SimulationSettings settings = augmented(1e-3);
+    settings.integrator = integrator;
+    settings.spectral_radius = 0.0;
+    BlockDefinition base =
+        block_of("base", Polyhedron(make_box({-1, -1, -1}, {2, 2, 0})), {2500, 1e9, 0.2}, 1);
+    base.fixed = true;
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(std::move(base));
+    blocks.push_back(cube({0, 0, 0}));
+    Simulation simulation(std::move(blocks), {{}, {{speed, 0, 0}, {0, 0, 0}}},
+                          same_law({2e10, 1e10, friction, 0.0, 0.0, true}), settings);
+    ASSERT_TRUE(test_support::run_until(simulation, time));
+    const double way = test_support::place_of(simulation, 1, {0.5, 0.5, 0.5}).x() - 0.5;
+    EXPECT_NEAR(way, speed * time - 0.5 * friction * 9.81 * time * time, 2e-3 * speed * time);
+  }
+}
+
 /// A block 0.5 m wide and 2 m high is let go tilted by 6 degrees. @return its largest tilts, one to each
 /// side, after the first and the second impact, rad
 std::array<double, 2> rocking_tilts(Integrator integrator) {
