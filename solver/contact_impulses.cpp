@@ -10,13 +10,14 @@
 //   c = stop_stiffness m/dt N/(N + N0)        m: inertia that a point feels, N: its normal force
 //
 // u is what stands still under a constant force that pushes: generalized-alpha keeps a velocity there, and
-// would lack the force that a steady impulse bears, and its friction. Other integrators have beta/gamma =
-// 1/2. G: normal velocities of points that push, shear velocities too of those that are locked, and all of
-// bonds and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
+// would lack the force that a steady impulse bears, and its friction. The others have u = v''.
+//
+// G: normal velocities of points that push, shear velocities too of those that are locked, and all of bonds
+// and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
 // little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
-// round point away; points that separate open in the next step. Friction has no part in them. They take
-// energy in any case, which is booked as numerical dissipation: impacts are plastic where blocks meet, and
-// what can deform bounces by its elasticity.
+// round point away; points that separate open in the next step. Friction has no part in them. What they take
+// of the energy of u, never less than nothing, is booked as numerical dissipation: impacts are plastic where
+// blocks meet, and what can deform bounces by its elasticity.
 #include <limits>
 
 #include "solver/angular_momentum.hpp"
@@ -146,7 +147,9 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
     lost -= block.kinetic_energy(state);
   }
   const std::vector<PairResponse> found = impulses();
-  for (const int k : island.bodies) velocities[at(k)] -= 0.5 * bodies[at(k)].change;
+  for (const int k : island.bodies)
+    velocities[at(k)] =
+        step * blocks_[at(k)].space().restrict(states_[at(k)].velocity) - 0.5 * bodies[at(k)].change;
   for (std::size_t n = 0; n < island.pairs.size(); ++n) {
     const ContactPair& pair = pairs[at(island.pairs[n])];
     StoppedPair& result_of_pair = stopped[at(island.pairs[n])];
