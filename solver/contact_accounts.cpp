@@ -23,7 +23,11 @@ IslandFunds::IslandFunds(const ContactAccounts& accounts,
         own_[island] += account->second;
     }
   }
-  for (const auto& [pair, account] : accounts) common_ += owned.count(pair) > 0 ? 0.0 : account;
+  for (const auto& [pair, account] : accounts) {
+    if (owned.count(pair) > 0) continue;
+    others_.push_back(pair);
+    common_ += account;
+  }
 }
 
 double IslandFunds::available(std::size_t island) const {
@@ -35,27 +39,17 @@ void IslandFunds::use(std::size_t island, double energy) {
 }
 
 void IslandFunds::spend_from(ContactAccounts& accounts) const {
-  const auto sum_of = [&](const std::vector<std::array<int, 2>>& pairs) {
-    double sum = 0.0;
-    for (const std::array<int, 2>& pair : pairs) sum += accounts[pair];
-    return sum;
-  };
   const auto set_sum = [&](const std::vector<std::array<int, 2>>& pairs, double sum) {
-    const double before = sum_of(pairs);
+    double before = 0.0;
+    for (const std::array<int, 2>& pair : pairs) before += accounts[pair];
+    if (sum == before) return;
     for (const std::array<int, 2>& pair : pairs) {
       double& account = accounts[pair];
       account = before > 0.0 ? account / before * sum : sum / static_cast<double>(pairs.size());
     }
   };
-  std::set<std::array<int, 2>> owned;
-  for (std::size_t island = 0; island < islands_.size(); ++island) {
-    set_sum(islands_[island], own_[island]);
-    owned.insert(islands_[island].begin(), islands_[island].end());
-  }
-  std::vector<std::array<int, 2>> others;
-  for (const auto& [pair, account] : accounts)
-    if (owned.count(pair) == 0) others.push_back(pair);
-  if (common_ != sum_of(others)) set_sum(others, common_);
+  for (std::size_t island = 0; island < islands_.size(); ++island) set_sum(islands_[island], own_[island]);
+  set_sum(others_, common_);
 }
 
 }  // namespace ashlar

@@ -33,8 +33,9 @@ class IslandFunds {
 
  private:
   std::vector<std::vector<std::array<int, 2>>> islands_;
-  std::vector<double> own_;  ///< left of each island's own, J
-  double common_ = 0.0;      ///< left of what belongs to no island, J
+  std::vector<std::array<int, 2>> others_;  ///< pairs that belong to no island
+  std::vector<double> own_;                 ///< left of each island's own, J
+  double common_ = 0.0;                     ///< left of what belongs to no island, J
 };
 
 }  // namespace ashlar

@@ -15,10 +15,11 @@
 // G: normal velocities of points that push, shear velocities too of those that are locked, and all of bonds
 // and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
 // little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
-// round point away; points that separate open in the next step. Friction has no part in them. What they take
-// of the energy of u, never less than nothing, is booked as numerical dissipation: impacts are plastic where
-// blocks meet, and what can deform bounces by its elasticity.
-#include <limits>
+// round point away; points that separate open in the next step. Friction has no part in them. They take
+// energy of u, never less than nothing: impacts are plastic where blocks meet, and what can deform bounces by
+// its elasticity. What v loses is booked as numerical dissipation. A set of free blocks keeps its angular
+// momentum: the spin for that comes from what impulses and contacts have taken (contact_accounts.hpp).
+#include <algorithm>
 
 #include "solver/angular_momentum.hpp"
 #include "solver/island_problem.hpp"
@@ -90,8 +91,11 @@ std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeSche
   const Stopwatch watch(seconds_.solve);
   std::vector<StoppedPair> stopped(trial.pairs.size());
   if (!settings_.augmented || scheme.from_rest) return stopped;
-  std::vector<BodyStep> bodies = trial.bodies;
-  for (BodyStep& body : bodies) body.change.setZero();
+  std::vector<BodyStep> bodies(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    bodies[k].model = &blocks_[k];
+    bodies[k].change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
+  }
   for (std::size_t n = 0; n < trial.islands.size(); ++n) {
     const Island& island = trial.islands[n];
     const IslandResult& result = trial.results[n];
@@ -160,9 +164,14 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
     lost -= pair.prescribed_work(found[n]);
   }
   if (is_free(island, pairs)) {
-    // Opposite impulses act at places that are apart by the gap: what that turns is hardly any energy.
+    // Opposite impulses act at places that are apart by the gap.
     const Vector3 missing = momentum - angular_momentum_of(blocks_, island.bodies, states_);
-    lost -= add_spin(blocks_, island.bodies, missing, std::numeric_limits<double>::infinity(), states_);
+    const double own = std::max(0.0, lost);
+    IslandFunds funds(taken_, {contacts_of(island, pairs)});
+    const double gain = add_spin(blocks_, island.bodies, missing, own + funds.available(0), states_);
+    funds.use(0, std::max(0.0, gain - own));
+    funds.spend_from(taken_);
+    lost -= gain;
   }
   ledger_.numerical += lost;
 }

@@ -76,6 +76,15 @@ std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vec
   return islands;
 }
 
+std::vector<std::array<int, 2>> contacts_of(const Island& island, const std::vector<ContactPair>& pairs) {
+  std::vector<std::array<int, 2>> result;
+  for (const int index : island.pairs) {
+    const ContactPair& pair = pairs[at(index)];
+    if (!pair.tied()) result.push_back({pair.a(), pair.b()});
+  }
+  return result;
+}
+
 IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
                                 const std::vector<ContactPair>& pairs, SystemRole role,
                                 IslandSolvers& solvers) {

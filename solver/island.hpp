@@ -74,6 +74,10 @@ struct Island {
 [[nodiscard]] std::vector<Island> find_islands(const std::vector<bool>& moving,
                                                const std::vector<ContactPair>& pairs);
 
+/// Pairs of blocks of an island's contacts, ties left out.
+[[nodiscard]] std::vector<std::array<int, 2>> contacts_of(const Island& island,
+                                                          const std::vector<ContactPair>& pairs);
+
 /// What a system is for; each keeps its own factor.
 enum class SystemRole { step, stop };
 /// The solver of an island's system.

@@ -5,8 +5,8 @@
 // velocity of depth over step.
 //
 // The motion lifts weights and strains blocks a little. It takes no more energy for that than contacts have
-// taken from blocks before (contact_accounts.hpp). Free blocks that move
-// apart as they pass each other would have another angular momentum: the set of them gets it back as a spin.
+// taken from blocks before (contact_accounts.hpp). Free blocks that move apart as they pass each other would
+// have another angular momentum: the set of them gets it back as a spin.
 #include <algorithm>
 
 #include "solver/angular_momentum.hpp"
@@ -103,9 +103,7 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     for (const int index : island.pairs) deepest = std::max(deepest, pairs[at(index)].depth_found());
     if (deepest <= tolerated_depth(settings_)) continue;
     deep.push_back(&island);
-    contacts.emplace_back();
-    for (const int index : island.pairs)
-      if (!pairs[at(index)].tied()) contacts.back().push_back({pairs[at(index)].a(), pairs[at(index)].b()});
+    contacts.push_back(contacts_of(island, pairs));
   }
   IslandFunds funds(taken_, std::move(contacts));
   std::vector<MovedIsland> moved;

@@ -239,16 +239,17 @@ class Simulation {
   /// @param dissipated by the integrator in each block, J
   void keep_angular_momentum(const TimeScheme& scheme, const Trial& trial,
                              const std::vector<BlockState>& before, const std::vector<double>& dissipated);
+
   // contact_impulses.cpp
   /// What a pair's impulses at the end of a step do.
   struct StoppedPair {
-    std::vector<Eigen::Vector3d>
-        forces;         ///< of its points in their frames, impulse over step, N; empty: none
+    /// Of its points in their frames, impulse over step, N; empty: none
+    std::vector<Eigen::Vector3d> forces;
     double work = 0.0;  ///< on both blocks, J
   };
   /// Stops what pushes at the end of a step. @return by pair
   std::vector<StoppedPair> stop_at_contacts(const TimeScheme& scheme, const Trial& trial);
-  /// @param bodies at rest at the end of the step. @param stopped of the island's pairs is written
+  /// @param bodies models, and changes that are zero. @param stopped of the island's pairs is written
   void stop_island(const TimeScheme& of_step, const Island& island, const std::vector<ContactPair>& pairs,
                    const IslandResult& result, std::vector<BodyStep>& bodies,
                    std::vector<StoppedPair>& stopped);

@@ -21,6 +21,13 @@ inline BlockDefinition block_of(const std::string& name, Polyhedron solid, Mater
   return definition;
 }
 
+/// A box that nothing moves.
+inline BlockDefinition fixed_box(const Vector3& low, const Vector3& high) {
+  BlockDefinition block = block_of("base", Polyhedron(make_box(low, high)), {2500, 1e9, 0.2}, 1);
+  block.fixed = true;
+  return block;
+}
+
 /// Box turned about the y axis through the origin, positive angles lifting the +x end.
 inline Polyhedron tilted_box(const Vector3& low, const Vector3& high, double degrees) {
   const double angle = -degrees * std::numbers::pi / 180.0;

@@ -13,15 +13,10 @@ namespace ashlar {
 namespace {
 
 using test_support::block_of;
+using test_support::fixed_box;
 using test_support::place_of;
 using test_support::run_until;
 using test_support::same_law;
-
-BlockDefinition fixed_box(const Vector3& low, const Vector3& high) {
-  BlockDefinition block = block_of("base", Polyhedron(make_box(low, high)), {2500, 1e9, 0.2}, 1);
-  block.fixed = true;
-  return block;
-}
 
 /// Convex stone about a centre, 0.2 to 0.5 m out.
 Polyhedron stone(std::mt19937_64& random, const Vector3& center) {
