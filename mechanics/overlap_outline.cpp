@@ -126,7 +126,7 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
     bool corner = false;
     for (std::size_t k = 0; k < face.cells.size(); ++k) {
       const Eigen::Vector2d seen = overlaps[at(face.cells[k])].frame.project(place);
-      corner = corner || is_corner_of(pieces[k], seen, 2.0 * tolerance);
+      corner = corner || is_corner_of(pieces[k], seen, one_point);
       angle += angle_at(pieces[k], seen, 2.0 * one_point);
     }
     const bool turns =

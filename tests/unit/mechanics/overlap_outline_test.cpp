@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "support/placed_bodies.hpp"
 #include "support/sample_solids.hpp"
 
@@ -104,6 +107,41 @@ TEST(OverlapOutline, SidesThatAlmostFitCrossNowhere) {
   for (const double t : {0x1p-30, 0x1p-20, 0x1p-10})
     EXPECT_EQ(outline_between(turned(t), below).corners, 4U) << t;
   EXPECT_EQ(outline_between(turned(0.125), below).corners, 8U);
+}
+
+// Faces of blocks that bend almost fit: near a corner of both several sides cross, which of these corners a
+// piece keeps is chance, and each piece is seen along a normal of its own. The corner is a contact point all
+// the same.
+TEST(OverlapOutline, FacesThatBendAndAlmostFitKeepTheirCorners) {
+  const Body below(box({0, 0, -1}, {1, 1, 0}), 0);
+  const Body above(box({0, 0, 0}, {1, 1, 1}), 0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> along(-3e-4, 3e-4);
+  std::uniform_real_distribution<double> across(0.0, 5e-3);
+  const auto bent = [&](const Body& body, double side) {
+    std::vector<Vector3> points = body.surface.points;
+    for (Vector3& point : points) point += Vector3(along(random), along(random), side * across(random));
+    return PlacedSurface(body.surface, points);
+  };
+  for (int scene = 0; scene < 200; ++scene) {
+    const PlacedSurface a = bent(above, 1.0);
+    const PlacedSurface b = bent(below, -1.0);
+    const PairContacts contacts = find_contacts(a, b, {0.02, 0.01, 0.1});
+    const std::vector<FaceOverlap> faces = join_by_faces(a, b, contacts.overlaps);
+    ASSERT_EQ(faces.size(), 1U) << scene;
+    const FaceOutline outline = outline_of(faces[0], contacts.overlaps, true, outline_tolerance(a, b));
+    const auto has = [&](const Vector3& corner) {
+      return std::any_of(outline.corners.begin(), outline.corners.end(), [&](const FaceOverlapPoint& point) {
+        const CellOverlap& overlap = contacts.overlaps[static_cast<std::size_t>(point.overlap)];
+        const Eigen::Vector2d& place = overlap.corners[static_cast<std::size_t>(point.corner)].place;
+        const Vector3 lifted =
+            overlap.frame.origin + place.x() * overlap.frame.e1 + place.y() * overlap.frame.e2;
+        return (lifted - corner).head<2>().norm() < 2e-3;  // the blur, and how far corners are moved
+      });
+    };
+    for (const Vector3& corner : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(1, 1, 0)})
+      EXPECT_TRUE(has(corner)) << scene << ": " << corner.transpose();
+  }
 }
 
 // A strip that is narrow as a whole keeps its corners.
