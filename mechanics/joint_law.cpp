@@ -39,7 +39,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
   const double normal = law.normal_multiplier - law.normal_stiffness * gap;
   const bool open = normal < -(law.tension + law.normal_stiffness * law.rounding);
-  if (open && law.held_limit <= 0.0) return response;
+  if (open && law.held_limit <= 0.0 && !law.bridged) return response;
   if (!open) {
     response.force[0] = std::max(normal, -law.tension);
     response.tangent(0, 0) = law.normal_stiffness;
@@ -70,7 +70,8 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
 
 Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response) {
   // Also of a point in touch that has no force yet.
-  if (response.state != ContactState::sliding || response.force[0] < 0.0 || law.held_limit >= 0.0)
+  const bool pushes = response.force[0] >= 0.0 && response.tangent(0, 0) > 0.0;
+  if (response.state != ContactState::sliding || !pushes || law.held_limit >= 0.0)
     return Eigen::Vector2d::Zero();
   return law.friction * law.normal_stiffness * response.direction;
 }

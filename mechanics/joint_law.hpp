@@ -22,6 +22,10 @@
 // its force along -s: contact that does not give way. The springs only lead there, so that they hold no
 // energy.
 //
+// Cohesion ends at once where a joint opens: no balance may lie between the two forces there, and rounding
+// would choose the side. A bridged point keeps its cohesion across the gap until a balance shows that it has
+// opened (solver/open_close.hpp).
+//
 // With a held limit the shear force is bounded by that limit whatever N is, also across an open gap: the
 // forces are then the gradient of a convex function of (g, s), which Coulomb's law has not.
 #pragma once
@@ -58,6 +62,7 @@ struct PointLaw {
   double tension;            ///< T A of an intact joint, else 0, N; infinity: a joint that must not break now
   double rounding = 0.0;     ///< of gaps and slips, m
   double held_limit = -1.0;  ///< N; >= 0: the bound of the shear force, whatever the normal force is
+  bool bridged = false;      ///< cohesion bears shear across an open gap too
   bool augmented = false;    ///< its forces become the next multipliers; its springs hold no energy
   double normal_multiplier = 0.0;                              ///< lambda_n, N
   Eigen::Vector2d shear_multiplier = Eigen::Vector2d::Zero();  ///< lambda_s, N

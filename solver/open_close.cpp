@@ -97,18 +97,24 @@ class OpenClose {
     problem_.respond();
   }
 
-  /// Joints with tensile strength do not break before what pulls at them is balanced.
+  /// Joints with tensile strength do not break, and those with cohesion do not lose it, before what pulls at
+  /// them is balanced.
   void bond() {
+    const bool averaged = problem_.scheme().mean_contacts;  // whose cohesion ends with the share of the step
     for (auto& laws : problem_.laws()) {
       strengths_.emplace_back();
       for (PointLaw& law : laws) {
         strengths_.back().push_back(law.tension);
-        if (law.tension > 0.0) law.tension = std::numeric_limits<double>::infinity();
+        if (law.tension > 0.0)
+          law.tension = std::numeric_limits<double>::infinity();
+        else if (law.cohesion > 0.0)
+          law.bridged = law.augmented || !averaged;
       }
     }
   }
 
-  /// Breaks the joints with at least half of the largest overstress; false if none is overstressed.
+  /// Breaks the joints with at least half of the largest overstress, or where none is overstressed those that
+  /// have opened; false if there are none.
   bool break_joints() {
     double most = 0.0;
     const auto excess = [&](std::size_t pair, std::size_t point) {
@@ -119,7 +125,7 @@ class OpenClose {
     for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
       for (std::size_t k = 0; k < strengths_[pair].size(); ++k) most = std::max(most, excess(pair, k));
     }
-    if (!(most > 0.0)) return false;
+    if (!(most > 0.0)) return open_joints();
     for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
       for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
         if (excess(pair, k) < 0.5 * most) continue;
@@ -128,6 +134,21 @@ class OpenClose {
       }
     }
     return true;
+  }
+
+  /// Takes the cohesion of points that have opened; false if none has.
+  bool open_joints() {
+    bool opened = false;
+    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
+        PointLaw& law = problem_.laws()[pair][k];
+        if (!law.bridged || problem_.responses()[pair].means[k].tangent(0, 0) > 0.0) continue;
+        law.bridged = false;
+        law.cohesion = 0.0;
+        opened = true;
+      }
+    }
+    return opened;
   }
 
   /// How far a point is from where multipliers alone would hold it, m.

@@ -72,6 +72,24 @@ TEST(JointLaw, RoundingDoesNotChooseTheState) {
   EXPECT_EQ(apart.state, ContactState::open);
 }
 
+TEST(JointLaw, ABridgedPointKeepsItsCohesionAcrossAGap) {
+  PointLaw point = point_law({2e9, 1e9, 0.5, 3e4, 0.0, true}, 0.1, true);  // c A = 3000 N, ks A = 1e8 N/m
+  point.bridged = true;
+  const PointResponse held = point_response(point, 1e-3, {0, 2e-5});
+  EXPECT_EQ(held.state, ContactState::locked);
+  EXPECT_LT((held.force - Eigen::Vector3d(0, 0, -2000)).norm(), 1e-9);
+  EXPECT_EQ(held.tangent(0, 0), 0.0);
+  const PointResponse sliding = point_response(point, 1e-3, {0, 5e-5});
+  EXPECT_EQ(sliding.state, ContactState::sliding);
+  EXPECT_LT((sliding.force - Eigen::Vector3d(0, 0, -3000)).norm(), 1e-9);
+  EXPECT_EQ(sliding_coupling(point, sliding), Eigen::Vector2d(0, 0));
+  // No jump where it opens.
+  const Eigen::Vector3d closed = point_response(point, -1e-15, {0, 5e-5}).force;
+  EXPECT_LT((point_response(point, 1e-15, {0, 5e-5}).force - closed).norm(), 1e-5);
+  point.bridged = false;
+  EXPECT_EQ(point_response(point, 1e-15, {0, 5e-5}).state, ContactState::open);
+}
+
 TEST(JointLaw, WhatHasNoFrictionIsNeverLocked) {
   const PointLaw smooth = point_law({2e9, 1e9, 0.0, 0.0, 0.0, true, false, 1e-14}, 0.1, true);
   for (const double slip : {0.9e-14, 1e-5}) {

@@ -79,6 +79,25 @@ TEST(OpenClose, AJointBreaksWhereTheBalancedPullExceedsItsStrength) {
   }
 }
 
+TEST(OpenClose, ABlockThatLiftsOffLeavesItsCohesion) {
+  for (const bool augmented : {false, true}) {
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(fixed_box({-2, -2, -1}, {3, 3, 0}));
+    blocks.emplace_back(block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e9, 0.2}, 1));
+    SimulationSettings settings;
+    settings.time_step = 1e-3;
+    settings.augmented = augmented;
+    InitialMotion off;
+    off.velocity = {0.2, 0.0, 1.0};
+    Simulation simulation(std::move(blocks), {InitialMotion{}, off},
+                          same_law({1e10, 1e10, 0.5, 1e6, 0.0, true, augmented}), settings);
+    ASSERT_EQ(simulation.step(1.0), StepStatus::accepted);
+    // Free flight: v t + g t^2/2.
+    const Vector3 moved = place_of(simulation, 1, {0.5, 0.5, 0.5}) - Vector3(0.5, 0.5, 0.5);
+    EXPECT_LT((moved - Vector3(2e-4, 0.0, 1e-3 - 0.5 * 9.81e-6)).norm(), 1e-13) << augmented;
+  }
+}
+
 TEST(OpenClose, ASlidingBlockNeedsFewIterations) {
   // Friction's dependence on the normal force is in the Jacobian: no linear convergence in tan(phi).
   std::vector<BlockModel> blocks;
