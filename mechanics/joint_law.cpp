@@ -114,9 +114,10 @@ struct ClosedShare {
   double by_end_gap;
 };
 
-/// Bonds are closed until they are torn.
+/// Bonds are closed until they are torn, bridged points until they have opened.
 ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap, bool end_open,
                          double end_gap) {
+  if (law.bridged) return {1.0, 0.0};
   if (start_open && end_open) return {0.0, 0.0};
   if (start_open == end_open || law.tension > 0.0) return {1.0, 0.0};
   const double difference = end_gap - start_gap;
@@ -134,6 +135,7 @@ AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
   }
   PointLaw normal_only = law;
   normal_only.held_limit = -1.0;
+  normal_only.bridged = false;
   AveragedStep step{point_response(normal_only, end_place[0], Eigen::Vector2d::Zero()),
                     {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0}};
   PointResponse& end = step.end;

@@ -111,7 +111,7 @@ struct AveragedStep {
 /// is the change of its spring's energy exactly, also when the point opens or closes on the way (a discrete
 /// gradient). The shear force is that of the spring at the middle of the step, s = e0 + (s1 - s0)/2 with e0
 /// the elastic slip at the start, bounded by friction under N and by cohesion c for the share w of the step
-/// in which the point is closed (its gap linear in time):
+/// in which the point is closed (its gap linear in time; 1 if it is bridged):
 ///     F = -ks s  if that is within  L = N tan(phi) + w c,  else  F = -L s/|s|,
 /// and the spring ends at e1 with  F = -ks (e0 + e1)/2. What is lost is
 ///     -F . (s1 - s0) - ks (e1^2 - e0^2)/2 = -F . (s1 - s0 - e1 + e0) = 2 L (|s| - L/ks) >= 0

@@ -117,24 +117,30 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
   }
   constexpr double straight = 1e-2;  // rad: what leaving out corners turns outlines by at most
   std::vector<Vector3> kept;
-  for (const FaceOverlapPoint& point : face.points) {
-    const Vector3 place = lifted(overlaps[at(point.overlap)], point.corner);
-    const bool known = std::any_of(kept.begin(), kept.end(),
-                                   [&](const Vector3& other) { return (other - place).norm() <= one_point; });
-    if (known) continue;
-    double angle = 0.0;
-    bool corner = false;
-    for (std::size_t k = 0; k < face.cells.size(); ++k) {
-      const Eigen::Vector2d seen = overlaps[at(face.cells[k])].frame.project(place);
-      corner = corner || is_corner_of(pieces[k], seen, one_point);
-      angle += angle_at(pieces[k], seen, 2.0 * one_point);
+  const auto keep_corners = [&](double reach) {
+    for (const FaceOverlapPoint& point : face.points) {
+      const Vector3 place = lifted(overlaps[at(point.overlap)], point.corner);
+      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Vector3& other) {
+        return (other - place).norm() <= one_point;
+      });
+      if (known) continue;
+      double angle = 0.0;
+      bool corner = false;
+      for (std::size_t k = 0; k < face.cells.size(); ++k) {
+        const Eigen::Vector2d seen = overlaps[at(face.cells[k])].frame.project(place);
+        corner = corner || is_corner_of(pieces[k], seen, reach);
+        angle += angle_at(pieces[k], seen, 2.0 * one_point);
+      }
+      const bool turns = std::abs(angle - std::numbers::pi) > straight &&
+                         std::abs(angle - 2.0 * std::numbers::pi) > straight;
+      if (!corner || !(divided || turns)) continue;
+      kept.push_back(place);
+      outline.corners.push_back(point);
     }
-    const bool turns =
-        std::abs(angle - std::numbers::pi) > straight && std::abs(angle - 2.0 * std::numbers::pi) > straight;
-    if (!corner || !(divided || turns)) continue;
-    kept.push_back(place);
-    outline.corners.push_back(point);
-  }
+  };
+  keep_corners(2.0 * tolerance);
+  // A corner that pieces keep may be listed with a sliver, which keeps none and sees it from another side.
+  keep_corners(one_point);
   return outline;
 }
 

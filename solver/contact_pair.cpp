@@ -88,6 +88,11 @@ SpringEnergy sum_of(const std::vector<PointResponse>& points) {
   return sum;
 }
 
+/// Norm of the longest row.
+double largest_row(const Eigen::MatrixXd& rows) {
+  return rows.size() > 0 ? std::sqrt(rows.rowwise().squaredNorm().maxCoeff()) : 0.0;
+}
+
 bool is_free(const ContactBody& body) {
   return !body.model->fixed() && body.model->space().free();
 }
@@ -277,10 +282,26 @@ double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::Vecto
   double stiffness = 0.0;
   for (const PointLaw& law : laws)
     stiffness = std::max({stiffness, law.normal_stiffness, law.shear_stiffness});
-  const auto part = [](const Eigen::MatrixXd& rows, const Eigen::VectorXd& change) {
-    return rows.size() > 0 ? rows.rowwise().squaredNorm().maxCoeff() * change.norm() : 0.0;
+  const double row_a = largest_row(rows_a_);
+  const double row_b = largest_row(rows_b_);
+  return 2.0 * std::numeric_limits<double>::epsilon() * stiffness *
+         (row_a * row_a * ya.norm() + row_b * row_b * yb.norm());
+}
+
+double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                   const std::vector<PointLaw>& laws, const PairResponse& response) const {
+  const auto in_doubt = [](const PointResponse& point) {
+    return point.force[0] == 0.0 && point.tangent(0, 0) > 0.0;
   };
-  return 2.0 * std::numeric_limits<double>::epsilon() * stiffness * (part(rows_a_, ya) + part(rows_b_, yb));
+  if (std::none_of(response.points.begin(), response.points.end(), in_doubt)) return 0.0;
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const double gap = place(0, static_cast<Eigen::Index>(k));
+    if (in_doubt(response.points[k]))
+      sum += std::max(0.0, laws[k].normal_stiffness * gap - laws[k].normal_multiplier);
+  }
+  return std::max(largest_row(rows_a_), largest_row(rows_b_)) * sum;
 }
 
 double ContactPair::work(const PairResponse& response, const Eigen::VectorXd& ya,

@@ -64,6 +64,10 @@ class ContactPair {
   /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
   [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                       const std::vector<PointLaw>& laws) const;
+  /// Of points that are closed by rounding only: what their springs would pull across their gaps, in the same
+  /// norm. @param response to ya and yb
+  [[nodiscard]] double force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                      const std::vector<PointLaw>& laws, const PairResponse& response) const;
 
   [[nodiscard]] int a() const { return a_; }
   [[nodiscard]] int b() const { return b_; }

@@ -65,6 +65,7 @@ Balance IslandProblem::balance() const {
                  std::vector<double>(island_.bodies.size(), 0.0), 0.0};
   std::vector<double> scale(island_.bodies.size(), 0.0);
   std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
+  std::vector<double> in_doubt(island_.bodies.size(), 0.0);
   const auto add = [&](int body, const Eigen::VectorXd& force) {
     result.left.segment(solver_.matrix.offset(body), force.size()) += force;
     scale[at(body)] = std::max(scale[at(body)], force.norm());
@@ -82,16 +83,22 @@ Balance IslandProblem::balance() const {
     const int b = place(pair(k).b());
     if (a >= 0) add(a, responses_[k].total_on_a());
     if (b >= 0) add(b, responses_[k].total_on_b());
-    const double rounding =
-        pair(k).force_rounding(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change, laws_[k]);
-    if (a >= 0) contact_rounding[at(a)] += rounding;
-    if (b >= 0) contact_rounding[at(b)] += rounding;
+    const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+    const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+    const double rounding = pair(k).force_rounding(ya, yb, laws_[k]);
+    const double doubt = pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k]);
+    for (const int body : {a, b}) {
+      if (body < 0) continue;
+      contact_rounding[at(body)] += rounding;
+      in_doubt[at(body)] += doubt;
+    }
   }
   const double tolerance =
       scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
     const double rounding = body.roundoff_force + contact_rounding[k] +
+                            std::min(in_doubt[k], settings_.doubt_share * scale[k]) +
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =

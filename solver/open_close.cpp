@@ -100,7 +100,6 @@ class OpenClose {
   /// Joints with tensile strength do not break, and those with cohesion do not lose it, before what pulls at
   /// them is balanced.
   void bond() {
-    const bool averaged = problem_.scheme().mean_contacts;  // whose cohesion ends with the share of the step
     for (auto& laws : problem_.laws()) {
       strengths_.emplace_back();
       for (PointLaw& law : laws) {
@@ -108,7 +107,7 @@ class OpenClose {
         if (law.tension > 0.0)
           law.tension = std::numeric_limits<double>::infinity();
         else if (law.cohesion > 0.0)
-          law.bridged = law.augmented || !averaged;
+          law.bridged = true;
       }
     }
   }
@@ -142,7 +141,7 @@ class OpenClose {
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         PointLaw& law = problem_.laws()[pair][k];
-        if (!law.bridged || problem_.responses()[pair].means[k].tangent(0, 0) > 0.0) continue;
+        if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0) continue;
         law.bridged = false;
         law.cohesion = 0.0;
         opened = true;

@@ -16,7 +16,8 @@
 //
 // Joints with tensile strength hold within these iterations whatever pulls; where the balanced pull exceeds
 // the strength the joints that are overstressed most break, for good, and the iteration goes on: there are no
-// more rounds than joints. Cohesion likewise lasts across gaps until a balance shows which points have opened.
+// more rounds than joints. Cohesion likewise lasts across gaps until a balance shows which points have
+// opened.
 //
 // Augmented contact starts each step with the forces of the last one as multipliers (Uzawa, one update a
 // step). What the forces change by is left to springs, each made as stiff as it takes to hold its point

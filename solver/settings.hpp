@@ -68,7 +68,9 @@ struct SimulationSettings {
   int plain_passes = 8;                 ///< before bounds are extrapolated
   double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
   double residual_tolerance =
-      1e-10;               ///< of the largest force of a block: when an open-close iteration has settled
+      1e-10;  ///< of the largest force of a block: when an open-close iteration has settled
+  /// of the largest force of a block, at most: what points that only rounding has closed may leave unbalanced
+  double doubt_share = 1e-7;
   bool augmented = false;  ///< multipliers take over from springs, see open_close.hpp
   double penetration_tolerance =
       1e-6;  ///< m, > 0: no contact is deeper, no locked one slips farther in a step

@@ -86,8 +86,16 @@ TEST(JointLaw, ABridgedPointKeepsItsCohesionAcrossAGap) {
   // No jump where it opens.
   const Eigen::Vector3d closed = point_response(point, -1e-15, {0, 5e-5}).force;
   EXPECT_LT((point_response(point, 1e-15, {0, 5e-5}).force - closed).norm(), 1e-5);
+  // Nor over a step that starts in touch, where an open end would else leave it closed for no share of the
+  // step.
+  const PointResponse touching = point_response(point, 0.0, {0, 0});
+  for (const double gap : {-1e-15, 1e-15, 1e-3}) {
+    const AveragedStep step = averaged_step(point, touching, {0, 0, 0}, {gap, 0, 8e-5});
+    EXPECT_LT((step.mean.force - Eigen::Vector3d(0, 0, -3000)).norm(), 1e-5) << gap;
+  }
   point.bridged = false;
   EXPECT_EQ(point_response(point, 1e-15, {0, 5e-5}).state, ContactState::open);
+  EXPECT_EQ(averaged_step(point, touching, {0, 0, 0}, {1e-15, 0, 8e-5}).mean.force, Eigen::Vector3d(0, 0, 0));
 }
 
 TEST(JointLaw, WhatHasNoFrictionIsNeverLocked) {

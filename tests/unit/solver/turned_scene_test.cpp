@@ -69,6 +69,8 @@ std::vector<Eigen::Matrix3Xd> run(const Scene& scene, const Turn& turn) {
     }
     result.push_back(std::move(moved));
   }
+  for (const Rejection& rejection : simulation.rejections())
+    EXPECT_EQ(rejection.reason, RejectionReason::passing) << rejection.time;
   return result;
 }
 
@@ -219,6 +221,27 @@ TEST(TurnedScene, AGridOfCubesWithOneThatSlides) {
     scene.settings.contact_distance = 5e-4;
     EXPECT_LT(largest_difference(scene), 1e-6) << area_springs;
   }
+}
+
+TEST(TurnedScene, AStackThatStartsToFallTogether) {
+  // In the first step nothing but the lowest block feels the ground. The others part by less than rounding or
+  // touch by it, and a balance to better than what springs make of that is not to be had: steps were cut.
+  Scene scene;
+  scene.pieces = {base({-4, -4, -0.4}, {4, 4, 0})};
+  double low = 0.0;
+  for (const double height : {1.2023941, 0.9742607, 1.4077803, 1.2}) {
+    const double side = 0.4 * (height + 0.2);
+    scene.pieces.push_back(brick({-side - 0.1, -side, low}, {side, side + 0.0314159, low + height}, 3));
+    low += height;
+  }
+  scene.material = {2861.7, 7.87e8, 0.298};
+  scene.law = {1.8e10, 9e9, 0.0, 0.0, 0.0, false};
+  scene.settings.integrator = Integrator::average_acceleration;
+  scene.settings.area_springs = false;
+  scene.settings.time_step = 5e-4;
+  scene.settings.contact_distance = 1e-3;
+  scene.steps = 4;
+  EXPECT_LT(largest_difference(scene), 1e-6);
 }
 
 TEST(TurnedScene, DominoesWhoseFacesAreDivided) {
