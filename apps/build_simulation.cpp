@@ -111,7 +111,8 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
     return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
   });
-  settings.subdivisions = scene.contact.subdivisions.value_or(0);
+  // Springs at corners alone would not feel what bends between them.
+  settings.subdivisions = scene.contact.subdivisions.value_or(curved && !settings.area_springs ? 1 : 0);
   if (curved && !scene.contact.subdivisions) {
     settings.chord_tolerance = choose(scene.contact.chord_tolerance, ratios.chord_tolerance * smallest,
                                       "contact.chord_tolerance", "m");

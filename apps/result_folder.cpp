@@ -279,9 +279,11 @@ void ResultFolder::add_contact_rows(const Simulation& simulation) {
     for (std::size_t k = 0; k < pair.points.size(); ++k) {
       const ContactPoint& point = pair.points[k];
       const PointResponse& response = pair.responses[k];
-      if (response.state == ContactState::open) continue;
-      ++count[static_cast<std::size_t>(point.type)];
-      area += point.area;
+      // A point that is open at the end may have pushed in the step.
+      if (response.state != ContactState::open) {
+        ++count[static_cast<std::size_t>(point.type)];
+        area += point.area;
+      }
       normal += response.force[0] * point.normal;
       shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
     }

@@ -60,14 +60,19 @@ AdaptiveSurface::Node AdaptiveSurface::make_node(int face, const std::array<int,
   return node;
 }
 
+std::vector<BernsteinTriangle> AdaptiveSurface::root_patches(
+    const Eigen::Ref<const Eigen::Matrix3Xd>& values) const {
+  std::vector<BernsteinTriangle> patches;
+  for (int root = 0; root < root_count_; ++root)
+    patches.emplace_back(*form_, values.middleCols(root * form_->size(), form_->size()));
+  return patches;
+}
+
 void AdaptiveSurface::move(const Eigen::Ref<const Eigen::Matrix3Xd>& values) {
-  root_patches_.clear();
+  root_patches_ = root_patches(values);
   cell_shapes_.clear();  // those of the shape before would be in the wrong place
   box_ = Box{};
-  for (int root = 0; root < root_count_; ++root) {
-    root_patches_.emplace_back(*form_, values.middleCols(root * form_->size(), form_->size()));
-    box_.include(root_patches_.back().box(axes_));
-  }
+  for (const BernsteinTriangle& patch : root_patches_) box_.include(patch.box(axes_));
 }
 
 double AdaptiveSurface::motion_bound(const Eigen::Ref<const Eigen::Matrix3Xd>& before,
@@ -94,7 +99,7 @@ Eigen::RowVectorXd AdaptiveSurface::largest_values(const Eigen::MatrixXd& values
 }
 
 bool AdaptiveSurface::divide(const DivisionDemand& demand) {
-  place_patches();
+  patches_ = placed_patches(root_patches_);
   bool changed = false;
   if (!division_fits(demand)) {
     const auto paths = [&](const std::vector<int>& leaves) {
@@ -126,6 +131,16 @@ const BernsteinTriangle& AdaptiveSurface::patch(int cell) const {
   return patches_[at(leaves_[at(cell)])];
 }
 
+double AdaptiveSurface::chord_bound_in(const Eigen::Ref<const Eigen::Matrix3Xd>& values) const {
+  const std::vector<BernsteinTriangle> patches = placed_patches(root_patches(values));
+  double bound = 0.0;
+  for (const int leaf : leaves_) {
+    const auto& rim = nodes_[at(leaf)].rim;
+    bound = std::max(bound, patches[at(leaf)].chord_bound({rim[0] >= 0, rim[1] >= 0, rim[2] >= 0}));
+  }
+  return bound;
+}
+
 double AdaptiveSurface::chord_bound() const {
   double bound = 0.0;
   for (const CellShape& shape : cell_shapes_) bound = std::max(bound, shape.chord_bound);
@@ -142,14 +157,16 @@ std::vector<std::uint64_t> AdaptiveSurface::wanted() const {
 }
 
 /// Patches of all nodes from those of the roots: parents come before their children.
-void AdaptiveSurface::place_patches() {
-  patches_ = root_patches_;
-  patches_.resize(nodes_.size(), root_patches_.front());
+std::vector<BernsteinTriangle> AdaptiveSurface::placed_patches(
+    const std::vector<BernsteinTriangle>& of_roots) const {
+  std::vector<BernsteinTriangle> patches = of_roots;
+  patches.resize(nodes_.size(), of_roots.front());
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (nodes_[n].children[0] < 0) continue;
-    auto halves = patches_[n].halves(nodes_[n].longest);
-    for (std::size_t k = 0; k < 2; ++k) patches_[at(nodes_[n].children[k])] = std::move(halves[k]);
+    auto halves = patches[n].halves(nodes_[n].longest);
+    for (std::size_t k = 0; k < 2; ++k) patches[at(nodes_[n].children[k])] = std::move(halves[k]);
   }
+  return patches;
 }
 
 bool AdaptiveSurface::needs_division(const Node& node, const BernsteinTriangle& patch, double tolerance,

@@ -65,6 +65,9 @@ class AdaptiveSurface {
   /// Largest of all cells, m, as of the last division.
   [[nodiscard]] double chord_bound() const;
 
+  /// What chord_bound() would be of the present cells in another shape. @param values as for move()
+  [[nodiscard]] double chord_bound_in(const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
+
   /// How far any surface point can have gone between two shapes, m, from above. @param before, after as for
   /// move()
   [[nodiscard]] double motion_bound(const Eigen::Ref<const Eigen::Matrix3Xd>& before,
@@ -100,7 +103,11 @@ class AdaptiveSurface {
   void divide_to(double tolerance, const DivisionDemand& demand);
   void cut(int node);
   void cut_with_neighbours(int node);
-  void place_patches();
+  [[nodiscard]] std::vector<BernsteinTriangle> root_patches(
+      const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
+  /// Patches of all nodes. @param of_roots theirs
+  [[nodiscard]] std::vector<BernsteinTriangle> placed_patches(
+      const std::vector<BernsteinTriangle>& of_roots) const;
   [[nodiscard]] std::vector<int> list_leaves() const;
   void take_leaves(std::vector<int> leaves);
 

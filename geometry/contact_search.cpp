@@ -17,11 +17,16 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
+/// @param chord bound of both cells, m
+bool within_limits(double gap, double chord, const ContactLimits& limits) {
+  return gap <= limits.reach + chord && gap >= -std::min(limits.penetration + chord, limits.deepest);
+}
+
 bool within_limits(const PlacedSurface& a, const PlacedSurface& b, const CellOverlap& overlap,
                    const ContactLimits& limits) {
   const double least = *std::min_element(overlap.gaps.begin(), overlap.gaps.end());
   const double chord = a.chord_bound(overlap.cell_a) + b.chord_bound(overlap.cell_b);
-  return least <= limits.reach + chord && least >= -limits.penetration - chord;
+  return within_limits(least, chord, limits);
 }
 
 /// Whether some cell of a list faces a given direction's opposite within the angle.
@@ -59,8 +64,7 @@ void find_vertex_contacts(const PlacedSurface& with_vertex, int vertex_index, co
   for (const int cell : cells) {
     const Vector3& normal = with_cell.normal(cell);
     const double gap = normal.dot(place - with_cell.point(with_cell.surface().cells[at(cell)].corners[0]));
-    const double chord = with_cell.chord_bound(cell);
-    if (gap > limits.reach + chord || gap < -limits.penetration - chord) continue;
+    if (!within_limits(gap, with_cell.chord_bound(cell), limits)) continue;
     if (!is_end(with_vertex, vertex, normal, sine)) continue;
     if (any_facing(with_vertex, vertex.cells, normal, cosine)) continue;
     if (!is_over_cell(with_vertex, place, with_cell, cell, contacts.counts)) continue;
@@ -133,8 +137,7 @@ std::optional<EdgeContact> edge_contact(const PlacedSurface& a, int edge_a, cons
   const Vector3 out_of_b = b.normal(eb.cells[0]) + b.normal(eb.cells[1]);
   if (normal.dot(out_of_b) < 0.0) normal = -normal;
   const double gap = normal.dot(r);
-  const double chord = chord_bound(a, ea) + chord_bound(b, eb);
-  if (gap > limits.reach + chord || gap < -limits.penetration - chord) return std::nullopt;
+  if (!within_limits(gap, chord_bound(a, ea) + chord_bound(b, eb), limits)) return std::nullopt;
   if (!edge_is_end(b, eb, normal, sine) || !edge_is_end(a, ea, -normal, sine)) return std::nullopt;
   const std::vector<int> cells_a(ea.cells.begin(), ea.cells.end());
   const std::vector<int> cells_b(eb.cells.begin(), eb.cells.end());

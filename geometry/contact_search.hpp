@@ -8,6 +8,7 @@
 // a.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct ContactLimits {
   double reach = 0.0;        ///< m, largest gap, beyond the chord bounds of curved cells
   double penetration = 0.0;  ///< m, deepest entrance that is still taken as one through this face
   double angle = 0.0;        ///< rad, how far two faces may be from parallel to meet as face-face, 0 to pi/4
+  /// m, no contact is deeper, however coarse its cells are: beyond that, faces may look at each other from
+  /// the far sides of both blocks
+  double deepest = std::numeric_limits<double>::infinity();
 };
 
 /// A point of one block's surface over a cell of the other.

@@ -58,6 +58,10 @@ double BlockSurface::motion_bound(const BlockState& before, const BlockState& af
   return std::sqrt((point_phi_ * (after.position - before.position)).rowwise().squaredNorm().maxCoeff());
 }
 
+double BlockSurface::bulge(const BlockState& state) const {
+  return adaptive_ ? adaptive_->chord_bound_in(domain_values(state)) : 0.0;
+}
+
 double BlockSurface::quick_motion_bound(const Eigen::MatrixX3d& change) const {
   return largest_phi_ * change.rowwise().norm();
 }

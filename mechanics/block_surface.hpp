@@ -39,6 +39,8 @@ class BlockSurface {
   [[nodiscard]] const SubFaceSurface& surface() const;
   /// The surface as moved and divided last. The BlockSurface must outlive it and stay unchanged.
   [[nodiscard]] PlacedSurface placed() const;
+  /// How far the true surface may be from its present cells in a state, m; 0 if cells are all there is.
+  [[nodiscard]] double bulge(const BlockState& state) const;
   /// Current positions of the surface's points in a state, m.
   [[nodiscard]] std::vector<Vector3> points(const BlockState& state) const;
 

@@ -94,6 +94,12 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   double friction = 0.0;
   std::map<PairKey, ContactMemory> memory;
   const double tearing_gap = settings_.tearing_share * settings_.contact_distance;
+  std::map<int, double> bulges;
+  const auto bulge_of = [&](int block) {
+    const auto [known, is_new] = bulges.emplace(block, 0.0);
+    if (is_new) known->second = finder_.surfaces()[at(block)].bulge(states_[at(block)]);
+    return known->second;
+  };
   for (std::size_t i = 0; i < islands.size(); ++i) {
     report_.iterations = std::max(report_.iterations, results[i].iterations);
     for (std::size_t n = 0; n < islands[i].pairs.size(); ++n) {
@@ -124,8 +130,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
         deepest = std::max(deepest, -gaps[k]);
       }
       report_.penetration = std::max(report_.penetration, deepest);
-      const double bulge =
-          finder_.placed(pair.a()).largest_chord_bound() + finder_.placed(pair.b()).largest_chord_bound();
+      const double bulge = bulge_of(pair.a()) + bulge_of(pair.b());
       memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb, tearing_gap),
                                          deepest, held, bulge, pair.cuts());
       // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.

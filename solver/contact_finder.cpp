@@ -250,7 +250,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
         {settings_.contact_distance + both,
          std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
              2.0 * deepest(pair[0], pair[1]),
-         settings_.contact_angle});
+         settings_.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});
   }
   counts_.block_pairs_tested += searched.size();
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {

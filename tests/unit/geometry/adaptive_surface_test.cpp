@@ -94,6 +94,21 @@ TEST(AdaptiveSurface, ABentPlateIsDividedToTheToleranceAndJoinedAgain) {
   EXPECT_EQ(surface.surface().cells.size(), 12U);
 }
 
+TEST(AdaptiveSurface, TellsTheBoundOfItsCellsInAnotherShape) {
+  const Polyhedron solid(make_box({0, 0, 0}, {4, 2, 0.5}));
+  AdaptiveSurface surface(solid, 2, 0);
+  surface.move(bent(surface, 0.0));
+  surface.divide({infinite, everywhere});
+  const double whole = surface.chord_bound_in(bent(surface, 0.1));
+  EXPECT_GE(whole, 0.3);  // faces 4 m long: bend h^2 / 4 = 0.4 upwards, along a slope of 0.4
+  surface.move(bent(surface, 0.1));
+  surface.divide({infinite, everywhere});
+  EXPECT_EQ(surface.chord_bound(), whole);
+  surface.divide({1e-2, everywhere});
+  EXPECT_EQ(surface.chord_bound_in(bent(surface, 0.1)), surface.chord_bound());
+  EXPECT_GT(surface.chord_bound_in(bent(surface, 0.3)), 2.0 * surface.chord_bound());
+}
+
 TEST(AdaptiveSurface, StaysAsItIsUntilTheBoundHasFallenToHalf) {
   const Polyhedron solid(make_box({0, 0, 0}, {4, 2, 0.5}));
   AdaptiveSurface surface(solid, 2, 0);

@@ -57,6 +57,20 @@ TEST(ContactSearch, FaceOnFaceIsTheOverlapAlone) {
   EXPECT_TRUE(find_contacts(far.placed, base.placed, limits).empty());
 }
 
+TEST(ContactSearch, FarSidesOfThinPlatesDoNotMeet) {
+  // In touch at z = 0. Their outer faces look at each other through both, 0.03 deep.
+  const Body below(box({0, 0, -0.01}, {2, 1, 0}));
+  const Body above(box({0, 0, 0}, {2, 1, 0.02}));
+  ContactLimits deep{0.02, 0.1, 0.1};  // as of plates that bend a lot
+  EXPECT_EQ(find_contacts(above.placed, below.placed, deep).overlaps.size(), 2U);
+  deep.deepest = 0.015;
+  const PairContacts contacts = find_contacts(above.placed, below.placed, deep);
+  ASSERT_EQ(contacts.overlaps.size(), 1U);
+  for (const double gap : contacts.overlaps[0].gaps) EXPECT_EQ(gap, 0.0);
+  EXPECT_TRUE(contacts.vertices.empty());
+  EXPECT_TRUE(contacts.edges.empty());
+}
+
 TEST(ContactSearch, AreaDoesNotDependOnTheDivisionOfTheFaces) {
   const Body plain(box({0, 0, 0}, {4, 4, 1}));
   const Body cube(

@@ -42,6 +42,37 @@ BlockDefinition cantilever(int order) {
   return block;
 }
 
+/// A plank 3 m long and 5 cm thick that bends over the ends of a fixed shelf, 1 m wide. @return how far its
+/// middle and its tip go up
+Eigen::Vector2d plank_on_shelf(double thickness, bool area_springs) {
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  settings.subdivisions = area_springs ? 0 : 1;
+  settings.area_springs = area_springs;
+  settings.contact_distance = 5e-4;
+  settings.chord_tolerance = 2.7e-3;
+  const double stiffness = area_springs ? 4e9 : 1e9;
+  Simulation simulation(models(fixed_block(Polyhedron(make_box({-0.5, -1, -thickness}, {0.5, 1, 0}))),
+                               block_of("plank", Polyhedron(make_box({-1.5, -0.5, 0}, {1.5, 0.5, 0.05})),
+                                        {2500.0, 1e8, 0.2}, 2)),
+                        {{}, {}}, same_law({stiffness, stiffness, 0.577, 0.0, 0.0, area_springs}), settings);
+  EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+  EXPECT_LT(simulation.report().penetration, 5e-3);
+  return {place_of(simulation, 1, {0, 0, 0}).z(), place_of(simulation, 1, {1.5, 0, 0}).z()};
+}
+
+TEST(StaticAnalysis, APlankDoesNotMindHowThickItsShelfIs) {
+  // A thin one was taken to touch the plank's upper side from below, through both: the plank lay 2.7 cm in
+  // it.
+  for (const bool area_springs : {true, false}) {
+    const Eigen::Vector2d thick = plank_on_shelf(1.0, area_springs);
+    EXPECT_GT(thick[0], 0.0);
+    EXPECT_LT(thick[1], -0.2);
+    for (const double thickness : {0.1, 0.02})
+      EXPECT_LT((plank_on_shelf(thickness, area_springs) - thick).norm(), 1e-6) << thickness;
+  }
+}
+
 TEST(StaticAnalysis, CantileverComesToItsEquilibrium) {
   for (const int order : {1, 3, 6}) {
     for (const double time_step : {1e-4, 1.0}) {
