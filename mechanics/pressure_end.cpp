@@ -12,7 +12,9 @@ using Corners = std::vector<Eigen::Vector2d>;
 
 /// The zero line of the affine function with the least weighted squares from the gaps, if that is what the
 /// gaps are like: joints that bulge have no line, and rounding must not choose one.
-std::optional<PressureEnd> zero_line(const PolygonRule& rule, const std::vector<double>& gaps) {
+/// @param affine_share of how they vary
+std::optional<PressureEnd> zero_line(const PolygonRule& rule, const std::vector<double>& gaps,
+                                     double affine_share) {
   double area = 0.0;
   double mean_gap = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
@@ -34,7 +36,6 @@ std::optional<PressureEnd> zero_line(const PolygonRule& rule, const std::vector<
   double variation = 0.0;
   for (std::size_t k = 0; k < gaps.size(); ++k)
     variation += rule.weights[k] * (gaps[k] - mean_gap) * (gaps[k] - mean_gap);
-  constexpr double affine_share = 0.5;
   if (!(slope.dot(moment) > affine_share * variation)) return std::nullopt;
   const double steepness = slope.squaredNorm();
   return PressureEnd{centroid - mean_gap / steepness * slope, slope};
@@ -65,13 +66,17 @@ std::optional<PressureEnd> end_of_pressure(const Corners& polygon, const Polygon
                                            const std::optional<PressureEnd>& known) {
   if (gaps.empty()) return std::nullopt;
   constexpr double share = 0.05;
+  constexpr double affine_to_cut = 0.5;
+  constexpr double affine_to_stay_cut = 0.25;
   const double least = *std::min_element(gaps.begin(), gaps.end());
   const double most = *std::max_element(gaps.begin(), gaps.end());
   std::optional<PressureEnd> end;
   Corners pressed = polygon;
-  if (least < -tolerance && most > tolerance) {
-    end = zero_line(rule, gaps);
+  // A cut serves what is pressed beyond the outermost points of the whole rule.
+  if ((known || least < -tolerance) && most > tolerance) {
+    end = zero_line(rule, gaps, known ? affine_to_stay_cut : affine_to_cut);
     if (end) pressed = part_under_pressure(polygon, *end);
+    if (area_of(pressed) <= 0.0 || area_of(pressed) >= area_of(polygon)) end.reset();
   } else if (most > tolerance) {
     pressed.clear();
   }

@@ -40,8 +40,9 @@ struct PressureCut {
                                                                  const PressureEnd& end);
 
 /// The line at which to cut an overlap: where the affine function nearest to the gaps is 0, if at least half
-/// of how they vary is affine, or the known line if what is under pressure differs by at most a twentieth of
-/// its area; the pressure is wrong by the square of that.
+/// of how they vary is affine (a quarter where it was cut before, even if no point of the rule is under
+/// pressure: what a cut changes must not undo it), or the known line if what is under pressure differs by at
+/// most a twentieth of its area; the pressure is wrong by the square of that.
 /// @param polygon the overlap, counter-clockwise. @param rule of the whole overlap. @param gaps at its
 /// points, m. @param tolerance m, gaps within it count as 0: rounding must not cut what is flush
 /// @param known line of the last step, nothing if there was none

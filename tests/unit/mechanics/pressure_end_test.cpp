@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mechanics/overlap_outline.hpp"
@@ -84,6 +85,21 @@ TEST(PressureEnd, ACutStaysUntilPressureEndsElsewhere) {
   const auto turned = end_of(-0.7, {1.0, 0.1}, known);
   ASSERT_TRUE(turned.has_value());
   EXPECT_NEAR(turned->open.y() / turned->open.x(), 0.1, 1e-14);
+}
+
+TEST(PressureEnd, ACutGoesOnBeyondTheOutermostPoints) {
+  // Pressure where the whole rule has no point: a cut that is there finds it, none begins.
+  const PolygonRule rule = polygon_rule(square, 2);
+  double first = 2.0;
+  for (const Eigen::Vector2d& point : rule.points) first = std::min(first, point.x());
+  const PressureEnd known{{0.75 * first, 0.0}, {1.0, 0.0}};
+  EXPECT_FALSE(end_of(-0.5 * first, {1.0, 0.0}).has_value());
+  const auto end = end_of(-0.5 * first, {1.0, 0.0}, known);
+  ASSERT_TRUE(end.has_value());
+  EXPECT_NEAR(end->point.x(), 0.5 * first, 1e-14);
+  // Nor does it go on where the square is open, or pressed, to its end.
+  EXPECT_FALSE(end_of(0.5 * first, {1.0, 0.0}, known).has_value());
+  EXPECT_FALSE(end_of(-2.0 - first, {1.0, 0.0}, known).has_value());
 }
 
 TEST(PressureEnd, ASliverIsNotCutOff) {

@@ -42,6 +42,29 @@ BlockDefinition cantilever(int order) {
   return block;
 }
 
+TEST(StaticAnalysis, ABeamThatIsLiftedAtOneEndComesToRest) {
+  // 3 x 1 x 0.3 m, half its weight is 11 kN. Cuts where pressure ends came and went: iterations went to and
+  // fro.
+  for (const int order : {2, 3}) {
+    for (const double lift : {7e3, 8e3, 1.05e4}) {
+      BlockDefinition beam =
+          block_of("beam", Polyhedron(make_box({-1.5, -0.5, 0}, {1.5, 0.5, 0.3})), {2500, 1e9, 0.2}, order);
+      beam.supports.push_back({Vector3(-1.5, 0, 0), {true, true, false}, {}});
+      beam.loads.push_back({Plane{{1.5, 0, 0}, {1, 0, 0}}, false, Vector3(0, 0, lift), {}});
+      SimulationSettings settings;
+      settings.time_step = 1e-3;
+      settings.contact_distance = 1e-3;
+      settings.subdivisions = 0;
+      settings.chord_tolerance = 4.8e-3;
+      Simulation simulation(
+          models(fixed_block(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0}))), std::move(beam)), {{}, {}},
+          same_law({2.07e10, 1e10, 0.0, 0.0, 0.0, true}), settings);
+      EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << order << " " << lift;
+      EXPECT_LT(simulation.steps(), 30U);
+    }
+  }
+}
+
 /// A plank 3 m long and 5 cm thick that bends over the ends of a fixed shelf, 1 m wide. @return how far its
 /// middle and its tip go up
 Eigen::Vector2d plank_on_shelf(double thickness, bool area_springs) {
