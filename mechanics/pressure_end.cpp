@@ -72,7 +72,7 @@ std::optional<PressureEnd> end_of_pressure(const Corners& polygon, const Polygon
   const double most = *std::max_element(gaps.begin(), gaps.end());
   std::optional<PressureEnd> end;
   Corners pressed = polygon;
-  // A cut serves what is pressed beyond the outermost points of the whole rule.
+  // What no point of the whole rule feels may be pressed all the same where the gap bulges.
   if ((known || least < -tolerance) && most > tolerance) {
     end = zero_line(rule, gaps, known ? affine_to_stay_cut : affine_to_cut);
     if (end) pressed = part_under_pressure(polygon, *end);

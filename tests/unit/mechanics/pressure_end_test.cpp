@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "mechanics/overlap_outline.hpp"
@@ -87,19 +86,20 @@ TEST(PressureEnd, ACutStaysUntilPressureEndsElsewhere) {
   EXPECT_NEAR(turned->open.y() / turned->open.x(), 0.1, 1e-14);
 }
 
-TEST(PressureEnd, ACutGoesOnBeyondTheOutermostPoints) {
-  // Pressure where the whole rule has no point: a cut that is there finds it, none begins.
-  const PolygonRule rule = polygon_rule(square, 2);
-  double first = 2.0;
-  for (const Eigen::Vector2d& point : rule.points) first = std::min(first, point.x());
-  const PressureEnd known{{0.75 * first, 0.0}, {1.0, 0.0}};
-  EXPECT_FALSE(end_of(-0.5 * first, {1.0, 0.0}).has_value());
-  const auto end = end_of(-0.5 * first, {1.0, 0.0}, known);
+TEST(PressureEnd, ACutGoesOnWhereNoPointIsUnderPressure) {
+  // A gap that bulges, (x - 0.3)^2 + 0.01, its affine part 1.4 x - 0.5667: a cut that is there goes on at its
+  // zero, 0.40476, none begins.
+  const PolygonRule rule = polygon_rule(square, 4);
+  std::vector<double> gaps;
+  for (const Eigen::Vector2d& point : rule.points) gaps.push_back(std::pow(point.x() - 0.3, 2) + 0.01);
+  const PressureEnd known{{0.5, 0.0}, {1.0, 0.0}};
+  EXPECT_FALSE(end_of_pressure(square, rule, gaps, 1e-12, std::nullopt).has_value());
+  const auto end = end_of_pressure(square, rule, gaps, 1e-12, known);
   ASSERT_TRUE(end.has_value());
-  EXPECT_NEAR(end->point.x(), 0.5 * first, 1e-14);
+  EXPECT_NEAR(end->point.x() - end->open.y() / end->open.x() * end->point.y(), 0.40476190476190477, 1e-12);
   // Nor does it go on where the square is open, or pressed, to its end.
-  EXPECT_FALSE(end_of(0.5 * first, {1.0, 0.0}, known).has_value());
-  EXPECT_FALSE(end_of(-2.0 - first, {1.0, 0.0}, known).has_value());
+  EXPECT_FALSE(end_of(0.1, {1.0, 0.0}, known).has_value());
+  EXPECT_FALSE(end_of(-2.1, {1.0, 0.0}, known).has_value());
 }
 
 TEST(PressureEnd, ASliverIsNotCutOff) {
