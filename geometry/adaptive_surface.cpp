@@ -63,6 +63,7 @@ AdaptiveSurface::Node AdaptiveSurface::make_node(int face, const std::array<int,
 std::vector<BernsteinTriangle> AdaptiveSurface::root_patches(
     const Eigen::Ref<const Eigen::Matrix3Xd>& values) const {
   std::vector<BernsteinTriangle> patches;
+  patches.reserve(at(root_count_));
   for (int root = 0; root < root_count_; ++root)
     patches.emplace_back(*form_, values.middleCols(root * form_->size(), form_->size()));
   return patches;
