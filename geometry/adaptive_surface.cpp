@@ -120,11 +120,8 @@ bool AdaptiveSurface::divide(const DivisionDemand& demand) {
     }
   }
   cell_shapes_.clear();
-  for (const int leaf : leaves_) {
-    const auto& rim = nodes_[at(leaf)].rim;
-    cell_shapes_.push_back(
-        {patches_[at(leaf)].box(), patches_[at(leaf)].chord_bound({rim[0] >= 0, rim[1] >= 0, rim[2] >= 0})});
-  }
+  for (const int leaf : leaves_)
+    cell_shapes_.push_back({patches_[at(leaf)].box(), bound_of(nodes_[at(leaf)], patches_[at(leaf)])});
   return changed;
 }
 
@@ -135,10 +132,7 @@ const BernsteinTriangle& AdaptiveSurface::patch(int cell) const {
 double AdaptiveSurface::chord_bound_in(const Eigen::Ref<const Eigen::Matrix3Xd>& values) const {
   const std::vector<BernsteinTriangle> patches = placed_patches(root_patches(values));
   double bound = 0.0;
-  for (const int leaf : leaves_) {
-    const auto& rim = nodes_[at(leaf)].rim;
-    bound = std::max(bound, patches[at(leaf)].chord_bound({rim[0] >= 0, rim[1] >= 0, rim[2] >= 0}));
-  }
+  for (const int leaf : leaves_) bound = std::max(bound, bound_of(nodes_[at(leaf)], patches[at(leaf)]));
   return bound;
 }
 
@@ -157,6 +151,10 @@ std::vector<std::uint64_t> AdaptiveSurface::wanted() const {
   return result;
 }
 
+double AdaptiveSurface::bound_of(const Node& node, const BernsteinTriangle& patch) {
+  return patch.chord_bound({node.rim[0] >= 0, node.rim[1] >= 0, node.rim[2] >= 0});
+}
+
 /// Patches of all nodes from those of the roots: parents come before their children.
 std::vector<BernsteinTriangle> AdaptiveSurface::placed_patches(
     const std::vector<BernsteinTriangle>& of_roots) const {
@@ -173,7 +171,7 @@ std::vector<BernsteinTriangle> AdaptiveSurface::placed_patches(
 bool AdaptiveSurface::needs_division(const Node& node, const BernsteinTriangle& patch, double tolerance,
                                      const DivisionDemand& demand) const {
   if (node.bisections >= max_bisections) return false;
-  if (patch.chord_bound({node.rim[0] >= 0, node.rim[1] >= 0, node.rim[2] >= 0}) <= tolerance) return false;
+  if (bound_of(node, patch) <= tolerance) return false;
   const Box box = patch.box(axes_);
   return std::any_of(demand.neighbours.begin(), demand.neighbours.end(),
                      [&](const Box& neighbour) { return neighbour.meets(box); });

@@ -105,6 +105,8 @@ class AdaptiveSurface {
   void cut_with_neighbours(int node);
   [[nodiscard]] std::vector<BernsteinTriangle> root_patches(
       const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
+  /// The chord bound of a node's patch.
+  [[nodiscard]] static double bound_of(const Node& node, const BernsteinTriangle& patch);
   /// Patches of all nodes. @param of_roots theirs
   [[nodiscard]] std::vector<BernsteinTriangle> placed_patches(
       const std::vector<BernsteinTriangle>& of_roots) const;

@@ -17,7 +17,7 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// @param chord bound of both cells, m
+/// @param chord bounds of the cells that meet, m
 bool within_limits(double gap, double chord, const ContactLimits& limits) {
   return gap <= limits.reach + chord && gap >= -std::min(limits.penetration + chord, limits.deepest);
 }

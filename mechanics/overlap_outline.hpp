@@ -33,10 +33,10 @@ struct FaceOutline {
 };
 
 /// Corners are looked at with a blur of a thousandth of the root of the area, as sides that lie almost on
-/// each other cross anywhere: points another one stands for within it are left out, and so are those that are
-/// corners of no piece when its slivers and nearly straight corners are taken away and, unless `divided`,
-/// those where the outline of all pieces turns by less than 0.01 rad. Where nothing is wider than the blur,
-/// the tolerance alone is what counts.
+/// each other cross anywhere: points another one stands for within it are left out, and so are those that
+/// stand for no corner of a piece when its slivers and nearly straight corners are taken away and, unless
+/// `divided`, those where the outline of all pieces turns by less than 0.01 rad. Where nothing is wider than
+/// the blur, the tolerance alone is what counts.
 /// @param divided faces curve: corners of the pieces are points, also inside
 [[nodiscard]] FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& overlaps,
                                      bool divided, double tolerance);

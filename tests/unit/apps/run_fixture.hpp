@@ -78,6 +78,23 @@ class RunCommand : public ::testing::Test {
     return result;
   }
 
+  /// A column of numbers of a table without quoted fields. @param name the column has
+  [[nodiscard]] std::vector<double> column(const std::string& path, const std::string& name) const {
+    const auto fields_of = [](const std::string& line) {
+      std::vector<std::string> fields;
+      std::istringstream input(line);
+      for (std::string field; std::getline(input, field, ',');) fields.push_back(field);
+      return fields;
+    };
+    const std::vector<std::string> table = lines(path);
+    const std::vector<std::string> names = fields_of(table.at(0));
+    const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+    std::vector<double> values;
+    for (std::size_t k = 1; k < table.size(); ++k)
+      values.push_back(std::stod(fields_of(table[k]).at(static_cast<std::size_t>(place))));
+    return values;
+  }
+
   /// Names of the files in a folder, sorted.
   [[nodiscard]] std::vector<std::string> files(const std::string& path) const {
     std::vector<std::string> names;

@@ -80,12 +80,15 @@ TEST(OpenClose, AJointBreaksWhereTheBalancedPullExceedsItsStrength) {
 }
 
 TEST(OpenClose, ABlockThatLiftsOffLeavesItsCohesion) {
-  for (const bool augmented : {false, true}) {
+  for (const auto& [integrator, augmented] :
+       {std::pair(Integrator::dda, false), std::pair(Integrator::dda, true),
+        std::pair(Integrator::average_acceleration, false)}) {
     std::vector<BlockModel> blocks;
     blocks.emplace_back(fixed_box({-2, -2, -1}, {3, 3, 0}));
     blocks.emplace_back(block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e9, 0.2}, 1));
     SimulationSettings settings;
     settings.time_step = 1e-3;
+    settings.integrator = integrator;
     settings.augmented = augmented;
     InitialMotion off;
     off.velocity = {0.2, 0.0, 1.0};

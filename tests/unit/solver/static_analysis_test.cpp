@@ -10,6 +10,7 @@ namespace ashlar {
 namespace {
 
 using test_support::block_of;
+using test_support::fixed_box;
 using test_support::place_of;
 using test_support::same_law;
 using test_support::tilted_box;
@@ -56,9 +57,8 @@ TEST(StaticAnalysis, ABeamThatIsLiftedAtOneEndComesToRest) {
       settings.contact_distance = 1e-3;
       settings.subdivisions = 0;
       settings.chord_tolerance = 4.8e-3;
-      Simulation simulation(
-          models(fixed_block(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0}))), std::move(beam)), {{}, {}},
-          same_law({2.07e10, 1e10, 0.0, 0.0, 0.0, true}), settings);
+      Simulation simulation(models(fixed_box({-3, -3, -1}, {3, 3, 0}), std::move(beam)), {{}, {}},
+                            same_law({2.07e10, 1e10, 0.0, 0.0, 0.0, true}), settings);
       EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << order << " " << lift;
       EXPECT_LT(simulation.steps(), 30U);
     }
@@ -75,7 +75,7 @@ Eigen::Vector2d plank_on_shelf(double thickness, bool area_springs) {
   settings.contact_distance = 5e-4;
   settings.chord_tolerance = 2.7e-3;
   const double stiffness = area_springs ? 4e9 : 1e9;
-  Simulation simulation(models(fixed_block(Polyhedron(make_box({-0.5, -1, -thickness}, {0.5, 1, 0}))),
+  Simulation simulation(models(fixed_box({-0.5, -1, -thickness}, {0.5, 1, 0}),
                                block_of("plank", Polyhedron(make_box({-1.5, -0.5, 0}, {1.5, 0.5, 0.05})),
                                         {2500.0, 1e8, 0.2}, 2)),
                         {{}, {}}, same_law({stiffness, stiffness, 0.577, 0.0, 0.0, area_springs}), settings);
