@@ -160,8 +160,8 @@ class OverlapPoints {
     complete(point);
     return point;
   }
-  /// The map of the cell whose points are carried along.
-  [[nodiscard]] const CellMap& slave() const { return master_is_a_ ? map_b_ : map_a_; }
+  /// The map of the cell of a, or of b.
+  [[nodiscard]] const CellMap& map(bool of_a) const { return of_a ? map_a_ : map_b_; }
 
  private:
   const ContactBody& a_;
@@ -177,24 +177,23 @@ bool is_affine(const ContactBody& body) {
   return body.model->fixed() || body.model->order() == 1;
 }
 
-/// A remembered cut as seen in an overlap. @param slave the map of its cell
-PressureEnd seen(const PressureCut& cut, const CellMap& slave) {
-  const Eigen::Vector2d start = slave.place(cut.start);
-  const Eigen::Vector2d along = slave.place(cut.end) - start;
+/// A remembered cut as seen in an overlap. @param map of the block's cell that it is remembered in
+PressureEnd seen(const PressureCut& cut, const CellMap& map) {
+  const Eigen::Vector2d start = map.place(cut.start);
+  const Eigen::Vector2d along = map.place(cut.end) - start;
   return {start, {-along.y(), along.x()}};
 }
 
-PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool of_a, const CellMap& slave,
+PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool of_a, const CellMap& map,
                        double length) {
   const Eigen::Vector2d along = length * Eigen::Vector2d(end.open.y(), -end.open.x()).normalized();
-  return {overlap.cell_a, overlap.cell_b, of_a, slave.reference(end.point),
-          slave.reference(end.point + along)};
+  return {overlap.cell_a, overlap.cell_b, of_a, map.reference(end.point), map.reference(end.point + along)};
 }
 
 /// Where an overlap is to be cut, if at all. @param points of the rule on all of it
 std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<Eigen::Vector2d>& outline,
                                   const PolygonRule& rule, const std::vector<ContactPoint>& points,
-                                  const CellMap& slave, double rounding,
+                                  const OverlapPoints& make, double rounding,
                                   const std::vector<PressureCut>& known) {
   std::vector<double> gaps;
   gaps.reserve(points.size());
@@ -203,7 +202,7 @@ std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<
     return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
   });
   std::optional<PressureEnd> last;
-  if (cut != known.end()) last = seen(*cut, slave);
+  if (cut != known.end()) last = seen(*cut, make.map(cut->of_a));
   return end_of_pressure(outline, rule, gaps, rounding, last);
 }
 
@@ -227,13 +226,13 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
   const bool true_gaps = !settings.multipliers && (settings.curved || (is_affine(a) && is_affine(b)));
   std::optional<PressureEnd> end;
   if (true_gaps)
-    end = cut_of(overlap, outline, whole, points, make.slave(), coordinate_rounding(*a.placed, *b.placed),
-                 known);
+    end = cut_of(overlap, outline, whole, points, make, coordinate_rounding(*a.placed, *b.placed), known);
   if (end) {
     points.clear();
     add_points(polygon_rule(part_under_pressure(outline, *end), degree));
     add_points(polygon_rule(part_without_pressure(outline, *end), degree));
-    result.cuts.push_back(remembered(*end, overlap, !master_is_a, make.slave(), std::sqrt(area_of(outline))));
+    result.cuts.push_back(
+        remembered(*end, overlap, !master_is_a, make.map(!master_is_a), std::sqrt(area_of(outline))));
   }
   result.points.insert(result.points.end(), points.begin(), points.end());
 }
@@ -326,26 +325,17 @@ std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState&
   return points;
 }
 
-bool first_is_master(const ContactBody& a, const ContactBody& b) {
-  if (a.model->fixed() != b.model->fixed()) return a.model->fixed();
-  const bool divided_a = a.placed->surface().divided;
-  const bool divided_b = b.placed->surface().divided;
-  if (divided_a != divided_b) return !divided_a;
-  // Volumes of equal blocks in different places differ by rounding, which must not choose the master.
-  constexpr double equal_volumes = 1.0 + 1e-9;
-  return a.model->basis().volume() > equal_volumes * b.model->basis().volume();
-}
-
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
-                             const ContactPointSettings& settings, const std::vector<PressureCut>& known) {
+                             const std::vector<bool>& masters, const ContactPointSettings& settings,
+                             const std::vector<PressureCut>& known) {
   ContactPoints result;
-  const bool master_is_a = first_is_master(a, b);
   if (settings.area_springs) {
-    for (const CellOverlap& overlap : contacts.overlaps)
-      add_area_springs(a, b, overlap, master_is_a, settings, known, result);
+    for (std::size_t n = 0; n < contacts.overlaps.size(); ++n)
+      add_area_springs(a, b, contacts.overlaps[n], masters[n], settings, known, result);
   } else {
     for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
-      add_point_springs(a, b, face, contacts.overlaps, master_is_a, settings, result.points);
+      add_point_springs(a, b, face, contacts.overlaps, masters[at(face.cells.front())], settings,
+                        result.points);
   }
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);

@@ -58,19 +58,18 @@ struct ContactPointSettings {
 /// Current positions of a surface's points. @return (#surface.points), m
 [[nodiscard]] std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state);
 
-/// Whether block a is the master, on whose surface feet and normals are taken: fixed blocks before others,
-/// then undivided surfaces, then larger volume by more than rounding; ties go to b.
-[[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
-
 /// Of a pair of blocks.
 struct ContactPoints {
   std::vector<ContactPoint> points;
   std::vector<PressureCut> cuts;  ///< of overlaps that are in part open
 };
 
-/// All contact points of a pair, in a fixed order. @param known cuts of the step before
+/// All contact points of a pair, in a fixed order. @param masters whether a is the master, on whose surface
+/// feet and normals are taken, in each of the overlaps (contact_master.hpp). @param known cuts of the step
+/// before
 [[nodiscard]] ContactPoints contact_points(const ContactBody& a, const ContactBody& b,
-                                           const PairContacts& contacts, const ContactPointSettings& settings,
+                                           const PairContacts& contacts, const std::vector<bool>& masters,
+                                           const ContactPointSettings& settings,
                                            const std::vector<PressureCut>& known);
 
 }  // namespace ashlar

@@ -7,55 +7,71 @@
 namespace ashlar {
 namespace {
 
-/// A way across a normal: within 30 degrees of the contact's own plane.
-bool across(const Vector3& way, const Vector3& normal) {
-  return std::abs(way.dot(normal)) <= 0.5 * way.norm();
-}
-
-/// Whether overlaps are no wider than a way is long.
-bool undoes(const Vector3& way, const CellOverlap& overlap) {
-  if (!across(way, overlap.frame.w)) return false;
-  const Eigen::Vector2d direction = Eigen::Vector2d(way.dot(overlap.frame.e1), way.dot(overlap.frame.e2));
+/// Extent of something along a direction, m.
+struct Extent {
   double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const OverlapCorner& corner : overlap.corners) {
-    const double along = corner.place.dot(direction);
-    low = std::min(low, along);
-    high = std::max(high, along);
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+/// A direction with the extents of what two blocks touch with.
+class Along {
+ public:
+  explicit Along(const Vector3& direction) : direction_(direction) {}
+  /// Largest cosine between it and any of some normals' lines.
+  [[nodiscard]] double cosine(const std::vector<Vector3>& normals) const {
+    double largest = 0.0;
+    for (const Vector3& normal : normals) largest = std::max(largest, std::abs(normal.dot(direction_)));
+    return largest;
   }
-  return high - low <= direction.squaredNorm();
+  [[nodiscard]] Extent of_points(const std::vector<Vector3>& points) const {
+    Extent extent;
+    for (const Vector3& point : points) {
+      extent.low = std::min(extent.low, point.dot(direction_));
+      extent.high = std::max(extent.high, point.dot(direction_));
+    }
+    return extent;
+  }
+
+ private:
+  Vector3 direction_;
+};
+
+/// What touches of a and of b.
+struct Touching {
+  std::vector<Vector3> of_a;
+  std::vector<Vector3> of_b;
+  std::vector<Vector3> normals;  ///< of the cells that touch, of crossed edges the normal across them
+};
+
+Touching touching(const PlacedSurface& a, const PlacedSurface& b, const CellOverlap& overlap) {
+  return {a.corners(overlap.cell_a),
+          b.corners(overlap.cell_b),
+          {a.normal(overlap.cell_a), b.normal(overlap.cell_b)}};
 }
 
-/// Whether a vertex that moves along a way is no longer over the cell.
-bool undoes(const Vector3& way, const PlacedSurface& a, const PlacedSurface& b,
-            const VertexContact& contact) {
+Touching touching(const PlacedSurface& a, const PlacedSurface& b, const VertexContact& contact) {
   const PlacedSurface& with_cell = contact.vertex_of_a ? b : a;
-  const Vector3& normal = with_cell.normal(contact.cell);
-  if (!across(way, normal)) return false;
-  const Vector3 vertex =
-      (contact.vertex_of_a ? a : b).point(contact.point) + (contact.vertex_of_a ? way : -way);
-  const auto corners = with_cell.corners(contact.cell);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector3 side = corners[(k + 1) % corners.size()] - corners[k];
-    if (side.cross(Vector3(vertex - corners[k])).dot(normal) < 0.0) return true;
-  }
-  return false;
+  std::vector<Vector3> vertex = {(contact.vertex_of_a ? a : b).point(contact.point)};
+  std::vector<Vector3> cell = with_cell.corners(contact.cell);
+  const std::vector<Vector3> normals = {with_cell.normal(contact.cell)};
+  return contact.vertex_of_a ? Touching{std::move(vertex), std::move(cell), normals}
+                             : Touching{std::move(cell), std::move(vertex), normals};
 }
 
-/// Whether the lines of two edges, one of them moved along a way, cross off one of the edges.
-bool undoes(const Vector3& way, const PlacedSurface& a, const PlacedSurface& b, const EdgeContact& contact) {
-  if (!across(way, contact.normal)) return false;
-  const ViewFrame frame(Vector3::Zero(), contact.normal);
-  const auto ends = [&](const PlacedSurface& s, const CrossedSide& side) {
-    return std::array{frame.project(s.point(side.ends[0])), frame.project(s.point(side.ends[1]))};
+Touching touching(const PlacedSurface& a, const PlacedSurface& b, const EdgeContact& contact) {
+  const auto ends = [](const PlacedSurface& s, const CrossedSide& side) {
+    return std::vector{s.point(side.ends[0]), s.point(side.ends[1])};
   };
-  auto of_a = ends(a, contact.of_a);
-  for (Eigen::Vector2d& end : of_a) end += frame.project(way);
-  const auto of_b = ends(b, contact.of_b);
-  Eigen::Matrix2d lines;
-  lines << of_a[1] - of_a[0], of_b[0] - of_b[1];
-  const Eigen::Vector2d shares = lines.inverse() * (of_b[0] - of_a[0]);
-  return (shares.array() < 0.0).any() || (shares.array() > 1.0).any();
+  return {ends(a, contact.of_a), ends(b, contact.of_b), {contact.normal}};
+}
+
+/// Whether all of b that touches is below all of a when a has moved along the way.
+template <class Contact>
+bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
+  const Along along(way.motion.normalized());
+  const Touching found = touching(a, b, contact);
+  if (along.cosine(found.normals) > way.largest_cosine) return false;
+  return along.of_points(found.of_b).high - along.of_points(found.of_a).low <= way.motion.norm();
 }
 
 }  // namespace
@@ -63,44 +79,53 @@ bool undoes(const Vector3& way, const PlacedSurface& a, const PlacedSurface& b, 
 WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
   // Directions that differ by less than a third of a degree are one way.
   constexpr double same_direction = 0.99998;
-  const auto add = [&](int block, const Vector3& normal, double depth) {
-    std::vector<Vector3>& known = ways_[block];
-    const bool there = std::any_of(known.begin(), known.end(), [&](const Vector3& way) {
-      return way.dot(normal) >= same_direction * way.norm() && way.norm() >= 2.0 * depth;
+  const auto add = [&](int block, int other, const Vector3& normal, double depth) {
+    std::vector<OutOf>& known = ways_[block];
+    const bool there = std::any_of(known.begin(), known.end(), [&](const OutOf& way) {
+      return way.other == other && way.motion.dot(normal) >= same_direction * way.motion.norm() &&
+             way.motion.norm() >= 2.0 * depth;
     });
-    if (!there) known.push_back(2.0 * depth * normal);
+    if (!there) known.push_back({other, 2.0 * depth * normal});
   };
   for (const auto& [blocks, pair] : memory) {
     if (!(pair.deepest() > 0.0)) continue;
     for (const ContactMemory::Entry& entry : pair.entries()) {
       if (entry.memory.state == ContactState::open) continue;
-      add(blocks[0], entry.normal, pair.deepest());
-      add(blocks[1], -entry.normal, pair.deepest());
+      add(blocks[0], blocks[1], entry.normal, pair.deepest());
+      add(blocks[1], blocks[0], -entry.normal, pair.deepest());
     }
   }
 }
 
-std::vector<Vector3> WaysOut::of_pair(int a, int b) const {
-  std::vector<Vector3> ways;
-  if (const auto known = ways_.find(a); known != ways_.end()) ways = known->second;
-  if (const auto known = ways_.find(b); known != ways_.end())
-    for (const Vector3& way : known->second) ways.push_back(-way);
+std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
+  // 10 and 60 degrees.
+  constexpr double faces_across = 0.985;
+  constexpr double steep_sides = 0.5;
+  std::vector<WayOut> ways;
+  const auto add = [&](int block, int other, double sign) {
+    const auto known = ways_.find(block);
+    if (known == ways_.end()) return;
+    for (const OutOf& way : known->second)
+      ways.push_back({sign * way.motion, way.other == other ? steep_sides : faces_across});
+  };
+  add(a, b, 1.0);
+  add(b, a, -1.0);
   return ways;
 }
 
-void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<Vector3>& ways,
+void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
                      PairContacts& contacts) {
-  for (const Vector3& way : ways) {
-    std::erase_if(contacts.overlaps, [&](const CellOverlap& overlap) { return undoes(way, overlap); });
+  for (const WayOut& way : ways) {
+    std::erase_if(contacts.overlaps, [&](const CellOverlap& overlap) { return undoes(way, a, b, overlap); });
     std::erase_if(contacts.vertices,
                   [&](const VertexContact& contact) { return undoes(way, a, b, contact); });
     std::erase_if(contacts.edges, [&](const EdgeContact& contact) { return undoes(way, a, b, contact); });
   }
 }
 
-bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<Vector3>& ways,
+bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
              const Touch& touch) {
-  return std::any_of(ways.begin(), ways.end(), [&](const Vector3& way) {
+  return std::any_of(ways.begin(), ways.end(), [&](const WayOut& way) {
     return std::visit([&](const auto& contact) { return undoes(way, a, b, contact); }, touch.contact);
   });
 }

@@ -2,10 +2,11 @@
 // springs must give way to hold it, and so meets the side of the next one by as much. Such a contact is not
 // there for blocks that do not sink, and would stop or throw it.
 //
-// A contact is one of a seam if it vanishes when one of the two blocks moves out, across the contact's own
-// normal, of what it was in contact with at the end of the last step: by twice the depth, as depths change
-// within a step. What is left out is narrower than that, and the face that the block goes on to is found
-// beside it.
+// A contact is one of a seam if, when one of the two blocks moves out of what it was in at the end of the
+// last step, what touches of the two is on either side of a plane across that way, as an inclined side that
+// leads up from the rim of a sole and the edge of the next block are: the block would slide over the other.
+// It moves by twice the depth, as depths change within a step. Faces across the way are what blocks rest on;
+// they are none.
 #pragma once
 
 #include <map>
@@ -16,25 +17,36 @@
 
 namespace ashlar {
 
+/// A motion of a block a relative to a block b that takes either of them out of what it had sunk into.
+struct WayOut {
+  Vector3 motion;  ///< m
+  /// Contacts with a normal nearer to the way are none of a seam. Of what the two blocks themselves were in
+  /// contact with, only steep sides may be; of others, all that is not across the way.
+  double largest_cosine;
+};
+
 /// Ways out of what each block had sunk into at the end of the last step.
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
   /// @param memory of pairs of blocks (a, b)
   explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
-  /// Motions of a relative to b, m, that take either of them out of what it had sunk into.
-  [[nodiscard]] std::vector<Vector3> of_pair(int a, int b) const;
+  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b) const;
 
  private:
-  std::map<int, std::vector<Vector3>> ways_;  ///< by block, m
+  struct OutOf {
+    int other;  ///< what the block was in
+    Vector3 motion;
+  };
+  std::map<int, std::vector<OutOf>> ways_;  ///< by block
 };
 
 /// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns
-void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<Vector3>& ways,
+void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
                      PairContacts& contacts);
 
 /// Whether one of the ways undoes a touch.
-[[nodiscard]] bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<Vector3>& ways,
+[[nodiscard]] bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
                            const Touch& touch);
 
 }  // namespace ashlar

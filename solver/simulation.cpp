@@ -6,9 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "mechanics/contact_master.hpp"
 #include "mechanics/overlap_outline.hpp"
 #include "solver/angular_momentum.hpp"
 #include "solver/checkpoint.hpp"
+#include "solver/covered_faces.hpp"
 #include "solver/energy_bounds.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -245,12 +247,20 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
   std::vector<ContactPair> pairs;
   const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface,
                                             settings_.augmented};
+  const CoveredFaces covered(
+      found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
+      settings_.contact_distance);
   for (const auto& [blocks, contacts] : found) {
-    const auto& [a, b] = blocks;
+    const int a = blocks[0];
+    const int b = blocks[1];
     const ContactBody body_a = body_at_start(a);
     const ContactBody body_b = body_at_start(b);
     const ContactMemory& known = memory_[blocks];
-    auto [points, cuts] = contact_points(body_a, body_b, contacts, point_settings, known.cuts());
+    const std::vector<bool> masters = first_is_master(
+        body_a, body_b, contacts.overlaps, [&](bool of_a, int face, const Vector3& place, double gap) {
+          return of_a ? covered.goes_on(b, face, a, place, gap) : covered.goes_on(a, face, b, place, gap);
+        });
+    auto [points, cuts] = contact_points(body_a, body_b, contacts, masters, point_settings, known.cuts());
     counts_.contact_points += points.size();
     // Faces that share no area to the last bit are found, but have no points.
     if (points.empty()) continue;

@@ -1,4 +1,5 @@
-// A block that slides over a face cut into many triangles must not feel their sides.
+// Blocks that slide: over a face cut into many triangles, whose sides they must not feel, and over edges and
+// on ridges that their faces are tilted to.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,6 +11,8 @@ namespace ashlar {
 namespace {
 
 using test_support::block_of;
+using test_support::place_of;
+using test_support::run_until;
 using test_support::same_law;
 
 /// The box with its top face cut into `count` (even) triangles by points put into triangles at random:
@@ -109,6 +112,94 @@ TEST(Sliding, SoDoesATiltedOneWhoseTrianglesRoundingHasTilted) {
     for (const int order : {1, 2}) EXPECT_LT(sideways_share({order, area, turn, 0.4}), 1e-9) << area << order;
   }
 }
+
+/// How a plate lies on two fixed supports, touched along a line across it by either of them.
+struct OnEdges {
+  int order = 1;
+  bool area = true;
+  double start = 0.0;    ///< velocity along x, m/s
+  double slope = 0.0;    ///< by which gravity is turned, rad
+  double degrees = 0.0;  ///< both supports' tops are tilted, so that they rise to an edge
+  double flanks = 0.0;   ///< degrees, both supports are roofs
+};
+
+/// The supports and a plate without friction.
+Simulation plate_on_edges(const OnEdges& scene) {
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  settings.area_springs = scene.area;
+  settings.contact_distance = 2e-3;
+  settings.chord_tolerance = 1e-3;
+  settings.subdivisions = 0;
+  settings.gravity = 9.81 * Vector3(std::sin(scene.slope), 0.0, -std::cos(scene.slope));
+  const double fall = std::tan((scene.degrees + scene.flanks) * std::numbers::pi / 180.0);
+  std::vector<BlockModel> blocks;
+  for (const double edge : {-1.0, 1.0}) {
+    // A tilted top ends in its edge, a roof goes on behind it.
+    const double behind = scene.flanks > 0.0 ? 0.4 : 0.0;
+    std::vector<Vector3> points;
+    for (const double y : {-0.6, 0.6}) {
+      points.emplace_back(edge - 0.4, y, -0.4 * fall);
+      points.emplace_back(edge, y, 0.0);
+      points.emplace_back(edge + behind, y, -behind * fall);
+      points.emplace_back(edge - 0.4, y, -0.5);
+      points.emplace_back(edge + behind, y, -0.5);
+    }
+    BlockDefinition support = block_of("support", Polyhedron(make_convex_hull(points)), {2500, 1e9, 0.2}, 1);
+    support.fixed = true;
+    blocks.emplace_back(std::move(support));
+  }
+  blocks.emplace_back(
+      block_of("plate", Polyhedron(make_box({-3, -0.5, 0}, {3, 0.5, 0.3})), {2500, 1e10, 0.2}, scene.order));
+  return {std::move(blocks),
+          {{}, {}, {Vector3(scene.start, 0, 0), Vector3::Zero()}},
+          same_law({1e11, 5e10, 0.0, 0.0, 0.0, scene.area}),
+          settings};
+}
+
+class OnEdgesWithoutFriction : public testing::TestWithParam<std::tuple<int, bool>> {
+ protected:
+  [[nodiscard]] OnEdges scene() const {
+    OnEdges result;
+    std::tie(result.order, result.area) = GetParam();
+    return result;
+  }
+};
+
+TEST_P(OnEdgesWithoutFriction, APlateAtRestStaysWhereItIs) {
+  // The edges push along the plate's normal, so nothing acts along it. Along the supports' normals, 4 degrees
+  // off, it would slide (g/2) sin(4) cos(4) t^2 = 0.085 m.
+  OnEdges scene = this->scene();
+  scene.degrees = 4.0;
+  Simulation simulation = plate_on_edges(scene);
+  ASSERT_TRUE(run_until(simulation, 0.5));
+  const Vector3 place = place_of(simulation, 2, Vector3(0, 0, 0.15));
+  EXPECT_LT(std::abs(place.x()), 1e-4);
+  EXPECT_LT(std::abs(place.z() - 0.15), 1e-3);
+}
+
+TEST_P(OnEdgesWithoutFriction, RidgesDoNotBrake) {
+  // g tan(6 degrees) would take 0.62 m/s in 0.6 s.
+  OnEdges scene = this->scene();
+  scene.flanks = 6.0;
+  scene.start = 2.0;
+  Simulation simulation = plate_on_edges(scene);
+  ASSERT_TRUE(run_until(simulation, 0.6));
+  EXPECT_NEAR(place_of(simulation, 2, Vector3(0, 0, 0.15)).x(), 1.2, 1e-3);
+}
+
+TEST_P(OnEdgesWithoutFriction, RidgesDoNotHoldWhatLiesOnASlope) {
+  OnEdges scene = this->scene();
+  scene.flanks = 6.0;
+  scene.slope = 3.0 * std::numbers::pi / 180.0;
+  Simulation simulation = plate_on_edges(scene);
+  ASSERT_TRUE(run_until(simulation, 0.5));
+  const double way = 0.5 * 9.81 * std::sin(scene.slope) * 0.25;
+  EXPECT_NEAR(place_of(simulation, 2, Vector3(0, 0, 0.15)).x(), way, 0.01 * way);
+}
+
+INSTANTIATE_TEST_SUITE_P(OrdersAndSprings, OnEdgesWithoutFriction,
+                         testing::Combine(testing::Values(1, 2), testing::Bool()));
 
 }  // namespace
 }  // namespace ashlar

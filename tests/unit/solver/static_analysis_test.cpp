@@ -77,7 +77,7 @@ Eigen::Vector2d plank_on_shelf(double thickness, bool area_springs) {
   const double stiffness = area_springs ? 4e9 : 1e9;
   Simulation simulation(models(fixed_box({-0.5, -1, -thickness}, {0.5, 1, 0}),
                                block_of("plank", Polyhedron(make_box({-1.5, -0.5, 0}, {1.5, 0.5, 0.05})),
-                                        {2500.0, 1e8, 0.2}, 2)),
+                                        {2500.0, 1.2e8, 0.2}, 2)),
                         {{}, {}}, same_law({stiffness, stiffness, 0.577, 0.0, 0.0, area_springs}), settings);
   EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
   EXPECT_LT(simulation.report().penetration, 5e-3);
@@ -91,7 +91,7 @@ TEST(StaticAnalysis, APlankDoesNotMindHowThickItsShelfIs) {
     const Eigen::Vector2d thick = plank_on_shelf(1.0, area_springs);
     EXPECT_GT(thick[0], 0.0);
     EXPECT_LT(thick[1], -0.2);
-    for (const double thickness : {0.1, 0.02})
+    for (const double thickness : {0.1, 0.01})
       EXPECT_LT((plank_on_shelf(thickness, area_springs) - thick).norm(), 1e-6) << thickness;
   }
 }

@@ -1,0 +1,34 @@
+// Which of two blocks in contact is the master: the one on whose surface feet and normals are taken
+// (theory.md section 6.4).
+//
+// Two faces that lie on each other may be tilted against each other by the contact angle. Where one of them
+// ends at the deep end of their overlap, its rim is what touches, and it moves along the other face: with
+// its own normal it would go into the other by the tangent of the tilt times the way it slides, or lift off.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "mechanics/contact_points.hpp"
+
+namespace ashlar {
+
+/// Whether block a is the master where the shapes do not tell: fixed blocks before others, then undivided
+/// surfaces, then larger volume by more than rounding; ties go to b.
+[[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
+
+/// Tells whether a third block goes on behind the rim of a face, as near to what lies on the rim, so that the
+/// rim is none to it. @param of_a whose rim it is. @param face of the other block, which lies on the rim
+/// @param place on the rim. @param gap there, m
+using GoesOn = std::function<bool(bool of_a, int face, const Vector3& place, double gap)>;
+
+/// Whether block a is the master in each of the overlaps: for all overlaps of two faces, the block whose face
+/// does not end at their deep end: its surface turns away from the other one there, and nothing goes on
+/// behind it. Rims of both, or of none, and gaps that vary by no more than rounding (outline_tolerance) do
+/// not tell.
+/// @return (#overlaps)
+[[nodiscard]] std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
+                                                const std::vector<CellOverlap>& overlaps,
+                                                const GoesOn& goes_on);
+
+}  // namespace ashlar

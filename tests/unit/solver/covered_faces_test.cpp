@@ -1,0 +1,47 @@
+#include "solver/covered_faces.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/placed_bodies.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Whether a second slab goes on, for a cube on both, behind the rim of the first one at x = 0.
+bool goes_on(double second_start, double second_top, double cube_bottom) {
+  const test_support::PlacedBody first(test_support::box({-1, -1, -1}, {0, 1, 0}));
+  const test_support::PlacedBody second(test_support::box({second_start, -1, -1}, {1, 1, second_top}));
+  const test_support::PlacedBody cube(test_support::box({-0.5, -0.5, cube_bottom}, {0.5, 0.5, 1}));
+  const std::array<const PlacedSurface*, 3> placed = {&first.placed, &second.placed, &cube.placed};
+  const ContactLimits limits{0.01, 0.01, 0.1};
+  std::vector<FoundContacts> found;
+  for (const int slab : {0, 1})
+    found.push_back({{slab, 2}, find_contacts(*placed[static_cast<std::size_t>(slab)], cube.placed, limits)});
+  const CoveredFaces covered(
+      found, [&](int block) -> const PlacedSurface& { return *placed[static_cast<std::size_t>(block)]; },
+      1e-3);
+  EXPECT_FALSE(found[0].contacts.overlaps.empty());
+  EXPECT_FALSE(found[1].contacts.overlaps.empty());
+  const int bottom = cube.surface.cells[static_cast<std::size_t>(found[0].contacts.overlaps[0].cell_b)].face;
+  // Where nothing but the first slab is.
+  EXPECT_FALSE(covered.goes_on(2, bottom, 0, Vector3(-0.4, 0, 0), cube_bottom));
+  // The second slab is not behind its own rim.
+  EXPECT_FALSE(covered.goes_on(2, bottom, 1, Vector3(0.4, 0, 0), cube_bottom));
+  return covered.goes_on(2, bottom, 0, Vector3(0, 0, 0), cube_bottom);
+}
+
+TEST(CoveredFaces, ABlockOnTwoLiesOnOneSurface) {
+  EXPECT_TRUE(goes_on(0.0, 0.0, 0.0));
+  EXPECT_TRUE(goes_on(0.0, 0.0, 1e-4)) << "as near as the first";
+  EXPECT_TRUE(goes_on(0.0, -1e-5, -2e-5)) << "lower, but touched";
+  EXPECT_TRUE(goes_on(5e-4, 0.0, -1e-5)) << "a narrow joint";
+}
+
+TEST(CoveredFaces, RimsAreEndsWhereNothingIsBehindThem) {
+  EXPECT_FALSE(goes_on(2e-3, 0.0, -1e-5)) << "a wide joint";
+  EXPECT_FALSE(goes_on(0.0, -1e-4, -1e-5)) << "lower, not touched";
+  EXPECT_FALSE(goes_on(0.0, -1e-4, 1e-5)) << "lower";
+}
+
+}  // namespace
+}  // namespace ashlar
