@@ -7,6 +7,10 @@
 namespace ashlar {
 namespace {
 
+/// Cosines of 10 and 60 degrees.
+constexpr double faces_across = 0.985;
+constexpr double steep_sides = 0.5;
+
 /// Extent of something along a direction, m.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
@@ -74,9 +78,25 @@ bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, c
   return along.of_points(found.of_b).high - along.of_points(found.of_a).low <= way.motion.norm();
 }
 
+/// Whether one of a pair's contacts is across a motion, and no way undoes it.
+bool stands(const Vector3& motion, const PlacedSurface& a, const PlacedSurface& b,
+            const PairContacts& contacts, const std::vector<WayOut>& ways) {
+  const Along along(motion.normalized());
+  const auto any = [&](const auto& some) {
+    return std::any_of(some.begin(), some.end(), [&](const auto& contact) {
+      return along.cosine(touching(a, b, contact).normals) > faces_across &&
+             std::none_of(ways.begin(), ways.end(),
+                          [&](const WayOut& way) { return undoes(way, a, b, contact); });
+    });
+  };
+  return any(contacts.overlaps) || any(contacts.vertices) || any(contacts.edges);
+}
+
 }  // namespace
 
-WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
+WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory,
+                 const std::vector<FoundContacts>& found,
+                 const std::function<const PlacedSurface&(int)>& placed) {
   // Directions that differ by less than a third of a degree are one way.
   constexpr double same_direction = 0.99998;
   const auto add = [&](int block, int other, const Vector3& normal, double depth) {
@@ -95,12 +115,25 @@ WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
       add(blocks[1], blocks[0], -entry.normal, pair.deepest());
     }
   }
+  // All are looked at before any is dropped.
+  std::map<int, std::vector<OutOf>> standing;
+  for (const auto& [blocks, contacts] : found) {
+    const auto& [a, b] = blocks;
+    const std::vector<WayOut> ways = of_pair(a, b);
+    const auto keep = [&](int block, int other, double sign) {
+      const auto known = ways_.find(block);
+      if (known == ways_.end()) return;
+      for (const OutOf& way : known->second)
+        if (way.other == other && stands(sign * way.motion, placed(a), placed(b), contacts, ways))
+          standing[block].push_back(way);
+    };
+    keep(a, b, 1.0);
+    keep(b, a, -1.0);
+  }
+  ways_ = std::move(standing);
 }
 
 std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
-  // 10 and 60 degrees.
-  constexpr double faces_across = 0.985;
-  constexpr double steep_sides = 0.5;
   std::vector<WayOut> ways;
   const auto add = [&](int block, int other, double sign) {
     const auto known = ways_.find(block);

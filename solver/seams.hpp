@@ -9,11 +9,13 @@
 // they are none.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
 #include "geometry/motion_check.hpp"
 #include "mechanics/contact_memory.hpp"
+#include "solver/contact_finder.hpp"
 
 namespace ashlar {
 
@@ -25,12 +27,15 @@ struct WayOut {
   double largest_cosine;
 };
 
-/// Ways out of what each block had sunk into at the end of the last step.
+/// Ways out of what each block had sunk into at the end of the last step and lies on: not where a contact is
+/// itself one that another way undoes, as are those of either flank of a ridge that rests on a ridge.
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
-  /// @param memory of pairs of blocks (a, b)
-  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
+  /// @param memory of pairs of blocks (a, b). @param found the contacts that there are now. @param placed
+  /// surfaces of the blocks that have contacts
+  WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory, const std::vector<FoundContacts>& found,
+          const std::function<const PlacedSurface&(int)>& placed);
   [[nodiscard]] std::vector<WayOut> of_pair(int a, int b) const;
 
  private:

@@ -235,7 +235,8 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
-  ways_out_ = WaysOut(memory_);
+  ways_out_ =
+      WaysOut(memory_, found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); });
   for (auto& [pair, contacts] : found)
     leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out_.of_pair(pair[0], pair[1]),
                     contacts);
