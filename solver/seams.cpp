@@ -78,25 +78,9 @@ bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, c
   return along.of_points(found.of_b).high - along.of_points(found.of_a).low <= way.motion.norm();
 }
 
-/// Whether one of a pair's contacts is across a motion, and no way undoes it.
-bool stands(const Vector3& motion, const PlacedSurface& a, const PlacedSurface& b,
-            const PairContacts& contacts, const std::vector<WayOut>& ways) {
-  const Along along(motion.normalized());
-  const auto any = [&](const auto& some) {
-    return std::any_of(some.begin(), some.end(), [&](const auto& contact) {
-      return along.cosine(touching(a, b, contact).normals) > faces_across &&
-             std::none_of(ways.begin(), ways.end(),
-                          [&](const WayOut& way) { return undoes(way, a, b, contact); });
-    });
-  };
-  return any(contacts.overlaps) || any(contacts.vertices) || any(contacts.edges);
-}
-
 }  // namespace
 
-WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory,
-                 const std::vector<FoundContacts>& found,
-                 const std::function<const PlacedSurface&(int)>& placed) {
+WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
   // Directions that differ by less than a third of a degree are one way.
   constexpr double same_direction = 0.99998;
   const auto add = [&](int block, int other, const Vector3& normal, double depth) {
@@ -115,22 +99,6 @@ WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory,
       add(blocks[1], blocks[0], -entry.normal, pair.deepest());
     }
   }
-  // All are looked at before any is dropped.
-  std::map<int, std::vector<OutOf>> standing;
-  for (const auto& [blocks, contacts] : found) {
-    const auto& [a, b] = blocks;
-    const std::vector<WayOut> ways = of_pair(a, b);
-    const auto keep = [&](int block, int other, double sign) {
-      const auto known = ways_.find(block);
-      if (known == ways_.end()) return;
-      for (const OutOf& way : known->second)
-        if (way.other == other && stands(sign * way.motion, placed(a), placed(b), contacts, ways))
-          standing[block].push_back(way);
-    };
-    keep(a, b, 1.0);
-    keep(b, a, -1.0);
-  }
-  ways_ = std::move(standing);
 }
 
 std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
@@ -138,28 +106,53 @@ std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
   const auto add = [&](int block, int other, double sign) {
     const auto known = ways_.find(block);
     if (known == ways_.end()) return;
-    for (const OutOf& way : known->second)
-      ways.push_back({sign * way.motion, way.other == other ? steep_sides : faces_across});
+    for (const OutOf& way : known->second) {
+      ways.push_back({sign * way.motion,
+                      way.other == other ? steep_sides : faces_across,
+                      {std::min(block, way.other), std::max(block, way.other)}});
+    }
   };
   add(a, b, 1.0);
   add(b, a, -1.0);
   return ways;
 }
 
+bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
+                     const std::function<const PlacedSurface&(int)>& placed) const {
+  const auto pair = std::lower_bound(found.begin(), found.end(), way.out_of,
+                                     [](const FoundContacts& contacts, const std::array<int, 2>& blocks) {
+                                       return contacts.blocks < blocks;
+                                     });
+  if (pair == found.end() || pair->blocks != way.out_of) return false;
+  const PlacedSurface& a = placed(pair->blocks[0]);
+  const PlacedSurface& b = placed(pair->blocks[1]);
+  const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1]);
+  const Along along(way.motion.normalized());
+  const auto any = [&](const auto& contacts) {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+      return along.cosine(touching(a, b, contact).normals) > faces_across &&
+             std::none_of(others.begin(), others.end(),
+                          [&](const WayOut& other) { return undoes(other, a, b, contact); });
+    });
+  };
+  return any(pair->contacts.overlaps) || any(pair->contacts.vertices) || any(pair->contacts.edges);
+}
+
 void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-                     PairContacts& contacts) {
+                     const std::function<bool(const WayOut&)>& stands, PairContacts& contacts) {
   for (const WayOut& way : ways) {
-    std::erase_if(contacts.overlaps, [&](const CellOverlap& overlap) { return undoes(way, a, b, overlap); });
-    std::erase_if(contacts.vertices,
-                  [&](const VertexContact& contact) { return undoes(way, a, b, contact); });
-    std::erase_if(contacts.edges, [&](const EdgeContact& contact) { return undoes(way, a, b, contact); });
+    const auto is_left_out = [&](const auto& contact) { return undoes(way, a, b, contact) && stands(way); };
+    std::erase_if(contacts.overlaps, is_left_out);
+    std::erase_if(contacts.vertices, is_left_out);
+    std::erase_if(contacts.edges, is_left_out);
   }
 }
 
 bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-             const Touch& touch) {
+             const std::function<bool(const WayOut&)>& stands, const Touch& touch) {
   return std::any_of(ways.begin(), ways.end(), [&](const WayOut& way) {
-    return std::visit([&](const auto& contact) { return undoes(way, a, b, contact); }, touch.contact);
+    return std::visit([&](const auto& contact) { return undoes(way, a, b, contact); }, touch.contact) &&
+           stands(way);
   });
 }
 

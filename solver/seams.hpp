@@ -25,18 +25,22 @@ struct WayOut {
   /// Contacts with a normal nearer to the way are none of a seam. Of what the two blocks themselves were in
   /// contact with, only steep sides may be; of others, all that is not across the way.
   double largest_cosine;
+  std::array<int, 2> out_of;  ///< the two blocks that were in each other, the lower number first
 };
 
-/// Ways out of what each block had sunk into at the end of the last step and lies on: not where a contact is
-/// itself one that another way undoes, as are those of either flank of a ridge that rests on a ridge.
+/// Ways out of what each block had sunk into at the end of the last step.
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
-  /// @param memory of pairs of blocks (a, b). @param found the contacts that there are now. @param placed
-  /// surfaces of the blocks that have contacts
-  WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory, const std::vector<FoundContacts>& found,
-          const std::function<const PlacedSurface&(int)>& placed);
+  /// @param memory of pairs of blocks (a, b)
+  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
   [[nodiscard]] std::vector<WayOut> of_pair(int a, int b) const;
+  /// Whether a block still lies on what a way leads out of, by a contact that no other way undoes: of two
+  /// flanks of a ridge that has hardly gone in, each is beside the way out of the other.
+  /// @param found contacts, ordered by blocks, with or without those of seams. @param placed surfaces of
+  /// blocks that have contacts
+  [[nodiscard]] bool stands(const WayOut& way, const std::vector<FoundContacts>& found,
+                            const std::function<const PlacedSurface&(int)>& placed) const;
 
  private:
   struct OutOf {
@@ -47,11 +51,12 @@ class WaysOut {
 };
 
 /// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns
+/// @param stands which of them count
 void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-                     PairContacts& contacts);
+                     const std::function<bool(const WayOut&)>& stands, PairContacts& contacts);
 
 /// Whether one of the ways undoes a touch.
 [[nodiscard]] bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-                           const Touch& touch);
+                           const std::function<bool(const WayOut&)>& stands, const Touch& touch);
 
 }  // namespace ashlar

@@ -235,12 +235,19 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
-  ways_out_ =
-      WaysOut(memory_, found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); });
+  ways_out_ = WaysOut(memory_);
+  const auto stands = standing_ways(found);
   for (auto& [pair, contacts] : found)
     leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out_.of_pair(pair[0], pair[1]),
-                    contacts);
+                    stands, contacts);
   return found;
+}
+
+std::function<bool(const WayOut&)> Simulation::standing_ways(const std::vector<FoundContacts>& found) const {
+  return [this, &found](const WayOut& way) {
+    return ways_out_.stands(way, found,
+                            [this](int block) -> const PlacedSurface& { return finder_.placed(block); });
+  };
 }
 
 std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found, bool hold_energy) {
@@ -293,9 +300,10 @@ std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
     if (moving_[k]) after[k].position += trial.bodies[k].motion();
   }
   std::vector<PassingBlocks> passing = finder_.check_motion(states_, after, found);
+  const auto stands = standing_ways(found);
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const auto& [a, b] = pair.blocks;
-    return at_seam(finder_.placed(a), finder_.placed(b), ways_out_.of_pair(a, b), pair.touch);
+    return at_seam(finder_.placed(a), finder_.placed(b), ways_out_.of_pair(a, b), stands, pair.touch);
   });
   return passing;
 }

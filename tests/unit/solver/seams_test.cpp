@@ -173,12 +173,13 @@ PairContacts against_step(double deep, double height, const std::vector<WayOut>&
   const test_support::PlacedBody cube(test_support::box({0, 0, -deep}, {1, 1, 1}));
   const test_support::PlacedBody step(test_support::box({1 - 1e-4, 0, -1}, {2, 1, height}));
   PairContacts contacts = find_contacts(cube.placed, step.placed, {1e-3, 1e-3, 0.1});
-  leave_out_seams(cube.placed, step.placed, ways, contacts);
+  leave_out_seams(
+      cube.placed, step.placed, ways, [](const WayOut&) { return true; }, contacts);
   return contacts;
 }
 
 TEST(Seams, OnlyWhatSinkingMakesIsLeftOut) {
-  const std::vector<WayOut> ways = {{Vector3(0, 0, 2e-5), 0.985}};
+  const std::vector<WayOut> ways = {{Vector3(0, 0, 2e-5), 0.985, {0, 2}}};
   const auto faces_along = [](const PairContacts& contacts, int axis) {
     return std::count_if(
         contacts.overlaps.begin(), contacts.overlaps.end(),
