@@ -206,7 +206,39 @@ class JointLaws {
   std::vector<SceneJointLaw> laws_;  ///< (#groups, #groups)
 };
 
-/// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key.
+/// Contacts are looked for with coordinates that are rounded: what is nearer than that is not found.
+void check_distance(const Scene& scene, const std::vector<BlockModel>& blocks, double distance,
+                    Diagnostics& diagnostics) {
+  double farthest = 0.0;
+  for (const BlockModel& block : blocks) {
+    for (const Vector3& point : block.solid().mesh().points)
+      farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
+  }
+  const double rounding = farthest * std::numeric_limits<double>::epsilon();
+  if (distance >= rounding) return;
+  diagnostics.error(
+      scene.places.value("contact.distance"),
+      fmt::format("distance is less than coordinates are rounded to ({:.4g} m), at least {:.4g} m "
+                  "is needed",
+                  distance, rounding));
+}
+
+/// Whether a later [[joint]] of the blocks that one ties unties all of them.
+bool is_untied(const Scene& scene, const std::vector<BlockModel>& blocks, const SceneJoint& joint) {
+  bool tied_any = false;
+  bool left_any = false;
+  for (std::size_t a = 0; a < blocks.size(); ++a) {
+    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
+      if (!pattern_matches_pair(joint.blocks, blocks[a].name(), blocks[b].name())) continue;
+      tied_any = true;
+      left_any = left_any || joint_law_between(scene, blocks[a].name(), blocks[b].name()).tied;
+    }
+  }
+  return tied_any && !left_any;
+}
+
+/// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key, one
+/// that later ones undo a warning.
 void tie_joints(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
   const AutomaticRatios ratios;
   const std::vector<BlockModel>& blocks = simulation.blocks();
@@ -226,6 +258,11 @@ void tie_joints(const Scene& scene, Simulation& simulation, Diagnostics& diagnos
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
     if (!joint.tied.value_or(false) || ties[k]) continue;
+    if (is_untied(scene, blocks, joint)) {
+      diagnostics.warning(scene.places.key(fmt::format("joint.{}.tied", k)),
+                          "tied has no effect: a later [[joint]] of the same blocks unties them");
+      continue;
+    }
     diagnostics.error(
         scene.places.key(fmt::format("joint.{}.tied", k)),
         fmt::format("tied blocks without a common face ({}, {}), blocks are tied over faces that "
@@ -261,6 +298,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   if (!diagnostics.good()) return std::nullopt;
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
+  check_distance(scene, blocks, settings.contact_distance, diagnostics);
+  if (!diagnostics.good()) return std::nullopt;
   JointLaws laws(scene, blocks, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
                         std::move(choices),

@@ -47,12 +47,27 @@ void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
   }
 }
 
+/// A joint that ties two blocks by their names. Globs may also match pairs that a later joint unties.
+void warn_of_ties(const Scene& scene, IdleKeys& keys) {
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    const SceneJoint& joint = scene.joint[k];
+    const auto is_glob = [](const std::string& name) {
+      return name.find_first_of("*?[") != std::string::npos;
+    };
+    if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
+    for (const char* key :
+         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength"})
+      keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
+  }
+}
+
 }  // namespace
 
 void warn_of_idle_keys(const Scene& scene, Diagnostics& diagnostics) {
   IdleKeys keys(scene, diagnostics);
   warn_of_analysis(scene, keys);
   warn_of_blocks(scene, keys);
+  warn_of_ties(scene, keys);
 }
 
 }  // namespace ashlar

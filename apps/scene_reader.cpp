@@ -83,7 +83,12 @@ SceneJoint read_joint(TomlTableReader& table) {
   std::vector<std::string> blocks;
   table.require("blocks");
   if (table.read_texts("blocks", blocks)) {
-    if (blocks.size() == 2)
+    if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
+      table.error_at_value(
+          "blocks",
+          "joint names no block (\"\"), the name of a [[block]] or a glob that matches one is "
+          "needed");
+    else if (blocks.size() == 2)
       joint.blocks = {blocks[0], blocks[1]};
     else
       table.error_at_value("blocks", fmt::format("blocks has the wrong length ({} entries), two block names "

@@ -190,10 +190,10 @@ class Simulation {
   static constexpr double step_rounding = 1e-9;
 
   [[nodiscard]] std::vector<FoundContacts> find_contacts(double step);
-  /// @param hold_energy springs found anew hold no more than at the end of the last step
   /// Which ways out count among some contacts, which must outlive the answer.
   [[nodiscard]] std::function<bool(const WayOut&)> standing_ways(
       const std::vector<FoundContacts>& found) const;
+  /// @param hold_energy springs found anew hold no more than at the end of the last step
   [[nodiscard]] std::vector<ContactPair> make_pairs(const std::vector<FoundContacts>& found,
                                                     bool hold_energy);
   [[nodiscard]] IslandStatus try_step(const TimeScheme& scheme, Trial& trial);

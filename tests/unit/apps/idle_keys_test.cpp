@@ -54,5 +54,17 @@ TEST(IdleKeys, FixedBlocksHaveNoOrder) {
               ElementsAre("s.toml:15:1: warning: order has no effect: a fixed block does not deform"));
 }
 
+TEST(IdleKeys, TiedBlocksDoNotSlide) {
+  const std::string given =
+      sample_with(7, "blocks = [\"A\", \"B\"]\ntied = true\nfriction_angle = 20\ntensile_strength = 1e5");
+  EXPECT_THAT(
+      warnings(given),
+      ElementsAre("s.toml:9:1: warning: friction_angle has no effect: tied blocks neither open nor slide",
+                  "s.toml:10:1: warning: tensile_strength has no effect: tied blocks neither open nor "
+                  "slide"));
+  EXPECT_THAT(warnings(given, {"joint.0.tied=false"}), IsEmpty());
+  EXPECT_THAT(warnings(given, {"joint.0.blocks=[\"A\", \"B*\"]"}), IsEmpty());
+}
+
 }  // namespace
 }  // namespace ashlar::test

@@ -44,6 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "s.toml:3:8: error: static analysis of incremental blocks"},
         FaultCase{7, "blocks = [\"A\", \"C\"]",
                   "s.toml:7:10: error: joint names no block (\"C\"), did you mean \"A\"?"},
+        FaultCase{7, "blocks = [\"\", \"\"]", "s.toml:7:10: error: joint names no block (\"\")"},
         FaultCase{7, "blocks = [\"A\", \"wall*\"]", "s.toml:7:10: error: joint names no block (\"wall*\")"},
         FaultCase{7, "blocks = [\"A\", \"A\"]",
                   "s.toml:7:10: error: joint between a block and itself (\"A\", \"A\")"},

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 class StaticRun : public RunCommand {};
@@ -123,6 +124,25 @@ TEST_F(StaticRun, RefusesABlockThatNothingHolds) {
   write_text(scene_, static_scene_text);
   EXPECT_EQ(run("out", {"--set", "block.stone.translate=[0,0,0.5]"}), exit_status::bad_input);
   EXPECT_THAT(faults_, AllOf(HasSubstr("block stone has no contact"), HasSubstr("any rigid motion")));
+}
+
+TEST_F(StaticRun, RefusesADistanceThatCoordinatesCannotTell) {
+  write_text(scene_, static_scene_text);
+  EXPECT_EQ(run("out", {"--set", "contact.distance=1e-30"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, AllOf(HasSubstr("distance is less than coordinates are rounded to (1e-30 m)"),
+                             HasSubstr("is needed"), Not(HasSubstr("has no contact"))));
+}
+
+TEST_F(StaticRun, SaysThatALaterJointUntiesBlocks) {
+  const std::string ties = R"(
+[[joint]]
+blocks = ["stone", "slope"]
+tied = true
+)";
+  write_text(scene_, static_scene_text + ties + "[[joint]]\nblocks = [\"*\", \"stone\"]\ntied = false\n");
+  EXPECT_EQ(run("out"), exit_status::done);
+  EXPECT_THAT(faults_,
+              HasSubstr("warning: tied has no effect: a later [[joint]] of the same blocks unties them"));
 }
 
 TEST_F(StaticRun, CheckNamesWhatAStaticAnalysisCannotHold) {
