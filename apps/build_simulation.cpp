@@ -207,20 +207,20 @@ class JointLaws {
 };
 
 /// Contacts are looked for with coordinates that are rounded: what is nearer than that is not found.
-void check_distance(const Scene& scene, const std::vector<BlockModel>& blocks, double distance,
-                    Diagnostics& diagnostics) {
+void check_distance(const Scene& scene, const std::vector<BlockModel>& blocks, Diagnostics& diagnostics) {
+  if (!scene.contact.distance) return;
   double farthest = 0.0;
   for (const BlockModel& block : blocks) {
     for (const Vector3& point : block.solid().mesh().points)
       farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
   }
   const double rounding = farthest * std::numeric_limits<double>::epsilon();
-  if (distance >= rounding) return;
+  if (*scene.contact.distance >= rounding) return;
   diagnostics.error(
       scene.places.value("contact.distance"),
       fmt::format("distance is less than coordinates are rounded to ({:.4g} m), at least {:.4g} m "
                   "is needed",
-                  distance, rounding));
+                  *scene.contact.distance, rounding));
 }
 
 /// Whether a later [[joint]] of the blocks that one ties unties all of them.
@@ -298,7 +298,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   if (!diagnostics.good()) return std::nullopt;
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
-  check_distance(scene, blocks, settings.contact_distance, diagnostics);
+  check_distance(scene, blocks, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   JointLaws laws(scene, blocks, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
