@@ -457,11 +457,15 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
   double work = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
-    if (point.state != ContactState::sliding) continue;
+    // Means of points that are open at the end may have rubbed before.
+    if (point.state == ContactState::locked) continue;
     const auto column = static_cast<Eigen::Index>(k);
     const Eigen::Vector2d slip = place.col(column).tail<2>();
-    const Eigen::Vector2d elastic =
-        laws[k].augmented ? start_.col(column).tail<2>() : elastic_slip(laws[k], point, slip);
+    Eigen::Vector2d elastic = Eigen::Vector2d::Zero();
+    if (laws[k].augmented)
+      elastic = start_.col(column).tail<2>();
+    else if (point.state == ContactState::sliding)
+      elastic = elastic_slip(laws[k], point, slip);
     work += response.means[k].force.tail<2>().dot(elastic - slip);
   }
   return work;
