@@ -130,6 +130,7 @@ StaticStatus Simulation::static_step(double end_time) {
   Trial trial;
   trial.pairs = make_pairs(found, false);
   bool cut = false;
+  bool cut_to_touch = false;
   for (int cuts = 0; cuts <= settings_.static_cuts; ++cuts) {
     const TimeScheme scheme = static_scheme(std::max(static_.inertia, least));
     const double step = std::sqrt(2.0 / scheme.inertia);
@@ -149,7 +150,9 @@ StaticStatus Simulation::static_step(double end_time) {
         trial.pairs = make_pairs(found, false);
         raise = 1.0;
       } else {
-        raise = 1.0 / passing.front().touch.share;
+        // Blocks that roll meet again and again shortly before where they met.
+        raise = std::max(1.0 / passing.front().touch.share, cut_to_touch ? 2.0 : 1.0);
+        cut_to_touch = true;
       }
     } else {
       const std::array<int, 3> before = contact_states(report_);
