@@ -89,13 +89,13 @@ class DeepEndSearch {
     }
     DeepEnd result;
     if (!(highest - deepest > tolerance_)) return result;
-    for (const std::size_t n : cells) look_at(overlaps_[n], deepest + tolerance_, result);
+    for (const std::size_t n : cells) look_at(overlaps_[n], deepest, highest, result);
     return result;
   }
 
  private:
   /// Sides with a corner that is deep.
-  void look_at(const CellOverlap& overlap, double deep, DeepEnd& result) const {
+  void look_at(const CellOverlap& overlap, double deepest, double highest, DeepEnd& result) const {
     const std::size_t count = overlap.corners.size();
     const Vector3& normal_a = a_.normal(overlap.cell_a);
     const Vector3& normal_b = b_.normal(overlap.cell_b);
@@ -103,22 +103,28 @@ class DeepEndSearch {
     if (down.isZero(0.0)) return;
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t next = (k + 1) % count;
-      if (overlap.gaps[k] > deep && overlap.gaps[next] > deep) continue;
+      if (std::min(overlap.gaps[k], overlap.gaps[next]) > deepest + tolerance_) continue;
       const Side side{overlap.corners[k].place, overlap.corners[next].place};
       const Eigen::Vector2d along = side.end - side.start;
       if (!(along.norm() > tolerance_)) continue;
-      const double facing = Eigen::Vector2d(along.y(), -along.x()).normalized().dot(down.normalized());
+      const Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()).normalized();
+      const double facing = outward.dot(down.normalized());
       // Sides that face the deep end alike count together: rounding must not choose between them.
       constexpr double alike = 1e-6;
       if (!(facing > 0.0) || facing < result.facing - alike) continue;
       const Eigen::Vector2d middle = 0.5 * (side.start + side.end);
-      const Vector3 place =
-          overlap.frame.origin + middle.x() * overlap.frame.e1 + middle.y() * overlap.frame.e2;
+      // What goes on a little lower than the rim, by a tenth of what the tilt makes, goes on.
       const double gap = 0.5 * (overlap.gaps[k] + overlap.gaps[next]);
-      const bool of_a = on_rim(a_, overlap.cell_a, normal_b, overlap.frame, side, tolerance_) &&
-                        !goes_on_(true, b_.surface().cells[at(overlap.cell_b)].face, place, gap);
-      const bool of_b = on_rim(b_, overlap.cell_b, normal_a, overlap.frame, side, tolerance_) &&
-                        !goes_on_(false, a_.surface().cells[at(overlap.cell_a)].face, place, gap);
+      const double near = std::max(0.0, gap) + std::max(tolerance_, 0.1 * (highest - deepest));
+      const ViewFrame& frame = overlap.frame;
+      const auto goes_on = [&](bool rim_of_a, int face) {
+        return goes_on_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
+                         outward.x() * frame.e1 + outward.y() * frame.e2, near});
+      };
+      const bool of_a = on_rim(a_, overlap.cell_a, normal_b, frame, side, tolerance_) &&
+                        !goes_on(true, b_.surface().cells[at(overlap.cell_b)].face);
+      const bool of_b = on_rim(b_, overlap.cell_b, normal_a, frame, side, tolerance_) &&
+                        !goes_on(false, a_.surface().cells[at(overlap.cell_a)].face);
       if (!of_a && !of_b) continue;
       if (facing > result.facing + alike) result = {facing, false, false};
       result.of_a = result.of_a || of_a;

@@ -17,10 +17,18 @@ namespace ashlar {
 /// surfaces, then larger volume by more than rounding; ties go to b.
 [[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
 
-/// Tells whether a third block goes on behind the rim of a face, as near to what lies on the rim, so that the
-/// rim is none to it. @param of_a whose rim it is. @param face of the other block, which lies on the rim
-/// @param place on the rim. @param gap there, m
-using GoesOn = std::function<bool(bool of_a, int face, const Vector3& place, double gap)>;
+/// A place on the rim of a face, where another block lies on it.
+struct RimPlace {
+  bool of_a;        ///< whose rim it is
+  int face;         ///< of the other block, which lies on the rim
+  Vector3 place;    ///< m
+  Vector3 outward;  ///< unit, along the faces, away from the one with the rim
+  double near;      ///< m, largest gap there of a block that goes on
+};
+
+/// Tells whether a third block goes on behind a rim, near to what lies on the rim and not turning away from
+/// it, so that the rim is none to it.
+using GoesOn = std::function<bool(const RimPlace&)>;
 
 /// Whether block a is the master in each of the overlaps: for all overlaps of two faces, the block whose face
 /// does not end at their deep end: its surface turns away from the other one there, and nothing goes on

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mechanics/overlap_outline.hpp"
-
 namespace ashlar {
 namespace {
 
@@ -32,27 +30,28 @@ CoveredFaces::CoveredFaces(const std::vector<FoundContacts>& found,
   }
 }
 
-bool CoveredFaces::is_near(const Cover& cover, const Vector3& place, double gap) const {
+bool CoveredFaces::goes_on(const Cover& cover, const RimPlace& rim) const {
   const CellOverlap& overlap = *cover.overlap;
-  const Eigen::Vector2d seen = overlap.frame.project(place);
+  const Eigen::Vector2d place = overlap.frame.project(rim.place);
   const std::size_t count = overlap.corners.size();
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Vector2d& start = overlap.corners[k].place;
     const Eigen::Vector2d along = overlap.corners[(k + 1) % count].place - start;
-    const Eigen::Vector2d off = seen - start;
+    const Eigen::Vector2d off = place - start;
     if (along.x() * off.y() - along.y() * off.x() < -reach_ * along.norm()) return false;
   }
-  const double own_gap = height(*cover.a, overlap.cell_a, overlap.frame, seen) -
-                         height(*cover.b, overlap.cell_b, overlap.frame, seen);
-  return own_gap <= std::max(0.0, gap) + outline_tolerance(*cover.a, *cover.b);
+  const auto gap = [&](const Eigen::Vector2d& seen) {
+    return height(*cover.a, overlap.cell_a, overlap.frame, seen) -
+           height(*cover.b, overlap.cell_b, overlap.frame, seen);
+  };
+  return gap(place) <= rim.near && gap(overlap.frame.project(rim.place + rim.outward)) <= gap(place);
 }
 
-bool CoveredFaces::goes_on(int block, int face, int with_rim, const Vector3& place, double gap) const {
-  const auto covers = of_faces_.find({block, face});
+bool CoveredFaces::goes_on(int block, int with_rim, const RimPlace& rim) const {
+  const auto covers = of_faces_.find({block, rim.face});
   if (covers == of_faces_.end()) return false;
-  return std::any_of(covers->second.begin(), covers->second.end(), [&](const Cover& cover) {
-    return cover.other != with_rim && is_near(cover, place, gap);
-  });
+  return std::any_of(covers->second.begin(), covers->second.end(),
+                     [&](const Cover& cover) { return cover.other != with_rim && goes_on(cover, rim); });
 }
 
 }  // namespace ashlar

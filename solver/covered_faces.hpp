@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "mechanics/contact_master.hpp"
 #include "solver/contact_finder.hpp"
 
 namespace ashlar {
@@ -17,10 +18,9 @@ class CoveredFaces {
   CoveredFaces(const std::vector<FoundContacts>& found,
                const std::function<const PlacedSurface&(int)>& placed, double reach);
 
-  /// Whether another block than the one with the rim is next to a place on the rim, and touches the face
-  /// there or is as near to it.
-  /// @param block,face what lies on the rim. @param place on it. @param gap to the rim, m
-  [[nodiscard]] bool goes_on(int block, int face, int with_rim, const Vector3& place, double gap) const;
+  /// Whether another block than the one with the rim goes on behind it.
+  /// @param block that lies on the rim. @param with_rim the other one
+  [[nodiscard]] bool goes_on(int block, int with_rim, const RimPlace& rim) const;
 
  private:
   struct Cover {
@@ -29,7 +29,7 @@ class CoveredFaces {
     const PlacedSurface* a;
     const PlacedSurface* b;
   };
-  [[nodiscard]] bool is_near(const Cover& cover, const Vector3& place, double gap) const;
+  [[nodiscard]] bool goes_on(const Cover& cover, const RimPlace& rim) const;
 
   std::map<std::array<int, 2>, std::vector<Cover>> of_faces_;  ///< by block and face
   double reach_;

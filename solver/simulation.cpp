@@ -264,9 +264,9 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const ContactBody body_a = body_at_start(a);
     const ContactBody body_b = body_at_start(b);
     const ContactMemory& known = memory_[blocks];
-    const std::vector<bool> masters = first_is_master(
-        body_a, body_b, contacts.overlaps, [&](bool of_a, int face, const Vector3& place, double gap) {
-          return of_a ? covered.goes_on(b, face, a, place, gap) : covered.goes_on(a, face, b, place, gap);
+    const std::vector<bool> masters =
+        first_is_master(body_a, body_b, contacts.overlaps, [&](const RimPlace& rim) {
+          return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
         });
     auto [points, cuts] = contact_points(body_a, body_b, contacts, masters, point_settings, known.cuts());
     counts_.contact_points += points.size();

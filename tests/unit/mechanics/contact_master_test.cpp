@@ -31,7 +31,7 @@ struct Body {
 };
 
 /// Nothing is behind rims.
-bool nothing(bool, int, const Vector3&, double) {
+bool nothing(const RimPlace&) {
   return false;
 }
 
