@@ -295,11 +295,10 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     }
     motions.push_back({block.velocity, block.angular_velocity});
   }
+  check_distance(scene, blocks, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
-  check_distance(scene, blocks, diagnostics);
-  if (!diagnostics.good()) return std::nullopt;
   JointLaws laws(scene, blocks, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
                         std::move(choices),

@@ -86,8 +86,7 @@ SceneJoint read_joint(TomlTableReader& table) {
     if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
       table.error_at_value(
           "blocks",
-          "joint names no block (\"\"), the name of a [[block]] or a glob that matches one is "
-          "needed");
+          "joint names no block (\"\"), the name of a [[block]] or a glob that matches one is needed");
     else if (blocks.size() == 2)
       joint.blocks = {blocks[0], blocks[1]};
     else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -36,10 +37,11 @@ bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vecto
   return false;
 }
 
-/// Whether a side of an overlap lies on a rim of a cell's face, as far as rounding can tell.
+/// Of a side of an overlap that lies on an edge around a cell's face, as far as rounding can tell: whether
+/// the surface turns away there. Nothing of other sides.
 /// @param other_normal of the other cell
-bool on_rim(const PlacedSurface& body, int index, const Vector3& other_normal, const ViewFrame& frame,
-            const Side& side, double tolerance) {
+std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3& other_normal,
+                            const ViewFrame& frame, const Side& side, double tolerance) {
   const SurfaceCell& cell = body.surface().cells[at(index)];
   for (std::size_t k = 0; k < cell.corners.size(); ++k) {
     if (cell.rim[k] < 0) continue;
@@ -53,7 +55,7 @@ bool on_rim(const PlacedSurface& body, int index, const Vector3& other_normal, c
     if (distance(side.start) <= tolerance && distance(side.end) <= tolerance)
       return turns_away(body, index, k, other_normal);
   }
-  return false;
+  return std::nullopt;
 }
 
 /// The direction in which the gap of two flat cells falls most, in the frame's plane.
@@ -111,7 +113,7 @@ class DeepEndSearch {
       const double facing = outward.dot(down.normalized());
       // Sides that face the deep end alike count together: rounding must not choose between them.
       constexpr double alike = 1e-6;
-      if (!(facing > 0.0) || facing < result.facing - alike) continue;
+      if (!(facing > alike) || facing < result.facing - alike) continue;
       const Eigen::Vector2d middle = 0.5 * (side.start + side.end);
       // What goes on a little lower than the rim, by a tenth of what the tilt makes, goes on.
       const double gap = 0.5 * (overlap.gaps[k] + overlap.gaps[next]);
@@ -121,14 +123,15 @@ class DeepEndSearch {
         return goes_on_({rim_of_a, face, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
                          outward.x() * frame.e1 + outward.y() * frame.e2, near});
       };
-      const bool of_a = on_rim(a_, overlap.cell_a, normal_b, frame, side, tolerance_) &&
-                        !goes_on(true, b_.surface().cells[at(overlap.cell_b)].face);
-      const bool of_b = on_rim(b_, overlap.cell_b, normal_a, frame, side, tolerance_) &&
-                        !goes_on(false, a_.surface().cells[at(overlap.cell_a)].face);
-      if (!of_a && !of_b) continue;
+      const std::optional<bool> a_ends = ends_at(a_, overlap.cell_a, normal_b, frame, side, tolerance_);
+      const std::optional<bool> b_ends = ends_at(b_, overlap.cell_b, normal_a, frame, side, tolerance_);
+      if (!a_ends && !b_ends) continue;
+      // Where what is at the deep end goes on, sides that face it less do not count instead.
       if (facing > result.facing + alike) result = {facing, false, false};
-      result.of_a = result.of_a || of_a;
-      result.of_b = result.of_b || of_b;
+      if (a_ends.value_or(false) && !goes_on(true, b_.surface().cells[at(overlap.cell_b)].face))
+        result.of_a = true;
+      if (b_ends.value_or(false) && !goes_on(false, a_.surface().cells[at(overlap.cell_a)].face))
+        result.of_b = true;
     }
   }
 
@@ -139,9 +142,8 @@ class DeepEndSearch {
   double tolerance_;
 };
 
-}  // namespace
-
-bool first_is_master(const ContactBody& a, const ContactBody& b) {
+/// Whether block a is the master where rims do not tell.
+bool is_first_by_kind(const ContactBody& a, const ContactBody& b) {
   if (a.model->fixed() != b.model->fixed()) return a.model->fixed();
   const bool divided_a = a.placed->surface().divided;
   const bool divided_b = b.placed->surface().divided;
@@ -150,6 +152,8 @@ bool first_is_master(const ContactBody& a, const ContactBody& b) {
   constexpr double equal_volumes = 1.0 + 1e-9;
   return a.model->basis().volume() > equal_volumes * b.model->basis().volume();
 }
+
+}  // namespace
 
 std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
                                   const std::vector<CellOverlap>& overlaps, const GoesOn& goes_on) {
@@ -160,7 +164,7 @@ std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
         .push_back(n);
   }
   const DeepEndSearch search(*a.placed, *b.placed, overlaps, goes_on);
-  std::vector<bool> result(overlaps.size(), first_is_master(a, b));
+  std::vector<bool> result(overlaps.size(), is_first_by_kind(a, b));
   for (const auto& [faces, cells] : of_faces) {
     const DeepEnd end = search.of(cells);
     if (end.of_a == end.of_b) continue;

@@ -13,10 +13,6 @@
 
 namespace ashlar {
 
-/// Whether block a is the master where the shapes do not tell: fixed blocks before others, then undivided
-/// surfaces, then larger volume by more than rounding; ties go to b.
-[[nodiscard]] bool first_is_master(const ContactBody& a, const ContactBody& b);
-
 /// A place on the rim of a face, where another block lies on it.
 struct RimPlace {
   bool of_a;        ///< whose rim it is
@@ -33,7 +29,8 @@ using GoesOn = std::function<bool(const RimPlace&)>;
 /// Whether block a is the master in each of the overlaps: for all overlaps of two faces, the block whose face
 /// does not end at their deep end: its surface turns away from the other one there, and nothing goes on
 /// behind it. Rims of both, or of none, and gaps that vary by no more than rounding (outline_tolerance) do
-/// not tell.
+/// not tell; then fixed blocks are before others, undivided surfaces before divided ones, larger volumes
+/// before what is smaller by more than rounding, and b before a.
 /// @return (#overlaps)
 [[nodiscard]] std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
                                                 const std::vector<CellOverlap>& overlaps,

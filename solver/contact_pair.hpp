@@ -156,8 +156,8 @@ class ContactPair {
                                                       const std::vector<PointLaw>& laws,
                                                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                                       double tearing_gap) const;
-  /// Work that sliding takes in the step, J, >= 0; with multipliers, which hold none, all that points take
-  /// that slide.
+  /// Work that sliding takes in the step, J, also of points that have opened in it; with multipliers, which
+  /// hold none, all that points take that slide.
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Spring energy at the end of the step, J.

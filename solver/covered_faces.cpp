@@ -44,7 +44,10 @@ bool CoveredFaces::goes_on(const Cover& cover, const RimPlace& rim) const {
     return height(*cover.a, overlap.cell_a, overlap.frame, seen) -
            height(*cover.b, overlap.cell_b, overlap.frame, seen);
   };
-  return gap(place) <= rim.near && gap(overlap.frame.project(rim.place + rim.outward)) <= gap(place);
+  // What is parallel to rounding does not turn away.
+  constexpr double rounding = 1e-9;
+  const double rise = gap(overlap.frame.project(rim.place + rim.outward)) - gap(place);
+  return gap(place) <= rim.near && rise <= rounding;
 }
 
 bool CoveredFaces::goes_on(int block, int with_rim, const RimPlace& rim) const {

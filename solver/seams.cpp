@@ -11,34 +11,12 @@ namespace {
 constexpr double faces_across = 0.985;
 constexpr double steep_sides = 0.5;
 
-/// Extent of something along a direction, m.
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
-
-/// A direction with the extents of what two blocks touch with.
-class Along {
- public:
-  explicit Along(const Vector3& direction) : direction_(direction) {}
-  /// Largest cosine between it and any of some normals' lines.
-  [[nodiscard]] double cosine(const std::vector<Vector3>& normals) const {
-    double largest = 0.0;
-    for (const Vector3& normal : normals) largest = std::max(largest, std::abs(normal.dot(direction_)));
-    return largest;
-  }
-  [[nodiscard]] Extent of_points(const std::vector<Vector3>& points) const {
-    Extent extent;
-    for (const Vector3& point : points) {
-      extent.low = std::min(extent.low, point.dot(direction_));
-      extent.high = std::max(extent.high, point.dot(direction_));
-    }
-    return extent;
-  }
-
- private:
-  Vector3 direction_;
-};
+/// Largest cosine between a unit direction and any of some normals' lines.
+double largest_cosine(const Vector3& direction, const std::vector<Vector3>& normals) {
+  double largest = 0.0;
+  for (const Vector3& normal : normals) largest = std::max(largest, std::abs(normal.dot(direction)));
+  return largest;
+}
 
 /// What touches of a and of b.
 struct Touching {
@@ -72,10 +50,21 @@ Touching touching(const PlacedSurface& a, const PlacedSurface& b, const EdgeCont
 /// Whether all of b that touches is below all of a when a has moved along the way.
 template <class Contact>
 bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
-  const Along along(way.motion.normalized());
+  const Vector3 direction = way.motion.normalized();
   const Touching found = touching(a, b, contact);
-  if (along.cosine(found.normals) > way.largest_cosine) return false;
-  return along.of_points(found.of_b).high - along.of_points(found.of_a).low <= way.motion.norm();
+  if (largest_cosine(direction, found.normals) > way.largest_cosine) return false;
+  double lowest_of_a = std::numeric_limits<double>::infinity();
+  double highest_of_b = -lowest_of_a;
+  for (const Vector3& point : found.of_a) lowest_of_a = std::min(lowest_of_a, point.dot(direction));
+  for (const Vector3& point : found.of_b) highest_of_b = std::max(highest_of_b, point.dot(direction));
+  return highest_of_b - lowest_of_a <= way.motion.norm();
+}
+
+/// Whether a condition holds for any contact of a pair.
+template <class Condition>
+bool any_of(const PairContacts& contacts, const Condition& holds) {
+  const auto any = [&](const auto& some) { return std::any_of(some.begin(), some.end(), holds); };
+  return any(contacts.overlaps) || any(contacts.vertices) || any(contacts.edges);
 }
 
 }  // namespace
@@ -127,24 +116,23 @@ bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);
   const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1]);
-  const Along along(way.motion.normalized());
-  const auto any = [&](const auto& contacts) {
-    return std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
-      return along.cosine(touching(a, b, contact).normals) > faces_across &&
-             std::none_of(others.begin(), others.end(),
-                          [&](const WayOut& other) { return undoes(other, a, b, contact); });
-    });
-  };
-  return any(pair->contacts.overlaps) || any(pair->contacts.vertices) || any(pair->contacts.edges);
+  const Vector3 direction = way.motion.normalized();
+  return any_of(pair->contacts, [&](const auto& contact) {
+    return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&
+           std::none_of(others.begin(), others.end(),
+                        [&](const WayOut& other) { return undoes(other, a, b, contact); });
+  });
 }
 
 void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
                      const std::function<bool(const WayOut&)>& stands, PairContacts& contacts) {
   for (const WayOut& way : ways) {
-    const auto is_left_out = [&](const auto& contact) { return undoes(way, a, b, contact) && stands(way); };
-    std::erase_if(contacts.overlaps, is_left_out);
-    std::erase_if(contacts.vertices, is_left_out);
-    std::erase_if(contacts.edges, is_left_out);
+    const auto undone = [&](const auto& contact) { return undoes(way, a, b, contact); };
+    // Asked before any is removed: the contacts may be among those that are looked at.
+    if (!any_of(contacts, undone) || !stands(way)) continue;
+    std::erase_if(contacts.overlaps, undone);
+    std::erase_if(contacts.vertices, undone);
+    std::erase_if(contacts.edges, undone);
   }
 }
 

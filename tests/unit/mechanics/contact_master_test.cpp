@@ -77,15 +77,35 @@ TEST(ContactMaster, IsTheFixedOrLargerOneWhereRimsDoNotTell) {
   }
 }
 
+/// Turned about the x axis.
+Polyhedron rolled(const Polyhedron& solid, double degrees) {
+  const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Vector3::UnitX());
+  std::vector<Vector3> points;
+  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point);
+  return solid.with_points(std::move(points));
+}
+
+TEST(ContactMaster, IsNotChosenBySidesBesideARimThatGoesOn) {
+  // The face lies on the support's edge at x = 0.3, behind which another block goes on. Its own rims at both
+  // ends of that edge, of which the roll makes one a little lower, are no ends of the two faces instead.
+  const Body support(Polyhedron(make_box({0.3, -1, -0.1}, {2, 1, 0.02})));
+  for (const double roll : {-0.5, 0.0, 0.5}) {
+    const Body rising(rolled(rising_block(), roll));
+    const ContactLimits limits{0.1, 0.1, 10.0 * std::numbers::pi / 180.0};
+    const std::vector<CellOverlap> overlaps = find_contacts(rising.placed, support.placed, limits).overlaps;
+    const auto behind_support = [](const RimPlace& rim) { return !rim.of_a; };
+    // The larger one.
+    EXPECT_EQ(first_is_master(rising.contact(), support.contact(), overlaps, behind_support),
+              std::vector{true})
+        << roll;
+  }
+}
+
 TEST(ContactMaster, IsNotChosenByTheCornerWhereTwoRimsCross) {
   // A plank across a beam, its low edge down and its far end a little lower than the near one: the deepest
   // corner is where the edge of the plank leaves the beam.
   for (const double roll : {-0.5, 0.0, 0.5}) {
-    const Eigen::AngleAxisd turn(roll * std::numbers::pi / 180.0, Vector3::UnitX());
-    const Polyhedron level = rising_block(-2, 2);
-    std::vector<Vector3> points;
-    for (const Vector3& point : level.mesh().points) points.emplace_back(turn * point);
-    EXPECT_EQ(masters(Body(level.with_points(std::move(points))),
+    EXPECT_EQ(masters(Body(rolled(rising_block(-2, 2), roll)),
                       Body(Polyhedron(make_box({-1, -0.5, -0.2}, {2, 0.5, 0})))),
               std::vector{false})
         << roll;

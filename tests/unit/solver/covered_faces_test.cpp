@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "support/placed_bodies.hpp"
 
 namespace ashlar {
@@ -29,9 +32,9 @@ bool goes_on(double second_start, double second_top, double cube_bottom, double 
   EXPECT_FALSE(found[0].contacts.overlaps.empty());
   EXPECT_FALSE(found[1].contacts.overlaps.empty());
   const int bottom = cube.surface.cells[static_cast<std::size_t>(found[0].contacts.overlaps[0].cell_b)].face;
-  // Where nothing but the first slab is.
   const double near = std::max(0.0, cube_bottom) + 1e-9;
   const Vector3 right = Vector3::UnitX();
+  // Where nothing but the first slab is.
   EXPECT_FALSE(covered.goes_on(2, 0, {true, bottom, Vector3(-0.4, 0, 0), -right, near}));
   // The second slab is not behind its own rim.
   EXPECT_FALSE(covered.goes_on(2, 1, {true, bottom, Vector3(0.4, 0, 0), right, near}));

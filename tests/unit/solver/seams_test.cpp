@@ -131,41 +131,61 @@ TEST(Seams, StonesWithSidesThatLeanOutSlideOverThem) {
   }
 }
 
+/// How deep a block goes that is put on a fixed one, its mirror image below z = 0, in 0.3 s, m.
+/// @param corners of the upper block, its lowest point at 0
+double deepest_on_mirror_image(const std::vector<Vector3>& corners, int order, double stiffness) {
+  std::vector<BlockModel> blocks;
+  for (const double up : {-1.0, 1.0}) {
+    std::vector<Vector3> points;
+    for (const Vector3& corner : corners) points.emplace_back(corner.x(), corner.y(), up * corner.z());
+    BlockDefinition block =
+        block_of("block", Polyhedron(make_convex_hull(points)), {2500, 1e10, 0.2}, up > 0.0 ? order : 1);
+    block.fixed = up < 0.0;
+    blocks.emplace_back(std::move(block));
+  }
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  Simulation simulation(std::move(blocks), {{}, {}}, same_law({stiffness, stiffness, 0.5, 0.0, 0.0, true}),
+                        settings);
+  double deepest = 0.0;
+  while (!simulation.reached(0.3)) {
+    EXPECT_EQ(simulation.step(0.3), StepStatus::accepted);
+    deepest = std::max(deepest, -place_of(simulation, 1, Vector3::Zero()).z());
+  }
+  return deepest;
+}
+
 TEST(Seams, ARidgeStandsOnARidge) {
   // Both flanks of a ridge are narrow while it has hardly gone in, and each is beside the way out of the
   // other: none of the two may be taken for a seam. d deep, each of two parallel pairs of flanks has a width
   // and a depth of d/sqrt(2), and they hold k L d^2/sqrt(2).
+  std::vector<Vector3> corners;
+  for (const double y : {-0.5, 0.5}) {
+    corners.emplace_back(0.0, y, 0.0);
+    for (const double side : {-0.5, 0.5}) {
+      corners.emplace_back(side, y, 0.5);
+      corners.emplace_back(side, y, 0.75);
+    }
+  }
   const double stiffness = 1e10;
-  const double weight = 2500.0 * 9.81 * 0.5;
-  const double at_rest = std::sqrt(std::sqrt(2.0) * weight / stiffness);
+  const double at_rest = std::sqrt(std::sqrt(2.0) * 2500.0 * 9.81 * 0.5 / stiffness);
   for (const int order : {1, 2}) {
-    std::vector<BlockModel> blocks;
-    for (const double up : {-1.0, 1.0}) {
-      std::vector<Vector3> points;
-      for (const double y : {-0.5, 0.5}) {
-        points.emplace_back(0.0, y, 0.0);
-        for (const double side : {-0.5, 0.5}) {
-          points.emplace_back(side, y, 0.5 * up);
-          points.emplace_back(side, y, 0.75 * up);
-        }
-      }
-      BlockDefinition block =
-          block_of("roof", Polyhedron(make_convex_hull(points)), {2500, 1e10, 0.2}, up > 0.0 ? order : 1);
-      block.fixed = up < 0.0;
-      blocks.emplace_back(std::move(block));
-    }
-    SimulationSettings settings;
-    settings.time_step = 1e-3;
-    Simulation simulation(std::move(blocks), {{}, {}}, same_law({stiffness, stiffness, 0.5, 0.0, 0.0, true}),
-                          settings);
-    double deepest = 0.0;
-    while (!simulation.reached(0.3)) {
-      ASSERT_EQ(simulation.step(0.3), StepStatus::accepted);
-      deepest = std::max(deepest, -place_of(simulation, 1, Vector3::Zero()).z());
-    }
+    const double deepest = deepest_on_mirror_image(corners, order, stiffness);
     EXPECT_GT(deepest, at_rest);
     EXPECT_LT(deepest, 2.5 * at_rest) << "sqrt(3) from rest, more as springs are found anew";
   }
+}
+
+TEST(Seams, ATipStandsOnATip) {
+  // Pyramids with slopes of 45 degrees: seen from above they share a square of d^2, d deep in its middle and
+  // 0 at its sides, and four flanks hold k d^3/3.
+  const std::vector<Vector3> corners = {
+      {0, 0, 0}, {-0.5, -0.5, 0.5}, {0.5, -0.5, 0.5}, {0.5, 0.5, 0.5}, {-0.5, 0.5, 0.5}};
+  const double stiffness = 1e11;
+  const double at_rest = std::cbrt(3.0 * 2500.0 * 9.81 * (0.5 / 3.0) / stiffness);
+  const double deepest = deepest_on_mirror_image(corners, 1, stiffness);
+  EXPECT_GT(deepest, at_rest);
+  EXPECT_LT(deepest, 2.5 * at_rest) << "cbrt(4) from rest, more as springs are found anew";
 }
 
 /// A cube that is `deep` in a floor and runs against a step of a height.
