@@ -140,11 +140,14 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
         acted[k].force = after.means[k].force;
         if (!stop.forces.empty()) acted[k].force += stop.forces[k];
       }
+      if (const auto slowed = slowed_.find({pair.a(), pair.b()}); slowed != slowed_.end())
+        add_impulse(slowed->second, scheme.step, pair.points(), acted);
       records_.push_back({pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps),
                           contact_work_[{pair.a(), pair.b()}] += work + stop.work});
     }
   }
   memory_ = std::move(memory);
+  slowed_.clear();
   ledger_.friction += friction;
   ledger_.numerical -= potential_work + potential_change + friction;
 

@@ -15,7 +15,8 @@
 // G: normal velocities of points that push, shear velocities too of those that are locked, and all of bonds
 // and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
 // little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
-// round point away; points that separate open in the next step. Friction has no part in them. They take
+// round point away, but by no more than a point has pushed in the step: where more would be needed the point
+// is let go, with no force at all in this step. Friction has no part in them. They take
 // energy of u, never less than nothing: impacts are plastic where blocks meet, and what can deform bounces by
 // its elasticity. What v loses is booked as numerical dissipation. A set of free blocks keeps its angular
 // momentum: the spin for that comes from what impulses and contacts have taken (contact_accounts.hpp).
@@ -47,8 +48,8 @@ bool ContactPair::pushes(const PairResponse& end, const std::vector<PointLaw>& l
 }
 
 PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
-                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                                   const Stop& stop) const {
+                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
+                                   const std::vector<bool>& let_go) const {
   // What a force moves a row by in a step, m/N, mean of some rows: it does not depend on how axes lie.
   const auto mobility = [&](Eigen::Index first, Eigen::Index count) {
     const auto part = [&](const Eigen::MatrixXd& rows, double inertia) {
@@ -73,17 +74,34 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
     };
     if (tied()) {
       mean.tangent.diagonal().setConstant(stiffness(of_tie));
+    } else if (let_go[k]) {
+      mean.force = -end.means[k].force;
     } else if (is_held(laws[k], point)) {
       mean.tangent(0, 0) = stiffness(mobility(3 * column, 1));
       if (point.state == ContactState::locked)
         mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness(mobility(3 * column + 1, 2)));
     }
-    mean.force = -(mean.tangent * way.col(column));
+    mean.force -= mean.tangent * way.col(column);
     forces.segment<3>(3 * column) = mean.force;
     result.means.push_back(mean);
   }
   set_block_forces(forces, result);
   return result;
+}
+
+bool Simulation::let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs,
+                                 const IslandResult& result, const std::vector<PairResponse>& impulses,
+                                 std::vector<std::vector<bool>>& let_go) {
+  bool any = false;
+  for (std::size_t n = 0; n < island.pairs.size(); ++n) {
+    if (pairs[at(island.pairs[n])].tied()) continue;
+    for (std::size_t k = 0; k < impulses[n].means.size(); ++k) {
+      if (let_go[n][k] || result.laws[n][k].tension > 0.0) continue;
+      if (result.responses[n].means[k].force[0] + impulses[n].means[k].force[0] >= 0.0) continue;
+      let_go[n][k] = any = true;
+    }
+  }
+  return any;
 }
 
 std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeScheme& scheme,
@@ -118,12 +136,15 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
                         solver_of(island, bodies, pairs, SystemRole::stop, solvers_));
   // beta/gamma dt - dt/2, 0 but with generalized-alpha
   const double shift = 1.0 / of_step.end_velocity.change - 0.5 * step;
-  std::vector<Eigen::VectorXd> velocities(blocks_.size());  // u times the step
+  std::vector<Eigen::VectorXd> start(blocks_.size());  // u times the step
   for (const int k : island.bodies) {
     Eigen::MatrixX3d velocity = states_[at(k)].velocity;
     if (!accelerations_.empty()) velocity -= shift * accelerations_[at(k)];
-    velocities[at(k)] = step * blocks_[at(k)].space().restrict(velocity);
+    start[at(k)] = step * blocks_[at(k)].space().restrict(velocity);
   }
+  std::vector<Eigen::VectorXd> velocities = start;
+  std::vector<std::vector<bool>> let_go;
+  for (const int index : island.pairs) let_go.emplace_back(pairs[at(index)].points().size(), false);
   const auto impulses = [&] {
     const auto inertia = [&](int block) { return blocks_[at(block)].material().density * scheme.inertia; };
     std::vector<PairResponse> responses;
@@ -132,13 +153,21 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
       responses.push_back(pair.stopping(result.responses[n], result.laws[n], velocities[at(pair.a())],
                                         velocities[at(pair.b())],
                                         {settings_.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
-                                         settings_.multiplier_share * settings_.penetration_tolerance}));
+                                         settings_.multiplier_share * settings_.penetration_tolerance},
+                                        let_go[n]));
     }
     return responses;
   };
-  problem.set_responses(impulses());
-  if (problem.factorize() != FactorStatus::success) return;
-  problem.apply(problem.solve(problem.contact_forces(), false), 1.0);
+  std::vector<PairResponse> found;
+  do {
+    velocities = start;
+    for (const int k : island.bodies) bodies[at(k)].change.setZero();
+    problem.set_responses(impulses());
+    if (problem.factorize() != FactorStatus::success) return;
+    problem.apply(problem.solve(problem.contact_forces(), false), 1.0);
+    for (const int k : island.bodies) velocities[at(k)] += bodies[at(k)].change;
+    found = impulses();
+  } while (let_go_of_pulls(island, pairs, result, found, let_go));
 
   const Vector3 momentum = angular_momentum_of(blocks_, island.bodies, states_);
   double lost = 0.0;
@@ -146,11 +175,9 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
     const BlockModel& block = blocks_[at(k)];
     BlockState& state = states_[at(k)];
     lost += block.kinetic_energy(state);
-    velocities[at(k)] += bodies[at(k)].change;
     state.velocity += block.space().expand(bodies[at(k)].change) / step;
     lost -= block.kinetic_energy(state);
   }
-  const std::vector<PairResponse> found = impulses();
   for (const int k : island.bodies)
     velocities[at(k)] =
         step * blocks_[at(k)].space().restrict(states_[at(k)].velocity) - 0.5 * bodies[at(k)].change;

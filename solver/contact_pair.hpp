@@ -142,9 +142,17 @@ class ContactPair {
   /// they are locked, and tied functions.
   /// @param end at the end of the step. @param laws that gave it
   /// @param ya,yb velocities of the unknowns times the step
+  /// @param let_go points whose force of the step is taken back
   [[nodiscard]] PairResponse stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
-                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                                      const Stop& stop) const;
+                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
+                                      const std::vector<bool>& let_go) const;
+
+  // slowed_slip.cpp
+  /// Forces against slip, N m/s: of each point that pushes and is deeper than `depth`, m, its normal force at
+  /// the start times its slip. Bonds have none.
+  /// @param ya,yb velocities of the unknowns
+  [[nodiscard]] PairResponse against_slip(double depth, const Eigen::VectorXd& ya,
+                                          const Eigen::VectorXd& yb) const;
 
   // contact_pair.cpp
   /// Gap of each point, m.

@@ -150,15 +150,22 @@ class OpenClose {
     return opened;
   }
 
-  /// How far a point is from where multipliers alone would hold it, m.
-  static double given_way(const PointLaw& law, const PointResponse& point) {
+  /// How far a point is from where multipliers alone would hold it, as a share of what it may give way by:
+  /// settings.multiplier_share of the tolerance, and of a point that goes deeper as much less as the depth
+  /// where it was found leaves.
+  double given_way(const PointLaw& law, const PointResponse& point, double gap) const {
+    constexpr double least = 0.01;  // of what a point at the surface may give way by
     if (!law.augmented || point.state == ContactState::open) return 0.0;
+    const double allowed = settings_.multiplier_share * settings_.penetration_tolerance;
+    const double deepest = settings_.penetration_tolerance - allowed;
+    const double left = std::clamp(1.0 + gap / deepest, least, 1.0);
     double most = 0.0;
-    const auto look_at = [&most](double force, double stiffness) {
-      if (stiffness > 0.0) most = std::max(most, force / stiffness);
+    const auto look_at = [&most](double force, double stiffness, double way) {
+      if (stiffness > 0.0) most = std::max(most, force / (stiffness * way));
     };
-    look_at(std::abs(law.normal_multiplier - point.force[0]), law.normal_stiffness);
-    look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness);
+    const double change = point.force[0] - law.normal_multiplier;
+    look_at(std::abs(change), law.normal_stiffness, change > 0.0 ? left * allowed : allowed);
+    look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness, allowed);
     return most;
   }
 
@@ -167,15 +174,15 @@ class OpenClose {
   bool stiffen() {
     constexpr double margin = 4.0;  // forces grow when springs do
     constexpr double most = 1e4;    // at once
-    const double allowed = settings_.multiplier_share * settings_.penetration_tolerance;
     bool stiffer = false;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         PointLaw& law = problem_.laws()[pair][k];
-        const double found = given_way(law, problem_.responses()[pair].points[k]);
-        if (found <= allowed) continue;
+        const double found =
+            given_way(law, problem_.responses()[pair].points[k], problem_.pair(pair).points()[k].gap);
+        if (found <= 1.0) continue;
         stiffer = true;
-        const double factor = std::min(margin * found / allowed, most);
+        const double factor = std::min(margin * found, most);
         law.normal_stiffness *= factor;
         law.shear_stiffness *= factor;
       }

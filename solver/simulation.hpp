@@ -226,6 +226,22 @@ class Simulation {
   [[nodiscard]] double energy_of_motion(const std::vector<int>& island,
                                         const std::vector<BodyStep>& bodies) const;
 
+  // slowed_slip.cpp
+  /// Impulses against the slip of points that are too deep.
+  struct SlowedSlip {
+    std::map<int, Eigen::MatrixX3d> velocities;  ///< changes, by block
+    std::map<PairKey, Vector3> on_a;             ///< by pair, N s
+    double work_on_supports = 0.0;               ///< J
+  };
+  /// @param energy that they take, J. @return none: slip cannot be why points are deep
+  [[nodiscard]] std::optional<SlowedSlip> slow_slip(const Island& island,
+                                                    const std::vector<ContactPair>& pairs, double step,
+                                                    double energy) const;
+  void apply(const SlowedSlip& slowed);
+  /// Spreads a pair's impulse over its points, as they push. @param forces of the points in their frames, N
+  static void add_impulse(const Vector3& on_a, double step, const std::vector<ContactPoint>& points,
+                          std::vector<PointResponse>& forces);
+
   // block_changes.cpp
   [[nodiscard]] bool any_incremental() const;
   /// Makes the next steps of incremental blocks. @return false if one would be no block any more
@@ -252,6 +268,10 @@ class Simulation {
   };
   /// Stops what pushes at the end of a step. @return by pair
   std::vector<StoppedPair> stop_at_contacts(const TimeScheme& scheme, const Trial& trial);
+  /// Marks points that would pull by more than they have pushed. @return whether there are any
+  static bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs,
+                              const IslandResult& result, const std::vector<PairResponse>& impulses,
+                              std::vector<std::vector<bool>>& let_go);
   /// @param bodies models, and changes that are zero. @param stopped of the island's pairs is written
   void stop_island(const TimeScheme& of_step, const Island& island, const std::vector<ContactPair>& pairs,
                    const IslandResult& result, std::vector<BodyStep>& bodies,
@@ -301,6 +321,7 @@ class Simulation {
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
   ContactAccounts taken_;                   ///< by multipliers, of every pair that ever touched
+  std::map<PairKey, Vector3> slowed_;       ///< impulses on a since the last step, N s (slowed_slip.cpp)
   std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;

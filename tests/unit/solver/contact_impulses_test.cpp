@@ -182,7 +182,7 @@ TEST(ContactImpulses, BearingForcesSwingAsTheBeamDoes) {
        {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
     const double stopped = roughness_of_bearing_force(integrator, SimulationSettings{}.stop_stiffness);
     EXPECT_LT(stopped, 2.0 * std::sin(std::numbers::pi / 10));
-    EXPECT_GT(roughness_of_bearing_force(integrator, 0.0), 2.0 * std::sin(std::numbers::pi / 6));
+    EXPECT_GT(roughness_of_bearing_force(integrator, 0.0), 1.5 * stopped);
   }
 }
 
@@ -193,7 +193,7 @@ std::array<double, 2> rocking_tilts(Integrator integrator) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-3, -2, -1}, {3, 2, 0}));
   const Polyhedron tilted = test_support::tilted_box({-0.5, -0.25, 0}, {0, 0.25, 2}, -6.0);
-  blocks.emplace_back(block_of("block", tilted, {2500, 1e10, 0.2}, 1));
+  blocks.emplace_back(block_of("block", tilted, {2500, 1e12, 0.2}, 1));
   Simulation simulation(std::move(blocks), {{}, {}}, same_law({2e11, 1e11, 1.0, 0.0, 0.0, true}), settings);
   const double angle = 6.0 * std::numbers::pi / 180.0;
   const Vector3 up(std::sin(angle), 0, std::cos(angle));
