@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+
+#include "mechanics/overlap_outline.hpp"
 
 namespace ashlar {
 namespace {
@@ -10,6 +13,7 @@ namespace {
 /// Cosines of 10 and 60 degrees.
 constexpr double faces_across = 0.985;
 constexpr double steep_sides = 0.5;
+constexpr double sides_along = 0.17;  // cosine of 80 degrees
 
 /// Largest cosine between a unit direction and any of some normals' lines.
 double largest_cosine(const Vector3& direction, const std::vector<Vector3>& normals) {
@@ -47,17 +51,37 @@ Touching touching(const PlacedSurface& a, const PlacedSurface& b, const EdgeCont
   return {ends(a, contact.of_a), ends(b, contact.of_b), {contact.normal}};
 }
 
+/// Whether an edge is the rim of a cell that faces a direction.
+bool looks(const PlacedSurface& s, const CrossedSide& side, const Vector3& direction) {
+  const std::vector<SurfaceEdge>& edges = s.surface().edges;
+  const auto edge = std::find_if(edges.begin(), edges.end(), [&](const SurfaceEdge& known) {
+    return known.ends == side.ends || known.ends == std::array{side.ends[1], side.ends[0]};
+  });
+  return edge == edges.end() || std::any_of(edge->cells.begin(), edge->cells.end(), [&](int cell) {
+           return s.normal(cell).dot(direction) > sides_along;
+         });
+}
+
+/// Whether what a block would slide over lies in the way it comes from.
+template <class Contact>
+bool lies_below(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
+  if constexpr (std::is_same_v<Contact, EdgeContact>) {
+    return way.a_moves ? looks(b, contact.of_b, way.direction) : looks(a, contact.of_a, -way.direction);
+  }
+  return true;
+}
+
 /// Whether all of b that touches is below all of a when a has moved along the way.
 template <class Contact>
 bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
-  const Vector3 direction = way.motion.normalized();
+  const Vector3& direction = way.direction;
   const Touching found = touching(a, b, contact);
   if (largest_cosine(direction, found.normals) > way.largest_cosine) return false;
   double lowest_of_a = std::numeric_limits<double>::infinity();
   double highest_of_b = -lowest_of_a;
   for (const Vector3& point : found.of_a) lowest_of_a = std::min(lowest_of_a, point.dot(direction));
   for (const Vector3& point : found.of_b) highest_of_b = std::max(highest_of_b, point.dot(direction));
-  return highest_of_b - lowest_of_a <= way.motion.norm();
+  return highest_of_b - lowest_of_a <= way.height && (way.own || lies_below(way, a, b, contact));
 }
 
 /// Whether a condition holds for any contact of a pair.
@@ -70,35 +94,68 @@ bool any_of(const PairContacts& contacts, const Condition& holds) {
 }  // namespace
 
 WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
-  // Directions that differ by less than a third of a degree are one way.
-  constexpr double same_direction = 0.99998;
-  const auto add = [&](int block, int other, const Vector3& normal, double depth) {
-    std::vector<OutOf>& known = ways_[block];
-    const bool there = std::any_of(known.begin(), known.end(), [&](const OutOf& way) {
-      return way.other == other && way.motion.dot(normal) >= same_direction * way.motion.norm() &&
-             way.motion.norm() >= 2.0 * depth;
-    });
-    if (!there) known.push_back({other, 2.0 * depth * normal});
-  };
   for (const auto& [blocks, pair] : memory) {
     if (!(pair.deepest() > 0.0)) continue;
-    for (const ContactMemory::Entry& entry : pair.entries()) {
-      if (entry.memory.state == ContactState::open) continue;
-      add(blocks[0], blocks[1], entry.normal, pair.deepest());
-      add(blocks[1], blocks[0], -entry.normal, pair.deepest());
+    for (const ContactMemory::Entry& entry : pair.entries())
+      if (entry.memory.state != ContactState::open) add(blocks, entry.normal, pair.deepest());
+  }
+}
+
+void WaysOut::add(const std::array<int, 2>& blocks, const Vector3& normal, double depth) {
+  // Directions that differ by less than a third of a degree are one way.
+  constexpr double same_direction = 0.99998;
+  const double height = depth > 0.0 ? 2.0 * depth : depth;
+  const auto add_to = [&](int block, int other, const Vector3& direction) {
+    std::vector<OutOf>& known = ways_[block];
+    const bool there = std::any_of(known.begin(), known.end(), [&](const OutOf& way) {
+      return way.other == other && way.direction.dot(direction) >= same_direction && way.height >= height;
+    });
+    if (!there) known.push_back({other, direction, height});
+  };
+  add_to(blocks[0], blocks[1], normal);
+  add_to(blocks[1], blocks[0], -normal);
+}
+
+void WaysOut::add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
+                           const PairContacts& contacts) {
+  const double rounding = coordinate_rounding(a, b);
+  for (const CellOverlap& overlap : contacts.overlaps)
+    add(blocks, overlap.frame.w, rounding - *std::min_element(overlap.gaps.begin(), overlap.gaps.end()));
+  for (const VertexContact& contact : contacts.vertices) {
+    const PlacedSurface& with_cell = contact.vertex_of_a ? b : a;
+    const Vector3 normal = with_cell.normal(contact.cell);
+    const Vector3 apart =
+        (contact.vertex_of_a ? a : b).point(contact.point) - with_cell.corners(contact.cell)[0];
+    add(blocks, contact.vertex_of_a ? normal : Vector3(-normal), rounding - normal.dot(apart));
+  }
+}
+
+double WaysOut::sunk(int block, int but, const Vector3& direction) const {
+  double highest = 0.0;
+  if (const auto known = ways_.find(block); known != ways_.end()) {
+    for (const OutOf& way : known->second) {
+      if (way.other != but && std::abs(way.direction.dot(direction)) > faces_across)
+        highest = std::max(highest, way.height);
     }
   }
+  return highest;
 }
 
 std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
   std::vector<WayOut> ways;
-  const auto add = [&](int block, int other, double sign) {
+  const auto add = [&](int block, int side, double sign) {
     const auto known = ways_.find(block);
     if (known == ways_.end()) return;
     for (const OutOf& way : known->second) {
-      ways.push_back({sign * way.motion,
-                      way.other == other ? steep_sides : faces_across,
-                      {std::min(block, way.other), std::max(block, way.other)}});
+      const bool own = way.other == side;
+      const double supports =
+          own ? 0.0 : sunk(way.other, block, way.direction) + sunk(side, block, way.direction);
+      ways.push_back({sign * way.direction,
+                      way.height + supports,
+                      own ? steep_sides : faces_across,
+                      {std::min(block, way.other), std::max(block, way.other)},
+                      own,
+                      sign > 0.0});
     }
   };
   add(a, b, 1.0);
@@ -116,7 +173,7 @@ bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);
   const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1]);
-  const Vector3 direction = way.motion.normalized();
+  const Vector3& direction = way.direction;
   return any_of(pair->contacts, [&](const auto& contact) {
     return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&
            std::none_of(others.begin(), others.end(),

@@ -5,8 +5,10 @@
 // A contact is one of a seam if, when one of the two blocks moves out of what it was in at the end of the
 // last step, what touches of the two is on either side of a plane across that way, as an inclined side that
 // leads up from the rim of a sole and the edge of the next block are: the block would slide over the other.
-// It moves by twice the depth, as depths change within a step. Faces across the way are what blocks rest on;
-// they are none.
+// It moves by twice the depth, as depths change within a step. Where what it lies on, or what it comes to,
+// has sunk into something else, by as much more. Faces across the way are what blocks rest on; they are none.
+// An edge of the other block that does not look out of what it lies in, as the upper rim of a block beside a
+// loaded one, pushes.
 #pragma once
 
 #include <functional>
@@ -21,11 +23,14 @@ namespace ashlar {
 
 /// A motion of a block a relative to a block b that takes either of them out of what it had sunk into.
 struct WayOut {
-  Vector3 motion;  ///< m
+  Vector3 direction;  ///< unit
+  double height;      ///< m; negative: it has as far to go until it touches
   /// Contacts with a normal nearer to the way are none of a seam. Of what the two blocks themselves were in
   /// contact with, only steep sides may be; of others, all that is not across the way.
   double largest_cosine;
   std::array<int, 2> out_of;  ///< the two blocks that were in each other, the lower number first
+  bool own;                   ///< they are a and b
+  bool a_moves;               ///< rather than b the other way
 };
 
 /// Ways out of what each block had sunk into at the end of the last step.
@@ -34,6 +39,12 @@ class WaysOut {
   WaysOut() = default;  ///< none
   /// @param memory of pairs of blocks (a, b)
   explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
+  /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
+  /// negative: the gap between them
+  void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);
+  /// The same of all faces and vertices that lie or come to lie on a face.
+  void add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
+                    const PairContacts& contacts);
   [[nodiscard]] std::vector<WayOut> of_pair(int a, int b) const;
   /// Whether a block still lies on what a way leads out of, by a contact that no other way undoes: of two
   /// flanks of a ridge that has hardly gone in, each is beside the way out of the other.
@@ -45,8 +56,12 @@ class WaysOut {
  private:
   struct OutOf {
     int other;  ///< what the block was in
-    Vector3 motion;
+    Vector3 direction;
+    double height;
   };
+  /// Height of the highest of a block's ways out of any but another one, along a direction or against it, m.
+  [[nodiscard]] double sunk(int block, int but, const Vector3& direction) const;
+
   std::map<int, std::vector<OutOf>> ways_;  ///< by block
 };
 

@@ -236,6 +236,11 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
   ways_out_ = WaysOut(memory_);
+  for (const auto& [blocks, contacts] : found) {
+    const auto known = memory_.find(blocks);
+    if (known == memory_.end() || !(known->second.deepest() > 0.0))
+      ways_out_.add_touching(blocks, finder_.placed(blocks[0]), finder_.placed(blocks[1]), contacts);
+  }
   const auto stands = standing_ways(found);
   for (auto& [pair, contacts] : found)
     leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out_.of_pair(pair[0], pair[1]),

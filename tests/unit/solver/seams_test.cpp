@@ -131,6 +131,121 @@ TEST(Seams, StonesWithSidesThatLeanOutSlideOverThem) {
   }
 }
 
+/// A stone and a floor of two blocks whose tops are flush at z = 0 and meet at x = joint.
+struct OverJoint {
+  double joint = 0.3;
+  Vector3 velocity{2, 0, 0};
+  double end_time = 0.03;
+  double modulus = 1e10;
+  double stiffness = 1e10;
+  bool augmented = false;
+  bool loose = false;  ///< the floor lies on a fixed block
+};
+
+Simulation over_joint(const OverJoint& scene, Polyhedron stone) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(test_support::fixed_box({-3, -2, -1}, {4, 2, -0.5}));
+  for (const double side : {-1.5, 1.5}) {
+    const Vector3 low(std::min(scene.joint + side, scene.joint), -1, -0.5);
+    BlockDefinition slab =
+        block_of("slab", test_support::box(low, low + Vector3(1.5, 2, 0.5)), {2500, scene.modulus, 0.2}, 1);
+    slab.fixed = !scene.loose;
+    blocks.emplace_back(std::move(slab));
+  }
+  blocks.emplace_back(block_of("stone", std::move(stone), {2500, scene.modulus, 0.2}, 1));
+  SimulationSettings settings;
+  settings.time_step = scene.loose ? 1e-3 : 5e-4;
+  settings.augmented = scene.augmented;
+  std::vector<InitialMotion> motions(4);
+  motions[3].velocity = scene.velocity;
+  Simulation simulation(
+      std::move(blocks), motions,
+      [&](int a, int) {
+        const double friction = a == 0 ? 0.7 : 0.0;
+        return JointLaw{scene.stiffness, scene.stiffness, friction, 0.0, 0.0, true};
+      },
+      settings);
+  EXPECT_TRUE(run_until(simulation, scene.end_time));
+  return simulation;
+}
+
+Vector3 velocity_of_stone(const Simulation& simulation) {
+  return simulation.blocks()[3].momentum(simulation.states()[3]) / simulation.blocks()[3].mass();
+}
+
+TEST(Seams, StonesMayStartOnThem) {
+  const Polyhedron stone = test_support::box({-0.3, -0.3, 0}, {0.3, 0.3, 0.2});
+  std::vector<Vector3> knife;
+  for (const double y : {-0.3, 0.3}) {
+    knife.emplace_back(0.3, y, 0.0);
+    for (const double x : {0.0, 0.6}) knife.emplace_back(x, y, 0.3);
+  }
+  // An edge that ends a step by so much past the joint has hardly come to the next block.
+  for (const double past : {0.0, 1e-12, 1e-9}) {
+    OverJoint scene;
+    scene.joint = 0.3 - past;
+    EXPECT_NEAR(velocity_of_stone(over_joint(scene, stone)).x(), 2.0, 1e-6) << past;
+    EXPECT_NEAR(velocity_of_stone(over_joint(scene, Polyhedron(make_convex_hull(knife)))).x(), 2.0, 1e-6)
+        << past;
+  }
+}
+
+TEST(Seams, StonesMayLandOnThem) {
+  // Its sides lean out, and come over the edge of the block ahead before it has landed, 0.02 m to the right.
+  std::vector<Vector3> points;
+  for (const double y : {-0.3, 0.3}) {
+    for (const double side : {-1.0, 1.0}) {
+      points.emplace_back(0.3 * side, y, 0.01);
+      points.emplace_back(0.5 * side, y, 0.31);
+    }
+  }
+  for (const double joint : {0.3185, 0.319, 0.3195, 0.32}) {
+    OverJoint scene;
+    scene.joint = joint;
+    scene.velocity = {2, 0, -1};
+    const Vector3 velocity = velocity_of_stone(over_joint(scene, Polyhedron(make_convex_hull(points))));
+    EXPECT_NEAR(velocity.x(), 2.0, 1e-2) << joint;
+  }
+}
+
+TEST(Seams, LooseBlocksMakeThemToo) {
+  // The one that carries the stone lies deeper in what is below than the next.
+  const Polyhedron stone = test_support::box({-0.3, -0.3, 0}, {0.3, 0.3, 0.2});
+  for (const bool augmented : {false, true}) {
+    OverJoint scene;
+    scene.joint = 0.5;
+    scene.end_time = 0.4;
+    scene.augmented = augmented;
+    scene.loose = true;
+    for (const double modulus : {1e11, 1e13}) {
+      scene.modulus = modulus;
+      scene.stiffness = 100.0 * modulus;
+      EXPECT_NEAR(velocity_of_stone(over_joint(scene, stone)).x(), 2.0, 1e-6) << augmented << modulus;
+    }
+  }
+}
+
+TEST(Seams, BlocksBesideALoadedOnePush) {
+  // Two boxes whose upper rims cross. What lies on the first gives it a way down, but there is no rim below.
+  const test_support::PlacedBody first(test_support::tilted_box({-1, 0, -1}, {0, 1, 0}, -0.5));
+  const Polyhedron leaning = test_support::tilted_box({0, 0, -1}, {1, 1, 0}, 0.5);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1e-3, Vector3::UnitX()).toRotationMatrix();
+  const Vector3 middle(0, 0.5, 0);
+  std::vector<Vector3> points;
+  for (const Vector3& point : leaning.mesh().points) points.emplace_back(turn * (point - middle) + middle);
+  const test_support::PlacedBody second(leaning.with_points(std::move(points)));
+  const auto left = [&](const Vector3& direction) {
+    PairContacts contacts = find_contacts(first.placed, second.placed, {1e-3, 1e-3, 1e-4});
+    EXPECT_FALSE(contacts.edges.empty());
+    leave_out_seams(
+        first.placed, second.placed, {{direction, 1e-2, 0.985, {0, 2}, false, true}},
+        [](const WayOut&) { return true; }, contacts);
+    return contacts.edges.size();
+  };
+  EXPECT_GT(left(-Vector3::UnitZ()), 0U);
+  EXPECT_LT(left(Vector3::UnitZ()), left(-Vector3::UnitZ()));
+}
+
 /// How deep a block goes that is put on a fixed one, its mirror image below z = 0, in 0.3 s, m.
 /// @param corners of the upper block, its lowest point at 0
 double deepest_on_mirror_image(const std::vector<Vector3>& corners, int order, double stiffness) {
@@ -199,7 +314,7 @@ PairContacts against_step(double deep, double height, const std::vector<WayOut>&
 }
 
 TEST(Seams, OnlyWhatSinkingMakesIsLeftOut) {
-  const std::vector<WayOut> ways = {{Vector3(0, 0, 2e-5), 0.985, {0, 2}}};
+  const std::vector<WayOut> ways = {{Vector3::UnitZ(), 2e-5, 0.985, {0, 2}, false, true}};
   const auto faces_along = [](const PairContacts& contacts, int axis) {
     return std::count_if(
         contacts.overlaps.begin(), contacts.overlaps.end(),
