@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "mechanics/overlap_outline.hpp"
 
@@ -24,64 +23,68 @@ double largest_cosine(const Vector3& direction, const std::vector<Vector3>& norm
 
 /// What touches of a and of b.
 struct Touching {
-  std::vector<Vector3> of_a;
-  std::vector<Vector3> of_b;
+  std::vector<int> of_a;  ///< points
+  std::vector<int> of_b;
   std::vector<Vector3> normals;  ///< of the cells that touch, of crossed edges the normal across them
 };
 
+const std::vector<int>& corners(const PlacedSurface& s, int cell) {
+  return s.surface().cells[static_cast<std::size_t>(cell)].corners;
+}
+
 Touching touching(const PlacedSurface& a, const PlacedSurface& b, const CellOverlap& overlap) {
-  return {a.corners(overlap.cell_a),
-          b.corners(overlap.cell_b),
+  return {corners(a, overlap.cell_a),
+          corners(b, overlap.cell_b),
           {a.normal(overlap.cell_a), b.normal(overlap.cell_b)}};
 }
 
 Touching touching(const PlacedSurface& a, const PlacedSurface& b, const VertexContact& contact) {
-  const PlacedSurface& with_cell = contact.vertex_of_a ? b : a;
-  std::vector<Vector3> vertex = {(contact.vertex_of_a ? a : b).point(contact.point)};
-  std::vector<Vector3> cell = with_cell.corners(contact.cell);
-  const std::vector<Vector3> normals = {with_cell.normal(contact.cell)};
-  return contact.vertex_of_a ? Touching{std::move(vertex), std::move(cell), normals}
-                             : Touching{std::move(cell), std::move(vertex), normals};
+  const std::vector<int> vertex = {contact.point};
+  if (contact.vertex_of_a) return {vertex, corners(b, contact.cell), {b.normal(contact.cell)}};
+  return {corners(a, contact.cell), vertex, {a.normal(contact.cell)}};
 }
 
-Touching touching(const PlacedSurface& a, const PlacedSurface& b, const EdgeContact& contact) {
-  const auto ends = [](const PlacedSurface& s, const CrossedSide& side) {
-    return std::vector{s.point(side.ends[0]), s.point(side.ends[1])};
+Touching touching(const PlacedSurface& /*a*/, const PlacedSurface& /*b*/, const EdgeContact& contact) {
+  const auto ends = [](const CrossedSide& side) {
+    return std::vector<int>(side.ends.begin(), side.ends.end());
   };
-  return {ends(a, contact.of_a), ends(b, contact.of_b), {contact.normal}};
+  return {ends(contact.of_a), ends(contact.of_b), {contact.normal}};
 }
 
-/// Whether an edge is the rim of a cell that faces a direction.
-bool looks(const PlacedSurface& s, const CrossedSide& side, const Vector3& direction) {
-  const std::vector<SurfaceEdge>& edges = s.surface().edges;
-  const auto edge = std::find_if(edges.begin(), edges.end(), [&](const SurfaceEdge& known) {
-    return known.ends == side.ends || known.ends == std::array{side.ends[1], side.ends[0]};
-  });
-  return edge == edges.end() || std::any_of(edge->cells.begin(), edge->cells.end(), [&](int cell) {
-           return s.normal(cell).dot(direction) > sides_along;
-         });
-}
+/// The last of some points along a direction.
+struct Farthest {
+  double at = -std::numeric_limits<double>::infinity();
+  int point = -1;
+};
 
-/// Whether what a block would slide over lies in the way it comes from.
-template <class Contact>
-bool lies_below(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
-  if constexpr (std::is_same_v<Contact, EdgeContact>) {
-    return way.a_moves ? looks(b, contact.of_b, way.direction) : looks(a, contact.of_a, -way.direction);
+Farthest farthest(const PlacedSurface& s, const std::vector<int>& points, const Vector3& direction) {
+  Farthest result;
+  for (const int point : points) {
+    const double at = s.point(point).dot(direction);
+    if (at > result.at) result = {at, point};
   }
-  return true;
+  return result;
 }
 
-/// Whether all of b that touches is below all of a when a has moved along the way.
+/// Whether a corner, or a point of an edge, ends a cell that faces a direction.
+bool ends_there(const PlacedSurface& s, int point, const Vector3& direction) {
+  const int vertex = s.surface().vertex_of_point[static_cast<std::size_t>(point)];
+  if (vertex < 0) return true;
+  const std::vector<int>& cells = s.surface().vertices[static_cast<std::size_t>(vertex)].cells;
+  return std::any_of(cells.begin(), cells.end(),
+                     [&](int cell) { return s.normal(cell).dot(direction) > sides_along; });
+}
+
+/// Whether all of b that touches is below all of a when a has moved along the way, and the blocks end there.
 template <class Contact>
 bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
   const Vector3& direction = way.direction;
   const Touching found = touching(a, b, contact);
   if (largest_cosine(direction, found.normals) > way.largest_cosine) return false;
-  double lowest_of_a = std::numeric_limits<double>::infinity();
-  double highest_of_b = -lowest_of_a;
-  for (const Vector3& point : found.of_a) lowest_of_a = std::min(lowest_of_a, point.dot(direction));
-  for (const Vector3& point : found.of_b) highest_of_b = std::max(highest_of_b, point.dot(direction));
-  return highest_of_b - lowest_of_a <= way.height && (way.own || lies_below(way, a, b, contact));
+  const Farthest bottom = farthest(a, found.of_a, -direction);
+  const Farthest top = farthest(b, found.of_b, direction);
+  return bottom.at + top.at <= way.height &&
+         (way.own || (ends_there(a, bottom.point, -direction) && ends_there(b, top.point, direction)));
 }
 
 /// Whether a condition holds for any contact of a pair.
@@ -154,8 +157,7 @@ std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
                       way.height + supports,
                       own ? steep_sides : faces_across,
                       {std::min(block, way.other), std::max(block, way.other)},
-                      own,
-                      sign > 0.0});
+                      own});
     }
   };
   add(a, b, 1.0);

@@ -7,8 +7,7 @@
 // leads up from the rim of a sole and the edge of the next block are: the block would slide over the other.
 // It moves by twice the depth, as depths change within a step. Where what it lies on, or what it comes to,
 // has sunk into something else, by as much more. Faces across the way are what blocks rest on; they are none.
-// An edge of the other block that does not look out of what it lies in, as the upper rim of a block beside a
-// loaded one, pushes.
+// A block that goes on beyond what touches, as below a corner at the height of the other's rim, pushes.
 #pragma once
 
 #include <functional>
@@ -30,7 +29,6 @@ struct WayOut {
   double largest_cosine;
   std::array<int, 2> out_of;  ///< the two blocks that were in each other, the lower number first
   bool own;                   ///< they are a and b
-  bool a_moves;               ///< rather than b the other way
 };
 
 /// Ways out of what each block had sunk into at the end of the last step.
