@@ -147,7 +147,6 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
     }
   }
   memory_ = std::move(memory);
-  slowed_.clear();
   ledger_.friction += friction;
   ledger_.numerical -= potential_work + potential_change + friction;
 

@@ -116,6 +116,7 @@ bool Simulation::reached(double end_time) const {
 }
 
 StepStatus Simulation::step(double end_time) {
+  slowed_.clear();
   double step = next_step_;
   const double left = end_time - time_;
   if (left < step * (1.0 - step_rounding)) step = left;

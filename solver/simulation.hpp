@@ -321,7 +321,7 @@ class Simulation {
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
   ContactAccounts taken_;                   ///< by multipliers, of every pair that ever touched
-  std::map<PairKey, Vector3> slowed_;       ///< impulses on a since the last step, N s (slowed_slip.cpp)
+  std::map<PairKey, Vector3> slowed_;       ///< impulses on a in this step, N s (slowed_slip.cpp)
   std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;
