@@ -49,7 +49,7 @@ std::optional<Simulation::SlowedSlip> Simulation::slow_slip(const Island& island
                                                             const std::vector<ContactPair>& pairs,
                                                             double step, double energy) const {
   const double depth = settings_.multiplier_share * settings_.penetration_tolerance;
-  std::vector<Eigen::VectorXd> slips(blocks_.size());  // velocities of the unknowns, then P
+  std::vector<Eigen::VectorXd> slips(blocks_.size());  // velocities of the unknowns
   std::vector<Eigen::MatrixX3d> prescribed(blocks_.size());
   for (const int k : island.bodies) {
     const BlockModel& block = blocks_[at(k)];
