@@ -90,14 +90,4 @@ Vector3 centroid(const Simulation& simulation, int block) {
   return simulation.states()[index].position.row(0) / std::sqrt(simulation.blocks()[index].basis().volume());
 }
 
-Vector3 force_on_a(const PairRecord& record) {
-  Vector3 sum = Vector3::Zero();
-  for (std::size_t k = 0; k < record.points.size(); ++k) {
-    const ContactPoint& point = record.points[k];
-    const Eigen::Vector3d& force = record.responses[k].force;
-    sum += force[0] * point.normal + force[1] * point.tangent_1 + force[2] * point.tangent_2;
-  }
-  return sum;
-}
-
 }  // namespace ashlar

@@ -72,7 +72,4 @@ void run_until(Simulation& simulation, double time);
 /// Where a block's centroid is.
 [[nodiscard]] Vector3 centroid(const Simulation& simulation, int block);
 
-/// Sum of the contact forces on the block `a` of a pair, N.
-[[nodiscard]] Vector3 force_on_a(const PairRecord& record);
-
 }  // namespace ashlar

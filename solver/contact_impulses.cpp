@@ -38,6 +38,21 @@ bool is_held(const PointLaw& law, const PointResponse& point) {
   return point.state != ContactState::open && (point.force[0] > 0.0 || law.tension > 0.0);
 }
 
+/// Marks points that would pull by more than they have pushed. @return whether there are any
+bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs, const IslandResult& result,
+                     const std::vector<PairResponse>& impulses, std::vector<std::vector<bool>>& let_go) {
+  bool any = false;
+  for (std::size_t n = 0; n < island.pairs.size(); ++n) {
+    if (pairs[at(island.pairs[n])].tied()) continue;
+    for (std::size_t k = 0; k < impulses[n].means.size(); ++k) {
+      if (let_go[n][k] || result.laws[n][k].tension > 0.0) continue;
+      if (result.responses[n].means[k].force[0] + impulses[n].means[k].force[0] >= 0.0) continue;
+      let_go[n][k] = any = true;
+    }
+  }
+  return any;
+}
+
 }  // namespace
 
 bool ContactPair::pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const {
@@ -87,21 +102,6 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
   }
   set_block_forces(forces, result);
   return result;
-}
-
-bool Simulation::let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs,
-                                 const IslandResult& result, const std::vector<PairResponse>& impulses,
-                                 std::vector<std::vector<bool>>& let_go) {
-  bool any = false;
-  for (std::size_t n = 0; n < island.pairs.size(); ++n) {
-    if (pairs[at(island.pairs[n])].tied()) continue;
-    for (std::size_t k = 0; k < impulses[n].means.size(); ++k) {
-      if (let_go[n][k] || result.laws[n][k].tension > 0.0) continue;
-      if (result.responses[n].means[k].force[0] + impulses[n].means[k].force[0] >= 0.0) continue;
-      let_go[n][k] = any = true;
-    }
-  }
-  return any;
 }
 
 std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeScheme& scheme,

@@ -80,7 +80,7 @@ template <class Contact>
 bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
   const Vector3& direction = way.direction;
   const Touching found = touching(a, b, contact);
-  if (largest_cosine(direction, found.normals) > way.largest_cosine) return false;
+  if (largest_cosine(direction, found.normals) > (way.own ? steep_sides : faces_across)) return false;
   const Farthest bottom = farthest(a, found.of_a, -direction);
   const Farthest top = farthest(b, found.of_b, direction);
   return bottom.at + top.at <= way.height &&
@@ -155,7 +155,6 @@ std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
           own ? 0.0 : sunk(way.other, block, way.direction) + sunk(side, block, way.direction);
       ways.push_back({sign * way.direction,
                       way.height + supports,
-                      own ? steep_sides : faces_across,
                       {std::min(block, way.other), std::max(block, way.other)},
                       own});
     }

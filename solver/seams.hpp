@@ -22,13 +22,12 @@ namespace ashlar {
 
 /// A motion of a block a relative to a block b that takes either of them out of what it had sunk into.
 struct WayOut {
-  Vector3 direction;  ///< unit
-  double height;      ///< m; negative: it has as far to go until it touches
-  /// Contacts with a normal nearer to the way are none of a seam. Of what the two blocks themselves were in
-  /// contact with, only steep sides may be; of others, all that is not across the way.
-  double largest_cosine;
+  Vector3 direction;          ///< unit
+  double height;              ///< m; negative: it has as far to go until it touches
   std::array<int, 2> out_of;  ///< the two blocks that were in each other, the lower number first
-  bool own;                   ///< they are a and b
+  /// Whether they are a and b: only steep sides may then be of a seam, otherwise all that is not across the
+  /// way.
+  bool own;
 };
 
 /// Ways out of what each block had sunk into at the end of the last step.

@@ -37,6 +37,16 @@ std::string to_string(RejectionReason reason) {
   return "unknown";
 }
 
+Vector3 force_on_a(const PairRecord& record) {
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t k = 0; k < record.points.size(); ++k) {
+    const ContactPoint& point = record.points[k];
+    const Eigen::Vector3d& force = record.responses[k].force;
+    sum += force[0] * point.normal + force[1] * point.tangent_1 + force[2] * point.tangent_2;
+  }
+  return sum;
+}
+
 Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion> motions, LawOfPair law,
                        const SimulationSettings& settings)
     : blocks_(std::move(blocks)),

@@ -64,6 +64,8 @@ struct PairRecord {
   std::vector<double> gaps;  ///< at the end of the step, m
   double work;               ///< of the contact forces on both blocks since the start of the run, J
 };
+/// Sum of the contact forces on the block `a` of a pair, N.
+[[nodiscard]] Vector3 force_on_a(const PairRecord& record);
 
 /// What the last accepted step did.
 struct StepReport {
@@ -268,10 +270,6 @@ class Simulation {
   };
   /// Stops what pushes at the end of a step. @return by pair
   std::vector<StoppedPair> stop_at_contacts(const TimeScheme& scheme, const Trial& trial);
-  /// Marks points that would pull by more than they have pushed. @return whether there are any
-  static bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs,
-                              const IslandResult& result, const std::vector<PairResponse>& impulses,
-                              std::vector<std::vector<bool>>& let_go);
   /// @param bodies models, and changes that are zero. @param stopped of the island's pairs is written
   void stop_island(const TimeScheme& of_step, const Island& island, const std::vector<ContactPair>& pairs,
                    const IslandResult& result, std::vector<BodyStep>& bodies,

@@ -35,7 +35,7 @@ PairResponse ContactPair::against_slip(double depth, const Eigen::VectorXd& ya,
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0};
-    if (!tied() && laws_[k].tension == 0.0 && points_[k].gap < -depth)
+    if (laws_[k].tension == 0.0 && points_[k].gap < -depth)
       mean.force.tail<2>() = -start_responses_[k].force[0] * motion.col(column).tail<2>();
     forces.segment<3>(3 * column) = mean.force;
     result.means.push_back(mean);

@@ -28,14 +28,18 @@ inline BlockDefinition fixed_box(const Vector3& low, const Vector3& high) {
   return block;
 }
 
+/// @param middle that stays where it is
+inline Polyhedron turned(const Polyhedron& solid, const Eigen::AngleAxisd& turn,
+                         const Vector3& middle = Vector3::Zero()) {
+  std::vector<Vector3> points;
+  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * (point - middle) + middle);
+  return solid.with_points(std::move(points));
+}
+
 /// Box turned about the y axis through the origin, positive angles lifting the +x end.
 inline Polyhedron tilted_box(const Vector3& low, const Vector3& high, double degrees) {
   const double angle = -degrees * std::numbers::pi / 180.0;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix();
-  const Polyhedron box(make_box(low, high));
-  std::vector<Vector3> points;
-  for (const Vector3& point : box.mesh().points) points.emplace_back(turn * point);
-  return box.with_points(std::move(points));
+  return turned(Polyhedron(make_box(low, high)), Eigen::AngleAxisd(angle, Vector3::UnitY()));
 }
 
 inline Simulation::LawOfPair same_law(const JointLaw& law) {

@@ -79,10 +79,7 @@ TEST(ContactMaster, IsTheFixedOrLargerOneWhereRimsDoNotTell) {
 
 /// Turned about the x axis.
 Polyhedron rolled(const Polyhedron& solid, double degrees) {
-  const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Vector3::UnitX());
-  std::vector<Vector3> points;
-  for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point);
-  return solid.with_points(std::move(points));
+  return test_support::turned(solid, Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Vector3::UnitX()));
 }
 
 TEST(ContactMaster, IsNotChosenBySidesBesideARimThatGoesOn) {

@@ -188,13 +188,8 @@ TEST(ContactHistory, ForcesAreTheChangesOfMomentum) {
       const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(k)];
       Vector3 force = block.mass() * Vector3(0, 0, -9.81);
       for (const PairRecord& pair : simulation.contacts()) {
-        if (pair.a != k && pair.b != k) continue;
-        for (std::size_t n = 0; n < pair.points.size(); ++n) {
-          const ContactPoint& point = pair.points[n];
-          const Eigen::Vector3d& f = pair.responses[n].force;
-          force += (pair.a == k ? 1.0 : -1.0) *
-                   (f[0] * point.normal + f[1] * point.tangent_1 + f[2] * point.tangent_2);
-        }
+        if (pair.a == k) force += force_on_a(pair);
+        if (pair.b == k) force -= force_on_a(pair);
       }
       const Vector3 change = block.momentum(simulation.states()[static_cast<std::size_t>(k)]) -
                              before[static_cast<std::size_t>(k - 1)];

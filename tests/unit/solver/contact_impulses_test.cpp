@@ -87,15 +87,9 @@ TEST(ContactImpulses, ForcesGiveEachBlockItsMomentum) {
       std::array<Vector3, 3> impulse;
       impulse.fill(simulation.report().step * 2500.0 * Vector3(0, 0, -9.81));
       for (const PairRecord& record : simulation.contacts()) {
-        for (std::size_t k = 0; k < record.points.size(); ++k) {
-          const ContactPoint& point = record.points[k];
-          const Eigen::Vector3d& force = record.responses[k].force;
-          const Vector3 on_a =
-              simulation.report().step *
-              (force[0] * point.normal + force[1] * point.tangent_1 + force[2] * point.tangent_2);
-          impulse[static_cast<std::size_t>(record.a)] += on_a;
-          impulse[static_cast<std::size_t>(record.b)] -= on_a;
-        }
+        const Vector3 on_a = simulation.report().step * force_on_a(record);
+        impulse[static_cast<std::size_t>(record.a)] += on_a;
+        impulse[static_cast<std::size_t>(record.b)] -= on_a;
       }
       for (std::size_t k = 1; k < 3; ++k) {
         const Vector3 gained = simulation.blocks()[k].momentum(simulation.states()[k]) - before[k];
@@ -149,7 +143,7 @@ TEST(ContactImpulses, FrictionIsThatOfAllThatBears) {
 /// ones, sums over 80 steps: 2 sin(pi/n) of what swings in n steps, 2 of what alternates
 double roughness_of_bearing_force(Integrator integrator, double stop_stiffness) {
   SimulationSettings settings = augmented(5e-4, integrator);
-  settings.penetration_tolerance = 5e-7;
+  settings.penetration_tolerance = 2e-6;
   settings.stop_stiffness = stop_stiffness;
   std::vector<BlockModel> blocks;
   for (const double x : {0.0, 0.55, 1.1})
@@ -182,7 +176,7 @@ TEST(ContactImpulses, BearingForcesSwingAsTheBeamDoes) {
        {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
     const double stopped = roughness_of_bearing_force(integrator, SimulationSettings{}.stop_stiffness);
     EXPECT_LT(stopped, 2.0 * std::sin(std::numbers::pi / 10));
-    EXPECT_GT(roughness_of_bearing_force(integrator, 0.0), 1.5 * stopped);
+    EXPECT_GT(roughness_of_bearing_force(integrator, 0.0), 2.0 * std::sin(std::numbers::pi / 6));
   }
 }
 

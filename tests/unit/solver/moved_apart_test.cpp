@@ -86,16 +86,6 @@ std::array<double, 2> speed_of_a_sliding_bar(double time) {
           -along * std::sin(y[1]) - across * std::cos(y[1])};
 }
 
-Vector3 force_on_a(const PairRecord& record) {
-  Vector3 sum = Vector3::Zero();
-  for (std::size_t k = 0; k < record.points.size(); ++k) {
-    const ContactPoint& point = record.points[k];
-    const Eigen::Vector3d& force = record.responses[k].force;
-    sum += force[0] * point.normal + force[1] * point.tangent_1 + force[2] * point.tangent_2;
-  }
-  return sum;
-}
-
 TEST(MovedApart, ABarSlidesOverARimAsLongAsItsFaceTurns) {
   // Nothing but slip pays for what the face that turns comes to meet.
   const auto check = [](double time_step, double time, double error) {
