@@ -48,8 +48,8 @@ ContactMemory::Places ContactMemory::places() const {
   return places;
 }
 
-std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const Places& places,
-                                               bool same_faces) const {
+std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& point, const Places& places,
+                                                        bool same_faces) const {
   constexpr double least_cosine = 0.5;
   constexpr double too_far = std::numeric_limits<double>::infinity();
   // One of the two is carried along where a contact slides: the vertex, or the slave's point.
@@ -73,7 +73,9 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
   // Old points on one place, as on the cut between two cells, are equally far.
   const double blur = 1e-6 * std::sqrt(squared_reach_);
   const double farthest = 1.5 * (std::sqrt(least_squared) + blur) - blur;
-  PointMemory result;
+  Found found;
+  PointMemory& result = found.memory;
+  int sources = 0;
   double sum = 0.0;
   double intact = 0.0;
   double most = 0.0;
@@ -83,6 +85,7 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
     // Points without any area, on one place, are as good as each other.
     const double weight = farthest > 0.0 ? farthest - std::sqrt(squared_distance) : 1.0;
     const PointMemory& memory = entries_[k].memory;
+    found.only_source = ++sources == 1 ? static_cast<int>(k) : -1;
     if (weight > most) result.state = memory.state;
     most = std::max(most, weight);
     sum += weight;
@@ -98,26 +101,39 @@ std::optional<PointMemory> ContactMemory::near(const ContactPoint& point, const 
   result.compression /= sum;
   result.normal_multiplier /= sum;
   result.shear_multiplier /= sum;
-  return result;
+  return found;
 }
 
-std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& points,
-                                               double bond_distance) const {
+std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& points, double bond_distance,
+                                               bool keep_forces) const {
   std::vector<PointMemory> result;
   result.reserve(points.size());
   const Places old = places();
+  std::vector<int> sources;
+  std::vector<int> taken(entries_.size(), 0);
   for (const ContactPoint& point : points) {
     PointMemory fresh;
     fresh.intact = point.gap <= bond_distance;
-    std::optional<PointMemory> memory = near(point, old, true);
-    const bool same_faces = memory.has_value();
-    if (!memory) memory = near(point, old, false);
-    if (memory) {
-      memory->slip = turned(memory->slip, point.normal);
-      memory->shear_multiplier = turned(memory->shear_multiplier, point.normal);
-      memory->intact = memory->intact && same_faces;
+    std::optional<Found> found = near(point, old, true);
+    const bool same_faces = found.has_value();
+    if (!found) found = near(point, old, false);
+    sources.push_back(found ? found->only_source : -1);
+    if (sources.back() >= 0) ++taken[static_cast<std::size_t>(sources.back())];
+    if (!found) {
+      result.push_back(fresh);
+      continue;
     }
-    result.push_back(memory.value_or(fresh));
+    PointMemory& memory = found->memory;
+    memory.slip = turned(memory.slip, point.normal);
+    memory.shear_multiplier = turned(memory.shear_multiplier, point.normal);
+    memory.intact = memory.intact && same_faces;
+    result.push_back(memory);
+  }
+  for (std::size_t k = 0; keep_forces && k < points.size(); ++k) {
+    if (sources[k] < 0 || taken[static_cast<std::size_t>(sources[k])] != 1 || points[k].area == 0.0) continue;
+    const double ratio = entries_[static_cast<std::size_t>(sources[k])].area / points[k].area;
+    result[k].normal_multiplier *= ratio;
+    result[k].shear_multiplier *= ratio;
   }
   return result;
 }

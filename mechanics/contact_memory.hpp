@@ -50,8 +50,10 @@ class ContactMemory {
   /// old points of the same faces, or, if none of those is as near as the whole contact was wide, of any
   /// faces whose normals are within 60 degrees. Points without one start open, without slip, bonded by the
   /// joint's strength if their gap is at most `bond_distance`, m (minus infinity: never).
-  [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points,
-                                                double bond_distance) const;
+  /// @param keep_forces where one old point became one new one, multipliers hold the force instead of the
+  /// pressure that they held there
+  [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points, double bond_distance,
+                                                bool keep_forces = false) const;
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
   /// springs at its end
@@ -76,12 +78,16 @@ class ContactMemory {
     Eigen::Matrix3Xd of_a;
     Eigen::Matrix3Xd of_b;
   };
+  struct Found {
+    PointMemory memory;
+    int only_source = -1;  ///< the entry it is the memory of, -1 if there are several
+  };
   [[nodiscard]] Places places() const;
   /// Mean memory of the nearest old points, those within half as near again counting the less the farther
   /// they are; intact where most of it is. Slivers, points of less than a millionth of the largest area,
   /// are not asked.
-  [[nodiscard]] std::optional<PointMemory> near(const ContactPoint& point, const Places& places,
-                                                bool same_faces) const;
+  [[nodiscard]] std::optional<Found> near(const ContactPoint& point, const Places& places,
+                                          bool same_faces) const;
 
   std::vector<Entry> entries_;
   std::vector<PressureCut> cuts_;

@@ -193,6 +193,15 @@ void ContactPair::hold_where_found(double taken) {
   respond_at_start();
 }
 
+void ContactPair::hold_within(double way) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const double most = laws_[k].normal_multiplier != 0.0 || laws_[k].tension > 0.0 ? way : 0.0;
+    rests_[k] = std::clamp(points_[k].gap, -way, most);
+    start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
+  }
+  respond_at_start();
+}
+
 double ContactPair::depth_found() const {
   double depth = 0.0;
   for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {

@@ -94,6 +94,10 @@ class ContactPair {
   /// also above it.
   /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
   void hold_where_found(double taken);
+  /// Points with multipliers are held where they are found as far as that is at most `way` from the surface,
+  /// those without force only below it.
+  /// @param way m, >= 0
+  void hold_within(double way);
   /// What hold_where_found() was told.
   [[nodiscard]] double taken() const { return taken_; }
   /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.

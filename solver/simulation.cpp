@@ -289,12 +289,15 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     // Faces that share no area to the last bit are found, but have no points.
     if (points.empty()) continue;
     auto memory = known.recall(
-        points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity());
+        points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity(),
+        !hold_energy && settings_.area_springs);
     JointLaw law = law_(a, b);
     law.augmented = settings_.augmented;
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
+    if (!hold_energy && law.augmented)
+      pairs.back().hold_within((1.0 - settings_.multiplier_share) * settings_.penetration_tolerance);
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

@@ -12,9 +12,11 @@
 namespace ashlar {
 namespace {
 
-/// Of settings.static_travel. Blocks that moving ones take along have travelled less than it, so have those
-/// that move slowly; blocks that only give way have hardly moved.
-constexpr double moving_share = 0.1;
+/// Of settings.static_travel: what has gone so far when iterations end moves, if slowly.
+constexpr double slow_share = 0.1;
+/// Of settings.static_travel: what moving blocks take along, or what sinks while others give way to it, has
+/// travelled this at least; blocks that only bear more than before have hardly moved.
+constexpr double taken_along_share = 1e-3;
 
 TimeScheme static_scheme(double inertia) {
   TimeScheme scheme;
@@ -121,7 +123,10 @@ StaticStatus Simulation::static_step(double end_time) {
   if (static_.inertia == 0.0 || static_.balanced) start_load_level(end_time);
   if (static_.iterations >= settings_.static_iterations) {
     // What little a block lacks may take it far only slowly.
-    static_.moving = !moving_blocks().empty();
+    const std::vector<bool> held = held_without_contacts();
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      static_.moving =
+          static_.moving || (!held[k] && static_.travels[k] > slow_share * settings_.static_travel);
     return static_.moving ? StaticStatus::moving : StaticStatus::not_converged;
   }
   ++static_.iterations;
@@ -238,7 +243,7 @@ std::vector<MovingBlock> Simulation::moving_blocks() const {
   std::vector<MovingBlock> result;
   for (std::size_t k = 0; k < static_.travels.size(); ++k) {
     const BlockModel& block = blocks_[k];
-    if (!moving_[k] || held[k] || static_.travels[k] <= moving_share * settings_.static_travel) continue;
+    if (!moving_[k] || held[k] || static_.travels[k] <= taken_along_share * settings_.static_travel) continue;
     const Eigen::MatrixX3d& a = static_.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),

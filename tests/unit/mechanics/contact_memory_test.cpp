@@ -137,6 +137,21 @@ TEST(ContactMemory, MemoryPassesFromOnePointToTheNextWithoutAJump) {
   }
 }
 
+TEST(ContactMemory, ForcesOfAPointThatGrowsAreKeptWhereTheyAreToBe) {
+  PointMemory pressed = slipped({0, 0, 0});
+  pressed.normal_multiplier = 8.0;  // Pa, on 0.25 m^2
+  pressed.shear_multiplier = {3.0, 0, 0};
+  ContactMemory memory;
+  memory.store({point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})}, {pressed}, 0.0, {});
+  ContactPoint grown = point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1});
+  grown.area = 0.5;
+  EXPECT_EQ(memory.recall({grown}, never)[0].normal_multiplier, 8.0);
+  EXPECT_EQ(memory.recall({grown}, never, true)[0].normal_multiplier, 4.0);
+  EXPECT_EQ(memory.recall({grown}, never, true)[0].shear_multiplier.x(), 1.5);
+  // One that became two would give its force twice.
+  EXPECT_EQ(memory.recall({grown, grown}, never, true)[1].normal_multiplier, 8.0);
+}
+
 TEST(ContactMemory, NewPointsAreBondedByTheirGap) {
   const auto points = std::vector{point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})};
   EXPECT_TRUE(ContactMemory().recall(points, 1e-3)[0].intact);

@@ -315,6 +315,58 @@ TEST(StaticAnalysis, AnEdgeThatJustTouchesAnEdgeIsNotWithoutContact) {
   EXPECT_NE(run_static(simulation, 1.0), StaticStatus::not_converged);
 }
 
+TEST(StaticAnalysis, WhatMovesLittleIsNamedToo) {
+  // A slender wedge sinks between two blocks that it drives apart by a twentieth of its way: frictionless,
+  // (m + 2 M tan^2) a = m g with the masses m of the wedge and M of each of the two.
+  const double tangent = 0.05;
+  const auto solid = [](const std::vector<std::array<double, 2>>& profile) {
+    std::vector<Vector3> points;
+    for (const auto& [x, z] : profile) points.insert(points.end(), {Vector3(x, 0, z), Vector3(x, 1, z)});
+    return Polyhedron(make_convex_hull(points));
+  };
+  const Polyhedron wedge = solid({{0, 1}, {tangent, 2}, {-tangent, 2}});
+  const Polyhedron left = solid({{-1, 0}, {0, 0}, {0, 1}, {-tangent, 2}, {-1, 2}});
+  const Polyhedron right = solid({{0, 0}, {1, 0}, {1, 2}, {tangent, 2}, {0, 1}});
+  Simulation simulation(models(block_of("wedge", wedge, rock, 1), block_of("left", left, rock, 1),
+                               block_of("right", right, rock, 1), fixed_box({-4, -2, -1}, {4, 2, 0})),
+                        {{}, {}, {}, {}}, same_law({1e11, 5e10, 0.0, 0.0, 0.0, true}), {});
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+  const std::vector<MovingBlock> moving = simulation.moving_blocks();
+  ASSERT_EQ(moving.size(), 3U);
+  const double other = 2.0 - 0.5 * tangent;  // m^2
+  const double size = 9.81 * tangent / (tangent + 2.0 * other * tangent * tangent);
+  EXPECT_NEAR(moving[0].acceleration.z(), -size, 1e-3 * size);
+  EXPECT_NEAR(moving[1].acceleration.x(), -tangent * size, 1e-3 * tangent * size);
+  EXPECT_NEAR(moving[2].acceleration.x(), tangent * size, 1e-3 * tangent * size);
+}
+
+TEST(StaticAnalysis, SoftPlatesOnStiffPiersSettleWithMultipliers) {
+  // Which forces the corners of the piers bear is settled far more slowly than how deep they are.
+  for (const int order : {1, 3}) {
+    BlockDefinition plate =
+        block_of("plate", Polyhedron(make_box({-1, -1, 1}, {1, 1, 1.2})), {1000.0, 1e7, 0.3}, order);
+    const auto pier = [](const std::string& name, double x, double y) {
+      return block_of(name, Polyhedron(make_box({x - 0.1, y - 0.1, 0}, {x + 0.1, y + 0.1, 1})), rock, 1);
+    };
+    SimulationSettings settings;
+    settings.augmented = true;
+    settings.penetration_tolerance = 3.4e-7;
+    settings.contact_distance = 3.4e-4;
+    Simulation simulation(models(plate, pier("A", 0, 0.8), pier("B", -0.7, -0.5), pier("C", 0.7, -0.5),
+                                 fixed_box({-2, -2, -1}, {2, 2, 0})),
+                          {{}, {}, {}, {}, {}},
+                          same_law({2e8, 1e8, std::tan(std::numbers::pi / 6.0), 0.0, 0.0, true}), settings);
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << order;
+    EXPECT_LE(simulation.steps(), 30) << order;
+    EXPECT_LE(simulation.report().penetration, settings.penetration_tolerance);
+    double held = 0.0;
+    for (const PairRecord& record : simulation.contacts()) {
+      if (record.a == 0 || record.b == 0) held += (record.a == 0 ? 1.0 : -1.0) * force_on_a(record).z();
+    }
+    EXPECT_NEAR(held, 1000.0 * 0.8 * 9.81, 1e-6);
+  }
+}
+
 TEST(StaticAnalysis, LoadsThatChangeAreFollowed) {
   // A block pushed along its base by a tenth of its weight and let go again: friction 0.5 holds it all the
   // time.
