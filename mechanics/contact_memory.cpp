@@ -93,6 +93,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     result.compression += weight * memory.compression;
     result.normal_multiplier += weight * memory.normal_multiplier;
     result.shear_multiplier += weight * memory.shear_multiplier;
+    result.unrubbed += weight * memory.unrubbed;
     if (memory.intact) intact += weight;
   }
   // A bond halfway between a whole and a broken one is broken, whatever rounding says.
@@ -101,6 +102,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   result.compression /= sum;
   result.normal_multiplier /= sum;
   result.shear_multiplier /= sum;
+  result.unrubbed /= sum;
   return found;
 }
 

@@ -24,6 +24,8 @@ struct PointMemory {
   bool intact = false;             ///< joint strength not yet lost
   double normal_multiplier = 0.0;  ///< of augmented contact, Pa, of point springs N
   Vector3 shear_multiplier = Vector3::Zero();
+  /// Normal impulse whose friction is still to act, of augmented contact, Pa s, of point springs N s
+  double unrubbed = 0.0;
   double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
 };
 

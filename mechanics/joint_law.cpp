@@ -16,9 +16,24 @@ PointLaw point_law(const JointLaw& law, double area, bool intact) {
 
 namespace {
 
+/// The normal force that friction goes by and its derivative by the normal force. Impulses count for no more
+/// than the force beside them, so that nothing rubs that hardly touches.
+struct RubbingForce {
+  double value;  ///< N
+  double slope;
+};
+
+RubbingForce rubbing_force(const PointLaw& law, double normal) {
+  const double pushing = std::max(normal, 0.0);
+  if (law.impulse_force > pushing) return {2.0 * pushing, 2.0};
+  if (law.impulse_force < -pushing) return {0.0, 0.0};
+  return {pushing + law.impulse_force, 1.0};
+}
+
 /// What the shear force is at most, N. @param normal force, N
 double shear_limit(const PointLaw& law, double normal) {
-  return law.held_limit >= 0.0 ? law.held_limit : std::max(normal, 0.0) * law.friction + law.cohesion;
+  return law.held_limit >= 0.0 ? law.held_limit
+                               : rubbing_force(law, normal).value * law.friction + law.cohesion;
 }
 
 /// Whether a trial shear force is within the limit but for rounding. Nothing locks what has no friction.
@@ -73,7 +88,8 @@ Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& respo
   const bool pushes = response.force[0] >= 0.0 && response.tangent(0, 0) > 0.0;
   if (response.state != ContactState::sliding || !pushes || law.held_limit >= 0.0)
     return Eigen::Vector2d::Zero();
-  return law.friction * law.normal_stiffness * response.direction;
+  return rubbing_force(law, response.force[0]).slope * law.friction * law.normal_stiffness *
+         response.direction;
 }
 
 MeanResponse end_response(const PointLaw& law, const PointResponse& end) {

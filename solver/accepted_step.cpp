@@ -131,10 +131,12 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       }
       report_.penetration = std::max(report_.penetration, deepest);
       const double bulge = bulge_of(pair.a()) + bulge_of(pair.b());
-      memory[{pair.a(), pair.b()}].store(pair.points(), pair.memory_after(after, laws, ya, yb, tearing_gap),
-                                         deepest, held, bulge, pair.cuts());
-      // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.
       const StoppedPair& stop = stopped[at(islands[i].pairs[n])];
+      std::vector<PointMemory> remembered = pair.memory_after(after, laws, ya, yb, tearing_gap);
+      pair.remember_impulses(after, laws, stop.forces, scheme.step, remembered);
+      memory[{pair.a(), pair.b()}].store(pair.points(), std::move(remembered), deepest, held, bulge,
+                                         pair.cuts());
+      // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.
       std::vector<PointResponse> acted = after.points;
       for (std::size_t k = 0; k < acted.size(); ++k) {
         acted[k].force = after.means[k].force;

@@ -19,7 +19,7 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
   archive(memory.slip, memory.compression, memory.state, memory.intact, memory.normal_multiplier,
-          memory.shear_multiplier);
+          memory.shear_multiplier, memory.unrubbed);
 }
 
 template <class Archive>

@@ -16,11 +16,13 @@
 // and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
 // little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
 // round point away, but by no more than a point has pushed in the step: where more would be needed the point
-// is let go, with no force at all in this step. Friction has no part in them. They take
-// energy of u, never less than nothing: impacts are plastic where blocks meet, and what can deform bounces by
-// its elasticity. What v loses is booked as numerical dissipation. A set of free blocks keeps its angular
+// is let go, with no force at all in this step. Friction has no part in them; the bounds of shear forces in
+// the next steps make up for that, up or down, as long as the point stays in contact. They take energy of
+// u, never less than nothing: impacts are plastic where blocks meet, and what can deform bounces by its
+// elasticity. What v loses is booked as numerical dissipation. A set of free blocks keeps its angular
 // momentum: the spin for that comes from what impulses and contacts have taken (contact_accounts.hpp).
 #include <algorithm>
+#include <limits>
 
 #include "solver/angular_momentum.hpp"
 #include "solver/island_problem.hpp"
@@ -102,6 +104,27 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
   }
   set_block_forces(forces, result);
   return result;
+}
+
+void ContactPair::rub_impulses(double step) {
+  for (std::size_t k = 0; k < laws_.size(); ++k)
+    laws_[k].impulse_force = multiplier_scale(points_[k]) * memory_[k].unrubbed / step;
+}
+
+void ContactPair::remember_impulses(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                    const std::vector<Eigen::Vector3d>& impulses, double step,
+                                    std::vector<PointMemory>& memory) const {
+  for (std::size_t k = 0; k < impulses.size(); ++k) {
+    const Eigen::Vector3d& force = response.points[k].force;
+    if (response.points[k].state == ContactState::open || laws[k].friction == 0.0) continue;
+    const double rubbed = std::max(0.0, force.tail<2>().norm() - laws[k].cohesion) / laws[k].friction;
+    const double due = force[0] + laws[k].impulse_force + impulses[k][0];
+    const double most = response.points[k].state == ContactState::sliding
+                            ? std::numeric_limits<double>::infinity()
+                            : std::max(impulses[k][0], 0.0);
+    const double left = std::min(most, due - rubbed);
+    memory[k].unrubbed = step * left / multiplier_scale(points_[k]);
+  }
 }
 
 std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeScheme& scheme,

@@ -150,6 +150,15 @@ class ContactPair {
   [[nodiscard]] PairResponse stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
                                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
                                       const std::vector<bool>& let_go) const;
+  /// Lets friction of the step make up for impulses of the last one, which had none. @param step s, > 0
+  void rub_impulses(double step);
+  /// Of points with multipliers, the normal impulse that friction has still to count: what it did not in this
+  /// step, those at its end first, less what it counted too much. Locked points have nothing left of earlier
+  /// ones.
+  /// @param impulses of the points in their frames, over the step, N; @param step s
+  void remember_impulses(const PairResponse& response, const std::vector<PointLaw>& laws,
+                         const std::vector<Eigen::Vector3d>& impulses, double step,
+                         std::vector<PointMemory>& memory) const;
 
   // slowed_slip.cpp
   /// Forces against slip, N m/s: of each point that pushes and is deeper than `depth`, m, its normal force at

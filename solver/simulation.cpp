@@ -217,6 +217,7 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   for (ContactPair& pair : trial.pairs) {
     pair.prescribe(blocks_[at(pair.a())], trial.bodies[at(pair.a())].prescribed, blocks_[at(pair.b())],
                    trial.bodies[at(pair.b())].prescribed);
+    if (settings_.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
   }
   trial.results.clear();
   for (const Island& island : trial.islands) {

@@ -226,6 +226,27 @@ TEST(JointLaw, MultipliersAddToTheSprings) {
   EXPECT_TRUE(elastic_slip(point, locked, {1e-6, 0}).isZero(0.0));
 }
 
+TEST(JointLaw, ImpulsesCountInTheBoundOfTheShearForceAsFarAsTheNormalForceGoes) {
+  PointLaw point = point_law(law, 0.1, false);
+  point.augmented = true;
+  const Eigen::Vector2d far(-5e-5, 0.0);
+  const double normal = 2000.0, gap = -1e-5;
+  for (const auto& [impulse, counts] :
+       {std::array{300.0, 2300.0}, {-300.0, 1700.0}, {5000.0, 4000.0}, {-2500.0, 0.0}}) {
+    point.impulse_force = impulse;
+    const PointResponse sliding = point_response(point, gap, far);
+    EXPECT_EQ(sliding.state, ContactState::sliding) << impulse;
+    EXPECT_NEAR(sliding.force[0], normal, 1e-9);
+    EXPECT_NEAR(sliding.force[1], law.friction * counts, 1e-9) << impulse;
+    // By a force of 1e-3 N more.
+    const double less = 1e-3 / point.normal_stiffness;
+    const double change = point_response(point, gap - less, far).force[1] - sliding.force[1];
+    EXPECT_NEAR(change, less * sliding_coupling(point, sliding)[0], 1e-8) << impulse;
+  }
+  // What just touches does not rub.
+  EXPECT_EQ(point_response(point, 0.0, far).force[1], 0.0);
+}
+
 TEST(JointLaw, CohesionBearsSlipOnBothSidesOfTheSurface) {
   const PointLaw point =
       point_law({2e9, 1e9, 0.5, 1e4, 0.0, true}, 0.1, true);  // c A = 1000 N, ks A = 1e8 N/m

@@ -71,7 +71,8 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
                         5,
                         Vector3(0, 0, 1),
                         0.5,
-                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 26.0}}},
+                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0,
+                         26.0}}},
                       {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}},
                       9,
                       27,
@@ -99,6 +100,7 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.slip, Vector3(6, 7, 8));
   EXPECT_EQ(entry.memory.state, ContactState::sliding);
   EXPECT_TRUE(entry.memory.intact);
+  EXPECT_EQ(entry.memory.unrubbed, 27.0);
   EXPECT_EQ(entry.memory.compression, 26.0);
   ASSERT_EQ(back.memory[0].cuts.size(), 1U);
   EXPECT_EQ(back.memory[0].cuts[0].cell_b, 29);

@@ -139,6 +139,41 @@ TEST(ContactImpulses, FrictionIsThatOfAllThatBears) {
   }
 }
 
+/// A cube on a base that moves from rest with an acceleration, its velocity another one in each step.
+/// @return velocity of the cube's centroid
+Vector3 carried(const Vector3& acceleration, const Vector3& velocity, double friction, Integrator integrator,
+                double time) {
+  constexpr double time_step = 1e-3;
+  SupportHistory history;
+  for (double t = 0.0; t < time + 1.5 * time_step; t += time_step) {
+    history.times.push_back(t);
+    history.displacements.emplace_back(0.5 * t * t * acceleration);
+  }
+  BlockDefinition base = block_of("base", Polyhedron(make_box({-4, -4, -1}, {5, 5, 0})), {2500, 1e9, 0.2}, 1);
+  for (const double z : {-1.0, 0.0})
+    base.supports.push_back({Plane{{0, 0, z}, Vector3::UnitZ()}, {true, true, true}, history});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(base));
+  blocks.push_back(cube({0, 0, 0}));
+  Simulation simulation(std::move(blocks), {{}, {velocity, {0, 0, 0}}},
+                        same_law({2e10, 1e10, friction, 0.0, 0.0, true}), augmented(time_step, integrator));
+  EXPECT_TRUE(test_support::run_until(simulation, time));
+  return velocity_of(simulation, 1, {0.5, 0.5, 0.5});
+}
+
+TEST(ContactImpulses, FrictionOnSupportsThatSpeedUpIsThatOfAllThatBears) {
+  constexpr double g = 9.81, time = 0.1, friction = 0.2, speed = 1.0;
+  for (const Integrator integrator :
+       {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
+    for (const double up : {-5.0, 5.0}) {
+      const double lost = friction * (g + up) * time;
+      EXPECT_NEAR(speed - carried({0, 0, up}, {speed, 0, 0}, friction, integrator, time).x(), lost,
+                  3e-2 * lost)
+          << up;
+    }
+  }
+}
+
 /// A tied beam that is let go on two bases. @return second differences of its bearing force by the first
 /// ones, sums over 80 steps: 2 sin(pi/n) of what swings in n steps, 2 of what alternates
 double roughness_of_bearing_force(Integrator integrator, double stop_stiffness) {
