@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mechanics/supports.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -139,8 +141,12 @@ SceneFix read_fix(TomlTableReader& table) {
   read_components(table, fix.components);
   std::vector<std::vector<double>> rows;
   table.read_history("displacement_history", rows, 4, "[t, ux, uy, uz]");
+  SupportHistory history;
   for (const auto& row : rows) {
-    fix.displacement_history.push_back({row[0], {row[1], row[2], row[3]}});
+    const Vector3 displacement{row[1], row[2], row[3]};
+    fix.displacement_history.push_back({row[0], displacement});
+    history.times.push_back(row[0]);
+    history.displacements.push_back(displacement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (fix.components[axis] || row[axis + 1] == 0.0) continue;
       table.error_at_value(
@@ -150,6 +156,15 @@ SceneFix read_fix(TomlTableReader& table) {
                       "xyz"[axis], row[axis + 1], row[0], "xyz"[axis]));
       return fix;
     }
+  }
+  for (std::size_t axis = 0; axis < 3 && !rows.empty(); ++axis) {
+    const double start = displacement_at(history, axis, 0.0);
+    if (start == 0.0) continue;
+    table.error_at_value("displacement_history",
+                         fmt::format("displacement_history is not zero at t = 0, where the block is placed "
+                                     "(u{} = {:g}), 0 is needed",
+                                     "xyz"[axis], start));
+    return fix;
   }
   return fix;
 }

@@ -12,6 +12,7 @@
 
 #include "apps/initial_state.hpp"
 #include "apps/name_pattern.hpp"
+#include "apps/turned_supports.hpp"
 #include "solver/automatic.hpp"
 
 namespace ashlar {
@@ -206,23 +207,6 @@ class JointLaws {
   std::vector<SceneJointLaw> laws_;  ///< (#groups, #groups)
 };
 
-/// Contacts are looked for with coordinates that are rounded: what is nearer than that is not found.
-void check_distance(const Scene& scene, const std::vector<BlockModel>& blocks, Diagnostics& diagnostics) {
-  if (!scene.contact.distance) return;
-  double farthest = 0.0;
-  for (const BlockModel& block : blocks) {
-    for (const Vector3& point : block.solid().mesh().points)
-      farthest = std::max(farthest, point.cwiseAbs().maxCoeff());
-  }
-  const double rounding = farthest * std::numeric_limits<double>::epsilon();
-  if (*scene.contact.distance >= rounding) return;
-  diagnostics.error(
-      scene.places.value("contact.distance"),
-      fmt::format("distance is less than coordinates are rounded to ({:.4g} m), at least {:.4g} m "
-                  "is needed",
-                  *scene.contact.distance, rounding));
-}
-
 /// Whether a later [[joint]] of the blocks that one ties unties all of them.
 bool is_untied(const Scene& scene, const std::vector<BlockModel>& blocks, const SceneJoint& joint) {
   bool tied_any = false;
@@ -295,8 +279,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     }
     motions.push_back({block.velocity, block.angular_velocity});
   }
-  check_distance(scene, blocks, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
+  warn_of_turned_supports(scene, blocks, diagnostics);
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
   JointLaws laws(scene, blocks, choices);

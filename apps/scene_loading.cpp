@@ -4,6 +4,7 @@
 #include "apps/idle_keys.hpp"
 #include "apps/initial_overlap.hpp"
 #include "apps/scene_checks.hpp"
+#include "apps/scene_limits.hpp"
 #include "apps/scene_reader.hpp"
 #include "apps/scene_solids.hpp"
 #include "apps/soft_blocks.hpp"
@@ -17,6 +18,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   check_availability(loaded.scene, diagnostics);
   std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics, &loaded.shapes);
   check_placement(loaded.scene, solids, diagnostics);
+  check_limits(loaded.scene, solids, diagnostics);
   check_initial_overlap(loaded.scene, solids, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   warn_of_idle_keys(loaded.scene, diagnostics);

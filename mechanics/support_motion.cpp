@@ -10,16 +10,6 @@ namespace {
 /// displacement.
 constexpr double agreement = 1e-9;
 
-double interpolate(const SupportHistory& history, std::size_t axis, double time) {
-  const auto next = std::upper_bound(history.times.begin(), history.times.end(), time);
-  const auto k = static_cast<std::size_t>(next - history.times.begin());
-  const auto value = [&](std::size_t n) { return history.displacements[n][static_cast<Eigen::Index>(axis)]; };
-  if (k == 0) return value(0);
-  if (k == history.times.size()) return value(k - 1);
-  const double share = (time - history.times[k - 1]) / (history.times[k] - history.times[k - 1]);
-  return value(k - 1) + share * (value(k) - value(k - 1));
-}
-
 /// A of one component, the solution of least squares with it, and which support each row belongs to.
 struct Conditions {
   Eigen::MatrixXd matrix;
@@ -46,6 +36,16 @@ Conditions conditions_of(const Polyhedron& solid, const PolynomialBasis& basis,
 
 }  // namespace
 
+double displacement_at(const SupportHistory& history, std::size_t axis, double time) {
+  const auto next = std::upper_bound(history.times.begin(), history.times.end(), time);
+  const auto k = static_cast<std::size_t>(next - history.times.begin());
+  const auto value = [&](std::size_t n) { return history.displacements[n][static_cast<Eigen::Index>(axis)]; };
+  if (k == 0) return value(0);
+  if (k == history.times.size()) return value(k - 1);
+  const double share = (time - history.times[k - 1]) / (history.times[k] - history.times[k - 1]);
+  return value(k - 1) + share * (value(k) - value(k - 1));
+}
+
 SupportMotion::SupportMotion(const Polyhedron& solid, const PolynomialBasis& basis,
                              const std::vector<BlockSupport>& supports) {
   double largest = 0.0;
@@ -54,7 +54,7 @@ SupportMotion::SupportMotion(const Polyhedron& solid, const PolynomialBasis& bas
     times_.insert(times_.end(), history.times.begin(), history.times.end());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (history.times.empty() || !support.components[axis]) continue;
-      if (interpolate(history, axis, 0.0) != 0.0)
+      if (displacement_at(history, axis, 0.0) != 0.0)
         throw std::invalid_argument(
             "the displacement_history of a support is not zero at time 0, where it was placed");
     }
@@ -74,11 +74,13 @@ SupportMotion::SupportMotion(const Polyhedron& solid, const PolynomialBasis& bas
       Eigen::VectorXd target(conditions.matrix.rows());
       for (Eigen::Index row = 0; row < target.size(); ++row) {
         const SupportHistory& history = supports[conditions.support[static_cast<std::size_t>(row)]].history;
-        target[row] = history.times.empty() ? 0.0 : scale * interpolate(history, axis, times_[n]);
+        target[row] = history.times.empty() ? 0.0 : scale * displacement_at(history, axis, times_[n]);
       }
       const Eigen::VectorXd c = conditions.solution.solve(target);
       if ((conditions.matrix * c - target).cwiseAbs().maxCoeff() > agreement * scale * largest)
-        throw std::invalid_argument("supports that share points move them to different places");
+        throw std::invalid_argument(
+            "supports that share points move them to different places, the same history is needed where they "
+            "meet");
       coefficients_[n].col(static_cast<Eigen::Index>(axis)) = c;
     }
   }

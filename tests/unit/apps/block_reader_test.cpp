@@ -91,6 +91,15 @@ INSTANTIATE_TEST_SUITE_P(
             22,
             "point = [0, 0, 0]\ncomponents = [\"x\"]\ndisplacement_history = [[0, 0, 0, 0], [1, 2, 3, 0]]",
             "s.toml:24:24: error: displacement_history moves a component that is not held (uy = 3 at t = 1)"},
+        // 0.5 halfway between the two times
+        FaultCase{
+            22, "point = [0, 0, 0]\ndisplacement_history = [[-1, 0, 0, 0], [1, 0, 1, 0]]",
+            "s.toml:23:24: error: displacement_history is not zero at t = 0, where the block is placed (uy "
+            "= 0.5), 0 is needed"},
+        FaultCase{
+            22, "point = [0, 0, 0]\ndisplacement_history = [[1, 0, 0, 3]]",
+            "s.toml:23:24: error: displacement_history is not zero at t = 0, where the block is placed (uz "
+            "= 3), 0 is needed"},
         FaultCase{22, "point = [0, 0, 0]\ndisplacement_history = [[0, 0, 0]]",
                   "s.toml:23:25: error: displacement_history has the wrong length (3 entries), [t, ux, uy, "
                   "uz] is"}));

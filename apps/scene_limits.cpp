@@ -1,0 +1,83 @@
+#include "apps/scene_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ashlar {
+namespace {
+
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+
+double farthest_coordinate(const std::vector<std::optional<Polyhedron>>& solids) {
+  double farthest = 0.0;
+  for (const std::optional<Polyhedron>& solid : solids) {
+    for (std::size_t n = 0; solid && n < solid->mesh().points.size(); ++n)
+      farthest = std::max(farthest, solid->mesh().points[n].cwiseAbs().maxCoeff());
+  }
+  return farthest;
+}
+
+void check_length(const char* name, const std::optional<double>& length, double least, const Scene& scene,
+                  Diagnostics& diagnostics) {
+  if (!length || *length >= least) return;
+  diagnostics.error(scene.places.value(fmt::format("contact.{}", name)),
+                    fmt::format("{} is less than coordinates are rounded to ({:.4g} m), at least {:.4g} m "
+                                "is needed",
+                                name, *length, least));
+}
+
+void check_speeds(const Scene& scene, std::size_t k, double size, Diagnostics& diagnostics) {
+  constexpr double steps = 4096.0;
+  const SceneBlock& block = scene.block[k];
+  const auto check = [&](const char* name, const Vector3& given, double most, const char* unit) {
+    const double speed = given.stableNorm();
+    if (!(speed > most)) return;
+    diagnostics.error(scene.places.value(fmt::format("block.{}.{}", k, name)),
+                      fmt::format("{} is too large for this time_step ({:.4g} {}), at most {:.4g} {} is "
+                                  "allowed",
+                                  name, speed, unit, most, unit));
+  };
+  if (scene.analysis.type == SceneAnalysis::Type::statics || !(scene.analysis.time_step > 0.0)) return;
+  check("velocity", block.velocity, steps * size / scene.analysis.time_step, "m/s");
+  check("angular_velocity", block.angular_velocity, steps / scene.analysis.time_step, "rad/s");
+}
+
+void check_histories(const Scene& scene, std::size_t k, double size, Diagnostics& diagnostics) {
+  const double most = 1e-6 * size / rounding;
+  for (std::size_t n = 0; n < scene.block[k].fix.size(); ++n) {
+    double farthest = 0.0;
+    for (const SceneFix::Motion& motion : scene.block[k].fix[n].displacement_history)
+      farthest = std::max(farthest, motion.displacement.cwiseAbs().maxCoeff());
+    if (!(farthest > most)) continue;
+    diagnostics.error(scene.places.value(fmt::format("block.{}.fix.{}.displacement_history", k, n)),
+                      fmt::format("displacement_history goes so far that the block is lost in rounding "
+                                  "({:.4g} m), at most {:.4g} m is allowed",
+                                  farthest, most));
+  }
+}
+
+}  // namespace
+
+void check_limits(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+                  Diagnostics& diagnostics) {
+  const double least = rounding * farthest_coordinate(solids);
+  check_length("distance", scene.contact.distance, least, scene, diagnostics);
+  check_length("penetration_tolerance", scene.contact.penetration_tolerance, least, scene, diagnostics);
+  const double shortest = rounding * scene.analysis.end_time;
+  if (scene.analysis.time_step > 0.0 && scene.analysis.time_step < shortest)
+    diagnostics.error(scene.places.value("analysis.time_step"),
+                      fmt::format("time_step is less than times are rounded to ({:.4g} s), at least {:.4g} s "
+                                  "is needed for this end_time",
+                                  scene.analysis.time_step, shortest));
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    if (!solids[k]) continue;
+    const double size = std::cbrt(solids[k]->volume());
+    check_speeds(scene, k, size, diagnostics);
+    check_histories(scene, k, size, diagnostics);
+  }
+}
+
+}  // namespace ashlar

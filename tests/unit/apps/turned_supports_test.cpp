@@ -1,0 +1,48 @@
+#include "apps/turned_supports.hpp"
+
+#include <gmock/gmock.h>
+
+#include "apps/build_simulation.hpp"
+#include "support/temporary_folder.hpp"
+#include "unit/apps/sample_scene.hpp"
+
+namespace ashlar::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// The sample's beam of length 4 m, held at both ends, of which the far one goes up.
+std::vector<std::string> warnings(const std::string& last, const std::vector<std::string>& overrides = {}) {
+  const TemporaryFolder folder;
+  write_text(
+      folder / "s.toml",
+      sample_with(22,
+                  "plane = { point = [0, 0, 0], normal = [-1, 0, 0] }\n[[block.fix]]\nplane = { point = "
+                  "[4, 0, 0], normal = [1, 0, 0] }\ndisplacement_history = [[0, 0, 0, 0], " +
+                      last + "]"));
+  Diagnostics diagnostics;
+  const auto loaded = load_scene(folder / "s.toml", overrides, diagnostics);
+  EXPECT_TRUE(loaded && build_simulation(*loaded, 1, diagnostics));
+  std::vector<std::string> result;
+  for (const std::string& line : printed(diagnostics)) result.push_back(line.substr(line.find("s.toml:")));
+  return result;
+}
+
+TEST(TurnedSupports, LinearElasticityIsWarnedOf) {
+  // An affine field with du_z/dx = 1/4 turns by atan(1/8) = 0.1244.
+  EXPECT_THAT(warnings("[1, 0, 0, 1]"),
+              ElementsAre("s.toml:25:24: warning: displacement_history turns block \"B\" by 0.124 rad, which "
+                          "strains it: elasticity \"linear\" does not turn with a block that is held, "
+                          "\"st-venant-kirchhoff\" does"));
+  EXPECT_THAT(warnings("[1, 0, 0, 1]", {"material.rock.elasticity=st-venant-kirchhoff"}), IsEmpty());
+}
+
+TEST(TurnedSupports, SmallTurnsAndThoseAfterTheEndAreNot) {
+  EXPECT_THAT(warnings("[1, 0, 0, 0.75]"), IsEmpty());
+  EXPECT_THAT(warnings("[2, 0, 0, 1]"), IsEmpty());
+  EXPECT_THAT(warnings("[1, 3, 0, 0]"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace ashlar::test
