@@ -179,7 +179,7 @@ StaticStatus Simulation::static_step(double end_time) {
       return static_.moving ? StaticStatus::moving : StaticStatus::balancing;
     }
     static_.inertia = raise * scheme.inertia;
-    cut = true;
+    cut = cut || raise > 1.0;
   }
   return StaticStatus::not_converged;
 }

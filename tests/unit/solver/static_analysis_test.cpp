@@ -315,18 +315,37 @@ TEST(StaticAnalysis, AnEdgeThatJustTouchesAnEdgeIsNotWithoutContact) {
   EXPECT_NE(run_static(simulation, 1.0), StaticStatus::not_converged);
 }
 
+/// A prism over a profile in x and z, y from 0 to 1.
+Polyhedron upright_prism(const std::vector<std::array<double, 2>>& profile) {
+  std::vector<Vector3> points;
+  for (const auto& [x, z] : profile) points.insert(points.end(), {Vector3(x, 0, z), Vector3(x, 1, z)});
+  return Polyhedron(make_convex_hull(points));
+}
+
+TEST(StaticAnalysis, PlanksThatSlideApartAreNotFollowedInSmallSteps) {
+  // Edges that slide down on each other are found anew in each iteration, which took 500 of them.
+  const double friction = std::tan(10.0 * std::numbers::pi / 180.0);
+  Simulation simulation(
+      models(block_of("left", upright_prism({{-2, 0}, {-1.8, 0}, {0, 1.6}, {0, 1.8}}), rock, 1),
+             block_of("right", upright_prism({{2, 0}, {1.8, 0}, {0, 1.6}, {0, 1.8}}), rock, 1),
+             fixed_box({-6, -2, -1}, {6, 2, 0})),
+      {{}, {}, {}}, same_law({2e11, 1e11, friction, 0.0, 0.0, true}), {});
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+  EXPECT_LE(simulation.steps(), 100);
+  const std::vector<MovingBlock> moving = simulation.moving_blocks();
+  ASSERT_EQ(moving.size(), 2U);
+  EXPECT_LT(moving[0].acceleration.x(), -0.1);
+  EXPECT_NEAR(moving[0].acceleration.x(), -moving[1].acceleration.x(), 1e-3);
+  EXPECT_NEAR(moving[0].acceleration.z(), moving[1].acceleration.z(), 1e-3);
+}
+
 TEST(StaticAnalysis, WhatMovesLittleIsNamedToo) {
   // A slender wedge sinks between two blocks that it drives apart by a twentieth of its way: frictionless,
   // (m + 2 M tan^2) a = m g with the masses m of the wedge and M of each of the two.
   const double tangent = 0.05;
-  const auto solid = [](const std::vector<std::array<double, 2>>& profile) {
-    std::vector<Vector3> points;
-    for (const auto& [x, z] : profile) points.insert(points.end(), {Vector3(x, 0, z), Vector3(x, 1, z)});
-    return Polyhedron(make_convex_hull(points));
-  };
-  const Polyhedron wedge = solid({{0, 1}, {tangent, 2}, {-tangent, 2}});
-  const Polyhedron left = solid({{-1, 0}, {0, 0}, {0, 1}, {-tangent, 2}, {-1, 2}});
-  const Polyhedron right = solid({{0, 0}, {1, 0}, {1, 2}, {tangent, 2}, {0, 1}});
+  const Polyhedron wedge = upright_prism({{0, 1}, {tangent, 2}, {-tangent, 2}});
+  const Polyhedron left = upright_prism({{-1, 0}, {0, 0}, {0, 1}, {-tangent, 2}, {-1, 2}});
+  const Polyhedron right = upright_prism({{0, 0}, {1, 0}, {1, 2}, {tangent, 2}, {0, 1}});
   Simulation simulation(models(block_of("wedge", wedge, rock, 1), block_of("left", left, rock, 1),
                                block_of("right", right, rock, 1), fixed_box({-4, -2, -1}, {4, 2, 0})),
                         {{}, {}, {}, {}}, same_law({1e11, 5e10, 0.0, 0.0, 0.0, true}), {});
