@@ -96,7 +96,8 @@ bool any_of(const PairContacts& contacts, const Condition& holds) {
 
 }  // namespace
 
-WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
+WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory, Given given)
+    : given_(std::move(given)) {
   for (const auto& [blocks, pair] : memory) {
     if (!(pair.deepest() > 0.0)) continue;
     for (const ContactMemory::Entry& entry : pair.entries())
@@ -141,7 +142,7 @@ double WaysOut::sunk(int block, int but, const Vector3& direction) const {
         highest = std::max(highest, way.height);
     }
   }
-  return highest;
+  return given_ ? highest + 2.0 * given_(block, direction) : highest;
 }
 
 std::vector<WayOut> WaysOut::of_pair(int a, int b) const {

@@ -6,8 +6,9 @@
 // last step, what touches of the two is on either side of a plane across that way, as an inclined side that
 // leads up from the rim of a sole and the edge of the next block are: the block would slide over the other.
 // It moves by twice the depth, as depths change within a step. Where what it lies on, or what it comes to,
-// has sunk into something else, by as much more. Faces across the way are what blocks rest on; they are none.
-// A block that goes on beyond what touches, as below a corner at the height of the other's rim, pushes.
+// has sunk into something else or has been pressed to another height, by as much more. Faces across the way
+// are what blocks rest on; they are none. A block that goes on beyond what touches, as below a corner at the
+// height of the other's rim, pushes.
 #pragma once
 
 #include <functional>
@@ -34,8 +35,10 @@ struct WayOut {
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
-  /// @param memory of pairs of blocks (a, b)
-  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
+  /// By how much a block is shorter or longer along a unit direction than it is without load, m, >= 0.
+  using Given = std::function<double(int block, const Vector3& direction)>;
+  /// @param memory of pairs of blocks (a, b). @param given empty: blocks are rigid
+  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory, Given given = {});
   /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
   /// negative: the gap between them
   void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);
@@ -56,10 +59,12 @@ class WaysOut {
     Vector3 direction;
     double height;
   };
-  /// Height of the highest of a block's ways out of any but another one, along a direction or against it, m.
+  /// Height of the highest of a block's ways out of any but another one, along a direction or against it, and
+  /// twice what the block itself has given way, m.
   [[nodiscard]] double sunk(int block, int but, const Vector3& direction) const;
 
   std::map<int, std::vector<OutOf>> ways_;  ///< by block
+  Given given_;
 };
 
 /// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns

@@ -247,7 +247,8 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
-  ways_out_ = WaysOut(memory_);
+  ways_out_ =
+      WaysOut(memory_, [this](int block, const Vector3& direction) { return given_way(block, direction); });
   for (const auto& [blocks, contacts] : found) {
     const auto known = memory_.find(blocks);
     if (known == memory_.end() || !(known->second.deepest() > 0.0))
@@ -258,6 +259,23 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out_.of_pair(pair[0], pair[1]),
                     stands, contacts);
   return found;
+}
+
+double Simulation::given_way(int block, const Vector3& direction) const {
+  const BlockModel& model = blocks_[at(block)];
+  if (!moving_[at(block)] || model.incremental() != nullptr) return 0.0;
+  const Eigen::Matrix3d gradient = states_[at(block)].position.transpose() * model.parts()->mean_gradients;
+  // F maps lines along F^-1 n to lines along n and stretches them by 1/|F^-1 n|.
+  const Vector3 undeformed = gradient.inverse() * direction;
+  const double stretch = 1.0 / undeformed.norm();
+  const Vector3 along = stretch * undeformed;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Vector3& point : model.solid().mesh().points) {
+    low = std::min(low, along.dot(point));
+    high = std::max(high, along.dot(point));
+  }
+  return std::abs(stretch - 1.0) * (high - low);
 }
 
 std::function<bool(const WayOut&)> Simulation::standing_ways(const std::vector<FoundContacts>& found) const {

@@ -192,6 +192,9 @@ class Simulation {
   static constexpr double step_rounding = 1e-9;
 
   [[nodiscard]] std::vector<FoundContacts> find_contacts(double step);
+  /// By how much a block is shorter or longer along a unit direction, in the mean, than it is without load,
+  /// m.
+  [[nodiscard]] double given_way(int block, const Vector3& direction) const;
   /// Which ways out count among some contacts, which must outlive the answer.
   [[nodiscard]] std::function<bool(const WayOut&)> standing_ways(
       const std::vector<FoundContacts>& found) const;

@@ -141,6 +141,7 @@ struct OverJoint {
   double stiffness = 1e10;
   bool augmented = false;
   bool loose = false;  ///< the floor lies on a fixed block
+  bool area = true;    ///< springs
 };
 
 Simulation over_joint(const OverJoint& scene, Polyhedron stone) {
@@ -163,7 +164,7 @@ Simulation over_joint(const OverJoint& scene, Polyhedron stone) {
       std::move(blocks), motions,
       [&](int a, int) {
         const double friction = a == 0 ? 0.7 : 0.0;
-        return JointLaw{scene.stiffness, scene.stiffness, friction, 0.0, 0.0, true};
+        return JointLaw{scene.stiffness, scene.stiffness, friction, 0.0, 0.0, scene.area};
       },
       settings);
   EXPECT_TRUE(run_until(simulation, scene.end_time));
@@ -222,6 +223,25 @@ TEST(Seams, LooseBlocksMakeThemToo) {
       scene.modulus = modulus;
       scene.stiffness = 100.0 * modulus;
       EXPECT_NEAR(velocity_of_stone(over_joint(scene, stone)).x(), 2.0, 1e-6) << augmented << modulus;
+    }
+  }
+}
+
+TEST(Seams, BlocksThatAreSofterThanTheirSpringsMakeThemToo) {
+  // The one that carries the stone has been pressed to less than the height of the next, by far more than
+  // contacts are deep.
+  const Polyhedron stone = test_support::box({-0.3, -0.3, 0}, {0.3, 0.3, 0.4});
+  for (const bool augmented : {false, true}) {
+    OverJoint scene;
+    scene.joint = 0.5;
+    scene.end_time = 0.5;
+    scene.loose = true;
+    scene.augmented = augmented;
+    scene.area = augmented;
+    for (const double modulus : {1e8, 1e9}) {
+      scene.modulus = modulus;
+      scene.stiffness = 20.0 * modulus;
+      EXPECT_NEAR(velocity_of_stone(over_joint(scene, stone)).x(), 2.0, 1e-3) << augmented << modulus;
     }
   }
 }
