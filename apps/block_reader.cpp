@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "mechanics/supports.hpp"
+#include "apps/support_history.hpp"
 
 namespace ashlar {
 namespace {
@@ -141,12 +141,9 @@ SceneFix read_fix(TomlTableReader& table) {
   read_components(table, fix.components);
   std::vector<std::vector<double>> rows;
   table.read_history("displacement_history", rows, 4, "[t, ux, uy, uz]");
-  SupportHistory history;
   for (const auto& row : rows) {
     const Vector3 displacement{row[1], row[2], row[3]};
     fix.displacement_history.push_back({row[0], displacement});
-    history.times.push_back(row[0]);
-    history.displacements.push_back(displacement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (fix.components[axis] || row[axis + 1] == 0.0) continue;
       table.error_at_value(
@@ -158,7 +155,7 @@ SceneFix read_fix(TomlTableReader& table) {
     }
   }
   for (std::size_t axis = 0; axis < 3 && !rows.empty(); ++axis) {
-    const double start = displacement_at(history, axis, 0.0);
+    const double start = displacement_at(support_history(fix), axis, 0.0);
     if (start == 0.0) continue;
     table.error_at_value("displacement_history",
                          fmt::format("displacement_history is not zero at t = 0, where the block is placed "

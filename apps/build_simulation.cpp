@@ -12,6 +12,7 @@
 
 #include "apps/initial_state.hpp"
 #include "apps/name_pattern.hpp"
+#include "apps/support_history.hpp"
 #include "apps/turned_supports.hpp"
 #include "solver/automatic.hpp"
 
@@ -48,12 +49,7 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index) {
                                : Elasticity::st_venant_kirchhoff};
   }
   for (const SceneFix& fix : block.fix) {
-    SupportHistory history;
-    for (const auto& point : fix.displacement_history) {
-      history.times.push_back(point.time);
-      history.displacements.push_back(point.displacement);
-    }
-    definition.supports.push_back({place_of(fix.where), fix.components, std::move(history)});
+    definition.supports.push_back({place_of(fix.where), fix.components, support_history(fix)});
   }
   for (const SceneLoad& load : block.load) {
     History history;

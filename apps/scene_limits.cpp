@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/initial_overlap.hpp"
+#include "solver/settings.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -30,7 +33,7 @@ void check_length(const char* name, const std::optional<double>& length, double 
 }
 
 void check_speeds(const Scene& scene, std::size_t k, double size, Diagnostics& diagnostics) {
-  constexpr double steps = 4096.0;
+  const double steps = std::ldexp(1.0, SimulationSettings{}.max_step_cuts);
   const SceneBlock& block = scene.block[k];
   const auto check = [&](const char* name, const Vector3& given, double most, const char* unit) {
     const double speed = given.stableNorm();
@@ -46,7 +49,7 @@ void check_speeds(const Scene& scene, std::size_t k, double size, Diagnostics& d
 }
 
 void check_histories(const Scene& scene, std::size_t k, double size, Diagnostics& diagnostics) {
-  const double most = 1e-6 * size / rounding;
+  const double most = allowed_initial_overlap * size / rounding;
   for (std::size_t n = 0; n < scene.block[k].fix.size(); ++n) {
     double farthest = 0.0;
     for (const SceneFix::Motion& motion : scene.block[k].fix[n].displacement_history)

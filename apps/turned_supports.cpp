@@ -13,7 +13,7 @@ namespace {
 double turn_until(const BlockModel& block, double time) {
   const Eigen::MatrixX3d place = block.basis().identity_map();
   const Eigen::MatrixX3d moved = place + block.prescribed_change(place, 0.0, time);
-  const Eigen::Matrix3d gradient = moved.transpose() * block.basis().gradients(block.basis().centroid());
+  const Eigen::Matrix3d gradient = moved.transpose() * block.parts()->mean_gradients;
   return Eigen::AngleAxisd(polar_decomposition(gradient).rotation).angle();
 }
 

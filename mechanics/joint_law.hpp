@@ -66,8 +66,8 @@ struct PointLaw {
   bool augmented = false;    ///< its forces become the next multipliers; its springs hold no energy
   double normal_multiplier = 0.0;                              ///< lambda_n, N
   Eigen::Vector2d shear_multiplier = Eigen::Vector2d::Zero();  ///< lambda_s, N
-  /// N, any sign: counts beside the normal force in what bounds the shear force, for impulses that pushed or
-  /// pulled without friction before
+  /// N, any sign: counts beside the normal force, at most as much as that, in what bounds the shear force,
+  /// for impulses that pushed or pulled without friction before
   double impulse_force = 0.0;
 };
 

@@ -15,6 +15,10 @@
 
 namespace ashlar {
 
+/// Displacement of a support along an axis, m: linear between the times of its history, constant before and
+/// after. @param history not empty
+[[nodiscard]] double displacement_at(const SupportHistory& history, std::size_t axis, double time);
+
 /// c(t) of one block.
 class SupportMotion {
  public:

@@ -19,10 +19,6 @@ struct SupportHistory {
   std::vector<Vector3> displacements;  ///< m, same number
 };
 
-/// Displacement of a support along an axis, m: linear between the times of its history, constant before and
-/// after. @param history not empty
-[[nodiscard]] double displacement_at(const SupportHistory& history, std::size_t axis, double time);
-
 /// A support of faces or of one material point; chosen components of its displacement are zero or follow a
 /// history.
 struct BlockSupport {

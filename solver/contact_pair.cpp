@@ -183,23 +183,28 @@ bool ContactPair::can_be_bounded() const {
                                  [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
 }
 
-void ContactPair::hold_where_found(double taken) {
-  taken_ = taken;
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const double gap = points_[k].gap;
-    rests_[k] = laws_[k].tension > 0.0 ? gap : std::min(0.0, gap);
-    start_(0, static_cast<Eigen::Index>(k)) = gap - rests_[k];
-  }
+void ContactPair::rest_at(std::vector<double> rests) {
+  rests_ = std::move(rests);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
   respond_at_start();
 }
 
+void ContactPair::hold_where_found(double taken) {
+  taken_ = taken;
+  std::vector<double> rests;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    rests.push_back(laws_[k].tension > 0.0 ? points_[k].gap : std::min(0.0, points_[k].gap));
+  rest_at(std::move(rests));
+}
+
 void ContactPair::hold_within(double way) {
+  std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const double most = laws_[k].normal_multiplier != 0.0 || laws_[k].tension > 0.0 ? way : 0.0;
-    rests_[k] = std::clamp(points_[k].gap, -way, most);
-    start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
+    rests.push_back(std::clamp(points_[k].gap, -way, most));
   }
-  respond_at_start();
+  rest_at(std::move(rests));
 }
 
 double ContactPair::depth_found() const {
@@ -237,10 +242,7 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
     gaps.push_back(points_[k].gap);
     remembered.push_back(std::min(0.0, points_[k].gap + memory_[k].compression));
   }
-  rests_ = rest_gaps(stiffnesses, gaps, remembered, held.normal);
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    start_(0, static_cast<Eigen::Index>(k)) = gaps[k] - rests_[k];
-  respond_at_start();
+  rest_at(rest_gaps(stiffnesses, gaps, remembered, held.normal));
   // What friction does not bear is cut off in any case: where that is what makes the energies equal, their
   // rounding must not choose.
   double shear = 0.0;

@@ -194,6 +194,8 @@ class ContactPair {
     return area_springs_ ? point.area : 1.0;
   }
   void respond_at_start();
+  /// @param rests gap of each point at which its normal spring is at rest, m
+  void rest_at(std::vector<double> rests);
   /// @param forces (3 #points)
   void set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
   /// Gap over the rest and trial slip of every point, linear in the changes. @return (3, #points)

@@ -23,11 +23,6 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// A step may add what springs give way by.
-double tolerated_depth(const SimulationSettings& settings) {
-  return (1.0 - settings.multiplier_share) * settings.penetration_tolerance;
-}
-
 /// A block that can turn, where it is but without strain: under stress, blocks that hardly have inertia would
 /// rather turn than move.
 BlockState relaxed(const BlockModel& block, const BlockState& state) {
@@ -66,7 +61,7 @@ bool Simulation::is_free(const Island& island, const std::vector<ContactPair>& p
 bool Simulation::too_deep(const std::vector<ContactPair>& pairs) const {
   return settings_.augmented && steps_ > 0 &&
          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
-           return pair.depth_found() > tolerated_depth(settings_);
+           return pair.depth_found() > settings_.tolerated_depth();
          });
 }
 
@@ -103,7 +98,7 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
   for (const Island& island : trial.islands) {
     double deepest = 0.0;
     for (const int index : island.pairs) deepest = std::max(deepest, pairs[at(index)].depth_found());
-    if (deepest <= tolerated_depth(settings_)) continue;
+    if (deepest <= settings_.tolerated_depth()) continue;
     deep.push_back(&island);
     contacts.push_back(contacts_of(island, pairs));
   }

@@ -157,8 +157,7 @@ class OpenClose {
     constexpr double least = 0.01;  // of what a point at the surface may give way by
     if (!law.augmented || point.state == ContactState::open) return 0.0;
     const double allowed = settings_.multiplier_share * settings_.penetration_tolerance;
-    const double deepest = settings_.penetration_tolerance - allowed;
-    const double left = std::clamp(1.0 + gap / deepest, least, 1.0);
+    const double left = std::clamp(1.0 + gap / settings_.tolerated_depth(), least, 1.0);
     double most = 0.0;
     const auto look_at = [&most](double force, double stiffness, double way) {
       if (stiffness > 0.0) most = std::max(most, force / (stiffness * way));

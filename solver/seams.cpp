@@ -96,8 +96,7 @@ bool any_of(const PairContacts& contacts, const Condition& holds) {
 
 }  // namespace
 
-WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory, Given given)
-    : given_(std::move(given)) {
+WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
   for (const auto& [blocks, pair] : memory) {
     if (!(pair.deepest() > 0.0)) continue;
     for (const ContactMemory::Entry& entry : pair.entries())
@@ -134,7 +133,7 @@ void WaysOut::add_touching(const std::array<int, 2>& blocks, const PlacedSurface
   }
 }
 
-double WaysOut::sunk(int block, int but, const Vector3& direction) const {
+double WaysOut::sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const {
   double highest = 0.0;
   if (const auto known = ways_.find(block); known != ways_.end()) {
     for (const OutOf& way : known->second) {
@@ -142,18 +141,19 @@ double WaysOut::sunk(int block, int but, const Vector3& direction) const {
         highest = std::max(highest, way.height);
     }
   }
-  return given_ ? highest + 2.0 * given_(block, direction) : highest;
+  return given_way ? highest + 2.0 * given_way(block, direction) : highest;
 }
 
-std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
+std::vector<WayOut> WaysOut::of_pair(int a, int b, const GivenWay& given_way) const {
   std::vector<WayOut> ways;
   const auto add = [&](int block, int side, double sign) {
     const auto known = ways_.find(block);
     if (known == ways_.end()) return;
     for (const OutOf& way : known->second) {
       const bool own = way.other == side;
-      const double supports =
-          own ? 0.0 : sunk(way.other, block, way.direction) + sunk(side, block, way.direction);
+      const double supports = own ? 0.0
+                                  : sunk(way.other, block, way.direction, given_way) +
+                                        sunk(side, block, way.direction, given_way);
       ways.push_back({sign * way.direction,
                       way.height + supports,
                       {std::min(block, way.other), std::max(block, way.other)},
@@ -166,7 +166,8 @@ std::vector<WayOut> WaysOut::of_pair(int a, int b) const {
 }
 
 bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
-                     const std::function<const PlacedSurface&(int)>& placed) const {
+                     const std::function<const PlacedSurface&(int)>& placed,
+                     const GivenWay& given_way) const {
   const auto pair = std::lower_bound(found.begin(), found.end(), way.out_of,
                                      [](const FoundContacts& contacts, const std::array<int, 2>& blocks) {
                                        return contacts.blocks < blocks;
@@ -174,7 +175,7 @@ bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
   if (pair == found.end() || pair->blocks != way.out_of) return false;
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);
-  const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1]);
+  const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1], given_way);
   const Vector3& direction = way.direction;
   return any_of(pair->contacts, [&](const auto& contact) {
     return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&

@@ -6,9 +6,9 @@
 // last step, what touches of the two is on either side of a plane across that way, as an inclined side that
 // leads up from the rim of a sole and the edge of the next block are: the block would slide over the other.
 // It moves by twice the depth, as depths change within a step. Where what it lies on, or what it comes to,
-// has sunk into something else or has been pressed to another height, by as much more. Faces across the way
-// are what blocks rest on; they are none. A block that goes on beyond what touches, as below a corner at the
-// height of the other's rim, pushes.
+// has sunk into something else or has been pressed to less than its height, by as much more. Faces across the
+// way are what blocks rest on; they are none. A block that goes on beyond what touches, as below a corner at
+// the height of the other's rim, pushes.
 #pragma once
 
 #include <functional>
@@ -31,27 +31,30 @@ struct WayOut {
   bool own;
 };
 
+/// By how much a block is shorter or longer along a unit direction than it is without load, m, >= 0.
+using GivenWay = std::function<double(int block, const Vector3& direction)>;
+
 /// Ways out of what each block had sunk into at the end of the last step.
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
-  /// By how much a block is shorter or longer along a unit direction than it is without load, m, >= 0.
-  using Given = std::function<double(int block, const Vector3& direction)>;
-  /// @param memory of pairs of blocks (a, b). @param given empty: blocks are rigid
-  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory, Given given = {});
+  /// @param memory of pairs of blocks (a, b)
+  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
   /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
   /// negative: the gap between them
   void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);
   /// The same of all faces and vertices that lie or come to lie on a face.
   void add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
                     const PairContacts& contacts);
-  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b) const;
+  /// @param given_way empty: blocks are rigid
+  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b, const GivenWay& given_way) const;
   /// Whether a block still lies on what a way leads out of, by a contact that no other way undoes: of two
   /// flanks of a ridge that has hardly gone in, each is beside the way out of the other.
   /// @param found contacts, ordered by blocks, with or without those of seams. @param placed surfaces of
   /// blocks that have contacts
   [[nodiscard]] bool stands(const WayOut& way, const std::vector<FoundContacts>& found,
-                            const std::function<const PlacedSurface&(int)>& placed) const;
+                            const std::function<const PlacedSurface&(int)>& placed,
+                            const GivenWay& given_way) const;
 
  private:
   struct OutOf {
@@ -61,10 +64,9 @@ class WaysOut {
   };
   /// Height of the highest of a block's ways out of any but another one, along a direction or against it, and
   /// twice what the block itself has given way, m.
-  [[nodiscard]] double sunk(int block, int but, const Vector3& direction) const;
+  [[nodiscard]] double sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const;
 
   std::map<int, std::vector<OutOf>> ways_;  ///< by block
-  Given given_;
 };
 
 /// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns

@@ -77,6 +77,8 @@ struct SimulationSettings {
   /// 0 to 1/3, of penetration_tolerance: how far springs beside multipliers give way in a step. Blocks are
   /// moved apart where they are so near to the tolerance that a step could exceed it, to twice this at most
   double multiplier_share = 0.25;
+  /// Depth at which multipliers may leave a point, m: a step may add what springs give way by.
+  [[nodiscard]] double tolerated_depth() const { return (1.0 - multiplier_share) * penetration_tolerance; }
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
   /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (contact_impulses.cpp).

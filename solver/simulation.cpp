@@ -247,8 +247,7 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
     const auto known = memory_.find({a, b});
     return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
   });
-  ways_out_ =
-      WaysOut(memory_, [this](int block, const Vector3& direction) { return given_way(block, direction); });
+  ways_out_ = WaysOut(memory_);
   for (const auto& [blocks, contacts] : found) {
     const auto known = memory_.find(blocks);
     if (known == memory_.end() || !(known->second.deepest() > 0.0))
@@ -256,9 +255,17 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
   }
   const auto stands = standing_ways(found);
   for (auto& [pair, contacts] : found)
-    leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out_.of_pair(pair[0], pair[1]),
-                    stands, contacts);
+    leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]), ways_out(pair[0], pair[1]), stands,
+                    contacts);
   return found;
+}
+
+GivenWay Simulation::blocks_given_way() const {
+  return [this](int block, const Vector3& direction) { return given_way(block, direction); };
+}
+
+std::vector<WayOut> Simulation::ways_out(int a, int b) const {
+  return ways_out_.of_pair(a, b, blocks_given_way());
 }
 
 double Simulation::given_way(int block, const Vector3& direction) const {
@@ -280,8 +287,8 @@ double Simulation::given_way(int block, const Vector3& direction) const {
 
 std::function<bool(const WayOut&)> Simulation::standing_ways(const std::vector<FoundContacts>& found) const {
   return [this, &found](const WayOut& way) {
-    return ways_out_.stands(way, found,
-                            [this](int block) -> const PlacedSurface& { return finder_.placed(block); });
+    const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
+    return ways_out_.stands(way, found, placed, blocks_given_way());
   };
 }
 
@@ -315,8 +322,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
-    if (!hold_energy && law.augmented)
-      pairs.back().hold_within((1.0 - settings_.multiplier_share) * settings_.penetration_tolerance);
+    if (!hold_energy && law.augmented) pairs.back().hold_within(settings_.tolerated_depth());
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);
@@ -341,7 +347,7 @@ std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
   const auto stands = standing_ways(found);
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const auto& [a, b] = pair.blocks;
-    return at_seam(finder_.placed(a), finder_.placed(b), ways_out_.of_pair(a, b), stands, pair.touch);
+    return at_seam(finder_.placed(a), finder_.placed(b), ways_out(a, b), stands, pair.touch);
   });
   return passing;
 }

@@ -195,6 +195,9 @@ class Simulation {
   /// By how much a block is shorter or longer along a unit direction, in the mean, than it is without load,
   /// m.
   [[nodiscard]] double given_way(int block, const Vector3& direction) const;
+  [[nodiscard]] GivenWay blocks_given_way() const;
+  /// Of two blocks, at the last search for contacts.
+  [[nodiscard]] std::vector<WayOut> ways_out(int a, int b) const;
   /// Which ways out count among some contacts, which must outlive the answer.
   [[nodiscard]] std::function<bool(const WayOut&)> standing_ways(
       const std::vector<FoundContacts>& found) const;

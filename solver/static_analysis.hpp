@@ -11,10 +11,12 @@
 // Equilibrium: m has fallen to its least, rho m D is below settings.static_tolerance of the largest force on
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
 // soft motions may still be on their way. Moving: a block has travelled settings.static_travel of its size
-// and what it lacks was not halved on the way, or a tenth of that when there are no iterations left. m D is
-// the acceleration of the blocks from rest, whatever m; what is reported is that of the iteration, since the
-// last one in which nothing was lacking, in which all blocks together lacked least, none in which contacts
-// began to slide or stopped: contacts have taken up what they bear there, and no block has gone far yet.
+// and what it lacks was not halved on the way, or a tenth of that when there are no iterations left; listed
+// as moving is what has then gone a thousandth of it. With multipliers, depths that the tolerance allows are
+// held where they are found. m D is the acceleration of the blocks from rest, whatever m; what is reported is
+// that of the iteration, since the last one in which nothing was lacking, in which all blocks together lacked
+// least, none in which contacts began to slide or stopped: contacts have taken up what they bear there, and
+// no block has gone far yet.
 //
 // Loads that change follow their histories in levels of settings.time_step, each brought to equilibrium;
 // constant ones are taken at the end time at once.

@@ -31,6 +31,21 @@ BlockModel cube(const Vector3& low, int order = 1) {
       block_of("cube", Polyhedron(make_box(low, low + Vector3::Ones())), {2500, 1e9, 0.2}, order));
 }
 
+/// A cube on a base whose faces below and above follow a history.
+Simulation on_moving_base(const SupportHistory& history, const Vector3& velocity, double friction,
+                          const SimulationSettings& settings) {
+  BlockDefinition base = block_of("base", Polyhedron(make_box({-4, -4, -1}, {5, 5, 0})), {2500, 1e9, 0.2}, 1);
+  for (const double z : {-1.0, 0.0})
+    base.supports.push_back({Plane{{0, 0, z}, Vector3::UnitZ()}, {true, true, true}, history});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(base));
+  blocks.push_back(cube({0, 0, 0}));
+  return {std::move(blocks),
+          {{}, {velocity, {0, 0, 0}}},
+          same_law({2e10, 1e10, friction, 0.0, 0.0, true}),
+          settings};
+}
+
 /// Two cubes that meet at 2 m/s. @return velocity at which their faces part after the step in which they meet
 double rebound(double share_of_step, int order, double stop_stiffness) {
   constexpr double speed = 2.0, time_step = 1e-3;
@@ -105,14 +120,7 @@ TEST(ContactImpulses, ASupportThatMovesPushesAndWorks) {
   // The step alone would end at twice the speed.
   constexpr double speed = 1.0, time_step = 1e-2;
   const SupportHistory up{{0.0, 10.0}, {Vector3::Zero(), {0, 0, 10.0 * speed}}};
-  BlockDefinition base = block_of("base", Polyhedron(make_box({-1, -1, -1}, {2, 2, 0})), {2500, 1e9, 0.2}, 1);
-  for (const double z : {-1.0, 0.0})
-    base.supports.push_back({Plane{{0, 0, z}, Vector3::UnitZ()}, {true, true, true}, up});
-  std::vector<BlockModel> blocks;
-  blocks.emplace_back(std::move(base));
-  blocks.push_back(cube({0, 0, 0}));
-  Simulation simulation(std::move(blocks), {{}, {}}, same_law({2e10, 1e10, 0.5, 0.0, 0.0, true}),
-                        augmented(time_step));
+  Simulation simulation = on_moving_base(up, Vector3::Zero(), 0.5, augmented(time_step));
   EXPECT_EQ(simulation.step(1.0), StepStatus::accepted);
   for (const double x : {0.0, 1.0})
     EXPECT_NEAR(velocity_of(simulation, 1, {x, 0.5, 0}).z(), speed, 2e-2 * speed);
@@ -149,14 +157,7 @@ Vector3 carried(const Vector3& acceleration, const Vector3& velocity, double fri
     history.times.push_back(t);
     history.displacements.emplace_back(0.5 * t * t * acceleration);
   }
-  BlockDefinition base = block_of("base", Polyhedron(make_box({-4, -4, -1}, {5, 5, 0})), {2500, 1e9, 0.2}, 1);
-  for (const double z : {-1.0, 0.0})
-    base.supports.push_back({Plane{{0, 0, z}, Vector3::UnitZ()}, {true, true, true}, history});
-  std::vector<BlockModel> blocks;
-  blocks.emplace_back(std::move(base));
-  blocks.push_back(cube({0, 0, 0}));
-  Simulation simulation(std::move(blocks), {{}, {velocity, {0, 0, 0}}},
-                        same_law({2e10, 1e10, friction, 0.0, 0.0, true}), augmented(time_step, integrator));
+  Simulation simulation = on_moving_base(history, velocity, friction, augmented(time_step, integrator));
   EXPECT_TRUE(test_support::run_until(simulation, time));
   return velocity_of(simulation, 1, {0.5, 0.5, 0.5});
 }
