@@ -159,6 +159,7 @@ class JointLaws {
     result.area_springs = area_;
     result.normal_stiffness =
         given.normal_stiffness ? *given.normal_stiffness : automatic_normal_stiffness(a, b, area_, ratios_);
+    result.rigid = !given.normal_stiffness;
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
     result.friction = std::tan(given.friction_angle * std::numbers::pi / 180.0);

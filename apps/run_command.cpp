@@ -103,6 +103,18 @@ std::string describe_motion(const Simulation& simulation) {
   return text;
 }
 
+/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
+std::string describe_displaced(const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const auto& [block, distance] : displaced_blocks(simulation)) {
+    names.push_back(fmt::format("block {} by {:.3g} m",
+                                simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
+  }
+  return names.empty()
+             ? ""
+             : fmt::format("equilibrium, but far from where they were placed: {}", first_names(names));
+}
+
 /// A run from its first step, or from a checkpoint, to its end.
 class Run {
  public:
@@ -175,6 +187,7 @@ class Run {
         case StaticStatus::balancing:
           continue;
         case StaticStatus::equilibrium:
+          message_ = describe_displaced(simulation);
           return RunStatus::equilibrium;
         case StaticStatus::moving:
           message_ = describe_motion(simulation);
@@ -270,7 +283,7 @@ void tell_end(RunStatus status, const std::string& message, const std::filesyste
       if (!quiet) err << message << '\n';
       break;
     case RunStatus::equilibrium:
-      if (!quiet) err << "equilibrium\n";
+      if (!quiet) err << (message.empty() ? "equilibrium" : message) << '\n';
       break;
     case RunStatus::completed:
       break;

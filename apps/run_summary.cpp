@@ -7,6 +7,8 @@
 #include "apps/program_version.hpp"
 #include "apps/scene_json.hpp"
 
+#include "solver/automatic.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -67,7 +69,29 @@ nlohmann::ordered_json moving_blocks_of(const Simulation& simulation) {
   return list;
 }
 
+nlohmann::ordered_json json_of(const std::vector<DisplacedBlock>& displaced, const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [block, distance] : displaced) {
+    list.push_back(
+        {{"block", simulation.blocks()[static_cast<std::size_t>(block)].name()}, {"distance", distance}});
+  }
+  return list;
+}
+
 }  // namespace
+
+std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
+  constexpr double far = 0.1;  // of a block's size
+  std::vector<DisplacedBlock> result;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    if (block.fixed() || block.driven()) continue;
+    const double distance =
+        mean_motion(block, simulation.states()[k].position - block.initial_state().position);
+    if (distance > far * block_size(block)) result.push_back({static_cast<int>(k), distance});
+  }
+  return result;
+}
 
 std::string to_string(RunStatus status) {
   switch (status) {
@@ -95,6 +119,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   if (!message.empty()) summary["message"] = message;
   summary["title"] = scene.title;
   if (status == RunStatus::moving) summary["moving"] = moving_blocks_of(simulation);
+  if (status == RunStatus::equilibrium)
+    summary["displaced"] = json_of(displaced_blocks(simulation), simulation);
   summary["steps"] = simulation.steps();
   summary["time"] = simulation.time();
   summary["rejected_steps"] = rejections_of(simulation);

@@ -26,7 +26,16 @@ struct RunSeconds {
   double output = 0.0;
 };
 
-/// @param message why a run failed; empty otherwise
+/// A block that a static analysis has taken far.
+struct DisplacedBlock {
+  int block;
+  double distance;  ///< root mean square over the block from where it was placed, m
+};
+/// Blocks farther than a tenth of their size from where they were placed, those on supports that move left
+/// out: what they rest in is not what was built.
+[[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
+
+/// @param message what has to be told of how a run ended; empty: nothing
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
                                                  RunStatus status, const std::string& message,
                                                  const RunSeconds& seconds, int frames);

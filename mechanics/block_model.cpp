@@ -135,6 +135,12 @@ ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
                           corotational());
 }
 
+Eigen::MatrixX3d BlockModel::unstrained(const Eigen::MatrixX3d& position) const {
+  if (!space().can_turn()) return basis_.identity_map();
+  const Eigen::Matrix3d gradient = position.transpose() * parts_->mean_gradients;
+  return basis_.identity_map() * polar_decomposition(gradient).rotation.transpose();
+}
+
 Eigen::MatrixXd BlockModel::tangent(const Eigen::Matrix3d& rotation) const {
   return corotational() ? space().restrict(rotated_stiffness(parts_->stiffness, rotation))
                         : parts_->reduced_stiffness;

@@ -102,6 +102,9 @@ class BlockModel {
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
+  /// A block of the total formulation without strain, turned as it is but in the place where it was made.
+  /// @param position (p, 3). @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d unstrained(const Eigen::MatrixX3d& position) const;
   /// Tangent Z' R K R' Z of the internal force in the unknowns; of St.-Venant-Kirchhoff blocks the one of the
   /// undeformed block, turned. @return (unknowns, unknowns)
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::Matrix3d& rotation) const;

@@ -17,6 +17,8 @@ namespace ashlar {
 struct SpringEnergy {
   double normal = 0.0;
   double shear = 0.0;
+
+  [[nodiscard]] double total() const { return normal + shear; }
 };
 
 /// No bound.

@@ -112,8 +112,8 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
       ledger_.applied -= pair.prescribed_work(after);
       potential_work += work;
       const SpringEnergy held = ContactPair::energies(after);
-      potential_change += held.normal + held.shear - pair.start_energy();
-      ledger_.contact += held.normal + held.shear;
+      potential_change += held.total() - pair.start_energy();
+      ledger_.contact += held.total();
       if (pair.tied()) continue;
       const double slid = pair.friction_work(after, laws, ya, yb);
       friction += slid;

@@ -67,7 +67,8 @@ static void visit_members(Archive& archive, PairRecord& record) {
 template <class Archive>
 static void visit_members(Archive& archive, StaticState& state) {
   archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
-          state.milestones, state.milestone_forces, state.travels, state.least_lacking, state.unbalanced);
+          state.milestones, state.milestone_forces, state.travels, state.sliding, state.least_lacking,
+          state.rigid, state.gives_way, state.starts, state.unbalanced);
 }
 
 template <class Archive>

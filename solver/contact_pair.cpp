@@ -145,6 +145,7 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       rows_a_(contact_rows(*body_a.model, points_, phi_a)),
       rows_b_(contact_rows(*body_b.model, points_, phi_b)),
       tie_(tie),
+      rigid_(law.rigid || law.augmented || tie != nullptr),
       area_springs_(law.area_springs),
       // The forces of a tie are along the gap, so that they have no couple worth the name.
       free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
@@ -483,8 +484,7 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
 }
 
 double ContactPair::start_energy() const {
-  const SpringEnergy sum = start_energies();
-  return sum.normal + sum.shear;
+  return start_energies().total();
 }
 
 SpringEnergy ContactPair::start_energies() const {
@@ -493,11 +493,6 @@ SpringEnergy ContactPair::start_energies() const {
 
 SpringEnergy ContactPair::energies(const PairResponse& response) {
   return sum_of(response.points);
-}
-
-double ContactPair::energy(const PairResponse& response) {
-  const SpringEnergy sum = energies(response);
-  return sum.normal + sum.shear;
 }
 
 }  // namespace ashlar

@@ -61,6 +61,8 @@ class ContactPair {
   ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
               double stiffness);
   [[nodiscard]] bool tied() const { return tie_ != nullptr; }
+  /// Whether its springs only stand for what does not give way.
+  [[nodiscard]] bool rigid() const { return rigid_; }
   /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
   [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                       const std::vector<PointLaw>& laws) const;
@@ -167,6 +169,16 @@ class ContactPair {
   [[nodiscard]] PairResponse against_slip(double depth, const Eigen::VectorXd& ya,
                                           const Eigen::VectorXd& yb) const;
 
+  // setting_off.cpp
+  /// The pair as blocks feel it that set off from rest: points that a response has closed are rigid, with
+  /// their forces as multipliers, those that it has opened never touch. Ties stay as they are.
+  /// @param laws that gave the response
+  /// @param reach m, >= 0: points that are found this far apart or less touch, without force
+  [[nodiscard]] ContactPair setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                        double reach) const;
+  /// Whether cohesion or tensile strength is lost in the step anywhere. @param memory after it
+  [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
+
   // contact_pair.cpp
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
@@ -183,7 +195,6 @@ class ContactPair {
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Spring energy at the end of the step, J.
   [[nodiscard]] static SpringEnergy energies(const PairResponse& response);
-  [[nodiscard]] static double energy(const PairResponse& response);
 
  private:
   /// With phi (#points, p) the values of the functions of a and b at the points.
@@ -215,7 +226,8 @@ class ContactPair {
   Eigen::MatrixXd
       rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed
   Eigen::MatrixXd rows_b_;
-  const Tie* tie_;               ///< null for contacts
+  const Tie* tie_;  ///< null for contacts
+  bool rigid_;
   bool area_springs_;            ///< multipliers are remembered per area
   bool free_pair_;               ///< nothing but the other block holds either
   Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step from a point near, of free pairs

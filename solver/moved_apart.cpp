@@ -23,15 +23,6 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// A block that can turn, where it is but without strain: under stress, blocks that hardly have inertia would
-/// rather turn than move.
-BlockState relaxed(const BlockModel& block, const BlockState& state) {
-  if (!block.space().can_turn() || block.incremental() != nullptr) return state;
-  const Eigen::Matrix3d gradient = state.position.transpose() * block.parts()->mean_gradients;
-  const Eigen::Matrix3d rotation = polar_decomposition(gradient).rotation;
-  return {block.basis().identity_map() * rotation.transpose(), state.velocity};
-}
-
 }  // namespace
 
 double Simulation::energy_of_motion(const std::vector<int>& island,
@@ -85,7 +76,7 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     body.roundoff_force = roundoff_force_[k];
     body.free_change = body.change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
   }
-  std::vector<BlockState> relaxed_states(blocks_.size());  // of blocks that are moved
+  std::vector<BlockState> relaxed(blocks_.size());  // of blocks that are moved
   struct MovedIsland {
     const Island* island;
     std::size_t place;                 // in the funds
@@ -109,10 +100,13 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     const Island& island = *deep[n];
     for (const int k : island.bodies) {
       BodyStep& body = trial.bodies[at(k)];
-      relaxed_states[at(k)] = relaxed(blocks_[at(k)], states_[at(k)]);
-      body.state = &relaxed_states[at(k)];
-      body.external_force =
-          blocks_[at(k)].space().restrict(blocks_[at(k)].elastic(body.state->position).force);
+      const BlockModel& block = blocks_[at(k)];
+      relaxed[at(k)] = states_[at(k)];
+      // Under stress, blocks that hardly have inertia would rather turn than move.
+      if (block.space().can_turn() && block.incremental() == nullptr)
+        relaxed[at(k)].position = block.unstrained(states_[at(k)].position);
+      body.state = &relaxed[at(k)];
+      body.external_force = block.space().restrict(block.elastic(body.state->position).force);
     }
     const IslandResult result = solve_island(island, trial.bodies, trial.pairs, scheme, settings, solvers_);
     counts_.open_close_iterations += static_cast<std::uint64_t>(result.iterations);

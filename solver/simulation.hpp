@@ -281,6 +281,13 @@ class Simulation {
                    const IslandResult& result, std::vector<BodyStep>& bodies,
                    std::vector<StoppedPair>& stopped);
 
+  // setting_off.cpp
+  /// Takes what giving way does out of the accelerations of an iteration of a static analysis. Before the
+  /// trial is accepted. @param accelerations (p, 3) of each moving block. @return whether all are those of
+  /// rigid blocks now
+  [[nodiscard]] bool set_off(const TimeScheme& scheme, const Trial& trial,
+                             std::vector<Eigen::MatrixX3d>& accelerations);
+
   // accepted_step.cpp
   /// Books what the springs hold anew since the end of the last step.
   void book_refound(const std::vector<ContactPair>& pairs);
@@ -297,13 +304,24 @@ class Simulation {
   /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
   [[nodiscard]] double least_inertia() const;
-  /// Largest motion of a block in block sizes.
-  [[nodiscard]] double largest_motion(const Trial& trial) const;
+  /// Largest motion of a block of an island in block sizes.
+  [[nodiscard]] static double largest_motion(const Island& island, const std::vector<BodyStep>& bodies);
+  /// Of all islands.
+  [[nodiscard]] static double largest_motion(const Trial& trial);
+  /// What an iteration of a static analysis does to joints.
+  struct Joints {
+    std::vector<PairKey> sliding;  ///< blocks that slide on each other
+    bool fail = false;             ///< whether any loses its strength
+  };
+  [[nodiscard]] Joints joints(const Trial& trial) const;
+  /// How a static analysis ends that goes no farther.
+  [[nodiscard]] StaticStatus give_up();
   /// Takes note of what each block lacks of balance. @return whether none lacks anything
   [[nodiscard]] bool note_balance(const TimeScheme& scheme, const Trial& trial);
-  /// Keeps what is reported of moving blocks, see static_analysis.hpp. @param settled no contact has just
-  /// begun to slide or stopped
-  void note_accelerations(const TimeScheme& scheme, const Trial& trial, bool settled);
+  /// Keeps what is reported of moving blocks, see static_analysis.hpp. Before the trial is accepted.
+  void note_accelerations(const TimeScheme& scheme, const Trial& trial);
+  /// How far a block is from where it set off, m.
+  [[nodiscard]] double travel(std::size_t block) const;
   /// What moves after an iteration in which nothing was lacking sets off anew.
   void forget_accelerations();
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "mechanics/field_moments.hpp"
 #include "solver/automatic.hpp"
@@ -25,30 +26,15 @@ TimeScheme static_scheme(double inertia) {
   return scheme;
 }
 
-/// Root mean square of the displacement that a change of coefficients is, m.
-double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change) {
-  return change.norm() / std::sqrt(block.basis().volume());
-}
-
 std::array<int, 3> contact_states(const StepReport& report) {
   return {report.open, report.locked, report.sliding};
 }
 
-/// Blocks that slide on each other: nothing between them is locked. Where pressure ends, some points slide
-/// whatever the blocks do.
-std::vector<std::array<int, 2>> sliding_joints(const std::vector<PairRecord>& records) {
-  std::vector<std::array<int, 2>> joints;
-  for (const PairRecord& record : records) {
-    const auto any = [&](ContactState state) {
-      return std::any_of(record.responses.begin(), record.responses.end(),
-                         [&](const PointResponse& response) { return response.state == state; });
-    };
-    if (any(ContactState::sliding) && !any(ContactState::locked)) joints.push_back({record.a, record.b});
-  }
-  return joints;
-}
-
 }  // namespace
+
+double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change) {
+  return change.norm() / std::sqrt(block.basis().volume());
+}
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
   const std::vector<ContactPair> pairs = make_pairs(find_contacts(0.0), false);
@@ -121,14 +107,7 @@ StaticStatus Simulation::static_step(double end_time) {
   if (static_.moving) return StaticStatus::moving;
   if (static_.balanced && reached(end_time)) return StaticStatus::equilibrium;
   if (static_.inertia == 0.0 || static_.balanced) start_load_level(end_time);
-  if (static_.iterations >= settings_.static_iterations) {
-    // What little a block lacks may take it far only slowly.
-    const std::vector<bool> held = held_without_contacts();
-    for (std::size_t k = 0; k < blocks_.size(); ++k)
-      static_.moving =
-          static_.moving || (!held[k] && static_.travels[k] > slow_share * settings_.static_travel);
-    return static_.moving ? StaticStatus::moving : StaticStatus::not_converged;
-  }
+  if (static_.iterations >= settings_.static_iterations) return give_up();
   ++static_.iterations;
   const double least = least_inertia();
   std::vector<FoundContacts> found = find_contacts(0.0);
@@ -161,14 +140,13 @@ StaticStatus Simulation::static_step(double end_time) {
       }
     } else {
       const std::array<int, 3> before = contact_states(report_);
-      const std::vector<std::array<int, 2>> slid_before = sliding_joints(records_);
       const bool balanced = note_balance(scheme, trial);
-      accept(scheme, trial);
       if (balanced) {
         forget_accelerations();
       } else {
-        note_accelerations(scheme, trial, slid_before == sliding_joints(records_));
+        note_accelerations(scheme, trial);
       }
+      accept(scheme, trial);
       report_.step = step;
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
       const bool still = balanced && (scheme.inertia <= least || least == 0.0) &&
@@ -181,17 +159,57 @@ StaticStatus Simulation::static_step(double end_time) {
     static_.inertia = raise * scheme.inertia;
     cut = cut || raise > 1.0;
   }
-  return StaticStatus::not_converged;
+  return give_up();
 }
 
-double Simulation::largest_motion(const Trial& trial) const {
+StaticStatus Simulation::give_up() {
+  // What little a block lacks may take it far only slowly.
+  const std::vector<bool> held = held_without_contacts();
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    static_.moving =
+        static_.moving || (!held[k] && static_.travels[k] > slow_share * settings_.static_travel);
+  return static_.moving ? StaticStatus::moving : StaticStatus::not_converged;
+}
+
+double Simulation::largest_motion(const Trial& trial) {
   double most = 0.0;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (!moving_[k]) continue;
-    const double motion = mean_motion(blocks_[k], blocks_[k].space().expand(trial.bodies[k].change));
-    most = std::max(most, motion / block_size(blocks_[k]));
+  for (const Island& island : trial.islands) most = std::max(most, largest_motion(island, trial.bodies));
+  return most;
+}
+
+double Simulation::largest_motion(const Island& island, const std::vector<BodyStep>& bodies) {
+  double most = 0.0;
+  for (const int k : island.bodies) {
+    const BodyStep& body = bodies[static_cast<std::size_t>(k)];
+    const double motion = mean_motion(*body.model, body.model->space().expand(body.change));
+    most = std::max(most, motion / block_size(*body.model));
   }
   return most;
+}
+
+Simulation::Joints Simulation::joints(const Trial& trial) const {
+  Joints joints;
+  const double tearing_gap = settings_.tearing_share * settings_.contact_distance;
+  const auto change = [&](int block) { return trial.bodies[static_cast<std::size_t>(block)].change; };
+  for (std::size_t i = 0; i < trial.islands.size(); ++i) {
+    for (std::size_t n = 0; n < trial.islands[i].pairs.size(); ++n) {
+      const ContactPair& pair = trial.pairs[static_cast<std::size_t>(trial.islands[i].pairs[n])];
+      if (pair.tied()) continue;
+      const PairResponse& response = trial.results[i].responses[n];
+      const auto any = [&](ContactState state) {
+        return std::any_of(response.points.begin(), response.points.end(),
+                           [&](const PointResponse& point) { return point.state == state; });
+      };
+      // Where pressure ends, some points slide whatever the blocks do.
+      if (any(ContactState::sliding) && !any(ContactState::locked))
+        joints.sliding.push_back({pair.a(), pair.b()});
+      joints.fail =
+          joints.fail || pair.fails(pair.memory_after(response, trial.results[i].laws[n], change(pair.a()),
+                                                      change(pair.b()), tearing_gap));
+    }
+  }
+  std::sort(joints.sliding.begin(), joints.sliding.end());
+  return joints;
 }
 
 bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
@@ -223,24 +241,45 @@ bool Simulation::note_balance(const TimeScheme& scheme, const Trial& trial) {
 void Simulation::forget_accelerations() {
   static_.least_lacking = std::numeric_limits<double>::infinity();
   static_.unbalanced.clear();
+  static_.rigid = false;
+  static_.gives_way.assign(blocks_.size(), 0);
+  static_.starts.clear();
+  for (const BlockState& state : states_) static_.starts.push_back(state.position);
 }
 
-void Simulation::note_accelerations(const TimeScheme& scheme, const Trial& trial, bool settled) {
-  double lacking = 0.0;
-  std::vector<Eigen::MatrixX3d> unbalanced(blocks_.size());
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (!moving_[k]) continue;
-    unbalanced[k] = scheme.inertia * blocks_[k].space().expand(trial.bodies[k].change);
-    lacking += std::pow(blocks_[k].material().density * unbalanced[k].norm(), 2);
+double Simulation::travel(std::size_t block) const {
+  return mean_motion(blocks_[block], states_[block].position - static_.starts[block]);
+}
+
+void Simulation::note_accelerations(const TimeScheme& scheme, const Trial& trial) {
+  auto [sliding, fail] = joints(trial);
+  if (fail) forget_accelerations();
+  const bool settled = sliding == static_.sliding;
+  static_.sliding = std::move(sliding);
+  if (!static_.unbalanced.empty() && !settled) return;
+  bool near_start = true;
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    near_start = near_start && !(moving_[k] && travel(k) > settings_.contact_distance);
+  if (!near_start && static_.rigid) return;
+  std::vector<Eigen::MatrixX3d> accelerations(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    if (moving_[k]) accelerations[k] = scheme.inertia * blocks_[k].space().expand(trial.bodies[k].change);
+  if (settled) {
+    const bool rigid = set_off(scheme, trial, accelerations);
+    double lacking = 0.0;
+    for (std::size_t k = 0; k < blocks_.size(); ++k)
+      lacking += std::pow(blocks_[k].material().density * accelerations[k].norm(), 2);
+    if (!(lacking < static_.least_lacking)) return;
+    static_.least_lacking = lacking;
+    static_.rigid = rigid;
   }
-  if (!static_.unbalanced.empty() && !(settled && lacking < static_.least_lacking)) return;
-  if (settled) static_.least_lacking = lacking;
-  static_.unbalanced = std::move(unbalanced);
+  static_.unbalanced = std::move(accelerations);
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
   const std::vector<bool> held = held_without_contacts();
   std::vector<MovingBlock> result;
+  std::vector<MovingBlock> later;
   for (std::size_t k = 0; k < static_.travels.size(); ++k) {
     const BlockModel& block = blocks_[k];
     if (!moving_[k] || held[k] || static_.travels[k] <= taken_along_share * settings_.static_travel) continue;
@@ -248,9 +287,10 @@ std::vector<MovingBlock> Simulation::moving_blocks() const {
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
                                        gradient(1, 0) - gradient(0, 1));
-    result.push_back({static_cast<int>(k), mean_of(a, block.basis().volume()), turn});
+    (a.isZero(0.0) ? later : result)
+        .push_back({static_cast<int>(k), mean_of(a, block.basis().volume()), turn});
   }
-  return result;
+  return result.empty() ? later : result;
 }
 
 }  // namespace ashlar

@@ -11,22 +11,29 @@
 // Equilibrium: m has fallen to its least, rho m D is below settings.static_tolerance of the largest force on
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
 // soft motions may still be on their way. Moving: a block has travelled settings.static_travel of its size
-// and what it lacks was not halved on the way, or a tenth of that when there are no iterations left; listed
+// and what it lacks was not halved on the way, or a tenth of that when no iterations or cuts are left; listed
 // as moving is what has then gone a thousandth of it. With multipliers, depths that the tolerance allows are
-// held where they are found. m D is the acceleration of the blocks from rest, whatever m; what is reported is
-// that of the iteration, since the last one in which nothing was lacking, in which all blocks together lacked
-// least, none in which contacts began to slide or stopped: contacts have taken up what they bear there, and
-// no block has gone far yet.
+// held where they are found. m D is the acceleration of the blocks from rest, whatever m, but for what
+// contacts and blocks give way by, which is taken out where no joint is asked to (setting_off.cpp). What is
+// reported is that of the iteration, since the last one in which nothing was lacking or a joint lost its
+// strength, in which all blocks together lacked least, none in which contacts began to slide or stopped:
+// contacts have taken up there what they bear. Of rigid blocks, it is how they set off: iterations count as
+// long as none has gone farther than settings.contact_distance, and blocks that are set in motion later are
+// not listed.
 //
 // Loads that change follow their histories in levels of settings.time_step, each brought to equilibrium;
 // constant ones are taken at the end time at once.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "geometry/triangle_mesh.hpp"
+#include "mechanics/block_model.hpp"
 
 namespace ashlar {
+
+/// Root mean square over a block of the motion that a change of its coefficients is, in its unit.
+[[nodiscard]] double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change);
 
 /// How an iteration of a static analysis ended.
 enum class StaticStatus {
@@ -54,10 +61,16 @@ struct StaticState {
   /// For each block, where it was when what it lacks had last been halved, and how much that was.
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> milestone_forces;
-  std::vector<double> travels;  ///< from there, in parts of the block's size
-  /// Least sum of squares of what blocks lacked since the last iteration in which nothing was lacking, N^2
+  std::vector<double> travels;              ///< from there, in parts of the block's size
+  std::vector<std::array<int, 2>> sliding;  ///< joints that slid in the last iteration
+  /// Least sum of squares of what blocks lacked since the last iteration in which nothing was lacking or a
+  /// joint lost its strength, N^2
   double least_lacking = 0.0;
-  std::vector<Eigen::MatrixX3d> unbalanced;  ///< m D of that iteration, (p, 3); empty if there was none
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
+  bool rigid = false;                        ///< whether these are those of rigid blocks
+  /// Of each block, since then: not 0 where rigid blocks would have stayed (setting_off.cpp)
+  std::vector<int> gives_way;
+  std::vector<Eigen::MatrixX3d> starts;  ///< of each block, positions then
 };
 
 }  // namespace ashlar

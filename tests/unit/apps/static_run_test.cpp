@@ -110,6 +110,39 @@ TEST_F(StaticRun, NamesWhatMoves) {
   EXPECT_NEAR(summary["moving"][0]["acceleration"][0], -1.56994, 2e-3);
 }
 
+TEST_F(StaticRun, TellsWhatCameToRestFarAway) {
+  // A plank on its edge, leaning out by more than it is thick, falls flat: its middle goes 0.33 m down and
+  // 0.42 m to the side, and it turns.
+  write_text(scene_, R"([analysis]
+type = "static"
+[contact]
+friction_angle = 45
+[[material]]
+name = "m"
+density = 2500
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "floor"
+fixed = true
+box = { min = [-3, -3, -1], max = [3, 3, 0] }
+[[block]]
+name = "plank"
+material = "m"
+box = { min = [-0.4, -0.5, 0], max = [0, 0.5, 1] }
+rotate = { axis = [0, 1, 0], angle = 30 }
+)");
+  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "out").string()}), exit_status::done)
+      << faults_;
+  EXPECT_THAT(faults_, HasSubstr("equilibrium, but far from where they were placed: block plank by 0."));
+  const auto summary = nlohmann::json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "equilibrium");
+  ASSERT_EQ(summary["displaced"].size(), 1U);
+  EXPECT_EQ(summary["displaced"][0]["block"], "plank");
+  EXPECT_GT(summary["displaced"][0]["distance"], 0.5);
+  EXPECT_LT(summary["displaced"][0]["distance"], 1.0);
+}
+
 TEST_F(StaticRun, FailsWhereItDoesNotConvergeAndKeepsItsLastState) {
   write_text(scene_, static_scene_text);
   // Springs that make the numbers of the system overflow.

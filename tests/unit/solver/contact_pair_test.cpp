@@ -73,7 +73,7 @@ TEST(ContactPair, ForcesAndTangentsAreDerivativesOfTheEnergy) {
     const PairResponse response = respond(start);
     ASSERT_EQ(response.points[0].state, gap < 0 ? ContactState::locked : ContactState::open);
     const auto energy = [&](const Eigen::VectorXd& y) {
-      return Eigen::VectorXd::Constant(1, ContactPair::energy(respond(y)));
+      return Eigen::VectorXd::Constant(1, ContactPair::energies(respond(y)).total());
     };
     const Eigen::VectorXd force = joined(response.force_on_a, response.force_on_b);
     if (gap > 0) {
