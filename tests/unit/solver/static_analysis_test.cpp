@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <numbers>
 
 #include "solver/checkpoint.hpp"
 #include "support/simulations.hpp"
@@ -337,6 +339,55 @@ TEST(StaticAnalysis, PlanksThatSlideApartAreNotFollowedInSmallSteps) {
   EXPECT_LT(moving[0].acceleration.x(), -0.1);
   EXPECT_NEAR(moving[0].acceleration.x(), -moving[1].acceleration.x(), 1e-3);
   EXPECT_NEAR(moving[0].acceleration.z(), moving[1].acceleration.z(), 1e-3);
+}
+
+TEST(StaticAnalysis, PlanksThatSlideApartAsTheyFallAreMovingThoughTheyMeetOnEdges) {
+  // Two planks lean on each other. They turn flatter about their inner lower and upper corners at f and a
+  // from their centroids; these slide on the floor with friction m and stay on the mirror plane:
+  //   w (I + za^2 - xf (m (zf - za) - xf)) = g (m (zf - za) - xf),   I the unit inertia.
+  // When they have fallen far only two edges meet, and iterations do not go on.
+  const std::array<Eigen::Vector2d, 4> corners = {Eigen::Vector2d{-1, 0}, {-0.85, 0}, {0, 1}, {0, 1.25}};
+  double area = 0.0;
+  double squares = 0.0;
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector2d& p = corners[k];
+    const Eigen::Vector2d& q = corners[(k + 1) % 4];
+    const double twice = p.x() * q.y() - p.y() * q.x();
+    area += twice / 2.0;
+    centroid += twice / 6.0 * (p + q);
+    squares += twice / 12.0 * (p.dot(p) + p.dot(q) + q.dot(q));
+  }
+  centroid /= area;
+  const Eigen::Vector2d foot = corners[1] - centroid;
+  const Eigen::Vector2d top = corners[3] - centroid;
+  const double friction = std::tan(12.0 * std::numbers::pi / 180.0);
+  const double lever = friction * (foot.y() - top.y()) - foot.x();
+  const double turn =
+      9.81 * lever / (squares / area - centroid.squaredNorm() + top.y() * top.y() - foot.x() * lever);
+  std::vector<BlockDefinition> planks;
+  for (const double side : {1.0, -1.0}) {
+    std::vector<Vector3> points;
+    for (const Eigen::Vector2d& corner : corners)
+      for (const double y : {-0.4, 0.4}) points.emplace_back(side * corner.x(), y, corner.y());
+    planks.push_back(block_of("plank", Polyhedron(make_convex_hull(points)), {2500, 1e10, 0.2}, 1));
+  }
+  SimulationSettings settings;
+  settings.augmented = true;
+  settings.contact_distance = 1e-4;
+  settings.penetration_tolerance = 1e-7;
+  Simulation simulation(
+      models(planks[0], planks[1], fixed_block(Polyhedron(make_box({-5, -0.6, -1}, {5, 0.6, 0})))),
+      {{}, {}, {}}, same_law({2e11, 1e11, friction, 0.0, 0.0, true}), settings);
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+  const std::vector<MovingBlock> moving = simulation.moving_blocks();
+  ASSERT_EQ(moving.size(), 2U);
+  for (const std::size_t k : {0U, 1U}) {
+    const double side = k == 0 ? 1.0 : -1.0;
+    EXPECT_NEAR(moving[k].angular_acceleration.y(), side * turn, 1e-3 * turn);
+    EXPECT_NEAR(moving[k].acceleration.x(), -side * turn * top.y(), 1e-3 * turn);
+    EXPECT_NEAR(moving[k].acceleration.z(), turn * foot.x(), 1e-3 * turn);
+  }
 }
 
 TEST(StaticAnalysis, WhatMovesLittleIsNamedToo) {
