@@ -152,10 +152,12 @@ class ContactMaker {
   /// A corner is a side without length.
   static Side side_of(const ConvexSurface& s, const ContactFeature& feature, const Vector3& place) {
     const std::vector<int>& source = s.shape().source_points();
-    std::vector<int> points = {source[at(feature.index)]};
+    std::vector<int> points;
     if (feature.dimension == 1) {
       const auto& [from, to] = s.shape().edges()[at(feature.index)].corners;
       points = {source[at(from)], source[at(to)]};
+    } else {
+      points = {source[at(feature.index)]};
     }
     const auto& all = s.placed().surface().cells;
     std::vector<int> cells;
