@@ -107,7 +107,7 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   append(values, simulation.momentum());
   append(values, simulation.angular_momentum());
   for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
-  values.push_back(report.penetration);
+  values.push_back(report.depth);
   values.push_back(report.iterations);
   values.push_back(ledger.refound_gained);
   values.push_back(ledger.refound_lost);

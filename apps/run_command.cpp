@@ -163,7 +163,7 @@ class Run {
       if (status != StepStatus::accepted) {
         const Rejection& last = simulation.rejections().back();
         message_ = fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
-                               simulation.steps() + 1, simulation.time(), last.step, to_string(last.reason));
+                               simulation.steps() + 1, simulation.time(), last.step, reason_of(last));
         return RunStatus::failed;
       }
       record_step(start, saved_at, progress);
@@ -199,6 +199,20 @@ class Run {
       }
     }
     return interrupted_here();
+  }
+
+  /// Why a step was rejected, with the blocks and the place where that is known.
+  [[nodiscard]] std::string reason_of(const Rejection& rejection) const {
+    const Simulation& simulation = built_.simulation;
+    const auto& fault = simulation.fault();
+    if (!fault || fault->reason != rejection.reason) return to_string(rejection.reason);
+    const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+    if (fault->reason != RejectionReason::too_deep)
+      return fmt::format("{}: block {}", to_string(fault->reason), name(fault->blocks[0]));
+    return fmt::format(
+        "{}: block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
+        to_string(fault->reason), name(fault->blocks[0]), name(fault->blocks[1]), fault->depth,
+        fault->place.x(), fault->place.y(), fault->place.z(), fault->allowed);
   }
 
   /// What no check of the scene foresaw: the state is that before the step.

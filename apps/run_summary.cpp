@@ -78,6 +78,15 @@ nlohmann::ordered_json json_of(const std::vector<DisplacedBlock>& displaced, con
   return list;
 }
 
+nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& simulation) {
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  const Vector3& place = deepest.place;
+  return {{"value", deepest.depth},
+          {"blocks", nlohmann::ordered_json{name(deepest.blocks[0]), name(deepest.blocks[1])}},
+          {"time", deepest.time},
+          {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
+}
+
 }  // namespace
 
 std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
@@ -134,9 +143,13 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
                              {"contact_points", phases.contact_points},
                              {"solve", phases.solve},
                              {"motion_check", phases.motion_check},
+                             {"depth_audit", phases.depth_audit},
                              {"output", seconds.output}};
   summary["peak_memory_bytes"] = peak_memory_bytes();
-  summary["penetration_max"] = simulation.largest_penetration();
+  summary["penetration_max"] = simulation.deepest().depth;
+  summary["contact_depth_max"] = simulation.largest_penetration();
+  if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
+    summary["deepest"] = json_of(deepest, simulation);
   summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},
                                {"lost", simulation.ledger().refound_lost}};
   summary["energy_residual"] = simulation.ledger().residual;

@@ -123,19 +123,28 @@ std::optional<CellOverlap> overlap_of_cells(const PlacedSurface& a, int cell_a, 
   return overlap;
 }
 
-bool is_over_cell(const PlacedSurface& with_point, const Vector3& point, const PlacedSurface& s, int cell,
-                  DecisionCounts& counts) {
-  const auto& corners = s.surface().cells[at(cell)].corners;
+PlaceOverCell place_over_cell(const PlacedSurface& with_point, const Vector3& point, const PlacedSurface& s,
+                              int cell, DecisionCounts& counts) {
+  const SurfaceCell& sides = s.surface().cells[at(cell)];
+  const auto& corners = sides.corners;
   const Vector3 normal = without_tiny_parts(s.normal(cell));
   PredicateLadder ladder{within_range(with_point, s, normal), counts};
   const ContactDirection w = ContactDirection::along({&normal});
-  bool inside = true;
-  for (std::size_t k = 0; inside && k < corners.size(); ++k) {
+  PlaceOverCell place{true, {}};
+  for (std::size_t k = 0; place.over && k < corners.size(); ++k) {
     const Vector3& end = s.point(corners[(k + 1) % corners.size()]);
-    inside = sign_turn(w, s.point(corners[k]), end, point, ladder) >= 0;
+    if (sign_turn(w, s.point(corners[k]), end, point, ladder) >= 0) continue;
+    place.over = sides.across[k] >= 0;
+    place.beyond.push_back(sides.across[k]);
   }
   counts = ladder.counts;
-  return inside;
+  return place;
+}
+
+bool is_over_cell(const PlacedSurface& with_point, const Vector3& point, const PlacedSurface& s, int cell,
+                  DecisionCounts& counts) {
+  const PlaceOverCell place = place_over_cell(with_point, point, s, cell, counts);
+  return place.over && place.beyond.empty();
 }
 
 }  // namespace ashlar

@@ -38,6 +38,15 @@ struct CellOverlap {
 [[nodiscard]] bool is_over_cell(const PlacedSurface& with_point, const Vector3& point, const PlacedSurface& s,
                                 int cell, DecisionCounts& counts);
 
+/// Where a point is seen along a cell's normal.
+struct PlaceOverCell {
+  bool over = false;        ///< over it, on its rim, or beyond reflex sides alone
+  std::vector<int> beyond;  ///< faces across the reflex sides that it is beyond
+};
+/// @pre rounding to nearest
+[[nodiscard]] PlaceOverCell place_over_cell(const PlacedSurface& with_point, const Vector3& point,
+                                            const PlacedSurface& s, int cell, DecisionCounts& counts);
+
 /// Whether predicates over the points of two surfaces and a direction may use floating filters.
 [[nodiscard]] bool within_range(const PlacedSurface& a, const PlacedSurface& b, const Vector3& w);
 

@@ -47,9 +47,41 @@ bool is_end(const PlacedSurface& s, const SurfaceVertex& vertex, const Vector3& 
                      [&](int cell) { return s.normal(cell).dot(normal) < 0.0; });
 }
 
-bool faces_touch(const SubFaceSurface& surface, int face_a, int face_b) {
-  const auto& neighbours = surface.face_neighbours[at(face_a)];
+bool across_convex_edge(const SubFaceSurface& surface, int face_a, int face_b) {
+  const auto& neighbours = surface.convex_neighbours[at(face_a)];
   return face_a == face_b || std::binary_search(neighbours.begin(), neighbours.end(), face_b);
+}
+
+/// A cell that a vertex is over, or would be if the cell went on beyond its reflex sides.
+struct CellBelow {
+  int cell;
+  double gap;               ///< m
+  std::vector<int> beyond;  ///< faces across the reflex sides that the vertex is beyond
+};
+
+/// Cells of one block that a vertex of the other is near and over. Below a reflex edge a cell's half space
+/// goes on under its neighbour: it counts there where the neighbour is near too.
+std::vector<CellBelow> cells_below(const PlacedSurface& with_vertex, const Vector3& place,
+                                   const PlacedSurface& with_cell, const std::vector<int>& cells,
+                                   const ContactLimits& limits, DecisionCounts& counts) {
+  std::vector<CellBelow> near;
+  const auto face_of = [&](int cell) { return with_cell.surface().cells[at(cell)].face; };
+  for (const int cell : cells) {
+    const Vector3& normal = with_cell.normal(cell);
+    const double gap = normal.dot(place - with_cell.point(with_cell.surface().cells[at(cell)].corners[0]));
+    if (!within_limits(gap, with_cell.chord_bound(cell), limits)) continue;
+    PlaceOverCell over = place_over_cell(with_vertex, place, with_cell, cell, counts);
+    if (over.over) near.push_back({cell, gap, std::move(over.beyond)});
+  }
+  std::vector<CellBelow> below;
+  for (const CellBelow& one : near) {
+    const bool counts_here = std::all_of(one.beyond.begin(), one.beyond.end(), [&](int face) {
+      return std::any_of(near.begin(), near.end(),
+                         [&](const CellBelow& other) { return face_of(other.cell) == face; });
+    });
+    if (counts_here) below.push_back(one);
+  }
+  return below;
 }
 
 /// Contacts of a vertex of one block with cells of the other.
@@ -61,17 +93,15 @@ void find_vertex_contacts(const PlacedSurface& with_vertex, int vertex_index, co
   const SurfaceVertex& vertex = with_vertex.surface().vertices[at(vertex_index)];
   const Vector3& place = with_vertex.point(vertex.point);
   std::vector<VertexContact> found;
-  for (const int cell : cells) {
-    const Vector3& normal = with_cell.normal(cell);
-    const double gap = normal.dot(place - with_cell.point(with_cell.surface().cells[at(cell)].corners[0]));
-    if (!within_limits(gap, with_cell.chord_bound(cell), limits)) continue;
+  for (const CellBelow& below : cells_below(with_vertex, place, with_cell, cells, limits, contacts.counts)) {
+    const Vector3& normal = with_cell.normal(below.cell);
     if (!is_end(with_vertex, vertex, normal, sine)) continue;
     if (any_facing(with_vertex, vertex.cells, normal, cosine)) continue;
-    if (!is_over_cell(with_vertex, place, with_cell, cell, contacts.counts)) continue;
-    found.push_back({vertex_of_a, vertex.point, vertex.cells.front(), cell, gap,
+    found.push_back({vertex_of_a, vertex.point, vertex.cells.front(), below.cell, below.gap,
                      tributary_area(with_vertex.surface(), vertex.cells)});
   }
-  // Of faces that share an edge the vertex entered through one only: where it is least deep.
+  // Of faces that share a convex edge the vertex entered through one only: where it is least deep. Of those
+  // that share a reflex edge it has to stay outside of both.
   std::stable_sort(found.begin(), found.end(),
                    [](const VertexContact& p, const VertexContact& q) { return p.gap > q.gap; });
   const auto face_of = [&](const VertexContact& contact) {
@@ -80,7 +110,7 @@ void find_vertex_contacts(const PlacedSurface& with_vertex, int vertex_index, co
   std::vector<VertexContact> kept;
   for (const VertexContact& contact : found) {
     const bool repeated = std::any_of(kept.begin(), kept.end(), [&](const VertexContact& other) {
-      return faces_touch(with_cell.surface(), face_of(contact), face_of(other));
+      return across_convex_edge(with_cell.surface(), face_of(contact), face_of(other));
     });
     if (!repeated) kept.push_back(contact);
   }
@@ -97,26 +127,36 @@ bool edge_is_end(const PlacedSurface& s, const SurfaceEdge& edge, const Vector3&
   return outward.dot(into_left) <= sine && outward.dot(into_right) <= sine;
 }
 
-/// Whether two edges cross in inner points of both when seen across both.
-bool edges_cross(const PlacedSurface& a, const std::array<Vector3, 2>& edge_a, const PlacedSurface& b,
-                 const std::array<Vector3, 2>& edge_b, DecisionCounts& counts) {
-  PredicateLadder ladder{within_range(a, b, Vector3::Zero()), counts};
-  const ContactDirection w = ContactDirection::cross({&edge_a[1], &edge_a[0]}, {&edge_b[1], &edge_b[0]});
-  const auto separates = [&](const std::array<Vector3, 2>& line, const std::array<Vector3, 2>& ends) {
-    const SideOfLine side(w, line[0], line[1]);
-    return side.sign(ends[0], ladder) * side.sign(ends[1], ladder) < 0;
-  };
-  const bool cross = separates(edge_a, edge_b) && separates(edge_b, edge_a);
-  counts = ladder.counts;
-  return cross;
-}
-
 double chord_bound(const PlacedSurface& s, const SurfaceEdge& edge) {
   return std::max(s.chord_bound(edge.cells[0]), s.chord_bound(edge.cells[1]));
 }
 
-std::optional<EdgeContact> edge_contact(const PlacedSurface& a, int edge_a, const PlacedSurface& b,
-                                        int edge_b, const ContactLimits& limits, DecisionCounts& counts) {
+/// Where a crossing is on one of two edges, seen across both: within it, or at or beyond an end at which a
+/// reflex edge of the block ends too. There the block goes on with another edge, and below both of them each
+/// bounds it.
+struct PlaceOnEdge {
+  bool counts = false;
+  int beyond = -1;  ///< the point of the end, -1: within the edge
+};
+
+/// @param start,end on which side of the other edge's line the ends are. @param along rounded place of the
+/// crossing
+PlaceOnEdge place_on_edge(const PlacedSurface& s, const SurfaceEdge& edge, int start, int end, double along) {
+  if (start * end < 0) return {true, -1};
+  const bool at_start = start == 0 || (end != 0 && along < 0.5);
+  const int point = edge.ends[at_start ? 0 : 1];
+  return {s.surface().vertices[at(s.surface().vertex_of_point[at(point)])].reflex, point};
+}
+
+/// Two edges that cross, or would if they went on beyond their ends.
+struct EdgeCrossing {
+  EdgeContact contact;
+  int beyond_a = -1;  ///< point of a at or beyond which it crosses, -1: within the edge
+  int beyond_b = -1;
+};
+
+std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, const PlacedSurface& b,
+                                          int edge_b, const ContactLimits& limits, DecisionCounts& counts) {
   const SurfaceEdge& ea = a.surface().edges[at(edge_a)];
   const SurfaceEdge& eb = b.surface().edges[at(edge_b)];
   if (!ea.convex || !eb.convex) return std::nullopt;
@@ -130,8 +170,8 @@ std::optional<EdgeContact> edge_contact(const PlacedSurface& a, int edge_a, cons
   if (normal.norm() <= sine * u.norm() * v.norm()) return std::nullopt;
   const double squared = normal.squaredNorm();
   // Seen along the normal the edges cross at a0 + s u = b0 + t v (+ gap along the normal).
-  const double s = std::clamp(v.cross(r).dot(normal) / squared, 0.0, 1.0);
-  const double t = std::clamp(u.cross(r).dot(normal) / squared, 0.0, 1.0);
+  double s = v.cross(r).dot(normal) / squared;
+  double t = u.cross(r).dot(normal) / squared;
   normal /= std::sqrt(squared);
   // Out of b: the side to which the faces of b look.
   const Vector3 out_of_b = b.normal(eb.cells[0]) + b.normal(eb.cells[1]);
@@ -145,9 +185,41 @@ std::optional<EdgeContact> edge_contact(const PlacedSurface& a, int edge_a, cons
   for (const int cell : cells_b) {
     if (any_facing(a, cells_a, b.normal(cell), cosine)) return std::nullopt;
   }
-  if (!edges_cross(a, ends_a, b, ends_b, counts)) return std::nullopt;
+  PredicateLadder ladder{within_range(a, b, Vector3::Zero()), counts};
+  const ContactDirection w = ContactDirection::cross({&ends_a[1], &ends_a[0]}, {&ends_b[1], &ends_b[0]});
+  const SideOfLine of_b(w, ends_b[0], ends_b[1]);
+  const PlaceOnEdge on_a =
+      place_on_edge(a, ea, of_b.sign(ends_a[0], ladder), of_b.sign(ends_a[1], ladder), s);
+  PlaceOnEdge on_b;
+  if (on_a.counts) {
+    const SideOfLine of_a(w, ends_a[0], ends_a[1]);
+    on_b = place_on_edge(b, eb, of_a.sign(ends_b[0], ladder), of_a.sign(ends_b[1], ladder), t);
+  }
+  counts = ladder.counts;
+  if (!on_b.counts) return std::nullopt;
+  if (on_a.beyond < 0) s = std::clamp(s, 0.0, 1.0);
+  if (on_b.beyond < 0) t = std::clamp(t, 0.0, 1.0);
   const double area = std::min(tributary_area(a.surface(), cells_a), tributary_area(b.surface(), cells_b));
-  return EdgeContact{{ea.ends, ea.cells[0], s}, {eb.ends, eb.cells[0], t}, normal, gap, area};
+  return EdgeCrossing{
+      {{ea.ends, ea.cells[0], s}, {eb.ends, eb.cells[0], t}, normal, gap, area}, on_a.beyond, on_b.beyond};
+}
+
+/// Whether another edge of the same block that ends at a point crosses too.
+bool goes_on(const std::vector<EdgeCrossing>& crossings, CrossedSide EdgeContact::*side,
+             const EdgeCrossing& one, int point) {
+  return point < 0 || std::any_of(crossings.begin(), crossings.end(), [&](const EdgeCrossing& other) {
+           const auto& ends = (other.contact.*side).ends;
+           return ends != (one.contact.*side).ends && (ends[0] == point || ends[1] == point);
+         });
+}
+
+/// Crossings within both edges, and those beyond ends where the blocks go on with other edges that cross.
+void add_crossings(const std::vector<EdgeCrossing>& crossings, PairContacts& contacts) {
+  for (const EdgeCrossing& one : crossings) {
+    if (goes_on(crossings, &EdgeContact::of_a, one, one.beyond_a) &&
+        goes_on(crossings, &EdgeContact::of_b, one, one.beyond_b))
+      contacts.edges.push_back(one.contact);
+  }
 }
 
 /// Features of a surface with boxes that meet a given one, and those boxes.
@@ -225,11 +297,13 @@ void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatur
                            contacts);
   const NearFeatures edges_a = near_edges(a, b.box(), margin);
   const NearFeatures edges_b = near_edges(b, a.box().grown(margin), 0.0);
+  std::vector<EdgeCrossing> crossings;
   for (const auto& [i, j] : meeting_boxes(edges_a.boxes, edges_b.boxes)) {
-    if (auto contact =
-            edge_contact(a, edges_a.indices[at(i)], b, edges_b.indices[at(j)], limits, contacts.counts))
-      contacts.edges.push_back(*contact);
+    if (auto crossing =
+            edge_crossing(a, edges_a.indices[at(i)], b, edges_b.indices[at(j)], limits, contacts.counts))
+      crossings.push_back(*crossing);
   }
+  add_crossings(crossings, contacts);
   return contacts;
 }
 

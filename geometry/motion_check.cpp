@@ -200,28 +200,34 @@ Features features_near(const MovingSurface& moving, const Box& around) {
     if (cell_at[p] >= 0 && (surface.divided || surface.vertex_of_point[p] >= 0))
       add(features.points, {{static_cast<int>(p)}, cell_at[p], faces_at[p]});
   }
-  const auto add_side = [&](int start, int end, int cell, const Vector3& outward) {
-    Feature side{{start, end}, cell, faces_at[at(start)], outward};
-    side.faces.insert(side.faces.end(), faces_at[at(end)].begin(), faces_at[at(end)].end());
+  // The faces beside a side, and those at its ends that are across a convex edge of these.
+  const auto add_side = [&](int start, int end, const std::array<int, 2>& cells) {
+    const std::array<int, 2> beside = {surface.cells[at(cells[0])].face, surface.cells[at(cells[1])].face};
+    Feature side{{start, end}, cells[0], {beside.begin(), beside.end()}};
+    for (const int point : side.points) {
+      for (const int face : faces_at[at(point)]) {
+        const auto& joined = surface.convex_neighbours[at(face)];
+        if (std::any_of(beside.begin(), beside.end(),
+                        [&](int own) { return std::binary_search(joined.begin(), joined.end(), own); }))
+          side.faces.push_back(face);
+      }
+    }
     sort_out(side.faces);
+    side.outward = moving.start->normal(cells[0]) + moving.start->normal(cells[1]);
     add(features.sides, std::move(side));
   };
   for (const SurfaceEdge& edge : surface.edges) {
-    if (!edge.convex) continue;
-    add_side(edge.ends[0], edge.ends[1], edge.cells[0],
-             moving.start->normal(edge.cells[0]) + moving.start->normal(edge.cells[1]));
+    if (edge.convex) add_side(edge.ends[0], edge.ends[1], edge.cells);
   }
   for (std::size_t c = 0; c < surface.cells.size(); ++c) {
     const SurfaceCell& cell = surface.cells[c];
-    Feature feature{cell.corners, static_cast<int>(c), surface.face_neighbours[at(cell.face)]};
+    Feature feature{cell.corners, static_cast<int>(c), surface.convex_neighbours[at(cell.face)]};
     feature.faces.push_back(cell.face);
     add(features.cells, std::move(feature));
     for (std::size_t k = 0; surface.divided && k < 3; ++k) {
       const int start = cell.corners[k];
       const int end = cell.corners[(k + 1) % 3];
-      if (cell.rim[k] < 0 && start < end) {
-        add_side(start, end, static_cast<int>(c), moving.start->normal(static_cast<int>(c)));
-      }
+      if (cell.rim[k] < 0 && start < end) add_side(start, end, {static_cast<int>(c), static_cast<int>(c)});
     }
   }
   return features;

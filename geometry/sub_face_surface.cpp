@@ -61,9 +61,10 @@ std::vector<double> face_shares(const Polyhedron& solid) {
   return shares;
 }
 
-std::vector<std::vector<int>> neighbours_of_faces(const Polyhedron& solid) {
+std::vector<std::vector<int>> convex_neighbours(const Polyhedron& solid) {
   std::vector<std::set<int>> neighbours(solid.faces().size());
   for (const PolyhedronEdge& edge : solid.edges()) {
+    if (!edge.convex) continue;
     neighbours[at(edge.faces[0])].insert(edge.faces[1]);
     neighbours[at(edge.faces[1])].insert(edge.faces[0]);
   }
@@ -71,6 +72,21 @@ std::vector<std::vector<int>> neighbours_of_faces(const Polyhedron& solid) {
   result.reserve(neighbours.size());
   for (const auto& set : neighbours) result.emplace_back(set.begin(), set.end());
   return result;
+}
+
+void find_reflex_sides(const Polyhedron& solid, SubFaceSurface& surface) {
+  for (SurfaceCell& cell : surface.cells) {
+    cell.across.assign(cell.corners.size(), -1);
+    for (std::size_t k = 0; k < cell.rim.size(); ++k) {
+      if (cell.rim[k] < 0) continue;
+      const PolyhedronEdge& edge = solid.edges()[at(cell.rim[k])];
+      if (!edge.convex) cell.across[k] = edge.faces[0] == cell.face ? edge.faces[1] : edge.faces[0];
+    }
+  }
+  for (const SurfaceEdge& edge : surface.edges) {
+    if (edge.convex) continue;
+    for (const int end : edge.ends) surface.vertices[at(surface.vertex_of_point[at(end)])].reflex = true;
+  }
 }
 
 /// The edge of the polyhedron behind every directed side of a mesh triangle that lies on one. An edge may be
@@ -201,7 +217,8 @@ SubFaceSurface whole_surface(const Polyhedron& solid) {
   take_edges_of_polyhedron(solid, surface);
   find_vertices(surface);
   surface.face_share = face_shares(solid);
-  surface.face_neighbours = neighbours_of_faces(solid);
+  surface.convex_neighbours = convex_neighbours(solid);
+  find_reflex_sides(solid, surface);
   return surface;
 }
 
@@ -251,7 +268,8 @@ SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<V
   }
   find_vertices(surface);
   surface.face_share = face_shares(solid);
-  surface.face_neighbours = neighbours_of_faces(solid);
+  surface.convex_neighbours = convex_neighbours(solid);
+  find_reflex_sides(solid, surface);
   return surface;
 }
 

@@ -20,6 +20,9 @@ struct SurfaceCell {
   /// (#corners) the edge of the polyhedron that side k, from corner k to the next, is a piece of; -1: an
   /// inner side.
   std::vector<int> rim;
+  /// (#corners) the face across side k where that is a reflex edge of the solid, -1 elsewhere: there the
+  /// solid goes on beyond the side, below both faces.
+  std::vector<int> across = {};
 };
 
 /// A piece of an edge of the polyhedron.
@@ -34,6 +37,7 @@ struct SurfaceVertex {
   int point;
   std::vector<int> neighbours;  ///< points at the other ends of all cell sides that end here
   std::vector<int> cells;       ///< cells around it, increasing
+  bool reflex = false;          ///< whether a reflex edge ends here
 };
 
 /// Constant after construction.
@@ -42,10 +46,10 @@ struct SubFaceSurface {
   std::vector<SurfaceCell> cells;
   std::vector<SurfaceEdge> edges;
   std::vector<SurfaceVertex> vertices;
-  std::vector<int> vertex_of_point;               ///< (#points) index into vertices; -1: none
-  std::vector<double> face_share;                 ///< (#faces) area of a face over its number of corners, m^2
-  std::vector<std::vector<int>> face_neighbours;  ///< (#faces) faces that share an edge with it, increasing
-  bool divided = false;                           ///< true if faces were divided because the block may curve
+  std::vector<int> vertex_of_point;  ///< (#points) index into vertices; -1: none
+  std::vector<double> face_share;    ///< (#faces) area of a face over its number of corners, m^2
+  std::vector<std::vector<int>> convex_neighbours;  ///< (#faces) faces across convex edges of it, increasing
+  bool divided = false;  ///< true if faces were divided because the block may curve
 };
 
 /// Convex faces whole, others as the triangles of the mesh: for blocks whose faces stay flat. Its edges and

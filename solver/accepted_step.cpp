@@ -61,7 +61,7 @@ double Simulation::move_block(std::size_t k, const TimeScheme& scheme, const Bod
 }
 
 void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
-  const auto& [pairs, islands, bodies, results, carried] = trial;
+  const auto& [pairs, islands, bodies, results, carried, depths] = trial;
   solvers_.drop_unused();
   lone_factors_.drop_unused();
   finder_.accept_motion();
@@ -161,6 +161,10 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   largest_energy_ = std::max({largest_energy_, ledger_.kinetic, ledger_.elastic, ledger_.contact,
                               std::abs(ledger_.friction), std::abs(ledger_.applied)});
   largest_penetration_ = std::max(largest_penetration_, report_.penetration);
+  for (const PairDepth& pair : depths) {
+    report_.depth = std::max(report_.depth, pair.depth);
+    if (pair.depth > deepest_.depth) deepest_ = {pair.blocks, pair.depth, time_, pair.place};
+  }
 }
 
 void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& trial,

@@ -43,12 +43,15 @@ void Simulation::start_carried_step(std::size_t k, CarriedBlock next) {
   blocks_[k] = std::move(next.model);
   states_[k].position = blocks_[k].basis().identity_map();
   finder_.start_step(block);
+  audit_.forget(k);
   note_elastic_energy(k);
 }
 
 void Simulation::replace_model(std::size_t k, BlockModel model) {
   blocks_[k] = std::move(model);
   finder_.renew(static_cast<int>(k), blocks_[k]);
+  audit_.forget(k);
+  note_gradients(k);
   roundoff_force_[k] = blocks_[k].force_rounding();
   // Systems are as large as their blocks' unknowns.
   counts_.factors += solvers_.counts();

@@ -45,7 +45,8 @@ static void visit_members(Archive& archive, RememberedPair& pair) {
 
 template <class Archive>
 static void visit_members(Archive& archive, StepReport& report) {
-  archive(report.step, report.iterations, report.open, report.locked, report.sliding, report.penetration);
+  archive(report.step, report.iterations, report.open, report.locked, report.sliding, report.penetration,
+          report.depth);
 }
 
 template <class Archive>
@@ -75,6 +76,11 @@ template <class Archive>
 static void visit_members(Archive& archive, Ledger& ledger) {
   archive(ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction, ledger.damping,
           ledger.applied, ledger.numerical, ledger.refound_gained, ledger.refound_lost, ledger.residual);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, DeepestPoint& deepest) {
+  archive(deepest.blocks, deepest.depth, deepest.time, deepest.place);
 }
 
 template <class Archive>
@@ -127,7 +133,8 @@ static void visit_members(Archive& archive, SimulationCounts& counts) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PhaseSeconds& seconds) {
-  archive(seconds.contact_search, seconds.contact_points, seconds.solve, seconds.motion_check);
+  archive(seconds.contact_search, seconds.contact_points, seconds.solve, seconds.motion_check,
+          seconds.depth_audit);
 }
 
 template <class Archive>
@@ -136,7 +143,7 @@ static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
           snapshot.accelerations, snapshot.spin_debts, snapshot.memory, snapshot.contact_work, snapshot.taken,
           snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger, snapshot.statics,
           snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
-          snapshot.largest_penetration, snapshot.rejections, snapshot.counts, snapshot.seconds);
+          snapshot.largest_penetration, snapshot.deepest, snapshot.rejections, snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -180,6 +187,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.largest_step_residual = largest_step_residual_;
   result.largest_energy = largest_energy_;
   result.largest_penetration = largest_penetration_;
+  result.deepest = deepest_;
   result.rejections = rejections_;
   result.counts = counts();
   result.seconds = seconds_;
@@ -227,6 +235,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   largest_step_residual_ = snapshot.largest_step_residual;
   largest_energy_ = snapshot.largest_energy;
   largest_penetration_ = snapshot.largest_penetration;
+  deepest_ = snapshot.deepest;
   rejections_ = snapshot.rejections;
   solvers_ = IslandSolvers();
   lone_factors_ = LoneBodyFactors();

@@ -43,6 +43,7 @@ struct SimulationSnapshot {
   double largest_step_residual = 0.0;
   double largest_energy = 0.0;
   double largest_penetration = 0.0;
+  DeepestPoint deepest;
   std::vector<Rejection> rejections;
   SimulationCounts counts;
   PhaseSeconds seconds;

@@ -80,6 +80,7 @@ class ContactFinder {
                                                 const std::function<double(int, int)>& deepest);
   /// Looks for no contacts between two blocks from now on. @param a,b a < b
   void leave_out(int a, int b) { left_out_.insert({a, b}); }
+  [[nodiscard]] bool leaves_out(int a, int b) const { return left_out_.count({a, b}) > 0; }
   /// The surface of a block of a found pair.
   [[nodiscard]] const PlacedSurface& placed(int block) const {
     return placed_[static_cast<std::size_t>(block)].value();

@@ -51,6 +51,11 @@ struct SimulationSettings {
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
   double smallest_cut = 0.01;
 
+  /// m, > 0: no corner or edge may be deeper in another block, beyond what springs of a given stiffness give way;
+  /// 0: allowed_depth_share of the smaller block's size
+  double allowed_depth = 0.0;
+  double allowed_depth_share = 0.01;
+
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 
   // Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;

@@ -33,6 +33,12 @@ std::string to_string(RejectionReason reason) {
       return "blocks would have passed through each other";
     case RejectionReason::no_shape:
       return "an incremental block would have turned inside out";
+    case RejectionReason::not_finite:
+      return "a block's state would not have been finite";
+    case RejectionReason::inside_out:
+      return "a block would have turned inside out";
+    case RejectionReason::too_deep:
+      return "blocks would have been deeper in each other than is allowed";
   }
   return "unknown";
 }
@@ -53,7 +59,8 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
       law_(std::move(law)),
       settings_(settings),
       finder_(blocks_, settings),
-      next_step_(settings.time_step) {
+      next_step_(settings.time_step),
+      audit_(blocks_.size()) {
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockModel& block = blocks_[k];
     states_.push_back(block.initial_state());
@@ -63,6 +70,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, std::vector<InitialMotion
     if (block.fixed()) continue;
     states_.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
   }
+  for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
   free_bodies_ = free_bodies(blocks_, {});
   // The surface of an incremental block is its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
@@ -162,6 +170,12 @@ StepStatus Simulation::step(double end_time) {
       ++cuts;
       continue;
     }
+    if (const auto broken = broken_block(trial)) {
+      reject(step, *broken);
+      step *= 0.5;
+      ++cuts;
+      continue;
+    }
     const std::vector<PassingBlocks> passing = check_motion(trial, found);
     if (passing.empty() && !carry_blocks(trial)) {
       rejections_.push_back({time_, step, RejectionReason::no_shape});
@@ -170,6 +184,12 @@ StepStatus Simulation::step(double end_time) {
       continue;
     }
     if (passing.empty()) {
+      if (const auto deep = audit_depths(trial)) {
+        reject(step, *deep);
+        step *= 0.5;
+        ++cuts;
+        continue;
+      }
       accept(scheme, trial);
       next_step_ = std::min(settings_.time_step, unsettled ? step : 2.0 * next_step_);
       return StepStatus::accepted;
@@ -339,10 +359,7 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
 std::vector<PassingBlocks> Simulation::check_motion(const Trial& trial,
                                                     const std::vector<FoundContacts>& found) {
   const Stopwatch watch(seconds_.motion_check);
-  std::vector<BlockState> after = states_;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (moving_[k]) after[k].position += trial.bodies[k].motion();
-  }
+  const std::vector<BlockState> after = states_after(trial);
   std::vector<PassingBlocks> passing = finder_.check_motion(states_, after, found);
   const auto stands = standing_ways(found);
   std::erase_if(passing, [&](const PassingBlocks& pair) {

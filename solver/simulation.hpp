@@ -13,6 +13,7 @@
 
 #include "solver/contact_accounts.hpp"
 #include "solver/contact_finder.hpp"
+#include "solver/depth_audit.hpp"
 #include "solver/island.hpp"
 #include "solver/ledger.hpp"
 #include "solver/lone_body.hpp"
@@ -28,6 +29,9 @@ enum class RejectionReason {
   not_positive_definite,   ///< a joint or material far too stiff for the step
   passing,                 ///< blocks would have passed through each other: cut to the first touch
   no_shape,                ///< an incremental block would have turned inside out: reduce time_step
+  not_finite,              ///< a state that doubles cannot hold: check loads, stiffness and time_step
+  inside_out,              ///< a block would have turned inside out: stiffer material or less load
+  too_deep,                ///< blocks deeper in each other than allowed: see settings.allowed_depth
 };
 [[nodiscard]] std::string to_string(RejectionReason reason);
 
@@ -36,6 +40,15 @@ struct Rejection {
   double time;  ///< s, at its start
   double step;  ///< s, its length
   RejectionReason reason;
+};
+
+/// Why a state is no state that a step may end in.
+struct StateFault {
+  RejectionReason reason;           ///< not_finite, inside_out or too_deep
+  std::array<int, 2> blocks;        ///< of one block: the same twice; too_deep: the first is in the second
+  double depth = 0.0;               ///< m, of too_deep
+  double allowed = 0.0;             ///< m
+  Vector3 place = Vector3::Zero();  ///< m
 };
 
 /// How a step ended.
@@ -74,7 +87,16 @@ struct StepReport {
   int open = 0;
   int locked = 0;
   int sliding = 0;
-  double penetration = 0.0;  ///< largest, m, >= 0
+  double penetration = 0.0;  ///< largest of any contact point, m, >= 0
+  double depth = 0.0;        ///< true depth of the deepest point of any block in another one, m, >= 0
+};
+
+/// The deepest that any block has been in another one.
+struct DeepestPoint {
+  std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: none has been
+  double depth = 0.0;                    ///< m
+  double time = 0.0;                     ///< s
+  Vector3 place = Vector3::Zero();       ///< m
 };
 
 /// Initial motion of a block.
@@ -96,6 +118,7 @@ struct PhaseSeconds {
   double contact_points = 0.0;
   double solve = 0.0;
   double motion_check = 0.0;
+  double depth_audit = 0.0;
 };
 
 struct SimulationSnapshot;  // checkpoint.hpp
@@ -161,7 +184,12 @@ class Simulation {
   /// Largest change of the residual in one step and largest energy so far, J.
   [[nodiscard]] double largest_step_residual() const { return largest_step_residual_; }
   [[nodiscard]] double largest_energy() const { return largest_energy_; }
+  /// Of contact points, m.
   [[nodiscard]] double largest_penetration() const { return largest_penetration_; }
+  /// Of any corner or edge, whatever its contacts say (depth_audit.hpp).
+  [[nodiscard]] const DeepestPoint& deepest() const { return deepest_; }
+  /// What was wrong with the end of the last rejected step, if that was why.
+  [[nodiscard]] const std::optional<StateFault>& fault() const { return fault_; }
   [[nodiscard]] Vector3 momentum() const;
   [[nodiscard]] Vector3 angular_momentum() const;
   [[nodiscard]] int unknowns() const;
@@ -187,6 +215,7 @@ class Simulation {
     std::vector<BodyStep> bodies;
     std::vector<IslandResult> results;
     std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks
+    std::vector<PairDepth> depths;                ///< at its end
   };
   /// Rounding of times that are sums of steps, in parts of a step: a remainder of this length is none.
   static constexpr double step_rounding = 1e-9;
@@ -249,6 +278,17 @@ class Simulation {
   /// Spreads a pair's impulse over its points, as they push. @param forces of the points in their frames, N
   static void add_impulse(const Vector3& on_a, double step, const std::vector<ContactPoint>& points,
                           std::vector<PointResponse>& forces);
+
+  // end_state.cpp
+  /// Whether a block's state at the end of a trial is none that it can have.
+  [[nodiscard]] std::optional<StateFault> broken_block(const Trial& trial) const;
+  /// Measures how deep blocks are in each other at the end of a trial. @return those that are too deep
+  [[nodiscard]] std::optional<StateFault> audit_depths(Trial& trial);
+  [[nodiscard]] std::vector<BlockState> states_after(const Trial& trial) const;
+  /// Of a block that is new: what broken_block() needs.
+  void note_gradients(std::size_t block);
+  /// Takes note of a state that a step would have ended in.
+  void reject(double step, const StateFault& fault);
 
   // block_changes.cpp
   [[nodiscard]] bool any_incremental() const;
@@ -358,6 +398,11 @@ class Simulation {
   double largest_step_residual_ = 0.0;
   double largest_energy_ = 0.0;
   double largest_penetration_ = 0.0;
+  DeepestPoint deepest_;
+  DepthAudit audit_;
+  /// By block, shared by equal ones, see end_state.cpp; null: fixed or incremental
+  std::vector<std::shared_ptr<const Eigen::MatrixXd>> asked_gradients_;
+  std::optional<StateFault> fault_;
   std::vector<Rejection> rejections_;
   SimulationCounts counts_;  ///< factors: those of a run that this one goes on with
   PhaseSeconds seconds_;

@@ -124,6 +124,8 @@ StaticStatus Simulation::static_step(double end_time) {
       rejections_.push_back({time_, step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                                                  : RejectionReason::not_positive_definite});
+    } else if (const auto broken = broken_block(trial)) {
+      reject(step, *broken);
     } else if (const double motion = largest_motion(trial); motion > settings_.static_motion) {
       raise = std::clamp(1.1 * motion / settings_.static_motion, 2.0, 1e4);
     } else if (const auto passing = check_motion(trial, found); !passing.empty()) {
@@ -138,6 +140,8 @@ StaticStatus Simulation::static_step(double end_time) {
         raise = std::max(1.0 / passing.front().touch.share, cut_to_touch ? 2.0 : 1.0);
         cut_to_touch = true;
       }
+    } else if (const auto deep = audit_depths(trial)) {
+      reject(step, *deep);
     } else {
       const std::array<int, 3> before = contact_states(report_);
       const bool balanced = note_balance(scheme, trial);

@@ -1,0 +1,167 @@
+#include "solver/depth_audit.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/box_pairs.hpp"
+#include "mechanics/material_map.hpp"
+#include "solver/parallel_for.hpp"
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// A block as an audit sees it.
+struct AuditedBlock {
+  std::vector<Vector3> points;  ///< of its surface, m
+  std::vector<Box> edges;
+  Box box;  ///< of the points, grown by how far the surface is off its cells
+};
+
+AuditedBlock audited(const BlockSurface& surface, const BlockState& state) {
+  AuditedBlock block;
+  block.points = surface.points(state);
+  block.box = box_of(block.points).grown(surface.bulge(state));
+  for (const SurfaceEdge& edge : surface.surface().edges)
+    block.edges.push_back(box_of(std::array{block.points[at(edge.ends[0])], block.points[at(edge.ends[1])]}));
+  return block;
+}
+
+bool contains(const Box& box, const Vector3& point) {
+  return (box.low.array() <= point.array()).all() && (point.array() <= box.high.array()).all();
+}
+
+/// The share of a segment within a box; none if it misses the box.
+std::optional<std::array<double, 2>> clipped(const Box& box, const Vector3& start, const Vector3& end) {
+  double low = 0.0, high = 1.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double rise = end[k] - start[k];
+    double enter = box.low[k] - start[k], leave = box.high[k] - start[k];
+    if (rise == 0.0) {
+      if (enter > 0.0 || leave < 0.0) return std::nullopt;
+      continue;
+    }
+    enter /= rise;
+    leave /= rise;
+    if (enter > leave) std::swap(enter, leave);
+    low = std::max(low, enter);
+    high = std::min(high, leave);
+  }
+  if (low > high) return std::nullopt;
+  return std::array{low, high};
+}
+
+/// Asks for the points of one block in another one.
+class PairAudit {
+ public:
+  PairAudit(const AuditedBlock& with_points, const SubFaceSurface& surface, const AuditedBlock& outer,
+            const SolidDepthFinder& finder, const MaterialMap& map, double resolution)
+      : with_points_(with_points),
+        surface_(surface),
+        outer_(outer),
+        finder_(finder),
+        map_(map),
+        resolution_(resolution) {}
+
+  [[nodiscard]] PairDepth run() {
+    for (std::size_t k = 0; k < with_points_.points.size(); ++k) check_point(static_cast<int>(k));
+    for (std::size_t k = 0; k < surface_.edges.size(); ++k) {
+      if (surface_.edges[k].convex && with_points_.edges[k].meets(outer_.box)) check_edge(surface_.edges[k]);
+    }
+    return deepest_;
+  }
+
+ private:
+  void check_point(int point) {
+    const Vector3& place = with_points_.points[at(point)];
+    if (!contains(outer_.box, place)) return;
+    const auto material = map_.material(place);
+    if (!material) return;
+    if (const auto depth = finder_.of_point(*material)) take(*depth, place, {point, point}, 0.0);
+  }
+
+  void check_edge(const SurfaceEdge& edge) {
+    const Vector3& start = with_points_.points[at(edge.ends[0])];
+    const Vector3& end = with_points_.points[at(edge.ends[1])];
+    const auto share = clipped(outer_.box, start, end);
+    if (!share) return;
+    const Vector3 first = start + (*share)[0] * (end - start);
+    const Vector3 last = start + (*share)[1] * (end - start);
+    const auto from = map_.material(first);
+    const auto to = map_.material(last);
+    if (!from || !to) return;
+    const auto depth = finder_.of_segment(*from, *to, resolution_, deepest_.depth);
+    if (!depth) return;
+    const Vector3 way = *to - *from;
+    const double within = way.squaredNorm() > 0.0 ? way.dot(depth->place - *from) / way.squaredNorm() : 0.0;
+    const double along = (*share)[0] + within * ((*share)[1] - (*share)[0]);
+    take(*depth, start + along * (end - start), edge.ends, along);
+  }
+
+  void take(const SolidDepth& found, const Vector3& place, const std::array<int, 2>& points, double along) {
+    const double depth = found.depth * map_.stretch_across(found.place, found.way_out);
+    if (!(depth > deepest_.depth)) return;
+    deepest_.depth = depth;
+    deepest_.place = place;
+    deepest_.points = points;
+    deepest_.along = along;
+    deepest_.face = found.face;
+    deepest_.normal = map_.placed_normal(found.place, found.way_out);
+  }
+
+  const AuditedBlock& with_points_;
+  const SubFaceSurface& surface_;
+  const AuditedBlock& outer_;
+  const SolidDepthFinder& finder_;
+  const MaterialMap& map_;
+  double resolution_;
+  PairDepth deepest_{};
+};
+
+}  // namespace
+
+std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
+                                       const std::vector<BlockState>& states,
+                                       const std::vector<BlockSurface>& surfaces, const AuditScope& scope) {
+  std::vector<AuditedBlock> audited_blocks;
+  std::vector<Box> boxes;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    audited_blocks.push_back(audited(surfaces[k], states[k]));
+    boxes.push_back(audited_blocks.back().box);
+  }
+  std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
+  std::erase_if(pairs, [&](const auto& pair) {
+    return (blocks[at(pair[0])].fixed() && blocks[at(pair[1])].fixed()) || !scope.pairs(pair[0], pair[1]);
+  });
+  std::vector<std::optional<MaterialMap>> maps(blocks.size());
+  for (const auto& pair : pairs) {
+    for (const int block : pair) {
+      if (!maps[at(block)]) maps[at(block)].emplace(blocks[at(block)], states[at(block)]);
+      if (!finders_[at(block)]) finders_[at(block)].emplace(blocks[at(block)].solid());
+    }
+  }
+  std::vector<std::array<PairDepth, 2>> found(pairs.size());
+  parallel_for(scope.threads, pairs.size(), [&](std::size_t k) {
+    const auto& [a, b] = pairs[k];
+    const auto audit = [&](int inner, int outer) {
+      PairDepth depth =
+          PairAudit(audited_blocks[at(inner)], surfaces[at(inner)].surface(), audited_blocks[at(outer)],
+                    *finders_[at(outer)], *maps[at(outer)], scope.resolution)
+              .run();
+      depth.blocks = {inner, outer};
+      return depth;
+    };
+    found[k] = {audit(a, b), audit(b, a)};
+  });
+  std::vector<PairDepth> result;
+  for (const auto& both : found) {
+    for (const PairDepth& depth : both)
+      if (depth.depth > 0.0) result.push_back(depth);
+  }
+  return result;
+}
+
+}  // namespace ashlar

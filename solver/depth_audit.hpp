@@ -1,0 +1,56 @@
+// How deep blocks are in each other, without asking their contacts: the true depth of the deepest corner,
+// sub-face point or edge of any block in another one, over all near pairs.
+//
+// Points of one block's surface are taken back to the reference shape of the other one (material_map.hpp),
+// where faces are flat whatever the block's order is, and asked there how deep they are (solid_depth.hpp).
+// The depth is that in the current shape: a layer below a face is thinner where the block is pressed. It is
+// exact to rounding for blocks of order 1, and to the change of the deformation within the depth for others.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "geometry/solid_depth.hpp"
+#include "mechanics/block_surface.hpp"
+
+namespace ashlar {
+
+/// The deepest point of one block in another one.
+struct PairDepth {
+  std::array<int, 2> blocks;  ///< the block with the point, then the one that it is in
+  double depth = 0.0;         ///< m, > 0
+  Vector3 place;              ///< current coordinates, m
+  /// Points of the first block's surface that it is on: one, or both ends of an edge.
+  std::array<int, 2> points;
+  double along = 0.0;  ///< of the edge, from its first end, 0 to 1
+  int face = -1;       ///< of the second block's solid: the nearest
+  Vector3 normal;      ///< of it, outward, current coordinates, unit
+};
+
+/// What an audit looks at.
+struct AuditScope {
+  std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
+  double resolution = 0.0;  ///< m, > 0: how exact depths of edges are in solids that are not convex
+  int threads = 1;
+};
+
+/// Keeps what does not change of each block from audit to audit.
+class DepthAudit {
+ public:
+  explicit DepthAudit(std::size_t blocks) : finders_(blocks) {}
+
+  /// The deepest point of every ordered pair of blocks that are in each other, by blocks.
+  /// @param states finite
+  [[nodiscard]] std::vector<PairDepth> run(const std::vector<BlockModel>& blocks,
+                                           const std::vector<BlockState>& states,
+                                           const std::vector<BlockSurface>& surfaces,
+                                           const AuditScope& scope);
+  /// To be called when the solid of a block has changed.
+  void forget(std::size_t block) { finders_[block].reset(); }
+
+ private:
+  std::vector<std::optional<SolidDepthFinder>> finders_;  ///< of blocks that have been near others
+};
+
+}  // namespace ashlar

@@ -1,0 +1,120 @@
+// What a step may end in: states that are finite, blocks that have not turned inside out, none deeper in
+// another one than is allowed. Asked before a step is accepted, so that the last good state is kept.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "solver/automatic.hpp"
+#include "solver/simulation.hpp"
+#include "solver/stopwatch.hpp"
+
+namespace ashlar {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Where a block is asked whether it has turned inside out: its corners, the middles of its edges and the
+/// middles of the corners of its faces. An affine block is the same everywhere.
+std::vector<Vector3> asked_places(const BlockModel& block) {
+  if (block.order() == 1) return {block.basis().centroid()};
+  const Polyhedron& solid = block.solid();
+  const auto& points = solid.mesh().points;
+  std::vector<Vector3> places = {block.basis().centroid()};
+  for (const int corner : solid.corners()) places.push_back(points[at(corner)]);
+  for (const PolyhedronEdge& edge : solid.edges())
+    places.emplace_back(0.5 * (points[at(edge.vertices[0])] + points[at(edge.vertices[1])]));
+  for (const PolyhedronFace& face : solid.faces()) {
+    Vector3 sum = Vector3::Zero();
+    for (const int corner : face.loops.front()) sum += points[at(corner)];
+    places.emplace_back(sum / static_cast<double>(face.loops.front().size()));
+  }
+  return places;
+}
+
+/// Gradients of the functions at these places. @return (3 #places, p)
+Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>& places) {
+  Eigen::MatrixXd gradients(3 * static_cast<Eigen::Index>(places.size()), block.basis().size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    gradients.middleRows(3 * static_cast<Eigen::Index>(k), 3) =
+        block.basis().gradients(places[k]).transpose();
+  return gradients;
+}
+
+}  // namespace
+
+std::vector<BlockState> Simulation::states_after(const Trial& trial) const {
+  std::vector<BlockState> after = states_;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (moving_[k]) after[k].position += trial.bodies[k].motion();
+  }
+  return after;
+}
+
+std::optional<StateFault> Simulation::broken_block(const Trial& trial) const {
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!moving_[k]) continue;
+    const Eigen::MatrixX3d position = states_[k].position + trial.bodies[k].motion();
+    const int block = static_cast<int>(k);
+    if (!position.allFinite()) return StateFault{RejectionReason::not_finite, {block, block}};
+    if (asked_gradients_[k] == nullptr) continue;
+    const Eigen::MatrixX3d deformation = *asked_gradients_[k] * position;
+    for (Eigen::Index row = 0; row < deformation.rows(); row += 3) {
+      if (!(deformation.middleRows<3>(row).determinant() > 0.0))
+        return StateFault{RejectionReason::inside_out, {block, block}};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<StateFault> Simulation::audit_depths(Trial& trial) {
+  const Stopwatch watch(seconds_.depth_audit);
+  const AuditScope scope{[this](int a, int b) { return !finder_.leaves_out(a, b); },
+                         settings_.passing_share * settings_.contact_distance, settings_.threads};
+  trial.depths = audit_.run(blocks_, states_after(trial), finder_.surfaces(), scope);
+  std::map<PairKey, double> known;  // depths of contacts
+  for (const ContactPair& pair : trial.pairs) {
+    if (pair.tied()) continue;
+    double& deepest = known[{pair.a(), pair.b()}];
+    for (const double gap : pair.gaps(trial.bodies[at(pair.a())].change, trial.bodies[at(pair.b())].change))
+      deepest = std::max(deepest, -gap);
+  }
+  std::optional<StateFault> fault;
+  double most = 0.0;
+  for (const PairDepth& pair : trial.depths) {
+    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    double allowed = settings_.allowed_depth;
+    if (allowed == 0.0)
+      allowed =
+          settings_.allowed_depth_share * std::min(block_size(blocks_[at(a)]), block_size(blocks_[at(b)]));
+    // A joint of given stiffness gives way as its user has asked for.
+    if (const auto contact = known.find({a, b}); contact != known.end() && !law_(a, b).rigid)
+      allowed += contact->second;
+    if (pair.depth - allowed <= most) continue;
+    most = pair.depth - allowed;
+    fault = StateFault{RejectionReason::too_deep, pair.blocks, pair.depth, allowed, pair.place};
+  }
+  return fault;
+}
+
+void Simulation::note_gradients(std::size_t k) {
+  asked_gradients_.resize(blocks_.size());
+  asked_gradients_[k].reset();
+  if (!moving_[k] || blocks_[k].incremental() != nullptr) return;
+  for (std::size_t twin = 0; twin < k; ++twin) {
+    if (asked_gradients_[twin] == nullptr || blocks_[twin].parts() != blocks_[k].parts()) continue;
+    asked_gradients_[k] = asked_gradients_[twin];
+    return;
+  }
+  asked_gradients_[k] =
+      std::make_shared<const Eigen::MatrixXd>(gradients_at(blocks_[k], asked_places(blocks_[k])));
+}
+
+void Simulation::reject(double step, const StateFault& fault) {
+  rejections_.push_back({time_, step, fault.reason});
+  fault_ = fault;
+}
+
+}  // namespace ashlar
