@@ -1,8 +1,8 @@
 """Random scenes of one block that lands on fixed ground with concave edges.
 
 A scene is made in metres with z upwards; then it is scaled and turned as a whole, gravity too, and written as
-scene.toml with its meshes. Scene k of a seed depends on nothing but the two numbers. Meshes are pairs (points, triangles), closed,
-with triangles counter-clockwise from outside.
+scene.toml with its meshes. Scene k of a seed depends on nothing but the two numbers. Meshes are pairs (points,
+triangles), closed, with triangles counter-clockwise from outside.
 """
 import math
 import os
