@@ -124,7 +124,7 @@ std::optional<CellOverlap> overlap_of_cells(const PlacedSurface& a, int cell_a, 
 }
 
 PlaceOverCell place_over_cell(const PlacedSurface& with_point, const Vector3& point, const PlacedSurface& s,
-                              int cell, DecisionCounts& counts) {
+                              int cell, bool past_convex, DecisionCounts& counts) {
   const SurfaceCell& sides = s.surface().cells[at(cell)];
   const auto& corners = sides.corners;
   const Vector3 normal = without_tiny_parts(s.normal(cell));
@@ -134,8 +134,8 @@ PlaceOverCell place_over_cell(const PlacedSurface& with_point, const Vector3& po
   for (std::size_t k = 0; place.over && k < corners.size(); ++k) {
     const Vector3& end = s.point(corners[(k + 1) % corners.size()]);
     if (sign_turn(w, s.point(corners[k]), end, point, ladder) >= 0) continue;
-    place.over = sides.across[k] >= 0;
-    place.beyond.push_back(sides.across[k]);
+    place.over = sides.across[k] >= 0 && (past_convex || sides.reflex[k]);
+    place.past.push_back(static_cast<int>(k));
   }
   counts = ladder.counts;
   return place;
@@ -143,8 +143,8 @@ PlaceOverCell place_over_cell(const PlacedSurface& with_point, const Vector3& po
 
 bool is_over_cell(const PlacedSurface& with_point, const Vector3& point, const PlacedSurface& s, int cell,
                   DecisionCounts& counts) {
-  const PlaceOverCell place = place_over_cell(with_point, point, s, cell, counts);
-  return place.over && place.beyond.empty();
+  const PlaceOverCell place = place_over_cell(with_point, point, s, cell, false, counts);
+  return place.over && place.past.empty();
 }
 
 }  // namespace ashlar

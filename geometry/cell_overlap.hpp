@@ -40,12 +40,14 @@ struct CellOverlap {
 
 /// Where a point is seen along a cell's normal.
 struct PlaceOverCell {
-  bool over = false;        ///< over it, on its rim, or beyond reflex sides alone
-  std::vector<int> beyond;  ///< faces across the reflex sides that it is beyond
+  bool over = false;      ///< over it, on its rim, or beyond none but edges of its face
+  std::vector<int> past;  ///< sides that it is beyond, all of them edges of the face
 };
+/// @param past_convex whether it may be beyond convex edges, or only beyond reflex ones
 /// @pre rounding to nearest
 [[nodiscard]] PlaceOverCell place_over_cell(const PlacedSurface& with_point, const Vector3& point,
-                                            const PlacedSurface& s, int cell, DecisionCounts& counts);
+                                            const PlacedSurface& s, int cell, bool past_convex,
+                                            DecisionCounts& counts);
 
 /// Whether predicates over the points of two surfaces and a direction may use floating filters.
 [[nodiscard]] bool within_range(const PlacedSurface& a, const PlacedSurface& b, const Vector3& w);

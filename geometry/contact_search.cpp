@@ -52,69 +52,86 @@ bool across_convex_edge(const SubFaceSurface& surface, int face_a, int face_b) {
   return face_a == face_b || std::binary_search(neighbours.begin(), neighbours.end(), face_b);
 }
 
-/// A cell that a vertex is over, or would be if the cell went on beyond its reflex sides.
+/// A cell that a vertex is over, or would be if the cell went on beyond edges of its face.
 struct CellBelow {
   int cell;
-  double gap;               ///< m
-  std::vector<int> beyond;  ///< faces across the reflex sides that the vertex is beyond
+  double gap;             ///< m
+  std::vector<int> past;  ///< sides that the vertex is beyond
+  bool hidden;            ///< whether the face lies on a third block there
 };
 
-/// Cells of one block that a vertex of the other is near and over. Below a reflex edge a cell's half space
-/// goes on under its neighbour: it counts there where the neighbour is near too.
-std::vector<CellBelow> cells_below(const PlacedSurface& with_vertex, const Vector3& place,
-                                   const PlacedSurface& with_cell, const std::vector<int>& cells,
-                                   const ContactLimits& limits, DecisionCounts& counts) {
+/// Where a block's face lies on a third block.
+using Hides = HiddenPlaces::Hides;
+
+/// Cells of one block that a vertex of the other is near, over or beyond edges of their faces.
+std::vector<CellBelow> near_below(const PlacedSurface& with_vertex, const Vector3& place,
+                                  const PlacedSurface& with_cell, const std::vector<int>& cells,
+                                  const ContactLimits& limits, const Hides& hides, DecisionCounts& counts) {
   std::vector<CellBelow> near;
-  const auto face_of = [&](int cell) { return with_cell.surface().cells[at(cell)].face; };
   for (const int cell : cells) {
+    const SurfaceCell& sides = with_cell.surface().cells[at(cell)];
     const Vector3& normal = with_cell.normal(cell);
-    const double gap = normal.dot(place - with_cell.point(with_cell.surface().cells[at(cell)].corners[0]));
+    const double gap = normal.dot(place - with_cell.point(sides.corners[0]));
     if (!within_limits(gap, with_cell.chord_bound(cell), limits)) continue;
-    PlaceOverCell over = place_over_cell(with_vertex, place, with_cell, cell, counts);
-    if (over.over) near.push_back({cell, gap, std::move(over.beyond)});
+    PlaceOverCell over =
+        place_over_cell(with_vertex, place, with_cell, cell, static_cast<bool>(hides), counts);
+    if (!over.over) continue;
+    const bool hidden = hides && over.past.empty() && hides(sides.face, place - gap * normal);
+    near.push_back({cell, gap, std::move(over.past), hidden});
   }
-  std::vector<CellBelow> below;
+  return near;
+}
+
+/// Those of them that bound the block where the vertex is. Below a reflex edge a cell's half space goes on
+/// under the face across it, and behind a face that is hidden it goes on too: it counts there where that face
+/// is near as well.
+std::vector<CellBelow> bounding_cells(const PlacedSurface& with_cell, const std::vector<CellBelow>& near) {
+  std::vector<CellBelow> bounding;
   for (const CellBelow& one : near) {
-    const bool counts_here = std::all_of(one.beyond.begin(), one.beyond.end(), [&](int face) {
-      return std::any_of(near.begin(), near.end(),
-                         [&](const CellBelow& other) { return face_of(other.cell) == face; });
+    const SurfaceCell& sides = with_cell.surface().cells[at(one.cell)];
+    const bool bounds = std::all_of(one.past.begin(), one.past.end(), [&](int side) {
+      return std::any_of(near.begin(), near.end(), [&](const CellBelow& other) {
+        return with_cell.surface().cells[at(other.cell)].face == sides.across[at(side)] &&
+               (sides.reflex[at(side)] || (other.hidden && other.gap < 0.0));
+      });
     });
-    if (counts_here) below.push_back(one);
+    if (bounds) bounding.push_back(one);
   }
-  return below;
+  return bounding;
 }
 
 /// Contacts of a vertex of one block with cells of the other.
 void find_vertex_contacts(const PlacedSurface& with_vertex, int vertex_index, const PlacedSurface& with_cell,
                           const std::vector<int>& cells, bool vertex_of_a, const ContactLimits& limits,
-                          PairContacts& contacts) {
+                          const Hides& hides, PairContacts& contacts) {
   const double cosine = std::cos(limits.angle);
   const double sine = std::sin(limits.angle);
   const SurfaceVertex& vertex = with_vertex.surface().vertices[at(vertex_index)];
   const Vector3& place = with_vertex.point(vertex.point);
-  std::vector<VertexContact> found;
-  for (const CellBelow& below : cells_below(with_vertex, place, with_cell, cells, limits, contacts.counts)) {
+  std::vector<CellBelow> found = bounding_cells(
+      with_cell, near_below(with_vertex, place, with_cell, cells, limits, hides, contacts.counts));
+  std::erase_if(found, [&](const CellBelow& below) {
     const Vector3& normal = with_cell.normal(below.cell);
-    if (!is_end(with_vertex, vertex, normal, sine)) continue;
-    if (any_facing(with_vertex, vertex.cells, normal, cosine)) continue;
-    found.push_back({vertex_of_a, vertex.point, vertex.cells.front(), below.cell, below.gap,
-                     tributary_area(with_vertex.surface(), vertex.cells)});
-  }
+    return !is_end(with_vertex, vertex, normal, sine) ||
+           any_facing(with_vertex, vertex.cells, normal, cosine);
+  });
   // Of faces that share a convex edge the vertex entered through one only: where it is least deep. Of those
   // that share a reflex edge it has to stay outside of both.
-  std::stable_sort(found.begin(), found.end(),
-                   [](const VertexContact& p, const VertexContact& q) { return p.gap > q.gap; });
-  const auto face_of = [&](const VertexContact& contact) {
-    return with_cell.surface().cells[at(contact.cell)].face;
-  };
-  std::vector<VertexContact> kept;
-  for (const VertexContact& contact : found) {
-    const bool repeated = std::any_of(kept.begin(), kept.end(), [&](const VertexContact& other) {
-      return across_convex_edge(with_cell.surface(), face_of(contact), face_of(other));
+  std::stable_sort(found.begin(), found.end(), [](const CellBelow& p, const CellBelow& q) {
+    return p.hidden != q.hidden ? q.hidden : p.gap > q.gap;
+  });
+  const auto face_of = [&](const CellBelow& below) { return with_cell.surface().cells[at(below.cell)].face; };
+  std::vector<CellBelow> kept;
+  for (CellBelow& below : found) {
+    const bool repeated = std::any_of(kept.begin(), kept.end(), [&](const CellBelow& other) {
+      return across_convex_edge(with_cell.surface(), face_of(below), face_of(other));
     });
-    if (!repeated) kept.push_back(contact);
+    if (!repeated) kept.push_back(std::move(below));
   }
-  contacts.vertices.insert(contacts.vertices.end(), kept.begin(), kept.end());
+  const double area = kept.empty() ? 0.0 : tributary_area(with_vertex.surface(), vertex.cells);
+  for (const CellBelow& below : kept)
+    contacts.vertices.push_back(
+        {vertex_of_a, vertex.point, vertex.cells.front(), below.cell, below.gap, area});
 }
 
 /// Whether the block is on the far side of its edge seen from the normal's tip: both cells lean away from
@@ -167,7 +184,9 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
   const Vector3 r = ends_a[0] - ends_b[0];
   Vector3 normal = u.cross(v);
   const double sine = std::sin(limits.angle);
-  if (normal.norm() <= sine * u.norm() * v.norm()) return std::nullopt;
+  // Edges that stay within reach of each other along the shorter one do not cross at this resolution.
+  if (normal.norm() <= std::min(sine * u.norm() * v.norm(), limits.reach * std::max(u.norm(), v.norm())))
+    return std::nullopt;
   const double squared = normal.squaredNorm();
   // Seen along the normal the edges cross at a0 + s u = b0 + t v (+ gap along the normal).
   double s = v.cross(r).dot(normal) / squared;
@@ -261,7 +280,7 @@ NearFeatures near_edges(const PlacedSurface& s, const Box& around, double margin
 /// All vertices of one block against cells of the other.
 void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatures& vertices,
                               const PlacedSurface& with_cell, const NearFeatures& cells, bool vertex_of_a,
-                              const ContactLimits& limits, PairContacts& contacts) {
+                              const ContactLimits& limits, const Hides& hides, PairContacts& contacts) {
   const auto pairs = meeting_boxes(vertices.boxes, cells.boxes);
   for (std::size_t first = 0; first < pairs.size();) {
     std::vector<int> met;
@@ -269,7 +288,7 @@ void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatur
     for (; k < pairs.size() && pairs[k][0] == pairs[first][0]; ++k)
       met.push_back(cells.indices[at(pairs[k][1])]);
     find_vertex_contacts(with_vertex, vertices.indices[at(pairs[first][0])], with_cell, met, vertex_of_a,
-                         limits, contacts);
+                         limits, hides, contacts);
     first = k;
   }
 }
@@ -277,7 +296,8 @@ void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatur
 /// Not inlined, so that nothing of it is moved across the change of the rounding mode.
 [[gnu::noinline]] PairContacts find_contacts_rounding_to_nearest(const PlacedSurface& a,
                                                                  const PlacedSurface& b,
-                                                                 const ContactLimits& limits) {
+                                                                 const ContactLimits& limits,
+                                                                 const HiddenPlaces& hidden) {
   PairContacts contacts;
   const double margin = std::max(limits.reach, limits.penetration);
   if (!a.box().grown(margin).meets(b.box())) return contacts;
@@ -292,9 +312,10 @@ void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatur
     auto overlap = overlap_of_cells(a, cell_a, b, cell_b, contacts.counts);
     if (overlap && within_limits(a, b, *overlap, limits)) contacts.overlaps.push_back(std::move(*overlap));
   }
-  find_all_vertex_contacts(a, near_vertices(a, b.box(), margin), b, cells_b, true, limits, contacts);
-  find_all_vertex_contacts(b, near_vertices(b, a.box().grown(margin), 0.0), a, cells_a, false, limits,
+  find_all_vertex_contacts(a, near_vertices(a, b.box(), margin), b, cells_b, true, limits, hidden.of_b,
                            contacts);
+  find_all_vertex_contacts(b, near_vertices(b, a.box().grown(margin), 0.0), a, cells_a, false, limits,
+                           hidden.of_a, contacts);
   const NearFeatures edges_a = near_edges(a, b.box(), margin);
   const NearFeatures edges_b = near_edges(b, a.box().grown(margin), 0.0);
   std::vector<EdgeCrossing> crossings;
@@ -315,9 +336,10 @@ double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cel
   return sum / static_cast<double>(cells.size());
 }
 
-PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b, const ContactLimits& limits) {
+PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b, const ContactLimits& limits,
+                           const HiddenPlaces* hidden) {
   const NearestRounding rounding;
-  return find_contacts_rounding_to_nearest(a, b, limits);
+  return find_contacts_rounding_to_nearest(a, b, limits, hidden == nullptr ? HiddenPlaces{} : *hidden);
 }
 
 }  // namespace ashlar

@@ -8,6 +8,7 @@
 // a.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -67,8 +68,17 @@ struct PairContacts {
 /// Mean over the faces around some cells of the area that falls to one corner of each, m^2.
 [[nodiscard]] double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cells);
 
+/// Places of a pair's faces that lie on a third block: no way leads in or out there, but through that block.
+struct HiddenPlaces {
+  using Hides = std::function<bool(int face, const Vector3& place)>;
+  Hides of_a;
+  Hides of_b;
+};
+
 /// Finds every contact of two blocks. The answer is symmetric: swapping a and b swaps their roles in it.
+/// @param hidden of a vertex in a block, faces that are hidden where it is below them are taken only if no
+/// other face bounds the block there, and the faces beside them go on behind them; null: none are
 [[nodiscard]] PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b,
-                                         const ContactLimits& limits);
+                                         const ContactLimits& limits, const HiddenPlaces* hidden = nullptr);
 
 }  // namespace ashlar

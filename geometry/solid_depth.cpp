@@ -144,6 +144,11 @@ std::optional<SolidDepth> SolidDepthFinder::of_point(const Vector3& x) const {
                     face_with(closest_->solid(), nearest.feature)};
 }
 
+double SolidDepthFinder::clear_radius(const Vector3& x) const {
+  const ClosestPoint nearest = closest_->find(x);
+  return nearest.place == PointPlace::outside ? std::sqrt(nearest.squared_distance) : 0.0;
+}
+
 /// No point of the part is deeper: none is deeper than its distance to any triangle of the surface, and the
 /// distance to a convex set is convex along the part.
 double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const ClosestPoint& nearest) const {
@@ -163,12 +168,15 @@ double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const Cl
 }
 
 std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, const Vector3& end,
-                                                       double resolution, double known) const {
+                                                       double resolution, double known,
+                                                       double* clearance) const {
+  if (clearance != nullptr) *clearance = 0.0;
   if (convex()) {
     auto depth = of_segment_in_convex(start, end);
     return depth && depth->depth > known ? depth : std::nullopt;
   }
   std::optional<SolidDepth> deepest;
+  double least_clear = std::numeric_limits<double>::infinity();
   std::vector<Part> parts = {{start, end}};
   while (!parts.empty()) {
     const Part part = parts.back();
@@ -177,19 +185,22 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     const double half = 0.5 * (part.end - part.start).norm();
     const ClosestPoint nearest = closest_->find(middle);
     const double distance = std::sqrt(nearest.squared_distance);
-    const double best = deepest ? deepest->depth : known;
-    if (nearest.place == PointPlace::inside && distance > best) {
+    const bool inside = nearest.place == PointPlace::inside;
+    if (inside && distance > (deepest ? deepest->depth : known)) {
       deepest = SolidDepth{distance, middle, (nearest.point - middle).normalized(),
                            face_with(closest_->solid(), nearest.feature)};
     }
     const double deeper = (deepest ? deepest->depth : known) + resolution;
     // Outside, a part goes in only beyond its nearest surface; inside, its ends are at most `half` deeper.
-    const double most = std::min(nearest.place == PointPlace::inside ? half + distance : half - distance,
-                                 bound(part, middle, nearest));
-    if (most <= deeper) continue;
+    const double most = std::min(inside ? half + distance : half - distance, bound(part, middle, nearest));
+    if (most <= deeper) {
+      least_clear = std::min(least_clear, inside ? 0.0 : std::max(distance - half, 0.0));
+      continue;
+    }
     parts.push_back({middle, part.end});
     parts.push_back({part.start, middle});
   }
+  if (clearance != nullptr) *clearance = least_clear;
   return deepest;
 }
 

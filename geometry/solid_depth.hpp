@@ -36,10 +36,16 @@ class SolidDepthFinder {
   /// @param resolution m, > 0: solids that are not convex are searched until no other point is deeper than
   /// the answer by more than this
   /// @param known m, >= 0: only points deeper than this are of interest
+  /// @param clearance of solids that are not convex: set to how far the segment is from the solid at least,
+  /// m; 0: not known; null: not wanted
   /// @return none: no point is inside, or none is deeper than `known` to the resolution
   [[nodiscard]] std::optional<SolidDepth> of_segment(const Vector3& start, const Vector3& end,
-                                                     double resolution, double known = 0.0) const;
+                                                     double resolution, double known = 0.0,
+                                                     double* clearance = nullptr) const;
   [[nodiscard]] bool convex() const { return closest_ == nullptr; }
+  /// Radius of a ball around a point that has nothing of a solid that is not convex, m; 0: the point is in
+  /// it.
+  [[nodiscard]] double clear_radius(const Vector3& x) const;
 
  private:
   struct Plane {

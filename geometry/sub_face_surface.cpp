@@ -74,13 +74,15 @@ std::vector<std::vector<int>> convex_neighbours(const Polyhedron& solid) {
   return result;
 }
 
-void find_reflex_sides(const Polyhedron& solid, SubFaceSurface& surface) {
+void find_neighbours(const Polyhedron& solid, SubFaceSurface& surface) {
   for (SurfaceCell& cell : surface.cells) {
     cell.across.assign(cell.corners.size(), -1);
+    cell.reflex.assign(cell.corners.size(), false);
     for (std::size_t k = 0; k < cell.rim.size(); ++k) {
       if (cell.rim[k] < 0) continue;
       const PolyhedronEdge& edge = solid.edges()[at(cell.rim[k])];
-      if (!edge.convex) cell.across[k] = edge.faces[0] == cell.face ? edge.faces[1] : edge.faces[0];
+      cell.across[k] = edge.faces[0] == cell.face ? edge.faces[1] : edge.faces[0];
+      cell.reflex[k] = !edge.convex;
     }
   }
   for (const SurfaceEdge& edge : surface.edges) {
@@ -218,7 +220,7 @@ SubFaceSurface whole_surface(const Polyhedron& solid) {
   find_vertices(surface);
   surface.face_share = face_shares(solid);
   surface.convex_neighbours = convex_neighbours(solid);
-  find_reflex_sides(solid, surface);
+  find_neighbours(solid, surface);
   return surface;
 }
 
@@ -269,7 +271,7 @@ SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<V
   find_vertices(surface);
   surface.face_share = face_shares(solid);
   surface.convex_neighbours = convex_neighbours(solid);
-  find_reflex_sides(solid, surface);
+  find_neighbours(solid, surface);
   return surface;
 }
 

@@ -20,9 +20,9 @@ struct SurfaceCell {
   /// (#corners) the edge of the polyhedron that side k, from corner k to the next, is a piece of; -1: an
   /// inner side.
   std::vector<int> rim;
-  /// (#corners) the face across side k where that is a reflex edge of the solid, -1 elsewhere: there the
-  /// solid goes on beyond the side, below both faces.
-  std::vector<int> across = {};
+  std::vector<int> across = {};  ///< (#corners) the face on the other side of side k, -1: an inner side
+  /// (#corners) whether side k is a reflex edge: there the solid goes on beyond the side, below both faces
+  std::vector<bool> reflex = {};
 };
 
 /// A piece of an edge of the polyhedron.

@@ -3,6 +3,19 @@
 #include "mechanics/contact_points.hpp"
 
 namespace ashlar {
+namespace {
+
+Eigen::MatrixXd values_at_middles(const BlockModel& model, const SubFaceSurface& surface) {
+  std::vector<Vector3> middles;
+  middles.reserve(surface.edges.size());
+  for (const SurfaceEdge& edge : surface.edges) {
+    middles.emplace_back(0.5 * (surface.points[static_cast<std::size_t>(edge.ends[0])] +
+                                surface.points[static_cast<std::size_t>(edge.ends[1])]));
+  }
+  return model.basis().values(middles);
+}
+
+}  // namespace
 
 BlockSurface::BlockSurface(const BlockModel& model, int levels, const Eigen::Matrix3d& axes,
                            const BlockSurface* twin)
@@ -17,6 +30,7 @@ BlockSurface::BlockSurface(const BlockModel& model, int levels, const Eigen::Mat
             ? twin->domain_phi_
             : std::make_shared<const Eigen::MatrixXd>(model.basis().values(adaptive_->domain_points()));
     point_phi_ = model.basis().values(adaptive_->surface().points);
+    middle_phi_ = values_at_middles(model, adaptive_->surface());
     largest_phi_ = twin != nullptr ? twin->largest_phi_ : adaptive_->largest_values(*domain_phi_);
   } else {
     whole_ = whole_surface(model.solid());
@@ -41,6 +55,10 @@ Eigen::Matrix3Xd BlockSurface::domain_values(const BlockState& state) const {
 
 std::vector<Vector3> BlockSurface::points(const BlockState& state) const {
   return placed_points(point_phi_, state);
+}
+
+std::vector<Vector3> BlockSurface::edge_middles(const BlockState& state) const {
+  return adaptive_ ? placed_points(middle_phi_, state) : std::vector<Vector3>{};
 }
 
 void BlockSurface::move(const BlockState& state) {
@@ -74,6 +92,7 @@ double BlockSurface::largest_speed(const BlockState& state) const {
 bool BlockSurface::divide(const DivisionDemand& demand) {
   if (!adaptive_ || !adaptive_->divide(demand)) return false;
   point_phi_ = model_->basis().values(adaptive_->surface().points);
+  middle_phi_ = values_at_middles(*model_, adaptive_->surface());
   points_ = points(state_);
   return true;
 }

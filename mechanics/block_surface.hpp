@@ -43,6 +43,9 @@ class BlockSurface {
   [[nodiscard]] double bulge(const BlockState& state) const;
   /// Current positions of the surface's points in a state, m.
   [[nodiscard]] std::vector<Vector3> points(const BlockState& state) const;
+  /// Current positions of the middles of the surface's edges (SubFaceSurface::edges) if they may curve, m.
+  /// @return (#edges); empty: edges stay straight
+  [[nodiscard]] std::vector<Vector3> edge_middles(const BlockState& state) const;
 
   /// See AdaptiveSurface::wanted; empty for blocks that stay affine.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
@@ -58,6 +61,7 @@ class BlockSurface {
   /// phi at the domain points of a block that curves
   std::shared_ptr<const Eigen::MatrixXd> domain_phi_;
   Eigen::MatrixXd point_phi_;       ///< phi at the surface's points
+  Eigen::MatrixXd middle_phi_;      ///< phi at the middles of the edges of a block that curves
   Eigen::RowVectorXd largest_phi_;  ///< (p) no larger in magnitude is each function anywhere on the surface
   BlockState state_;                ///< as moved last
   std::vector<Vector3> points_;     ///< in that state

@@ -7,6 +7,7 @@
 #include "geometry/box_pairs.hpp"
 #include "geometry/rounded_convexity.hpp"
 #include "mechanics/overlap_outline.hpp"
+#include "solver/hidden_sides.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -97,6 +98,65 @@ void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairConta
     return outline_of(places_of(overlap), tolerance).empty();
   });
 }
+
+/// A vertex that goes into a block through a side that is hidden has gone in below one of the faces beside
+/// it: where it ends least deep. A touch with a hidden side is one with that face, or none if it ends
+/// outside.
+class OpenFaces {
+ public:
+  OpenFaces(const MovingSurface& a, const MovingSurface& b, const HiddenPlaces& hidden)
+      : a_(a), b_(b), hidden_(hidden) {}
+
+  void turn(std::vector<Touch>& touches) const {
+    std::erase_if(touches, [this](Touch& touch) {
+      auto* vertex = std::get_if<VertexContact>(&touch.contact);
+      return vertex != nullptr && is_hidden(*vertex) && !turn(*vertex);
+    });
+  }
+
+ private:
+  [[nodiscard]] const MovingSurface& with_cell(const VertexContact& vertex) const {
+    return vertex.vertex_of_a ? b_ : a_;
+  }
+  [[nodiscard]] double gap(const VertexContact& vertex, int cell, bool at_end) const {
+    const MovingSurface& with_vertex = vertex.vertex_of_a ? a_ : b_;
+    const PlacedSurface& points = at_end ? *with_vertex.end : *with_vertex.start;
+    const PlacedSurface& cells = at_end ? *with_cell(vertex).end : *with_cell(vertex).start;
+    const Vector3& in_plane = cells.point(cells.surface().cells[at(cell)].corners[0]);
+    return cells.normal(cell).dot(points.point(vertex.point) - in_plane);
+  }
+  /// Whether it goes through the hidden side, or ends beside it: it may start above.
+  [[nodiscard]] bool is_hidden(const VertexContact& vertex) const {
+    const auto& hides = vertex.vertex_of_a ? hidden_.of_b : hidden_.of_a;
+    const int face = with_cell(vertex).start->surface().cells[at(vertex.cell)].face;
+    return hides(face, foot(vertex, false)) || hides(face, foot(vertex, true));
+  }
+  [[nodiscard]] Vector3 foot(const VertexContact& vertex, bool at_end) const {
+    const MovingSurface& with_vertex = vertex.vertex_of_a ? a_ : b_;
+    const PlacedSurface& points = at_end ? *with_vertex.end : *with_vertex.start;
+    const PlacedSurface& cells = at_end ? *with_cell(vertex).end : *with_cell(vertex).start;
+    return points.point(vertex.point) - gap(vertex, vertex.cell, at_end) * cells.normal(vertex.cell);
+  }
+  /// @return false: it ends outside of the block
+  [[nodiscard]] bool turn(VertexContact& vertex) const {
+    const SubFaceSurface& surface = with_cell(vertex).start->surface();
+    const auto& beside = surface.convex_neighbours[at(surface.cells[at(vertex.cell)].face)];
+    double least = -std::numeric_limits<double>::infinity();
+    for (int cell = 0; cell < static_cast<int>(surface.cells.size()); ++cell) {
+      if (!std::binary_search(beside.begin(), beside.end(), surface.cells[at(cell)].face)) continue;
+      const double end = gap(vertex, cell, true);
+      if (end <= least) continue;
+      least = end;
+      vertex.cell = cell;
+    }
+    vertex.gap = gap(vertex, vertex.cell, false);
+    return least < 0.0;
+  }
+
+  const MovingSurface a_;
+  const MovingSurface b_;
+  const HiddenPlaces& hidden_;
+};
 
 }  // namespace
 
@@ -196,6 +256,65 @@ void ContactFinder::note_clearance(const PairKey& pair) {
   clearances_[pair] = {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
 }
 
+void ContactFinder::hide_fixed_sides() {
+  fixed_sides_.emplace();
+  std::vector<Box> boxes(surfaces_.size());
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    if (!moving_[k]) boxes[k] = box_of(surfaces_[k].surface().points).grown(settings_.contact_distance);
+  }
+  const ContactLimits flush{settings_.contact_distance, settings_.contact_distance, settings_.contact_angle};
+  for (const PairKey& pair : meeting_boxes(boxes)) {
+    const SubFaceSurface& a = surfaces_[at(pair[0])].surface();
+    const SubFaceSurface& b = surfaces_[at(pair[1])].surface();
+    const PairContacts contacts =
+        find_contacts(PlacedSurface(a, a.points), PlacedSurface(b, b.points), flush);
+    fixed_sides_->add(pair, contacts.overlaps, a, b, settings_.contact_distance);
+  }
+}
+
+void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
+                                  const std::vector<ContactLimits>& limits) {
+  hidden_.clear();
+  hidden_sides_ = HiddenSides();
+  const bool any_inside = std::any_of(searched.begin(), searched.end(), [](const FoundContacts& pair) {
+    return std::any_of(pair.contacts.vertices.begin(), pair.contacts.vertices.end(),
+                       [](const VertexContact& contact) { return contact.gap < 0.0; });
+  });
+  if (!any_inside) return;
+  if (!fixed_sides_) hide_fixed_sides();
+  hidden_sides_ = *fixed_sides_;
+  for (const auto& [blocks, contacts] : searched) {
+    hidden_sides_.add(blocks, contacts.overlaps, placed(blocks[0]).surface(), placed(blocks[1]).surface(),
+                      settings_.contact_distance);
+  }
+  if (hidden_sides_.empty()) return;
+  std::vector<std::size_t> again;
+  for (std::size_t k = 0; k < searched.size(); ++k) {
+    const auto& [blocks, contacts] = searched[k];
+    const HiddenPlaces places = hidden_sides_.of_pair(blocks);
+    const bool below =
+        std::any_of(contacts.vertices.begin(), contacts.vertices.end(), [&](const auto& contact) {
+          const PlacedSurface& with_cell = placed(blocks[contact.vertex_of_a ? 1 : 0]);
+          const PlacedSurface& with_vertex = placed(blocks[contact.vertex_of_a ? 0 : 1]);
+          const Vector3 foot =
+              with_vertex.point(contact.point) - contact.gap * with_cell.normal(contact.cell);
+          const auto& hides = contact.vertex_of_a ? places.of_b : places.of_a;
+          return contact.gap < 0.0 && hides(with_cell.surface().cells[at(contact.cell)].face, foot);
+        });
+    if (below) again.push_back(k);
+  }
+  parallel_for(settings_.threads, again.size(), [&](std::size_t n) {
+    auto& [blocks, contacts] = searched[again[n]];
+    const HiddenPlaces places = hidden_sides_.of_pair(blocks);
+    const DecisionCounts counts = contacts.counts;
+    contacts = find_contacts(placed(blocks[0]), placed(blocks[1]), limits[again[n]], &places);
+    contacts.counts.filter += counts.filter;
+    contacts.counts.exact += counts.exact;
+    leave_out_slivers(placed(blocks[0]), placed(blocks[1]), contacts);
+  });
+  for (const std::size_t k : again) hidden_.insert(searched[k].blocks);
+}
+
 void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
                                         const std::function<double(int, int)>& deepest) {
   std::map<PairKey, EntranceName> entrances;
@@ -203,7 +322,8 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
   std::vector<std::optional<ConvexSurface>> hulls(surfaces_.size());
   for (std::size_t k = 0; k < searched.size(); ++k) {
     auto& [blocks, contacts] = searched[k];
-    if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])]) continue;
+    // Which of a hull's faces are hidden is not known there.
+    if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])] || hidden_.count(blocks) > 0) continue;
     if (!contacts.overlaps.empty()) {
       contacts.type = ContactType::face_face;
       entrances.emplace(blocks, entrance_of_faces(contacts.overlaps.front()));
@@ -258,6 +378,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
     searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
     leave_out_slivers(placed(a), placed(b), searched[k].contacts);
   });
+  search_hidden(searched, limits);
   settle_convex_pairs(searched, deepest);
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
@@ -323,6 +444,9 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
                               settings_.contact_distance + checked_motion_[at(a)] + checked_motion_[at(b)]};
     touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
                               in_contact ? known->contacts : PairContacts{}, limits);
+    if (hidden_sides_.empty()) return;
+    const HiddenPlaces hidden = hidden_sides_.of_pair(pairs[k]);
+    OpenFaces({&placed(a), &end_a}, {&placed(b), &end_b}, hidden).turn(touches[k]);
   });
   std::vector<PassingBlocks> passing;
   for (std::size_t k = 0; k < pairs.size(); ++k) {

@@ -15,6 +15,7 @@
 #include "geometry/convex_search.hpp"
 #include "geometry/motion_check.hpp"
 #include "mechanics/block_surface.hpp"
+#include "solver/hidden_sides.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -116,6 +117,11 @@ class ContactFinder {
   void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
   [[nodiscard]] bool known_apart(const PairKey& pair, double reach) const;
   void note_clearance(const PairKey& pair);
+  /// Searches pairs again in which a vertex is in a block below a hidden part of its face.
+  /// @param limits of the pairs
+  void search_hidden(std::vector<FoundContacts>& searched, const std::vector<ContactLimits>& limits);
+  /// Notes the faces of fixed blocks that lie on each other.
+  void hide_fixed_sides();
   /// Completes the contacts of pairs of convex solids, with history.
   void settle_convex_pairs(std::vector<FoundContacts>& searched,
                            const std::function<double(int, int)>& deepest);
@@ -137,6 +143,9 @@ class ContactFinder {
   std::vector<double> checked_motion_;  ///< of the motion checked last
   std::map<PairKey, Clearance> clearances_;
   std::map<PairKey, EntranceName> entrances_;  ///< history of convex pairs that are near each other
+  std::optional<HiddenSides> fixed_sides_;     ///< of fixed blocks, found when first asked for
+  HiddenSides hidden_sides_;                   ///< at the last search; empty if no vertex was in a block
+  std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };
 

@@ -16,7 +16,8 @@ std::size_t at(int index) {
 
 /// A block as an audit sees it.
 struct AuditedBlock {
-  std::vector<Vector3> points;  ///< of its surface, m
+  std::vector<Vector3> points;   ///< of its surface, m
+  std::vector<Vector3> middles;  ///< of its edges, m; empty: they are straight
   std::vector<Box> edges;
   Box box;  ///< of the points, grown by how far the surface is off its cells
 };
@@ -25,8 +26,11 @@ AuditedBlock audited(const BlockSurface& surface, const BlockState& state) {
   AuditedBlock block;
   block.points = surface.points(state);
   block.box = box_of(block.points).grown(surface.bulge(state));
-  for (const SurfaceEdge& edge : surface.surface().edges)
+  block.middles = surface.edge_middles(state);
+  for (const SurfaceEdge& edge : surface.surface().edges) {
     block.edges.push_back(box_of(std::array{block.points[at(edge.ends[0])], block.points[at(edge.ends[1])]}));
+    if (!block.middles.empty()) block.edges.back().include(block.middles[block.edges.size() - 1]);
+  }
   return block;
 }
 
@@ -57,19 +61,21 @@ std::optional<std::array<double, 2>> clipped(const Box& box, const Vector3& star
 /// Asks for the points of one block in another one.
 class PairAudit {
  public:
+  /// @param clear from the audit before, written; empty: the outer block is convex
   PairAudit(const AuditedBlock& with_points, const SubFaceSurface& surface, const AuditedBlock& outer,
-            const SolidDepthFinder& finder, const MaterialMap& map, double resolution)
+            const SolidDepthFinder& finder, const MaterialMap& map, double resolution, ClearParts& clear)
       : with_points_(with_points),
         surface_(surface),
         outer_(outer),
         finder_(finder),
         map_(map),
-        resolution_(resolution) {}
+        resolution_(resolution),
+        clear_(clear) {}
 
   [[nodiscard]] PairDepth run() {
     for (std::size_t k = 0; k < with_points_.points.size(); ++k) check_point(static_cast<int>(k));
     for (std::size_t k = 0; k < surface_.edges.size(); ++k) {
-      if (surface_.edges[k].convex && with_points_.edges[k].meets(outer_.box)) check_edge(surface_.edges[k]);
+      if (surface_.edges[k].convex && with_points_.edges[k].meets(outer_.box)) check_edge(k);
     }
     return deepest_;
   }
@@ -80,25 +86,48 @@ class PairAudit {
     if (!contains(outer_.box, place)) return;
     const auto material = map_.material(place);
     if (!material) return;
+    if (!clear_.points.empty()) {
+      ClearBall& ball = clear_.points[at(point)];
+      if (ball.around(*material) > 0.0) return;
+      ball = {*material, finder_.clear_radius(*material)};
+      if (ball.radius > 0.0) return;
+    }
     if (const auto depth = finder_.of_point(*material)) take(*depth, place, {point, point}, 0.0);
   }
 
-  void check_edge(const SurfaceEdge& edge) {
+  void check_edge(std::size_t index) {
+    const SurfaceEdge& edge = surface_.edges[index];
     const Vector3& start = with_points_.points[at(edge.ends[0])];
     const Vector3& end = with_points_.points[at(edge.ends[1])];
-    const auto share = clipped(outer_.box, start, end);
-    if (!share) return;
-    const Vector3 first = start + (*share)[0] * (end - start);
-    const Vector3 last = start + (*share)[1] * (end - start);
-    const auto from = map_.material(first);
-    const auto to = map_.material(last);
-    if (!from || !to) return;
-    const auto depth = finder_.of_segment(*from, *to, resolution_, deepest_.depth);
+    if (with_points_.middles.empty()) {
+      check_piece(index, {start, end}, {0.0, 1.0});
+    } else {
+      check_piece(2 * index, {start, with_points_.middles[index]}, {0.0, 0.5});
+      check_piece(2 * index + 1, {with_points_.middles[index], end}, {0.5, 1.0});
+    }
+  }
+
+  /// @param piece of an edge; @param shares of the edge
+  void check_piece(std::size_t piece, const std::array<Vector3, 2>& ends,
+                   const std::array<double, 2>& shares) {
+    const auto part = clipped(outer_.box, ends[0], ends[1]);
+    if (!part) return;
+    const Vector3 whole = ends[1] - ends[0];
+    const auto first = map_.material(ends[0] + (*part)[0] * whole);
+    const auto last = map_.material(ends[0] + (*part)[1] * whole);
+    if (!first || !last) return;
+    ClearSegment* known = clear_.edges.empty() ? nullptr : &clear_.edges[piece];
+    if (known != nullptr && known->clears(*first, *last)) return;
+    double clearance = 0.0;
+    const auto depth = finder_.of_segment(*first, *last, resolution_, deepest_.depth, &clearance);
+    if (known != nullptr) *known = {*first, *last, clearance};
     if (!depth) return;
-    const Vector3 way = *to - *from;
-    const double within = way.squaredNorm() > 0.0 ? way.dot(depth->place - *from) / way.squaredNorm() : 0.0;
-    const double along = (*share)[0] + within * ((*share)[1] - (*share)[0]);
-    take(*depth, start + along * (end - start), edge.ends, along);
+    const Vector3 way = *last - *first;
+    const double within = way.squaredNorm() > 0.0 ? way.dot(depth->place - *first) / way.squaredNorm() : 0.0;
+    const double along = (*part)[0] + within * ((*part)[1] - (*part)[0]);
+    const std::size_t edge = with_points_.middles.empty() ? piece : piece / 2;
+    take(*depth, ends[0] + along * whole, surface_.edges[edge].ends,
+         shares[0] + along * (shares[1] - shares[0]));
   }
 
   void take(const SolidDepth& found, const Vector3& place, const std::array<int, 2>& points, double along) {
@@ -118,10 +147,24 @@ class PairAudit {
   const SolidDepthFinder& finder_;
   const MaterialMap& map_;
   double resolution_;
+  ClearParts& clear_;
   PairDepth deepest_{};
 };
 
 }  // namespace
+
+void DepthAudit::forget(std::size_t block) {
+  finders_[block].reset();
+  std::erase_if(
+      clear_, [&](const auto& entry) { return at(entry.first[0]) == block || at(entry.first[1]) == block; });
+}
+
+void DepthAudit::prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges) {
+  ClearParts& clear = clear_[blocks];
+  const bool convex = finders_[at(blocks[1])]->convex();
+  if (clear.points.size() != (convex ? 0 : points)) clear.points.assign(convex ? 0 : points, {});
+  if (clear.edges.size() != (convex ? 0 : edges)) clear.edges.assign(convex ? 0 : edges, {});
+}
 
 std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
                                        const std::vector<BlockState>& states,
@@ -144,12 +187,18 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
     }
   }
   std::vector<std::array<PairDepth, 2>> found(pairs.size());
+  for (const auto& [a, b] : pairs) {
+    for (const auto& [inner, outer] : {std::array{a, b}, std::array{b, a}}) {
+      const AuditedBlock& block = audited_blocks[at(inner)];
+      prepare({inner, outer}, block.points.size(), block.edges.size() + block.middles.size());
+    }
+  }
   parallel_for(scope.threads, pairs.size(), [&](std::size_t k) {
     const auto& [a, b] = pairs[k];
     const auto audit = [&](int inner, int outer) {
       PairDepth depth =
           PairAudit(audited_blocks[at(inner)], surfaces[at(inner)].surface(), audited_blocks[at(outer)],
-                    *finders_[at(outer)], *maps[at(outer)], scope.resolution)
+                    *finders_[at(outer)], *maps[at(outer)], scope.resolution, clear_.at({inner, outer}))
               .run();
       depth.blocks = {inner, outer};
       return depth;

@@ -7,7 +7,9 @@
 // exact to rounding for blocks of order 1, and to the change of the deformation within the depth for others.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -26,6 +28,34 @@ struct PairDepth {
   double along = 0.0;  ///< of the edge, from its first end, 0 to 1
   int face = -1;       ///< of the second block's solid: the nearest
   Vector3 normal;      ///< of it, outward, current coordinates, unit
+};
+
+/// A ball in the reference shape of a solid that has nothing of the solid in it.
+struct ClearBall {
+  Vector3 center = Vector3::Zero();
+  double radius = -1.0;  ///< m; negative: not known
+
+  /// Radius of the largest ball around another point that it contains, m; negative: none.
+  [[nodiscard]] double around(const Vector3& x) const { return radius - (x - center).norm(); }
+};
+
+/// A segment in the reference shape of a solid that is clear of the solid.
+struct ClearSegment {
+  Vector3 start = Vector3::Zero();
+  Vector3 end = Vector3::Zero();
+  double distance = 0.0;  ///< m, from the solid at least; 0: not known
+
+  /// Whether a segment is so near to it that it is clear too.
+  [[nodiscard]] bool clears(const Vector3& from, const Vector3& to) const {
+    return std::max((from - start).norm(), (to - end).norm()) < distance;
+  }
+};
+
+/// What is known of the points and edges of a block near one that is not convex: which need not be asked
+/// again.
+struct ClearParts {
+  std::vector<ClearBall> points;
+  std::vector<ClearSegment> edges;  ///< halves of edges that may curve, one after the other
 };
 
 /// What an audit looks at.
@@ -47,10 +77,15 @@ class DepthAudit {
                                            const std::vector<BlockSurface>& surfaces,
                                            const AuditScope& scope);
   /// To be called when the solid of a block has changed.
-  void forget(std::size_t block) { finders_[block].reset(); }
+  void forget(std::size_t block);
 
  private:
+  /// Makes room for what is known of the points of the first block near the second.
+  void prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges);
+
   std::vector<std::optional<SolidDepthFinder>> finders_;  ///< of blocks that have been near others
+  std::map<std::array<int, 2>, ClearParts>
+      clear_;  ///< of a block (first) near another one; empty: that is convex
 };
 
 }  // namespace ashlar
