@@ -18,7 +18,7 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
-  archive(memory.slip, memory.compression, memory.state, memory.intact, memory.normal_multiplier,
+  archive(memory.slip, memory.level_slip, memory.in_level, memory.compression, memory.state, memory.intact, memory.normal_multiplier,
           memory.shear_multiplier, memory.unrubbed);
 }
 
@@ -67,6 +67,7 @@ static void visit_members(Archive& archive, PairRecord& record) {
 template <class Archive>
 static void visit_members(Archive& archive, StaticState& state) {
   archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
+          state.level_start,
           state.milestones, state.milestone_forces, state.travels, state.sliding, state.least_lacking,
           state.rigid, state.gives_way, state.starts, state.unbalanced);
 }

@@ -199,6 +199,29 @@ void ContactPair::hold_where_found(double taken) {
   rest_at(std::move(rests));
 }
 
+void ContactPair::count_slip(const std::vector<Vector3>& moved) {
+  counts_slip_ = true;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto along = [&](const Vector3& vector) {
+      return Eigen::Vector2d(points_[k].tangent_1.dot(vector), points_[k].tangent_2.dot(vector));
+    };
+    PointMemory& memory = memory_[k];
+    if (!memory.in_level) memory.level_slip = -flat(k, along(moved[k]));
+    start_.col(static_cast<Eigen::Index>(k)).tail<2>() = along(memory.level_slip + moved[k]);
+  }
+  respond_at_start();
+}
+
+Vector3 ContactPair::flat(std::size_t k, const Eigen::Vector2d& along) const {
+  return along[0] * points_[k].tangent_1 + along[1] * points_[k].tangent_2;
+}
+
+Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
+  const Eigen::Vector2d slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
+  return counts_slip_ ? Eigen::Vector2d(slip - elastic_slip(laws_[k], start_responses_[k], slip))
+                      : Eigen::Vector2d::Zero();
+}
+
 void ContactPair::hold_within(double way) {
   std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -441,10 +464,14 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
   std::vector<PointMemory> result;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
-    const Eigen::Vector2d slip =
-        elastic_slip(laws[k], point, place.col(static_cast<Eigen::Index>(k)).tail<2>());
+    const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
+    const Eigen::Vector2d elastic = elastic_slip(laws[k], point, slip);
     PointMemory memory;
-    memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
+    memory.slip = flat(k, elastic);
+    memory.level_slip = memory_[k].level_slip;
+    memory.in_level =
+        counts_slip_ && (memory_[k].in_level || point.state != ContactState::open ||
+                         start_responses_[k].state != ContactState::open);
     memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
     const bool open = point.state == ContactState::open;
@@ -477,7 +504,7 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
     if (laws[k].augmented)
       elastic = start_.col(column).tail<2>();
     else if (point.state == ContactState::sliding)
-      elastic = elastic_slip(laws[k], point, slip);
+      elastic = elastic_slip(laws[k], point, slip) + slid_before(k);
     work += response.means[k].force.tail<2>().dot(elastic - slip);
   }
   return work;

@@ -323,6 +323,8 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
     if (!hold_energy && law.augmented) pairs.back().hold_within(settings_.tolerated_depth());
+    if (!hold_energy && !static_.level_start.empty())
+      pairs.back().count_slip(moved_in_level(a, b, pairs.back().points()));
   }
   if (hold_energy && steps_ > 0) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

@@ -301,6 +301,9 @@ class Simulation {
 
   // static_analysis.cpp
   void start_load_level(double end_time);
+  /// How far a has moved past b at each point since the load level began, m.
+  [[nodiscard]] std::vector<Vector3> moved_in_level(int a, int b,
+                                                    const std::vector<ContactPoint>& points) const;
   /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
   [[nodiscard]] double least_inertia() const;

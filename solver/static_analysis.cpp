@@ -99,7 +99,25 @@ void Simulation::start_load_level(double end_time) {
   }
   static_.milestone_forces.assign(blocks_.size(), std::numeric_limits<double>::infinity());
   static_.travels.assign(blocks_.size(), 0.0);
+  for (const BlockState& state : states_) static_.level_start.push_back(state.position);
+  for (auto& [blocks, memory] : memory_) memory.start_level();
   forget_accelerations();
+}
+
+std::vector<Vector3> Simulation::moved_in_level(int a, int b, const std::vector<ContactPoint>& points) const {
+  std::vector<Vector3> moved(points.size(), Vector3::Zero());
+  for (const bool of_a : {true, false}) {
+    const auto block = static_cast<std::size_t>(of_a ? a : b);
+    if (!moving_[block]) continue;
+    std::vector<Vector3> material;
+    material.reserve(points.size());
+    for (const ContactPoint& point : points) material.push_back(of_a ? point.material_a : point.material_b);
+    const Eigen::MatrixX3d motion =
+        blocks_[block].basis().values(material) * (states_[block].position - static_.level_start[block]);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      moved[k] += (of_a ? 1.0 : -1.0) * motion.row(static_cast<Eigen::Index>(k)).transpose();
+  }
+  return moved;
 }
 
 StaticStatus Simulation::static_step(double end_time) {

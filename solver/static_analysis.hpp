@@ -58,6 +58,7 @@ struct StaticState {
   int still_iterations = 0;  ///< in which nothing was lacking and no contact changed, one after another
   bool balanced = false;     ///< equilibrium at the present loads
   bool moving = false;
+  std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on
   /// For each block, where it was when what it lacks had last been halved, and how much that was.
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> milestone_forces;
