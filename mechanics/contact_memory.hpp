@@ -26,11 +26,11 @@ struct PointMemory {
   Vector3 shear_multiplier = Vector3::Zero();
   /// Normal impulse whose friction is still to act, of augmented contact, Pa s, of point springs N s
   double unrubbed = 0.0;
+  double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
   /// Of a static analysis (solver/static_analysis.hpp): what the trial slip would be if the blocks were where
   /// they were when the present load level began, m
   Vector3 level_slip = Vector3::Zero();
   bool in_level = false;  ///< whether it has been closed since then, or was: others have slipped nowhere yet
-  double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
 };
 
 /// Memory of a pair of blocks.

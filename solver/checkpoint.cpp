@@ -133,7 +133,7 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.carried,
+  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.remembers_statics, snapshot.states, snapshot.carried,
           snapshot.accelerations, snapshot.spin_debts, snapshot.memory, snapshot.contact_work, snapshot.taken,
           snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger, snapshot.statics,
           snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
@@ -159,6 +159,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.time = time_;
   result.next_step = next_step_;
   result.steps = steps_;
+  result.remembers_statics = remembers_statics_;
   result.states = states_;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (blocks_[k].incremental() != nullptr)
@@ -206,6 +207,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   time_ = snapshot.time;
   next_step_ = snapshot.next_step;
   steps_ = snapshot.steps;
+  remembers_statics_ = snapshot.remembers_statics;
   states_ = snapshot.states;
   for (const auto& [block, shape] : snapshot.carried) {
     blocks_[static_cast<std::size_t>(block)] = blocks_[static_cast<std::size_t>(block)].with_shape(shape);

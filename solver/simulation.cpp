@@ -295,8 +295,6 @@ std::function<bool(const WayOut&)> Simulation::standing_ways(const std::vector<F
 std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found, bool hold_energy) {
   const Stopwatch watch(seconds_.contact_points);
   std::vector<ContactPair> pairs;
-  const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface,
-                                            settings_.augmented};
   const CoveredFaces covered(
       found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
       settings_.contact_distance);
@@ -306,6 +304,10 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const ContactBody body_a = body_at_start(a);
     const ContactBody body_b = body_at_start(b);
     const ContactMemory& known = memory_[blocks];
+    JointLaw law = law_(a, b);
+    law.augmented = settings_.augmented && !law.gives_way;
+    const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface,
+                                              law.augmented};
     const std::vector<bool> masters =
         first_is_master(body_a, body_b, contacts.overlaps, [&](const RimPlace& rim) {
           return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
@@ -315,18 +317,16 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     // Faces that share no area to the last bit are found, but have no points.
     if (points.empty()) continue;
     auto memory = known.recall(
-        points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity(),
+        points, has_begun() ? -std::numeric_limits<double>::infinity() : settings_.contact_distance,
         !hold_energy && settings_.area_springs);
-    JointLaw law = law_(a, b);
-    law.augmented = settings_.augmented;
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
-    if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
+    if (hold_energy && has_begun() && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
     if (!hold_energy && law.augmented) pairs.back().hold_within(settings_.tolerated_depth());
     if (!hold_energy && !static_.level_start.empty())
       pairs.back().count_slip(moved_in_level(a, b, pairs.back().points()));
   }
-  if (hold_energy && steps_ > 0) {
+  if (hold_energy && has_begun()) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);
     for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].hold_at_most(bounds[k]);
   }
@@ -363,6 +363,7 @@ std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const
     body.state = &states_[k];
     body.roundoff_force = roundoff_force_[k];
     if (block.fixed()) continue;
+    body.change = Eigen::VectorXd::Zero(block.unknowns());
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     body.free_change = block.space().restrict(
         scheme.free_change(still, states_[k].velocity, accelerations_.empty() ? still : accelerations_[k]));

@@ -114,6 +114,11 @@ class Simulation {
   /// as far as settings.settling_steps takes them. @return the blocks that are there
   std::vector<int> settle_supported_blocks();
 
+  /// Takes the blocks to their equilibrium under gravity and the loads at time 0, contacts on, by a static
+  /// analysis; initial velocities are theirs then (static_start.cpp). To be called before the first step.
+  /// @return how it ended; unless that is equilibrium all is as placed
+  [[nodiscard]] StaticStatus start_from_statics();
+
   /// Bonds two blocks over the faces they have in common (tie.hpp), and looks for no contacts between them.
   /// To be called before settle_supported_blocks(), which leaves tied blocks as they are. @param a,b a < b
   /// @param stiffness Pa/m. @return whether they have a common face
@@ -179,6 +184,8 @@ class Simulation {
     double stiffness;  ///< Pa/m
   };
   [[nodiscard]] bool is_tied(std::size_t block) const;
+  /// Whether contacts have been looked at before, so that new ones are new.
+  [[nodiscard]] bool has_begun() const { return steps_ > 0 || remembers_statics_; }
 
   /// A step as tried: nothing of it is taken over before it is accepted.
   struct Trial {
@@ -353,6 +360,7 @@ class Simulation {
   double time_ = 0.0;
   double next_step_;  ///< s, grows back to settings_.time_step after cuts
   int steps_ = 0;
+  bool remembers_statics_ = false;  ///< contacts were known before the first step
   StepReport report_;
   std::vector<PairRecord> records_;
   Ledger ledger_;
