@@ -67,7 +67,7 @@ static void visit_members(Archive& archive, PairRecord& record) {
 template <class Archive>
 static void visit_members(Archive& archive, StaticState& state) {
   archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
-          state.level_start,
+          state.holds_bonds, state.multiplier_iterations, state.level_start,
           state.milestones, state.milestone_forces, state.travels, state.sliding, state.least_lacking,
           state.rigid, state.gives_way, state.starts, state.unbalanced);
 }

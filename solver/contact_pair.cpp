@@ -222,13 +222,21 @@ Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
                       : Eigen::Vector2d::Zero();
 }
 
-void ContactPair::hold_within(double way) {
-  std::vector<double> rests;
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const double most = laws_[k].normal_multiplier != 0.0 || laws_[k].tension > 0.0 ? way : 0.0;
-    rests.push_back(std::clamp(points_[k].gap, -way, most));
+bool ContactPair::bonded() const {
+  return !tied() && std::any_of(laws_.begin(), laws_.end(), [](const PointLaw& law) {
+    return law.cohesion > 0.0 || law.tension > 0.0;
+  });
+}
+
+void ContactPair::hold_bonds() {
+  holds_bonds_ = true;
+  const JointLaw bond = tie_law(1.0);
+  for (PointLaw& law : laws_) {
+    if (tied() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
+    law.cohesion = bond.cohesion;
+    if (law.tension > 0.0) law.tension = bond.tensile_strength;
   }
-  rest_at(std::move(rests));
+  respond_at_start();
 }
 
 double ContactPair::depth_found() const {
@@ -478,7 +486,7 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension == 0.0
                                              : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
-    memory.intact = memory_[k].intact && !torn && !sheared;
+    memory.intact = memory_[k].intact && (holds_bonds_ || (!torn && !sheared));
     if (laws[k].augmented && point.state != ContactState::open) {
       const Eigen::Vector2d shear = point.force.tail<2>();
       const double scale = multiplier_scale(points_[k]);

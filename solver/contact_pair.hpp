@@ -99,10 +99,10 @@ class ContactPair {
   /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
   /// point since the level began, m
   void count_slip(const std::vector<Vector3>& moved);
-  /// Points with multipliers are held where they are found as far as that is at most `way` from the surface,
-  /// those without force only below it.
-  /// @param way m, >= 0
-  void hold_within(double way);
+  /// Whether any point of a contact has cohesion or tensile strength.
+  [[nodiscard]] bool bonded() const;
+  /// Bonds neither tear nor slide whatever pulls, and none is lost in the step.
+  void hold_bonds();
   /// What hold_where_found() was told.
   [[nodiscard]] double taken() const { return taken_; }
   /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.
@@ -229,6 +229,7 @@ class ContactPair {
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
   double taken_ = 0.0;
   bool counts_slip_ = false;
+  bool holds_bonds_ = false;
   Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
   Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
   Eigen::MatrixXd

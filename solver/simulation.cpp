@@ -322,9 +322,9 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && has_begun() && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
-    if (!hold_energy && law.augmented) pairs.back().hold_within(settings_.tolerated_depth());
     if (!hold_energy && !static_.level_start.empty())
       pairs.back().count_slip(moved_in_level(a, b, pairs.back().points()));
+    if (!hold_energy && static_.holds_bonds) pairs.back().hold_bonds();
   }
   if (hold_energy && has_begun()) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);

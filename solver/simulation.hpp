@@ -324,6 +324,12 @@ class Simulation {
     bool fail = false;             ///< whether any loses its strength
   };
   [[nodiscard]] Joints joints(const Trial& trial) const;
+  /// Whether any block has gone as far as what moves does.
+  [[nodiscard]] bool has_set_off() const;
+  /// From now on bonds fail where balances ask for more than their strength.
+  void let_bonds_go();
+  /// Whether multipliers start the iteration with the forces that it ends with.
+  [[nodiscard]] bool multipliers_repeat(const Trial& trial) const;
   /// How a static analysis ends that goes no farther.
   [[nodiscard]] StaticStatus give_up();
   /// Takes note of what each block lacks of balance. @return whether none lacks anything

@@ -101,6 +101,7 @@ void Simulation::start_load_level(double end_time) {
   static_.travels.assign(blocks_.size(), 0.0);
   for (const BlockState& state : states_) static_.level_start.push_back(state.position);
   for (auto& [blocks, memory] : memory_) memory.start_level();
+  static_.holds_bonds = true;
   forget_accelerations();
 }
 
@@ -131,6 +132,8 @@ StaticStatus Simulation::static_step(double end_time) {
   std::vector<FoundContacts> found = find_contacts(0.0);
   Trial trial;
   trial.pairs = make_pairs(found, false);
+  static_.holds_bonds = static_.holds_bonds && std::any_of(trial.pairs.begin(), trial.pairs.end(),
+                                                           [](const ContactPair& p) { return p.bonded(); });
   bool cut = false;
   bool cut_to_touch = false;
   for (int cuts = 0; cuts <= settings_.static_cuts; ++cuts) {
@@ -142,6 +145,10 @@ StaticStatus Simulation::static_step(double end_time) {
       rejections_.push_back({time_, step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                                                  : RejectionReason::not_positive_definite});
+      if (static_.holds_bonds) {
+        let_bonds_go();
+        trial.pairs = make_pairs(found, false);
+      }
     } else if (const double motion = largest_motion(trial); motion > settings_.static_motion) {
       raise = std::clamp(1.1 * motion / settings_.static_motion, 2.0, 1e4);
     } else if (const auto passing = check_motion(trial, found); !passing.empty()) {
@@ -164,12 +171,17 @@ StaticStatus Simulation::static_step(double end_time) {
       } else {
         note_accelerations(scheme, trial);
       }
+      const bool repeat = multipliers_repeat(trial);
       accept(scheme, trial);
       report_.step = step;
+      if (static_.holds_bonds && (balanced || has_set_off())) let_bonds_go();
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
       const bool still = balanced && (scheme.inertia <= least || least == 0.0) &&
                          (before == contact_states(report_) || motion <= settings_.static_stillness);
-      static_.still_iterations = still ? static_.still_iterations + 1 : 0;
+      if (still && !repeat) ++static_.multiplier_iterations;
+      const bool settled =
+          still && (repeat || static_.multiplier_iterations > settings_.static_multiplier_iterations);
+      static_.still_iterations = settled ? static_.still_iterations + 1 : 0;
       static_.balanced = static_.still_iterations >= 2;
       if (static_.balanced) return reached(end_time) ? StaticStatus::equilibrium : StaticStatus::balancing;
       return static_.moving ? StaticStatus::moving : StaticStatus::balancing;
@@ -178,6 +190,36 @@ StaticStatus Simulation::static_step(double end_time) {
     cut = cut || raise > 1.0;
   }
   return give_up();
+}
+
+bool Simulation::has_set_off() const {
+  return std::any_of(static_.travels.begin(), static_.travels.end(), [&](double travel) {
+    return travel > taken_along_share * settings_.static_travel;
+  });
+}
+
+void Simulation::let_bonds_go() {
+  static_.holds_bonds = false;
+  // What bonds that do not fail do is no motion of these blocks.
+  forget_accelerations();
+}
+
+bool Simulation::multipliers_repeat(const Trial& trial) const {
+  double change = 0.0;
+  double largest = 0.0;
+  for (const IslandResult& result : trial.results) {
+    for (std::size_t pair = 0; pair < result.laws.size(); ++pair) {
+      for (std::size_t k = 0; k < result.laws[pair].size(); ++k) {
+        const PointLaw& law = result.laws[pair][k];
+        const Eigen::Vector3d& force = result.responses[pair].points[k].force;
+        largest = std::max(largest, force.norm());
+        if (!law.augmented) continue;
+        const Eigen::Vector3d held(law.normal_multiplier, law.shear_multiplier[0], law.shear_multiplier[1]);
+        change = std::max(change, (force - held).norm());
+      }
+    }
+  }
+  return change <= settings_.static_multiplier_tolerance * largest;
 }
 
 StaticStatus Simulation::give_up() {

@@ -56,6 +56,8 @@ struct StaticState {
   double inertia = 0.0;      ///< m of the next iteration, 1/s^2; 0 before the first
   int iterations = 0;        ///< at the present loads
   int still_iterations = 0;  ///< in which nothing was lacking and no contact changed, one after another
+  bool holds_bonds = false;  ///< until all is in balance once with bonds that hold
+  int multiplier_iterations = 0;  ///< in which nothing was lacking but that multipliers repeat themselves
   bool balanced = false;     ///< equilibrium at the present loads
   bool moving = false;
   std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on
