@@ -261,8 +261,8 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
 void tell_choices(const BuiltSimulation& built, std::ostream& err) {
   for (const AutomaticChoice& choice : built.choices) {
     const auto* number = std::get_if<double>(&choice.value);
-    const std::string value =
-        number ? fmt::format("{:.4g} {}", *number, choice.unit) : fmt::format("{}", std::get<bool>(choice.value));
+    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
+                                     : fmt::format("{}", std::get<bool>(choice.value));
     err << fmt::format("chosen: {} = {}\n", choice.key, value);
   }
   if (!built.as_placed.empty())

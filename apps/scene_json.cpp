@@ -164,8 +164,9 @@ Json to_json(const SceneOutput& output) {
 }  // namespace
 
 nlohmann::ordered_json to_json(const Scene& scene) {
-  Json json = {
-      {"title", scene.title}, {"analysis", to_json(scene.analysis)}, {"contact", to_json(scene.contact, has_multipliers(scene))}};
+  Json json = {{"title", scene.title},
+               {"analysis", to_json(scene.analysis)},
+               {"contact", to_json(scene.contact, has_multipliers(scene))}};
   if (!scene.joint.empty()) json["joint"] = list_to_json(scene.joint);
   json["material"] = list_to_json(scene.material);
   json["block"] = list_to_json(scene.block);

@@ -259,7 +259,8 @@ std::vector<VerificationCheck> shear_patch() {
         double stress_error = 0.0;
         for (const Vector3& point : {Vector3(0.9, 0.1, 0.9), Vector3(0.2, 0.7, 0.1)}) {
           for (const std::size_t block : {0U, 1U}) {
-            const Vector3 place = block == 0 ? point : Vector3(point.x(), point.y(), 1.0 + height * point.z());
+            const Vector3 place =
+                block == 0 ? point : Vector3(point.x(), point.y(), 1.0 + height * point.z());
             Eigen::Matrix3d stress = simulation.blocks()[block].stress(simulation.states()[block], place);
             stress(2, 2) += p;
             stress(0, 2) -= tau;

@@ -223,9 +223,8 @@ Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
 }
 
 bool ContactPair::bonded() const {
-  return !tied() && std::any_of(laws_.begin(), laws_.end(), [](const PointLaw& law) {
-    return law.cohesion > 0.0 || law.tension > 0.0;
-  });
+  return !tied() && std::any_of(laws_.begin(), laws_.end(),
+                                [](const PointLaw& law) { return law.cohesion > 0.0 || law.tension > 0.0; });
 }
 
 void ContactPair::hold_bonds() {
@@ -477,9 +476,8 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     PointMemory memory;
     memory.slip = flat(k, elastic);
     memory.level_slip = memory_[k].level_slip;
-    memory.in_level =
-        counts_slip_ && (memory_[k].in_level || point.state != ContactState::open ||
-                         start_responses_[k].state != ContactState::open);
+    memory.in_level = counts_slip_ && (memory_[k].in_level || point.state != ContactState::open ||
+                                       start_responses_[k].state != ContactState::open);
     memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
     const bool open = point.state == ContactState::open;

@@ -21,6 +21,18 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
+/// Points that have slid so far in a load level have moved on, not found their way to balance: that slip is
+/// for good, and what comes counts from there. @param reach m
+void take_far_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved, double reach,
+                   std::vector<PointMemory>& memory) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!memory[k].in_level) continue;
+    Vector3 slid = memory[k].level_slip + moved[k] - memory[k].slip;
+    slid -= points[k].normal.dot(slid) * points[k].normal;
+    if (slid.norm() > reach) memory[k].level_slip -= slid;
+  }
+}
+
 }  // namespace
 
 std::string to_string(RejectionReason reason) {
@@ -320,10 +332,14 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
         points, has_begun() ? -std::numeric_limits<double>::infinity() : settings_.contact_distance,
         !hold_energy && settings_.area_springs);
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
+    std::vector<Vector3> moved;
+    if (!hold_energy && !static_.level_start.empty()) {
+      moved = moved_in_level(a, b, points);
+      take_far_slip(points, moved, settings_.contact_distance, memory);
+    }
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && has_begun() && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
-    if (!hold_energy && !static_.level_start.empty())
-      pairs.back().count_slip(moved_in_level(a, b, pairs.back().points()));
+    if (!moved.empty()) pairs.back().count_slip(moved);
     if (!hold_energy && static_.holds_bonds) pairs.back().hold_bonds();
   }
   if (hold_energy && has_begun()) {

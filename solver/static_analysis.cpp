@@ -193,15 +193,24 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 bool Simulation::has_set_off() const {
-  return std::any_of(static_.travels.begin(), static_.travels.end(), [&](double travel) {
-    return travel > taken_along_share * settings_.static_travel;
-  });
+  return std::any_of(static_.travels.begin(), static_.travels.end(),
+                     [&](double travel) { return travel > taken_along_share * settings_.static_travel; });
 }
 
 void Simulation::let_bonds_go() {
   static_.holds_bonds = false;
   // What bonds that do not fail do is no motion of these blocks.
   forget_accelerations();
+  // How multipliers share a force is left from the way here; springs share it as stiff joints would.
+  for (auto& [blocks, memory] : memory_) {
+    std::vector<ContactMemory::Entry> entries = memory.entries();
+    for (ContactMemory::Entry& entry : entries) {
+      entry.memory.normal_multiplier = 0.0;
+      entry.memory.shear_multiplier.setZero();
+    }
+    memory =
+        ContactMemory(std::move(entries), memory.cuts(), memory.deepest(), memory.held(), memory.bulge());
+  }
 }
 
 bool Simulation::multipliers_repeat(const Trial& trial) const {
