@@ -9,6 +9,7 @@
 #include "mechanics/contact_master.hpp"
 #include "mechanics/overlap_outline.hpp"
 #include "solver/angular_momentum.hpp"
+#include "solver/automatic.hpp"
 #include "solver/checkpoint.hpp"
 #include "solver/covered_faces.hpp"
 #include "solver/energy_bounds.hpp"
@@ -21,15 +22,13 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// Points that have slid so far in a load level have moved on, not found their way to balance: that slip is
-/// for good, and what comes counts from there. @param reach m
-void take_far_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved, double reach,
-                   std::vector<PointMemory>& memory) {
+/// Takes the slip of a load level so far for good: what comes counts from there.
+void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved,
+               std::vector<PointMemory>& memory) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (!memory[k].in_level) continue;
-    Vector3 slid = memory[k].level_slip + moved[k] - memory[k].slip;
-    slid -= points[k].normal.dot(slid) * points[k].normal;
-    if (slid.norm() > reach) memory[k].level_slip -= slid;
+    const Vector3 slid = memory[k].level_slip + moved[k] - memory[k].slip;
+    memory[k].level_slip -= slid - points[k].normal.dot(slid) * points[k].normal;
   }
 }
 
@@ -335,7 +334,13 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     std::vector<Vector3> moved;
     if (!hold_energy && !static_.level_start.empty()) {
       moved = moved_in_level(a, b, points);
-      take_far_slip(points, moved, settings_.contact_distance, memory);
+      // Blocks that have gone far are on a way of their own, not on that of an iteration to balance.
+      const auto is_far = [&](int block) {
+        const BlockModel& model = blocks_[at(block)];
+        const Eigen::MatrixX3d way = states_[at(block)].position - static_.level_start[at(block)];
+        return moving_[at(block)] && mean_motion(model, way) > settings_.static_motion * block_size(model);
+      };
+      if (is_far(a) || is_far(b)) take_slip(points, moved, memory);
     }
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
     if (hold_energy && has_begun() && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
