@@ -99,8 +99,9 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
       choose(scene.contact.distance, ratios.distance * smallest, "contact.distance", "m");
   settings.contact_angle =
       choose(scene.contact.angle, ratios.angle_degrees, "contact.angle", "deg") * std::numbers::pi / 180.0;
-  settings.augmented = scene.contact.augmented;
+  settings.augmented = has_multipliers(scene);
   if (settings.augmented) {
+    if (!scene.contact.augmented) choices.push_back({"contact.augmented", true, ""});
     settings.penetration_tolerance =
         choose(scene.contact.penetration_tolerance, ratios.penetration_tolerance * settings.contact_distance,
                "contact.penetration_tolerance", "m");
@@ -122,7 +123,9 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
 class JointLaws {
  public:
   JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks, std::vector<AutomaticChoice>& choices)
-      : area_(scene.contact.springs == SceneContact::Springs::area) {
+      : area_(scene.contact.springs == SceneContact::Springs::area),
+        multipliers_(has_multipliers(scene)),
+        asked_for_(scene.contact.augmented.value_or(false)) {
     std::map<std::string, int> group_of_matches;
     std::vector<std::string> examples;  // a block of each group
     std::map<std::pair<int, StiffnessSource>, int> kinds;
@@ -142,7 +145,7 @@ class JointLaws {
     for (const std::string& a : examples) {
       for (const std::string& b : examples) laws_.push_back(joint_law_between(scene, a, b));
     }
-    note_choices(kinds, choices);
+    if (!multipliers_ || asked_for_) note_choices(kinds, choices);
   }
 
   JointLaw operator()(int a, int b) const {
@@ -160,6 +163,7 @@ class JointLaws {
     result.normal_stiffness =
         given.normal_stiffness ? *given.normal_stiffness : automatic_normal_stiffness(a, b, area_, ratios_);
     result.rigid = !given.normal_stiffness;
+    result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
     result.friction = std::tan(given.friction_angle * std::numbers::pi / 180.0);
@@ -197,6 +201,8 @@ class JointLaws {
   }
 
   bool area_;
+  bool multipliers_;
+  bool asked_for_;  ///< for all joints, whatever stiffness they are given
   AutomaticRatios ratios_;
   std::vector<int> group_;               ///< (#blocks) by the globs that match
   std::vector<StiffnessSource> source_;  ///< (#blocks)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "apps/scene_loading.hpp"
@@ -10,10 +11,10 @@
 
 namespace ashlar {
 
-/// A number the scene left to the program.
+/// What the scene left to the program.
 struct AutomaticChoice {
   std::string key;  ///< as in the scene, e.g. "contact.distance"
-  double value;
+  std::variant<double, bool> value;
   std::string unit;
 };
 

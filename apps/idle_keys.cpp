@@ -28,10 +28,12 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   if (analysis.type == SceneAnalysis::Type::statics) {
     for (const char* key : {"analysis.integrator", "analysis.spectral_radius", "analysis.mass_damping"})
       keys.warn(key, "a static analysis has no motion in time");
+    if (analysis.initial_state == SceneAnalysis::InitialState::statics)
+      keys.warn("analysis.initial_state", "a static analysis starts from where blocks are placed");
   } else if (analysis.integrator != SceneAnalysis::Integrator::generalized_alpha) {
     keys.warn("analysis.spectral_radius", "only integrator = \"generalized-alpha\" has one");
   }
-  if (!scene.contact.augmented) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
+  if (!has_multipliers(scene)) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
 }
 
 void warn_of_blocks(const Scene& scene, IdleKeys& keys) {

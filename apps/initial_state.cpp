@@ -58,6 +58,25 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
   return as_placed;
 }
 
+StaticStart start_in_statics(Simulation& simulation) {
+  switch (simulation.start_from_statics()) {
+    case StaticStatus::moving:
+      return {
+          false,
+          "initial_state (\"static\"): no equilibrium holds all blocks under gravity and the loads at t = "
+          "0; all start as placed"};
+    case StaticStatus::equilibrium:
+      return {};
+    case StaticStatus::balancing:
+    case StaticStatus::not_converged:
+      break;
+  }
+  return {
+      true,
+      "initial_state (\"static\"): no equilibrium was found under gravity and the loads at t = 0, and none "
+      "was ruled out; run the scene with analysis.type = \"static\" to see how far it gets"};
+}
+
 std::string first_names(const std::vector<std::string>& names) {
   constexpr std::size_t shown = 5;
   const std::vector<std::string> first(

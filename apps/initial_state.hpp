@@ -18,6 +18,15 @@ namespace ashlar {
 std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& simulation,
                                               Diagnostics& diagnostics);
 
+/// What initial_state = "static" came to.
+struct StaticStart {
+  bool failed = false;
+  std::string message;  ///< to the user; empty: all blocks that are held are in equilibrium
+};
+/// Takes the blocks to their static state (Simulation::start_from_statics). Where nothing is in balance they
+/// start as placed; it fails where no answer was found.
+[[nodiscard]] StaticStart start_in_statics(Simulation& simulation);
+
 /// "A, B, C, D, E and 3 more": the first names.
 [[nodiscard]] std::string first_names(const std::vector<std::string>& names);
 

@@ -273,8 +273,12 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
 }
 
 void tell_choices(const BuiltSimulation& built, std::ostream& err) {
-  for (const AutomaticChoice& choice : built.choices)
-    err << fmt::format("chosen: {} = {:.4g} {}\n", choice.key, choice.value, choice.unit);
+  for (const AutomaticChoice& choice : built.choices) {
+    const auto* number = std::get_if<double>(&choice.value);
+    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
+                                     : fmt::format("{}", std::get<bool>(choice.value));
+    err << fmt::format("chosen: {} = {}\n", choice.key, value);
+  }
   if (!built.as_placed.empty())
     err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
                        first_names(built.as_placed));
@@ -321,6 +325,12 @@ int run_command(const RunOptions& options, std::ostream& err) {
   if (!diagnostics.good()) return exit_status::bad_input;
   if (earlier) built->simulation.restore(earlier->simulation);
   if (!options.quiet) tell_choices(*built, err);
+  if (starts_from_statics(loaded->scene) && !earlier) {
+    const StaticStart statics = start_in_statics(built->simulation);
+    if (!statics.message.empty())
+      err << fmt::format("ashlar: {}: {}\n", statics.failed ? "error" : "note", statics.message);
+    if (statics.failed) return exit_status::failed;
+  }
   const InterruptGuard guard;
   std::optional<Run> started;
   try {

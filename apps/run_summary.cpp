@@ -158,7 +158,9 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["counts"] = counts_of(built);
   nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
   for (const AutomaticChoice& choice : built.choices) {
-    automatic.push_back({{"key", choice.key}, {"value", choice.value}, {"unit", choice.unit}});
+    nlohmann::ordered_json value;
+    std::visit([&](const auto& chosen) { value = chosen; }, choice.value);
+    automatic.push_back({{"key", choice.key}, {"value", value}, {"unit", choice.unit}});
   }
   summary["automatic"] = automatic;
   nlohmann::ordered_json versions;

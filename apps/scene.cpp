@@ -20,6 +20,26 @@ SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, 
   return law;
 }
 
+bool starts_from_statics(const Scene& scene) {
+  return scene.analysis.type == SceneAnalysis::Type::dynamic &&
+         scene.analysis.initial_state == SceneAnalysis::InitialState::statics;
+}
+
+bool has_multipliers(const Scene& scene) {
+  if (scene.contact.augmented) return *scene.contact.augmented;
+  const bool given = scene.contact.law.gives_stiffness();
+  const auto any_joint = [&](const auto& is_so) {
+    return std::any_of(scene.joint.begin(), scene.joint.end(), [&](const SceneJoint& joint) {
+      return is_so(joint.normal_stiffness) || is_so(joint.shear_stiffness);
+    });
+  };
+  using Stiffness = std::optional<std::optional<double>>;
+  if (scene.analysis.type == SceneAnalysis::Type::statics)
+    return !given || any_joint([](const Stiffness& stiffness) { return stiffness && !*stiffness; });
+  return starts_from_statics(scene) && !given &&
+         !any_joint([](const Stiffness& stiffness) { return stiffness && *stiffness; });
+}
+
 const SceneMaterial* find_material(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.material.begin(), scene.material.end(),
                                   [&](const SceneMaterial& material) { return material.name == name; });

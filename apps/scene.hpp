@@ -38,6 +38,7 @@ struct SceneAnalysis {
   enum class InitialState {
     as_placed,    ///< "as-placed": undeformed
     equilibrium,  ///< "equilibrium": each supported block first settles under gravity, contacts off
+    statics,      ///< "static": a static analysis of all blocks comes first, contacts on
   };
   enum class Solver { automatic, cholmod, cg, dual };
 
@@ -64,6 +65,8 @@ struct SceneJointLaw {
   double cohesion = 0.0;                   ///< Pa, >= 0
   double tensile_strength = 0.0;           ///< Pa, >= 0
   bool tied = false;                       ///< bonded over the common face; a key of [[joint]] only
+
+  [[nodiscard]] bool gives_stiffness() const { return normal_stiffness || shear_stiffness; }
 };
 
 /// [contact]
@@ -78,7 +81,7 @@ struct SceneContact {
   std::optional<double> angle;            ///< deg, 0 to 45; empty: auto
   std::optional<double> chord_tolerance;  ///< m, > 0; empty: auto, or subdivisions
   std::optional<int> subdivisions;        ///< uniform levels, 0 to 8; excludes chord_tolerance
-  bool augmented = false;                 ///< multipliers: no deeper than penetration_tolerance
+  std::optional<bool> augmented;          ///< multipliers: no deeper than penetration_tolerance; empty: auto
   std::optional<double> penetration_tolerance;  ///< m, > 0; empty: auto
 };
 
@@ -229,6 +232,13 @@ struct Scene {
 /// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
+
+/// Whether a static analysis comes before the first step of a motion in time.
+[[nodiscard]] bool starts_from_statics(const Scene& scene);
+
+/// Whether multipliers hold contact: as the scene says; else in statics between blocks whose joints have no
+/// stiffness given, and in motion that starts from statics where no joint has.
+[[nodiscard]] bool has_multipliers(const Scene& scene);
 
 /// The material called so, or null.
 [[nodiscard]] const SceneMaterial* find_material(const Scene& scene, const std::string& name);

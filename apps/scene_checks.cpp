@@ -115,6 +115,8 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
   };
   if (scene.analysis.type == SceneAnalysis::Type::statics)
     refuse("analysis.type", "static analysis of incremental blocks (type = \"static\")");
+  if (scene.analysis.initial_state == SceneAnalysis::InitialState::statics)
+    refuse("analysis.initial_state", "static analysis of incremental blocks (initial_state = \"static\")");
   if (scene.contact.surface == SceneContact::Surface::curved && scene.places.contains("contact.surface"))
     refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
   if (scene.output.curved)

@@ -29,7 +29,7 @@ Json to_json(const SceneAnalysis& analysis) {
           {"mass_damping", analysis.mass_damping}};
 }
 
-Json to_json(const SceneContact& contact) {
+Json to_json(const SceneContact& contact, bool augmented) {
   Json json = {{"springs", name_of(springs_names, contact.springs)},
                {"surface", name_of(surface_names, contact.surface)},
                {"normal_stiffness", or_auto(contact.law.normal_stiffness)},
@@ -43,7 +43,7 @@ Json to_json(const SceneContact& contact) {
     json["subdivisions"] = *contact.subdivisions;
   else
     json["chord_tolerance"] = or_auto(contact.chord_tolerance);
-  json["augmented"] = contact.augmented;
+  json["augmented"] = augmented;
   json["penetration_tolerance"] = or_auto(contact.penetration_tolerance);
   return json;
 }
@@ -164,8 +164,9 @@ Json to_json(const SceneOutput& output) {
 }  // namespace
 
 nlohmann::ordered_json to_json(const Scene& scene) {
-  Json json = {
-      {"title", scene.title}, {"analysis", to_json(scene.analysis)}, {"contact", to_json(scene.contact)}};
+  Json json = {{"title", scene.title},
+               {"analysis", to_json(scene.analysis)},
+               {"contact", to_json(scene.contact, has_multipliers(scene))}};
   if (!scene.joint.empty()) json["joint"] = list_to_json(scene.joint);
   json["material"] = list_to_json(scene.material);
   json["block"] = list_to_json(scene.block);

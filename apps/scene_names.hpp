@@ -22,9 +22,10 @@ inline constexpr ChoiceNames<SceneAnalysis::Integrator, 3> integrator_names = {
 inline constexpr ChoiceNames<SceneAnalysis::Formulation, 2> formulation_names = {
     {{"total", SceneAnalysis::Formulation::total}, {"incremental", SceneAnalysis::Formulation::incremental}}};
 
-inline constexpr ChoiceNames<SceneAnalysis::InitialState, 2> initial_state_names = {
+inline constexpr ChoiceNames<SceneAnalysis::InitialState, 3> initial_state_names = {
     {{"as-placed", SceneAnalysis::InitialState::as_placed},
-     {"equilibrium", SceneAnalysis::InitialState::equilibrium}}};
+     {"equilibrium", SceneAnalysis::InitialState::equilibrium},
+     {"static", SceneAnalysis::InitialState::statics}}};
 
 inline constexpr ChoiceNames<SceneAnalysis::Solver, 4> solver_names = {
     {{"auto", SceneAnalysis::Solver::automatic},

@@ -63,7 +63,8 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   table.read_number_or_auto("angle", contact.angle, range::zero_to_45);
   table.read_number_or_auto("chord_tolerance", contact.chord_tolerance, range::positive);
   table.read_integer("subdivisions", contact.subdivisions, 0, 8);
-  table.read_bool("augmented", contact.augmented);
+  bool augmented = false;
+  if (table.read_bool("augmented", augmented)) contact.augmented = augmented;
   table.read_number_or_auto("penetration_tolerance", contact.penetration_tolerance, range::positive);
   if (contact.chord_tolerance && contact.subdivisions)
     table.error_at_key("subdivisions",

@@ -38,6 +38,20 @@ Simulation ContactScene::build() {
   return simulation;
 }
 
+void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction) {
+  const AutomaticRatios ratios;
+  scene.settings.augmented = true;
+  scene.settings.contact_distance = ratios.distance * size;
+  scene.settings.contact_angle = ratios.angle_degrees * std::numbers::pi / 180.0;
+  scene.settings.chord_tolerance = ratios.chord_tolerance * size;
+  scene.settings.subdivisions = 0;
+  scene.settings.penetration_tolerance = ratios.penetration_tolerance * scene.settings.contact_distance;
+  scene.law->normal_stiffness = ratios.normal_stiffness * young_modulus / size;
+  scene.law->shear_stiffness = ratios.shear_to_normal_stiffness * scene.law->normal_stiffness;
+  scene.law->friction = friction;
+  scene.law->rigid = true;
+}
+
 Eigen::Matrix3d slope(double degrees) {
   return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Vector3::UnitY()).toRotationMatrix();
 }

@@ -40,6 +40,10 @@ class ContactScene {
   Placement placement_;
 };
 
+/// What scenes get that leave all numbers to the program in statics: contact held by multipliers.
+/// @param size of the smallest block, m; @param young_modulus Pa; @param friction tan(phi)
+void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction);
+
 /// Rotation about the y axis that lowers the side of positive x. @param degrees of the slope that a level
 /// face becomes
 [[nodiscard]] Eigen::Matrix3d slope(double degrees);

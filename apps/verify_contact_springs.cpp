@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <string>
+#include <utility>
 
 #include "apps/contact_patch.hpp"
 #include "apps/verification_contacts.hpp"
@@ -213,11 +215,77 @@ std::vector<VerificationCheck> resting_six_types() {
   return checks;
 }
 
+/// Two blocks in uniform pressure and shear on a clamped base, through a joint that all of it sticks: shear
+/// tractions on the sides make the stress uniform. The loads are those at which changes of shape, of second
+/// order in the strains, are below the tolerance.
+Simulation sheared_blocks(int order, double height, double friction_angle) {
+  constexpr double p = 2e4;
+  constexpr double tau = 1e4;
+  ContactScene scene;
+  *scene.law = {1e10, 1e10, tangent_of(friction_angle), 0.0, 0.0, true};
+  scene.settings.gravity.setZero();
+  scene.settings.subdivisions = 0;
+  scene.settings.chord_tolerance = 5e-3;
+  for (const auto& [low, high] : {std::pair{0.0, 1.0}, std::pair{1.0, 1.0 + height}}) {
+    BlockDefinition block =
+        define_block(Polyhedron(make_box({0, 0, low}, {1, 1, high})), {2500, 1e10, 0.0}, order);
+    for (const double side : {0.0, 1.0})
+      block.loads.push_back(
+          {Plane{{side, 0, 0}, Vector3::UnitX()}, true, {0, 0, side > 0.0 ? tau : -tau}, {}});
+    const Plane end{{0, 0, low > 0.0 ? high : 0.0}, Vector3::UnitZ()};
+    if (low > 0.0)
+      block.loads.push_back({end, true, {tau, 0, -p}, {}});
+    else
+      block.supports.push_back({end, {true, true, true}});
+    scene.add(std::move(block));
+  }
+  return scene.build();
+}
+
+/// No point slides where the exact answer has none, whatever the way there.
+std::vector<VerificationCheck> shear_patch() {
+  constexpr double p = 2e4;
+  constexpr double tau = 1e4;
+  constexpr double slip = tau / 1e10;
+  std::vector<VerificationCheck> checks;
+  for (const double height : {0.7, 1.0}) {
+    for (int order = 1; order <= 4; ++order) {
+      for (const double friction_angle : {28.0, 80.0}) {
+        Simulation simulation = sheared_blocks(order, height, friction_angle);
+        const bool found = find_equilibrium(simulation) == StaticStatus::equilibrium;
+        const auto at = [&](std::size_t block, const Vector3& point) {
+          return simulation.blocks()[block].motion_of(simulation.states()[block], point).displacement.x();
+        };
+        double stress_error = 0.0;
+        for (const Vector3& point : {Vector3(0.9, 0.1, 0.9), Vector3(0.2, 0.7, 0.1)}) {
+          for (const std::size_t block : {0U, 1U}) {
+            const Vector3 place =
+                block == 0 ? point : Vector3(point.x(), point.y(), 1.0 + height * point.z());
+            Eigen::Matrix3d stress = simulation.blocks()[block].stress(simulation.states()[block], place);
+            stress(2, 2) += p;
+            stress(0, 2) -= tau;
+            stress(2, 0) -= tau;
+            stress_error = std::max(stress_error, stress.cwiseAbs().maxCoeff() / tau);
+          }
+        }
+        const std::string name = fmt::format("height {}, order {}, phi {}", height, order, friction_angle);
+        const Vector3 middle(0.5, 0.5, 1.0);
+        checks.push_back(check_relative(fmt::format("{}: slip, m", name),
+                                        found ? at(1, middle) - at(0, middle) : std::nan(""), slip, 1e-4));
+        checks.push_back(
+            check_absolute(fmt::format("{}: stress error over tau", name), stress_error, 0.0, 1e-4));
+      }
+    }
+  }
+  return checks;
+}
+
 constexpr VerificationCase cases[] = {
     {"contact-derivatives", "contact matrices against differences of forces and energies",
      contact_derivatives},
     {"contact-patch", "uniform pressure through a joint, area springs", contact_patch},
     {"contact-patch-point", "the same with point springs, error reported", contact_patch_point},
+    {"shear-patch", "a joint in shear and pressure that all of it sticks", shear_patch},
     {"resting-six-types", "a block at rest on another by each type of contact", resting_six_types},
 };
 

@@ -78,6 +78,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   int sources = 0;
   double sum = 0.0;
   double intact = 0.0;
+  double in_level = 0.0;
   double most = 0.0;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const double squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
@@ -90,6 +91,10 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     most = std::max(most, weight);
     sum += weight;
     result.slip += weight * memory.slip;
+    if (memory.in_level) {
+      result.level_slip += weight * memory.level_slip;
+      in_level += weight;
+    }
     result.compression += weight * memory.compression;
     result.normal_multiplier += weight * memory.normal_multiplier;
     result.shear_multiplier += weight * memory.shear_multiplier;
@@ -99,6 +104,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   // A bond halfway between a whole and a broken one is broken, whatever rounding says.
   result.intact = intact > (0.5 + 1e-6) * sum;
   result.slip /= sum;
+  result.in_level = in_level > 0.0;
+  if (result.in_level) result.level_slip /= in_level;
   result.compression /= sum;
   result.normal_multiplier /= sum;
   result.shear_multiplier /= sum;
@@ -127,6 +134,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
     }
     PointMemory& memory = found->memory;
     memory.slip = turned(memory.slip, point.normal);
+    memory.level_slip = turned(memory.level_slip, point.normal);
     memory.shear_multiplier = turned(memory.shear_multiplier, point.normal);
     memory.intact = memory.intact && same_faces;
     result.push_back(memory);
@@ -155,6 +163,13 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   held_ = held;
   squared_reach_ = area_of(entries_);
   largest_area_ = largest_area_of(entries_);
+}
+
+void ContactMemory::start_level() {
+  for (Entry& entry : entries_) {
+    entry.memory.level_slip = entry.memory.slip;
+    entry.memory.in_level = entry.memory.state != ContactState::open;
+  }
 }
 
 void ContactMemory::carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved) {

@@ -27,6 +27,10 @@ struct PointMemory {
   /// Normal impulse whose friction is still to act, of augmented contact, Pa s, of point springs N s
   double unrubbed = 0.0;
   double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
+  /// Of a static analysis (solver/static_analysis.hpp): what the trial slip would be if the blocks were where
+  /// they were when the present load level began, m
+  Vector3 level_slip = Vector3::Zero();
+  bool in_level = false;  ///< whether it has been closed since then, or was: others have slipped nowhere yet
 };
 
 /// Memory of a pair of blocks.
@@ -61,6 +65,9 @@ class ContactMemory {
   /// springs at its end
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
              const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {});
+
+  /// Begins a load level: what slipped in the last one has slipped for good.
+  void start_level();
 
   /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
   void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);

@@ -52,6 +52,7 @@ struct JointLaw {
   bool augmented = false;  ///< multipliers take over from springs until penetration is within a tolerance
   double rounding = 0.0;   ///< m, >= 0: what gaps and slips of the pair may be by rounding errors
   bool rigid = false;      ///< its springs only stand for contact that does not give way: they are no joint's
+  bool gives_way = false;  ///< springs hold it, also where multipliers hold other joints
 };
 
 /// One point's constants within a step.

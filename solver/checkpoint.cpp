@@ -18,8 +18,8 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
-  archive(memory.slip, memory.compression, memory.state, memory.intact, memory.normal_multiplier,
-          memory.shear_multiplier, memory.unrubbed);
+  archive(memory.slip, memory.level_slip, memory.in_level, memory.compression, memory.state, memory.intact,
+          memory.normal_multiplier, memory.shear_multiplier, memory.unrubbed);
 }
 
 template <class Archive>
@@ -68,8 +68,9 @@ static void visit_members(Archive& archive, PairRecord& record) {
 template <class Archive>
 static void visit_members(Archive& archive, StaticState& state) {
   archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
-          state.milestones, state.milestone_forces, state.travels, state.sliding, state.least_lacking,
-          state.rigid, state.gives_way, state.starts, state.unbalanced);
+          state.holds_bonds, state.multiplier_iterations, state.level_start, state.milestones,
+          state.milestone_forces, state.travels, state.sliding, state.least_lacking, state.rigid,
+          state.gives_way, state.starts, state.unbalanced);
 }
 
 template <class Archive>
@@ -139,11 +140,12 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.states, snapshot.carried,
-          snapshot.accelerations, snapshot.spin_debts, snapshot.memory, snapshot.contact_work, snapshot.taken,
-          snapshot.finder, snapshot.report, snapshot.records, snapshot.ledger, snapshot.statics,
-          snapshot.start_balance, snapshot.largest_step_residual, snapshot.largest_energy,
-          snapshot.largest_penetration, snapshot.deepest, snapshot.rejections, snapshot.counts, snapshot.seconds);
+  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.remembers_statics, snapshot.states,
+          snapshot.carried, snapshot.accelerations, snapshot.spin_debts, snapshot.memory,
+          snapshot.contact_work, snapshot.taken, snapshot.finder, snapshot.report, snapshot.records,
+          snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
+          snapshot.largest_energy, snapshot.largest_penetration, snapshot.deepest, snapshot.rejections,
+          snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -165,6 +167,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.time = time_;
   result.next_step = next_step_;
   result.steps = steps_;
+  result.remembers_statics = remembers_statics_;
   result.states = states_;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (blocks_[k].incremental() != nullptr)
@@ -213,6 +216,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   time_ = snapshot.time;
   next_step_ = snapshot.next_step;
   steps_ = snapshot.steps;
+  remembers_statics_ = snapshot.remembers_statics;
   states_ = snapshot.states;
   for (const auto& [block, shape] : snapshot.carried) {
     blocks_[static_cast<std::size_t>(block)] = blocks_[static_cast<std::size_t>(block)].with_shape(shape);

@@ -27,6 +27,7 @@ struct SimulationSnapshot {
   double time = 0.0;
   double next_step = 0.0;
   int steps = 0;
+  bool remembers_statics = false;
   std::vector<BlockState> states;
   std::map<int, CarriedShape> carried;  ///< of incremental blocks
   std::vector<Eigen::MatrixX3d> accelerations;

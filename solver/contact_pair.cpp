@@ -199,13 +199,43 @@ void ContactPair::hold_where_found(double taken) {
   rest_at(std::move(rests));
 }
 
-void ContactPair::hold_within(double way) {
-  std::vector<double> rests;
+void ContactPair::count_slip(const std::vector<Vector3>& moved) {
+  counts_slip_ = true;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const double most = laws_[k].normal_multiplier != 0.0 || laws_[k].tension > 0.0 ? way : 0.0;
-    rests.push_back(std::clamp(points_[k].gap, -way, most));
+    const auto along = [&](const Vector3& vector) {
+      return Eigen::Vector2d(points_[k].tangent_1.dot(vector), points_[k].tangent_2.dot(vector));
+    };
+    PointMemory& memory = memory_[k];
+    if (!memory.in_level) memory.level_slip = -flat(k, along(moved[k]));
+    start_.col(static_cast<Eigen::Index>(k)).tail<2>() = along(memory.level_slip + moved[k]);
   }
-  rest_at(std::move(rests));
+  respond_at_start();
+}
+
+Vector3 ContactPair::flat(std::size_t k, const Eigen::Vector2d& along) const {
+  return along[0] * points_[k].tangent_1 + along[1] * points_[k].tangent_2;
+}
+
+Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
+  const Eigen::Vector2d slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
+  return counts_slip_ ? Eigen::Vector2d(slip - elastic_slip(laws_[k], start_responses_[k], slip))
+                      : Eigen::Vector2d::Zero();
+}
+
+bool ContactPair::bonded() const {
+  return !tied() && std::any_of(laws_.begin(), laws_.end(),
+                                [](const PointLaw& law) { return law.cohesion > 0.0 || law.tension > 0.0; });
+}
+
+void ContactPair::hold_bonds() {
+  holds_bonds_ = true;
+  const JointLaw bond = tie_law(1.0);
+  for (PointLaw& law : laws_) {
+    if (tied() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
+    law.cohesion = bond.cohesion;
+    if (law.tension > 0.0) law.tension = bond.tensile_strength;
+  }
+  respond_at_start();
 }
 
 double ContactPair::depth_found() const {
@@ -441,17 +471,20 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
   std::vector<PointMemory> result;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
-    const Eigen::Vector2d slip =
-        elastic_slip(laws[k], point, place.col(static_cast<Eigen::Index>(k)).tail<2>());
+    const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
+    const Eigen::Vector2d elastic = elastic_slip(laws[k], point, slip);
     PointMemory memory;
-    memory.slip = slip[0] * points_[k].tangent_1 + slip[1] * points_[k].tangent_2;
+    memory.slip = flat(k, elastic);
+    memory.level_slip = memory_[k].level_slip;
+    memory.in_level = counts_slip_ && (memory_[k].in_level || point.state != ContactState::open ||
+                                       start_responses_[k].state != ContactState::open);
     memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
     const bool open = point.state == ContactState::open;
     const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension == 0.0
                                              : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
-    memory.intact = memory_[k].intact && !torn && !sheared;
+    memory.intact = memory_[k].intact && (holds_bonds_ || (!torn && !sheared));
     if (laws[k].augmented && point.state != ContactState::open) {
       const Eigen::Vector2d shear = point.force.tail<2>();
       const double scale = multiplier_scale(points_[k]);
@@ -477,7 +510,7 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
     if (laws[k].augmented)
       elastic = start_.col(column).tail<2>();
     else if (point.state == ContactState::sliding)
-      elastic = elastic_slip(laws[k], point, slip);
+      elastic = elastic_slip(laws[k], point, slip) + slid_before(k);
     work += response.means[k].force.tail<2>().dot(elastic - slip);
   }
   return work;

@@ -96,10 +96,13 @@ class ContactPair {
   /// also above it.
   /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
   void hold_where_found(double taken);
-  /// Points with multipliers are held where they are found as far as that is at most `way` from the surface,
-  /// those without force only below it.
-  /// @param way m, >= 0
-  void hold_within(double way);
+  /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
+  /// point since the level began, m
+  void count_slip(const std::vector<Vector3>& moved);
+  /// Whether any point of a contact has cohesion or tensile strength.
+  [[nodiscard]] bool bonded() const;
+  /// Bonds neither tear nor slide whatever pulls, and none is lost in the step.
+  void hold_bonds();
   /// What hold_where_found() was told.
   [[nodiscard]] double taken() const { return taken_; }
   /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.
@@ -205,6 +208,10 @@ class ContactPair {
     return area_springs_ ? point.area : 1.0;
   }
   void respond_at_start();
+  /// Trial slip at the start that no spring holds, of a load level, m.
+  [[nodiscard]] Eigen::Vector2d slid_before(std::size_t point) const;
+  /// A vector along the surface at a point.
+  [[nodiscard]] Vector3 flat(std::size_t point, const Eigen::Vector2d& along) const;
   /// @param rests gap of each point at which its normal spring is at rest, m
   void rest_at(std::vector<double> rests);
   /// @param forces (3 #points)
@@ -221,6 +228,8 @@ class ContactPair {
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
   double taken_ = 0.0;
+  bool counts_slip_ = false;
+  bool holds_bonds_ = false;
   Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
   Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
   Eigen::MatrixXd

@@ -50,7 +50,7 @@ bool Simulation::is_free(const Island& island, const std::vector<ContactPair>& p
 }
 
 bool Simulation::too_deep(const std::vector<ContactPair>& pairs) const {
-  return settings_.augmented && steps_ > 0 &&
+  return settings_.augmented && has_begun() &&
          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
            return pair.depth_found() > settings_.tolerated_depth();
          });

@@ -110,6 +110,11 @@ struct SimulationSettings {
   /// in block sizes: blocks that move less in an iteration stand still, whatever points at the limit of
   /// friction do
   double static_stillness = 1e-12;
+  /// by how much multipliers may change in an iteration that is in balance, as a share of the largest force
+  /// of a point: what they do not hold yet, blocks are strained by
+  double static_multiplier_tolerance = 1e-6;
+  /// in balance, at one load level, for them to come to that; multipliers that do not are left as they are
+  int static_multiplier_iterations = 15;
   double static_travel = 1.0;   ///< in block sizes: farther without coming nearer to balance is moving
   int static_iterations = 500;  ///< at one load level; more: not converged
   int static_cuts = 60;         ///< of one iteration; more: not converged

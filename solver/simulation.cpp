@@ -9,6 +9,7 @@
 #include "mechanics/contact_master.hpp"
 #include "mechanics/overlap_outline.hpp"
 #include "solver/angular_momentum.hpp"
+#include "solver/automatic.hpp"
 #include "solver/checkpoint.hpp"
 #include "solver/covered_faces.hpp"
 #include "solver/energy_bounds.hpp"
@@ -19,6 +20,16 @@ namespace {
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
+}
+
+/// Takes the slip of a load level so far for good: what comes counts from there.
+void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved,
+               std::vector<PointMemory>& memory) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!memory[k].in_level) continue;
+    const Vector3 slid = memory[k].level_slip + moved[k] - memory[k].slip;
+    memory[k].level_slip -= slid - points[k].normal.dot(slid) * points[k].normal;
+  }
 }
 
 }  // namespace
@@ -315,8 +326,6 @@ std::function<bool(const WayOut&)> Simulation::standing_ways(const std::vector<F
 std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>& found, bool hold_energy) {
   const Stopwatch watch(seconds_.contact_points);
   std::vector<ContactPair> pairs;
-  const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface,
-                                            settings_.augmented};
   const CoveredFaces covered(
       found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
       settings_.contact_distance);
@@ -326,6 +335,10 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     const ContactBody body_a = body_at_start(a);
     const ContactBody body_b = body_at_start(b);
     const ContactMemory& known = memory_[blocks];
+    JointLaw law = law_(a, b);
+    law.augmented = settings_.augmented && !law.gives_way;
+    const ContactPointSettings point_settings{settings_.area_springs, settings_.curved_surface,
+                                              law.augmented};
     const std::vector<bool> masters =
         first_is_master(body_a, body_b, contacts.overlaps, [&](const RimPlace& rim) {
           return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
@@ -335,16 +348,26 @@ std::vector<ContactPair> Simulation::make_pairs(const std::vector<FoundContacts>
     // Faces that share no area to the last bit are found, but have no points.
     if (points.empty()) continue;
     auto memory = known.recall(
-        points, steps_ == 0 ? settings_.contact_distance : -std::numeric_limits<double>::infinity(),
+        points, has_begun() ? -std::numeric_limits<double>::infinity() : settings_.contact_distance,
         !hold_energy && settings_.area_springs);
-    JointLaw law = law_(a, b);
-    law.augmented = settings_.augmented;
     law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
+    std::vector<Vector3> moved;
+    if (!hold_energy && !static_.level_start.empty()) {
+      moved = moved_in_level(a, b, points);
+      // Blocks that have gone far are on a way of their own, not on that of an iteration to balance.
+      const auto is_far = [&](int block) {
+        const BlockModel& model = blocks_[at(block)];
+        const Eigen::MatrixX3d way = states_[at(block)].position - static_.level_start[at(block)];
+        return moving_[at(block)] && mean_motion(model, way) > settings_.static_motion * block_size(model);
+      };
+      if (is_far(a) || is_far(b)) take_slip(points, moved, memory);
+    }
     pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
-    if (hold_energy && steps_ > 0 && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
-    if (!hold_energy && law.augmented) pairs.back().hold_within(settings_.tolerated_depth());
+    if (hold_energy && has_begun() && law.augmented) pairs.back().hold_where_found(taken_[blocks]);
+    if (!moved.empty()) pairs.back().count_slip(moved);
+    if (!hold_energy && static_.holds_bonds) pairs.back().hold_bonds();
   }
-  if (hold_energy && steps_ > 0) {
+  if (hold_energy && has_begun()) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, memory_, moving_);
     for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].hold_at_most(bounds[k]);
   }
@@ -378,6 +401,7 @@ std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const
     body.state = &states_[k];
     body.roundoff_force = roundoff_force_[k];
     if (block.fixed()) continue;
+    body.change = Eigen::VectorXd::Zero(block.unknowns());
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     body.free_change = block.space().restrict(
         scheme.free_change(still, states_[k].velocity, accelerations_.empty() ? still : accelerations_[k]));

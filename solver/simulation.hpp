@@ -137,6 +137,11 @@ class Simulation {
   /// as far as settings.settling_steps takes them. @return the blocks that are there
   std::vector<int> settle_supported_blocks();
 
+  /// Takes the blocks to their equilibrium under gravity and the loads at time 0, contacts on, by a static
+  /// analysis; initial velocities are theirs then (static_start.cpp). To be called before the first step.
+  /// @return how it ended; unless that is equilibrium all is as placed
+  [[nodiscard]] StaticStatus start_from_statics();
+
   /// Bonds two blocks over the faces they have in common (tie.hpp), and looks for no contacts between them.
   /// To be called before settle_supported_blocks(), which leaves tied blocks as they are. @param a,b a < b
   /// @param stiffness Pa/m. @return whether they have a common face
@@ -207,6 +212,8 @@ class Simulation {
     double stiffness;  ///< Pa/m
   };
   [[nodiscard]] bool is_tied(std::size_t block) const;
+  /// Whether contacts have been looked at before, so that new ones are new.
+  [[nodiscard]] bool has_begun() const { return steps_ > 0 || remembers_statics_; }
 
   /// A step as tried: nothing of it is taken over before it is accepted.
   struct Trial {
@@ -341,6 +348,9 @@ class Simulation {
 
   // static_analysis.cpp
   void start_load_level(double end_time);
+  /// How far a has moved past b at each point since the load level began, m.
+  [[nodiscard]] std::vector<Vector3> moved_in_level(int a, int b,
+                                                    const std::vector<ContactPoint>& points) const;
   /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
   [[nodiscard]] double least_inertia() const;
@@ -354,6 +364,12 @@ class Simulation {
     bool fail = false;             ///< whether any loses its strength
   };
   [[nodiscard]] Joints joints(const Trial& trial) const;
+  /// Whether any block has gone as far as what moves does.
+  [[nodiscard]] bool has_set_off() const;
+  /// From now on bonds fail where balances ask for more than their strength.
+  void let_bonds_go();
+  /// Whether multipliers start the iteration with the forces that it ends with.
+  [[nodiscard]] bool multipliers_repeat(const Trial& trial) const;
   /// How a static analysis ends that goes no farther.
   [[nodiscard]] StaticStatus give_up();
   /// Takes note of what each block lacks of balance. @return whether none lacks anything
@@ -390,6 +406,7 @@ class Simulation {
   double time_ = 0.0;
   double next_step_;  ///< s, grows back to settings_.time_step after cuts
   int steps_ = 0;
+  bool remembers_statics_ = false;  ///< contacts were known before the first step
   StepReport report_;
   std::vector<PairRecord> records_;
   Ledger ledger_;

@@ -99,7 +99,26 @@ void Simulation::start_load_level(double end_time) {
   }
   static_.milestone_forces.assign(blocks_.size(), std::numeric_limits<double>::infinity());
   static_.travels.assign(blocks_.size(), 0.0);
+  for (const BlockState& state : states_) static_.level_start.push_back(state.position);
+  for (auto& [blocks, memory] : memory_) memory.start_level();
+  static_.holds_bonds = true;
   forget_accelerations();
+}
+
+std::vector<Vector3> Simulation::moved_in_level(int a, int b, const std::vector<ContactPoint>& points) const {
+  std::vector<Vector3> moved(points.size(), Vector3::Zero());
+  for (const bool of_a : {true, false}) {
+    const auto block = static_cast<std::size_t>(of_a ? a : b);
+    if (!moving_[block]) continue;
+    std::vector<Vector3> material;
+    material.reserve(points.size());
+    for (const ContactPoint& point : points) material.push_back(of_a ? point.material_a : point.material_b);
+    const Eigen::MatrixX3d motion =
+        blocks_[block].basis().values(material) * (states_[block].position - static_.level_start[block]);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      moved[k] += (of_a ? 1.0 : -1.0) * motion.row(static_cast<Eigen::Index>(k)).transpose();
+  }
+  return moved;
 }
 
 StaticStatus Simulation::static_step(double end_time) {
@@ -113,6 +132,8 @@ StaticStatus Simulation::static_step(double end_time) {
   std::vector<FoundContacts> found = find_contacts(0.0);
   Trial trial;
   trial.pairs = make_pairs(found, false);
+  static_.holds_bonds = static_.holds_bonds && std::any_of(trial.pairs.begin(), trial.pairs.end(),
+                                                           [](const ContactPair& p) { return p.bonded(); });
   bool cut = false;
   bool cut_to_touch = false;
   for (int cuts = 0; cuts <= settings_.static_cuts; ++cuts) {
@@ -124,6 +145,10 @@ StaticStatus Simulation::static_step(double end_time) {
       rejections_.push_back({time_, step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                                                  : RejectionReason::not_positive_definite});
+      if (static_.holds_bonds) {
+        let_bonds_go();
+        trial.pairs = make_pairs(found, false);
+      }
     } else if (const auto broken = broken_block(trial)) {
       reject(step, *broken);
     } else if (const double motion = largest_motion(trial); motion > settings_.static_motion) {
@@ -150,12 +175,17 @@ StaticStatus Simulation::static_step(double end_time) {
       } else {
         note_accelerations(scheme, trial);
       }
+      const bool repeat = multipliers_repeat(trial);
       accept(scheme, trial);
       report_.step = step;
+      if (static_.holds_bonds && (balanced || has_set_off())) let_bonds_go();
       if (!cut) static_.inertia = std::max(0.1 * scheme.inertia, least);
       const bool still = balanced && (scheme.inertia <= least || least == 0.0) &&
                          (before == contact_states(report_) || motion <= settings_.static_stillness);
-      static_.still_iterations = still ? static_.still_iterations + 1 : 0;
+      if (still && !repeat) ++static_.multiplier_iterations;
+      const bool settled =
+          still && (repeat || static_.multiplier_iterations > settings_.static_multiplier_iterations);
+      static_.still_iterations = settled ? static_.still_iterations + 1 : 0;
       static_.balanced = static_.still_iterations >= 2;
       if (static_.balanced) return reached(end_time) ? StaticStatus::equilibrium : StaticStatus::balancing;
       return static_.moving ? StaticStatus::moving : StaticStatus::balancing;
@@ -164,6 +194,45 @@ StaticStatus Simulation::static_step(double end_time) {
     cut = cut || raise > 1.0;
   }
   return give_up();
+}
+
+bool Simulation::has_set_off() const {
+  return std::any_of(static_.travels.begin(), static_.travels.end(),
+                     [&](double travel) { return travel > taken_along_share * settings_.static_travel; });
+}
+
+void Simulation::let_bonds_go() {
+  static_.holds_bonds = false;
+  // What bonds that do not fail do is no motion of these blocks.
+  forget_accelerations();
+  // How multipliers share a force is left from the way here; springs share it as stiff joints would.
+  for (auto& [blocks, memory] : memory_) {
+    std::vector<ContactMemory::Entry> entries = memory.entries();
+    for (ContactMemory::Entry& entry : entries) {
+      entry.memory.normal_multiplier = 0.0;
+      entry.memory.shear_multiplier.setZero();
+    }
+    memory =
+        ContactMemory(std::move(entries), memory.cuts(), memory.deepest(), memory.held(), memory.bulge());
+  }
+}
+
+bool Simulation::multipliers_repeat(const Trial& trial) const {
+  double change = 0.0;
+  double largest = 0.0;
+  for (const IslandResult& result : trial.results) {
+    for (std::size_t pair = 0; pair < result.laws.size(); ++pair) {
+      for (std::size_t k = 0; k < result.laws[pair].size(); ++k) {
+        const PointLaw& law = result.laws[pair][k];
+        const Eigen::Vector3d& force = result.responses[pair].points[k].force;
+        largest = std::max(largest, force.norm());
+        if (!law.augmented) continue;
+        const Eigen::Vector3d held(law.normal_multiplier, law.shear_multiplier[0], law.shear_multiplier[1]);
+        change = std::max(change, (force - held).norm());
+      }
+    }
+  }
+  return change <= settings_.static_multiplier_tolerance * largest;
 }
 
 StaticStatus Simulation::give_up() {

@@ -8,18 +8,21 @@
 // iteration of the static equations and begins as a motion that contacts can follow. rho m D is what
 // equilibrium still lacks.
 //
+// Slip is that of the load level, from where blocks were when its loads were put on, whatever happened in
+// between: what slid, lifted off or tore while inertia carried part of the load is no part of the answer.
+// Bonds hold until the level has been in balance once (notes/static_friction.md).
+//
 // Equilibrium: m has fallen to its least, rho m D is below settings.static_tolerance of the largest force on
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
-// soft motions may still be on their way. Moving: a block has travelled settings.static_travel of its size
-// and what it lacks was not halved on the way, or a tenth of that when no iterations or cuts are left; listed
-// as moving is what has then gone a thousandth of it. With multipliers, depths that the tolerance allows are
-// held where they are found. m D is the acceleration of the blocks from rest, whatever m, but for what
-// contacts and blocks give way by, which is taken out where no joint is asked to (setting_off.cpp). What is
-// reported is that of the iteration, since the last one in which nothing was lacking or a joint lost its
-// strength, in which all blocks together lacked least, none in which contacts began to slide or stopped:
-// contacts have taken up there what they bear. Of rigid blocks, it is how they set off: iterations count as
-// long as none has gone farther than settings.contact_distance, and blocks that are set in motion later are
-// not listed.
+// soft motions may still be on their way; multipliers have to repeat themselves too. Moving: a block has
+// travelled settings.static_travel of its size and what it lacks was not halved on the way, or a tenth of
+// that when no iterations or cuts are left; listed as moving is what has then gone a thousandth of it. m D is
+// the acceleration of the blocks from rest, whatever m, but for what contacts and blocks give way by, which
+// is taken out where no joint is asked to (setting_off.cpp). What is reported is that of the iteration, since
+// the last one in which nothing was lacking or a joint lost its strength, in which all blocks together lacked
+// least, none in which contacts began to slide or stopped: contacts have taken up there what they bear. Of
+// rigid blocks, it is how they set off: iterations count as long as none has gone farther than
+// settings.contact_distance, and blocks that are set in motion later are not listed.
 //
 // Loads that change follow their histories in levels of settings.time_step, each brought to equilibrium;
 // constant ones are taken at the end time at once.
@@ -53,11 +56,14 @@ struct MovingBlock {
 
 /// What a static analysis carries from one iteration to the next.
 struct StaticState {
-  double inertia = 0.0;      ///< m of the next iteration, 1/s^2; 0 before the first
-  int iterations = 0;        ///< at the present loads
-  int still_iterations = 0;  ///< in which nothing was lacking and no contact changed, one after another
-  bool balanced = false;     ///< equilibrium at the present loads
+  double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0 before the first
+  int iterations = 0;             ///< at the present loads
+  int still_iterations = 0;       ///< in which nothing was lacking and no contact changed, one after another
+  bool holds_bonds = false;       ///< until all is in balance once with bonds that hold
+  int multiplier_iterations = 0;  ///< in which nothing was lacking but that multipliers repeat themselves
+  bool balanced = false;          ///< equilibrium at the present loads
   bool moving = false;
+  std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on
   /// For each block, where it was when what it lacks had last been halved, and how much that was.
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> milestone_forces;

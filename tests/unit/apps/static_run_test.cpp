@@ -87,6 +87,38 @@ TEST_F(StaticRun, EndsInEquilibrium) {
   EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
 }
 
+TEST_F(StaticRun, HoldsContactByMultipliersUnlessAStiffnessIsGiven) {
+  write_text(scene_, static_scene_text);
+  const auto augmented = [&](const std::string& more) {
+    EXPECT_EQ(run("out", {"--set", more}), exit_status::done) << faults_;
+    return nlohmann::json::parse(text("out/summary.json"))["scene"]["contact"]["augmented"].get<bool>();
+  };
+  EXPECT_TRUE(augmented("contact.friction_angle=31"));
+  EXPECT_FALSE(augmented("contact.augmented=false"));
+  EXPECT_FALSE(augmented("contact.normal_stiffness=1e9"));
+  EXPECT_FALSE(augmented("contact.shear_stiffness=1e9"));
+}
+
+TEST_F(StaticRun, ComesBeforeMotion) {
+  std::string scene = static_scene_text;
+  scene.replace(scene.find("type = \"static\""), 15, "initial_state = \"static\"");
+  scene.replace(scene.find("end_time = 1\n"), 12, "end_time = 0.2");
+  scene += "[[measure]]\nname = \"top\"\nblock = \"stone\"\npoint = [-0.5, 0, 0.8660254]\n";
+  write_text(scene_, scene);
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const std::vector<double> ways = column("out/history.csv", "top.uz");
+  EXPECT_LT(ways.front(), -1e-7) << "pressed by its weight at the start";
+  for (const double way : ways) EXPECT_NEAR(way, ways.front(), 1e-10);
+  ASSERT_EQ(run("half", {"--set", "analysis.end_time=0.1"}), exit_status::done) << faults_;
+  ASSERT_EQ(run("half", {"--resume"}), exit_status::done) << faults_;
+  EXPECT_EQ(text("half/history.csv"), text("out/history.csv"));
+  // What does not stand is told of, and moves from where it was placed.
+  ASSERT_EQ(run("slides", {"--set", "contact.friction_angle=20"}), exit_status::done) << faults_;
+  EXPECT_THAT(faults_, HasSubstr("all start as placed"));
+  EXPECT_EQ(column("slides/history.csv", "top.uz").front(), 0.0);
+  EXPECT_LT(column("slides/history.csv", "top.uz").back(), -0.01);
+}
+
 TEST_F(StaticRun, NeedsNoTimesWithConstantLoads) {
   std::string scene = static_scene_text;
   scene.erase(scene.find("end_time"), std::string("end_time = 1\ntime_step = 1e-2\n").size());

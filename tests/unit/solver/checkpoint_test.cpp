@@ -64,19 +64,19 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   snapshot.next_step = 1e-300;
   snapshot.steps = 7;
   snapshot.states = {{Eigen::MatrixX3d::Constant(4, 3, -0.0), Eigen::MatrixX3d::Constant(4, 3, 2.5)}};
-  snapshot.memory = {
-      {{0, 1},
-       {{Vector3(1, 2, 3),
-         Vector3(-1, -2, -3),
-         4,
-         5,
-         Vector3(0, 0, 1),
-         0.5,
-         {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0, 26.0}}},
-       {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}},
-       9,
-       27,
-       {24.0, 25.0}}};
+  snapshot.memory = {{{0, 1},
+                      {{Vector3(1, 2, 3),
+                        Vector3(-1, -2, -3),
+                        4,
+                        5,
+                        Vector3(0, 0, 1),
+                        0.5,
+                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0, 26.0,
+                         Vector3(36, 37, 38), true}}},
+                      {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}},
+                      9,
+                      27,
+                      {24.0, 25.0}}};
   snapshot.contact_work = {{{0, 1}, 10.0}};
   snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
   snapshot.counts.factors.solves = 13;
@@ -102,6 +102,8 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_TRUE(entry.memory.intact);
   EXPECT_EQ(entry.memory.unrubbed, 27.0);
   EXPECT_EQ(entry.memory.compression, 26.0);
+  EXPECT_EQ(entry.memory.level_slip, Vector3(36, 37, 38));
+  EXPECT_TRUE(entry.memory.in_level);
   ASSERT_EQ(back.memory[0].cuts.size(), 1U);
   EXPECT_EQ(back.memory[0].cuts[0].cell_b, 29);
   EXPECT_TRUE(back.memory[0].cuts[0].of_a);
