@@ -106,6 +106,7 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
         choose(scene.contact.penetration_tolerance, ratios.penetration_tolerance * settings.contact_distance,
                "contact.penetration_tolerance", "m");
   }
+  settings.allowed_depth = scene.contact.allowed_depth.value_or(0.0);
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
     return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
   });

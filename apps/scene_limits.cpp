@@ -69,6 +69,7 @@ void check_limits(const Scene& scene, const std::vector<std::optional<Polyhedron
   const double least = rounding * farthest_coordinate(solids);
   check_length("distance", scene.contact.distance, least, scene, diagnostics);
   check_length("penetration_tolerance", scene.contact.penetration_tolerance, least, scene, diagnostics);
+  check_length("allowed_depth", scene.contact.allowed_depth, least, scene, diagnostics);
   const double shortest = rounding * scene.analysis.end_time;
   if (scene.analysis.time_step > 0.0 && scene.analysis.time_step < shortest)
     diagnostics.error(scene.places.value("analysis.time_step"),

@@ -65,6 +65,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> slope_cases();
 /// Stacks, columns and arches.
 [[nodiscard]] std::span<const VerificationCase> stack_cases();
+/// Solids that are not convex.
+[[nodiscard]] std::span<const VerificationCase> non_convex_cases();
 /// Hertz's contact.
 [[nodiscard]] std::span<const VerificationCase> hertz_cases();
 /// Impacts, waves and rocking.

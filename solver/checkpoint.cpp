@@ -144,8 +144,8 @@ static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
           snapshot.carried, snapshot.accelerations, snapshot.spin_debts, snapshot.memory,
           snapshot.contact_work, snapshot.taken, snapshot.finder, snapshot.report, snapshot.records,
           snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
-          snapshot.largest_energy, snapshot.largest_penetration, snapshot.deepest, snapshot.rejections,
-          snapshot.counts, snapshot.seconds);
+          snapshot.largest_energy, snapshot.largest_penetration, snapshot.deepest, snapshot.true_depths,
+          snapshot.rejections, snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -191,6 +191,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.largest_energy = largest_energy_;
   result.largest_penetration = largest_penetration_;
   result.deepest = deepest_;
+  result.true_depths = true_depths_;
   result.rejections = rejections_;
   result.counts = counts();
   result.seconds = seconds_;
@@ -240,6 +241,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   largest_energy_ = snapshot.largest_energy;
   largest_penetration_ = snapshot.largest_penetration;
   deepest_ = snapshot.deepest;
+  true_depths_ = snapshot.true_depths;
   rejections_ = snapshot.rejections;
   solvers_ = IslandSolvers();
   lone_factors_ = LoneBodyFactors();

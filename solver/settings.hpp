@@ -51,8 +51,8 @@ struct SimulationSettings {
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
   double smallest_cut = 0.01;
 
-  /// m, > 0: no corner or edge may be deeper in another block, beyond what springs of a given stiffness give way;
-  /// 0: allowed_depth_share of the smaller block's size
+  /// m, > 0: no corner or edge may be deeper in another block, beyond what springs of a given stiffness give
+  /// way; 0: allowed_depth_share of the smaller block's size
   double allowed_depth = 0.0;
   double allowed_depth_share = 0.01;
 

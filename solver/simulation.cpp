@@ -276,7 +276,10 @@ std::vector<FoundContacts> Simulation::find_contacts(double step) {
                                                : finder_.expected_motion(driven, step > 0.0 ? step : 1.0);
   std::vector<FoundContacts> found = finder_.find(states_, motion, [&](int a, int b) {
     const auto known = memory_.find({a, b});
-    return known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
+    const double of_contacts = known == memory_.end() ? 0.0 : known->second.deepest() + known->second.bulge();
+    // What contacts did not know of is looked for as deep as it is.
+    const auto audited = true_depths_.find({a, b});
+    return audited == true_depths_.end() ? of_contacts : std::max(of_contacts, audited->second);
   });
   ways_out_ = WaysOut(memory_);
   for (const auto& [blocks, contacts] : found) {

@@ -416,6 +416,8 @@ class Simulation {
   double largest_energy_ = 0.0;
   double largest_penetration_ = 0.0;
   DeepestPoint deepest_;
+  std::map<PairKey, double>
+      true_depths_;  ///< at the end of the last step, m, of pairs that are in each other
   DepthAudit audit_;
   /// By block, shared by equal ones, see end_state.cpp; null: fixed or incremental
   std::vector<std::shared_ptr<const Eigen::MatrixXd>> asked_gradients_;

@@ -165,7 +165,7 @@ StaticStatus Simulation::static_step(double end_time) {
         raise = std::max(1.0 / passing.front().touch.share, cut_to_touch ? 2.0 : 1.0);
         cut_to_touch = true;
       }
-    } else if (const auto deep = audit_depths(trial)) {
+    } else if (const auto deep = audit_depths(trial); deep && !has_set_off()) {
       reject(step, *deep);
     } else {
       const std::array<int, 3> before = contact_states(report_);
@@ -187,6 +187,11 @@ StaticStatus Simulation::static_step(double end_time) {
           still && (repeat || static_.multiplier_iterations > settings_.static_multiplier_iterations);
       static_.still_iterations = settled ? static_.still_iterations + 1 : 0;
       static_.balanced = static_.still_iterations >= 2;
+      if (static_.balanced && deep) {
+        // Blocks that have set off are followed only roughly; where they come to rest is an answer.
+        reject(step, *deep);
+        return give_up();
+      }
       if (static_.balanced) return reached(end_time) ? StaticStatus::equilibrium : StaticStatus::balancing;
       return static_.moving ? StaticStatus::moving : StaticStatus::balancing;
     }

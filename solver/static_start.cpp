@@ -37,6 +37,7 @@ StaticStatus Simulation::start_from_statics() {
   start_balance_ = ledger_.balance();
   largest_step_residual_ = largest_energy_ = 0.0;
   largest_penetration_ = report_.penetration;
+  deepest_ = DeepestPoint{};
   return status;
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -205,6 +207,93 @@ TEST(SubFaceSurface, DividesConformingly) {
   }
   EXPECT_EQ(divide_surface(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), 2).cells.size(), 12U * 16U);
   EXPECT_THROW((void)divide_surface(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), 9), std::invalid_argument);
+}
+
+/// Ground with a V groove along y, from -1 to 1, flanks at 45 degrees: the valley's line is x = z = 0.
+Polyhedron groove() {
+  const std::vector<std::array<double, 2>> outline = {{0, 0}, {-2, 2}, {-2, -1}, {2, -1}, {2, 2}};
+  TriangleMesh mesh;
+  for (const double y : {-1.0, 1.0})
+    for (const auto& [x, z] : outline) mesh.points.emplace_back(x, y, z);
+  for (int k = 1; k < 4; ++k) {
+    mesh.triangles.push_back({0, k, k + 1});
+    mesh.triangles.push_back({5, 5 + k + 1, 5 + k});
+  }
+  for (int k = 0; k < 5; ++k) {
+    const int next = (k + 1) % 5;
+    mesh.triangles.push_back({k, 5 + k, next});
+    mesh.triangles.push_back({next, 5 + k, 5 + next});
+  }
+  return Polyhedron(std::move(mesh));
+}
+
+/// A tip that points down, with steep sides.
+Polyhedron tip(const Vector3& at) {
+  return Polyhedron(make_convex_hull(std::vector<Vector3>{
+      at, at + Vector3(0.3, 0.1, 1), at + Vector3(-0.2, 0.3, 1), at + Vector3(-0.1, -0.3, 1)}));
+}
+
+TEST(ContactSearch, ATipBelowAValleyIsHeldByBothFlanks) {
+  const Body ground(groove());
+  // Below the valley's line the foot on either flank lies beyond it.
+  for (const auto& [x, z] : {std::pair{0.0, -0.01}, {0.004, -0.01}, {-0.006, -0.008}}) {
+    const Body falling(tip({x, 0.1, z}));
+    for (const bool swapped : {false, true}) {
+      const PairContacts contacts = swapped ? find_contacts(ground.placed, falling.placed, limits)
+                                            : find_contacts(falling.placed, ground.placed, limits);
+      ASSERT_EQ(contacts.vertices.size(), 2U);
+      std::vector<double> gaps = {contacts.vertices[0].gap, contacts.vertices[1].gap};
+      std::sort(gaps.begin(), gaps.end());
+      // Flanks z = x and z = -x.
+      EXPECT_NEAR(gaps[0], (z - std::abs(x)) / std::sqrt(2.0), 1e-15);
+      EXPECT_NEAR(gaps[1], (z + std::abs(x)) / std::sqrt(2.0), 1e-15);
+    }
+  }
+}
+
+TEST(ContactSearch, ATipBesideAConvexEdgeHasOneFace) {
+  // Beyond the outer rim of a flank there is nothing.
+  const Body ground(groove());
+  const Body beside(tip({2.004, 0.1, 1.99}));
+  EXPECT_TRUE(find_contacts(beside.placed, ground.placed, limits).vertices.empty());
+}
+
+TEST(ContactSearch, AnEdgeThatIsLongerThanAValleyIsHeldByBothOfItsRims) {
+  const Body ground(groove());
+  constexpr double depth = 0.01;
+  std::vector<Vector3> points;
+  for (const double y : {-3.0, 3.0})
+    for (const auto& [x, z] : {std::pair{0.0, 0.0}, {0.1, 0.5}, {-0.1, 0.5}})
+      points.emplace_back(x, y, z - depth);
+  const Body beam(Polyhedron(make_convex_hull(points)));
+  const PairContacts contacts = find_contacts(beam.placed, ground.placed, limits);
+  // At each end of the valley one crossing with each of the two rims that meet there, beyond the end of both.
+  ASSERT_EQ(contacts.edges.size(), 4U);
+  for (const EdgeContact& contact : contacts.edges) {
+    EXPECT_NEAR(contact.gap, -depth / std::sqrt(2.0), 1e-15);
+    EXPECT_NEAR(std::abs(contact.normal.x()), 1.0 / std::sqrt(2.0), 1e-15);
+    EXPECT_NEAR(contact.normal.z(), 1.0 / std::sqrt(2.0), 1e-15);
+  }
+}
+
+TEST(ContactSearch, BehindAHiddenSideTheFaceBesideItHolds) {
+  // The right half of the groove as a block of its own: its side x = 0 lies on the left half.
+  const Body half(Polyhedron(make_convex_hull(std::vector<Vector3>{
+      {0, -1, 0}, {2, -1, 2}, {2, -1, -1}, {0, -1, -1}, {0, 1, 0}, {2, 1, 2}, {2, 1, -1}, {0, 1, -1}})));
+  // 1 mm behind the side, 8 mm below the flank: the side is nearer, but no way leads out there.
+  const Vector3 place(0.001, 0.1, 0.001 - 0.008 * std::sqrt(2.0));
+  const Body falling(tip(place));
+  const auto nothing = [](int, const Vector3&) { return false; };
+  const auto side = [&](int face, const Vector3&) {
+    return half.solid.faces()[static_cast<std::size_t>(face)].normal.x() < -0.9;
+  };
+  const PairContacts open = find_contacts(falling.placed, half.placed, limits);
+  ASSERT_EQ(open.vertices.size(), 1U);
+  EXPECT_NEAR(open.vertices[0].gap, -0.001, 1e-15);
+  const HiddenPlaces hidden{nothing, side};
+  const PairContacts behind = find_contacts(falling.placed, half.placed, limits, &hidden);
+  ASSERT_EQ(behind.vertices.size(), 1U);
+  EXPECT_NEAR(behind.vertices[0].gap, -0.008, 1e-15);
 }
 
 }  // namespace

@@ -1,0 +1,103 @@
+// What a step may not end in, and that it then ends with the last good state.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::fixed_box;
+using test_support::same_law;
+
+JointLaw law_of(double stiffness, bool given) {
+  JointLaw law{stiffness, 0.5 * stiffness, 0.5, 0.0, 0.0, true};
+  law.rigid = !given;
+  return law;
+}
+
+/// A cube of 1 m and a mass of 2500 kg on a floor under some gravity, in its first 0.2 s.
+struct Drop {
+  double young_modulus = 1e9;
+  double gravity = 9.81;
+  double speed = 0.0;  ///< downwards
+  JointLaw law = law_of(2e10, false);
+  double allowed_depth = 0.0;
+};
+
+Simulation simulation_of(const Drop& drop) {
+  SimulationSettings settings;
+  settings.gravity = Vector3(0, 0, -drop.gravity);
+  settings.contact_distance = 1e-3;
+  settings.allowed_depth = drop.allowed_depth;
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-2, -2, -1}, {3, 3, 0}));
+  blocks.emplace_back(
+      block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500.0, drop.young_modulus, 0.2}, 1));
+  return {
+      std::move(blocks), {{}, {Vector3(0, 0, -drop.speed), Vector3::Zero()}}, same_law(drop.law), settings};
+}
+
+TEST(EndState, TheTrueDepthOfACubeAtRestIsItsWeightOverItsStiffness) {
+  Drop drop;
+  drop.law = law_of(1e9, true);
+  Simulation simulation = simulation_of(drop);
+  double deepest = 0.0;
+  while (!simulation.reached(0.2)) {
+    ASSERT_EQ(simulation.step(0.2), StepStatus::accepted);
+    EXPECT_NEAR(simulation.report().depth, simulation.report().penetration, 1e-12);
+    deepest = std::max(deepest, simulation.report().depth);
+  }
+  EXPECT_EQ(simulation.deepest().depth, deepest);
+  EXPECT_EQ(simulation.deepest().blocks, (std::array{1, 0}));
+  EXPECT_GT(deepest, 2500.0 * 9.81 / 1e9);
+}
+
+TEST(EndState, ACubeThatIsPressedThroughItsFloorFails) {
+  // Springs that the program chose hold 1e6 times its weight 1.2 m deep.
+  Drop drop;
+  drop.gravity = 1e7;
+  Simulation simulation = simulation_of(drop);
+  EXPECT_FALSE(test_support::run_until(simulation, 0.2));
+  ASSERT_TRUE(simulation.fault());
+  EXPECT_EQ(simulation.fault()->reason, RejectionReason::too_deep);
+  EXPECT_EQ(simulation.fault()->blocks, (std::array{1, 0}));
+  EXPECT_NEAR(simulation.fault()->allowed, 0.01, 1e-15);
+  EXPECT_GT(simulation.fault()->depth, 0.01);
+  // The last accepted state is one that is allowed.
+  EXPECT_LE(simulation.deepest().depth, 0.01);
+}
+
+TEST(EndState, SpringsOfAGivenStiffnessMayGiveWay) {
+  // 2500 kg on 1e6 N/m: at rest at 24.5 mm, twice that on the way.
+  Drop drop;
+  drop.law = law_of(1e6, true);
+  Simulation given = simulation_of(drop);
+  EXPECT_TRUE(test_support::run_until(given, 0.2));
+  EXPECT_GT(given.deepest().depth, 0.02);
+  drop.law = law_of(1e6, false);
+  Simulation chosen = simulation_of(drop);
+  EXPECT_FALSE(test_support::run_until(chosen, 0.2));
+  drop.allowed_depth = 0.1;
+  Simulation allowed = simulation_of(drop);
+  EXPECT_TRUE(test_support::run_until(allowed, 0.2));
+}
+
+TEST(EndState, SoftAndFastBlocksFailOrStayWhatTheyAre) {
+  for (const Drop& drop : {Drop{1e4, 9.81, 0.0, law_of(2e5, false)}, Drop{1e4, 1e3, 50.0, law_of(2e5, false)},
+                           Drop{1e9, 9.81, 1e5}, Drop{1e9, 1e10, 0.0}}) {
+    Simulation simulation = simulation_of(drop);
+    EXPECT_FALSE(test_support::run_until(simulation, 0.2)) << drop.young_modulus << ' ' << drop.speed;
+    EXPECT_TRUE(simulation.fault());
+    EXPECT_LE(simulation.deepest().depth, 0.01);
+    for (const BlockState& state : simulation.states()) EXPECT_TRUE(state.position.allFinite());
+    const Eigen::Matrix3d gradient = simulation.states()[1].position.transpose() *
+                                     simulation.blocks()[1].basis().gradients(Vector3(0.5, 0.5, 0.5));
+    EXPECT_GT(gradient.determinant(), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace ashlar
