@@ -21,6 +21,7 @@ struct FallingBlock {
   double stiffness = 5e10;
   double chord_tolerance = 7.5e-3;  ///< m, see SimulationSettings
   int subdivisions = 0;             ///< uniform levels of the cantilever's faces
+  double allowed_depth = 0.0;       ///< m, see SimulationSettings
 };
 
 /// Block 0 is the cube, block 1 the cantilever, at rest under its weight.

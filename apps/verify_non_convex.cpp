@@ -157,13 +157,13 @@ Polyhedron let_go(const Polyhedron& block, const Ground& ground, std::mt19937_64
   return block.with_points(std::move(points));
 }
 
-Simulation landing(const std::vector<Polyhedron>& ground, const Polyhedron& block,
+Simulation landing(const std::vector<Polyhedron>& ground, const Polyhedron& block, bool augmented,
                    const Placement& placement) {
   ContactScene scene(placement);
   for (const Polyhedron& piece : ground) scene.add_fixed(piece);
   const double size = std::cbrt(block.volume());
   choose_as_for_statics(scene, size, stone.young_modulus, friction);
-  scene.settings.augmented = false;
+  scene.settings.augmented = augmented;
   scene.add(define_block(block, stone, 1));
   return scene.build();
 }
@@ -180,10 +180,11 @@ double land(Simulation& simulation, double time) {
 }
 
 /// Blocks let go over valleys of one mesh sink nowhere, and go where they go on convex pieces of the same
-/// shape.
+/// shape. Places are compared with multipliers: how far springs throw a block back depends on when in a step
+/// it arrives, and steps are cut at other times on other ground.
 std::vector<VerificationCheck> non_convex_ground_case(const Placement& placement) {
   constexpr int turns = 8;
-  constexpr double time = 0.25;
+  constexpr double time = 0.2;
   std::vector<VerificationCheck> checks;
   std::mt19937_64 random(1);
   for (const Ground& ground : grounds()) {
@@ -192,9 +193,10 @@ std::vector<VerificationCheck> non_convex_ground_case(const Placement& placement
       double apart = 0.0;
       for (int k = 0; k < turns; ++k) {
         const Polyhedron placed_block = let_go(block, ground, random);
-        Simulation on_whole = landing({ground.whole}, placed_block, placement);
-        Simulation on_pieces = landing(ground.pieces, placed_block, placement);
-        deepest = std::max({deepest, land(on_whole, time), land(on_pieces, time)});
+        Simulation with_springs = landing({ground.whole}, placed_block, false, placement);
+        Simulation on_whole = landing({ground.whole}, placed_block, true, placement);
+        Simulation on_pieces = landing(ground.pieces, placed_block, true, placement);
+        deepest = std::max({deepest, land(with_springs, time), land(on_whole, time), land(on_pieces, time)});
         const int last = static_cast<int>(on_pieces.blocks().size()) - 1;
         apart = std::max(apart, (centroid(on_whole, 1) - centroid(on_pieces, last)).norm() /
                                     block_size(on_whole.blocks()[1]));

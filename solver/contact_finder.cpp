@@ -112,9 +112,23 @@ class OpenFaces {
       auto* vertex = std::get_if<VertexContact>(&touch.contact);
       return vertex != nullptr && is_hidden(*vertex) && !turn(*vertex);
     });
+    // What goes through the hidden side and below the face beside it in one step touches that face once.
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      const auto rest = touches.begin() + static_cast<std::ptrdiff_t>(k) + 1;
+      touches.erase(
+          std::remove_if(rest, touches.end(), [&](const Touch& other) { return same(touches[k], other); }),
+          touches.end());
+    }
   }
 
  private:
+  /// Whether two touches are of one vertex with one cell.
+  static bool same(const Touch& first, const Touch& second) {
+    const auto* one = std::get_if<VertexContact>(&first.contact);
+    const auto* other = std::get_if<VertexContact>(&second.contact);
+    return one != nullptr && other != nullptr && one->vertex_of_a == other->vertex_of_a &&
+           one->point == other->point && one->cell == other->cell;
+  }
   [[nodiscard]] const MovingSurface& with_cell(const VertexContact& vertex) const {
     return vertex.vertex_of_a ? b_ : a_;
   }

@@ -251,11 +251,13 @@ TEST(ContactSearch, ATipBelowAValleyIsHeldByBothFlanks) {
   }
 }
 
-TEST(ContactSearch, ATipBesideAConvexEdgeHasOneFace) {
-  // Beyond the outer rim of a flank there is nothing.
+TEST(ContactSearch, AFlankEndsAtItsConvexRim) {
+  // The outer rim of a flank is x = z = 2: what is below the flank's plane beyond it is beside the block.
   const Body ground(groove());
   const Body beside(tip({2.004, 0.1, 1.99}));
-  EXPECT_TRUE(find_contacts(beside.placed, ground.placed, limits).vertices.empty());
+  for (const VertexContact& contact : find_contacts(beside.placed, ground.placed, limits).vertices) {
+    EXPECT_FALSE(contact.vertex_of_a && std::abs(ground.placed.normal(contact.cell).z() - std::sqrt(0.5)) < 0.1);
+  }
 }
 
 TEST(ContactSearch, AnEdgeThatIsLongerThanAValleyIsHeldByBothOfItsRims) {
@@ -282,7 +284,8 @@ TEST(ContactSearch, BehindAHiddenSideTheFaceBesideItHolds) {
       {0, -1, 0}, {2, -1, 2}, {2, -1, -1}, {0, -1, -1}, {0, 1, 0}, {2, 1, 2}, {2, 1, -1}, {0, 1, -1}})));
   // 1 mm behind the side, 8 mm below the flank: the side is nearer, but no way leads out there.
   const Vector3 place(0.001, 0.1, 0.001 - 0.008 * std::sqrt(2.0));
-  const Body falling(tip(place));
+  const Body falling(Polyhedron(make_convex_hull(std::vector<Vector3>{
+      place, place + Vector3(-0.1, 0.1, 1), place + Vector3(-0.4, 0.3, 1), place + Vector3(-0.2, -0.3, 1)})));
   const auto nothing = [](int, const Vector3&) { return false; };
   const auto side = [&](int face, const Vector3&) {
     return half.solid.faces()[static_cast<std::size_t>(face)].normal.x() < -0.9;
