@@ -144,6 +144,7 @@ class Run {
     return status;
   }
 
+  [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
   /// Why the run failed or where it was interrupted, or what moves.
   [[nodiscard]] const std::string& message() const { return message_; }
 
@@ -167,6 +168,11 @@ class Run {
         return RunStatus::failed;
       }
       record_step(start, saved_at, progress);
+    }
+    if (const auto deep = simulation.audit()) {
+      message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
+                             simulation.time(), description_of(*deep));
+      return RunStatus::failed;
     }
     return RunStatus::completed;
   }
@@ -203,16 +209,20 @@ class Run {
 
   /// Why a step was rejected, with the blocks and the place where that is known.
   [[nodiscard]] std::string reason_of(const Rejection& rejection) const {
-    const Simulation& simulation = built_.simulation;
-    const auto& fault = simulation.fault();
+    const auto& fault = built_.simulation.fault();
     if (!fault || fault->reason != rejection.reason) return to_string(rejection.reason);
-    const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
-    if (fault->reason != RejectionReason::too_deep)
-      return fmt::format("{}: block {}", to_string(fault->reason), name(fault->blocks[0]));
+    return fmt::format("{}: {}", to_string(fault->reason), description_of(*fault));
+  }
+
+  [[nodiscard]] std::string description_of(const StateFault& fault) const {
+    const auto name = [&](int block) {
+      return built_.simulation.blocks()[static_cast<std::size_t>(block)].name();
+    };
+    if (fault.reason != RejectionReason::too_deep) return fmt::format("block {}", name(fault.blocks[0]));
     return fmt::format(
-        "{}: block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
-        to_string(fault->reason), name(fault->blocks[0]), name(fault->blocks[1]), fault->depth,
-        fault->place.x(), fault->place.y(), fault->place.z(), fault->allowed);
+        "block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
+        name(fault.blocks[0]), name(fault.blocks[1]), fault.depth, fault.place.x(), fault.place.y(),
+        fault.place.z(), fault.allowed);
   }
 
   /// What no check of the scene foresaw: the state is that before the step.
@@ -284,6 +294,19 @@ void tell_choices(const BuiltSimulation& built, std::ostream& err) {
                        first_names(built.as_placed));
 }
 
+/// Blocks that are farther in each other than contact that does not give way would be.
+void warn_of_depth(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.01;
+  const DeepestPoint& deepest = simulation.deepest();
+  if (!(deepest.share > ordinary)) return;
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  err << fmt::format(
+      "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
+      "block's size; up to "
+      "{} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them apart\n",
+      name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+}
+
 void tell_end(RunStatus status, const std::string& message, const std::filesystem::path& folder, bool quiet,
               std::ostream& err) {
   switch (status) {
@@ -343,6 +366,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   Run& run = *started;
   const RunStatus status = run.go(start, options.quiet, err);
   tell_end(status, run.message(), folder, options.quiet, err);
+  warn_of_depth(run.simulation(), err);
   if (options.view) {
     (void)write_view_file(folder, folder / "view.html");
     if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());

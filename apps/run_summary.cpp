@@ -82,6 +82,7 @@ nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& si
   const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
   const Vector3& place = deepest.place;
   return {{"value", deepest.depth},
+          {"of_smaller_block", deepest.share},
           {"blocks", nlohmann::ordered_json{name(deepest.blocks[0]), name(deepest.blocks[1])}},
           {"time", deepest.time},
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};

@@ -87,12 +87,18 @@ class ClosestPointFinder::Surface {
   [[nodiscard]] const Polyhedron& solid() const { return solid_; }
 
   // Apart from find() so that no arithmetic moves across the change of the rounding mode.
-  [[gnu::noinline]] [[nodiscard]] ClosestPoint find_to_nearest(const Vector3& x) const {
+  [[gnu::noinline]] [[nodiscard]] ClosestPoint find_to_nearest(const Vector3& x, bool any) const {
     NumericRange range = range_;
     for (int i = 0; i < 3; ++i) range.include(x[i]);
     PredicateLadder ladder;
     ladder.open(range);
     std::vector<Candidate> candidates = ladder.allows(bounds_degree) ? near_triangles(x) : all_triangles();
+    if (any && ladder.allows(bounds_degree)) {
+      const auto first =
+          std::min_element(candidates.begin(), candidates.end(),
+                           [](const Candidate& p, const Candidate& q) { return p.lower < q.lower; });
+      candidates = {*first};
+    }
     for (Candidate& c : candidates) c.part = certified_part(x, c, ladder);
     return answer(x, nearest(x, candidates), ladder);
   }
@@ -304,7 +310,13 @@ const Polyhedron& ClosestPointFinder::solid() const {
 ClosestPoint ClosestPointFinder::find(const Vector3& x) const {
   if (!x.allFinite()) throw std::invalid_argument("point must be finite");
   const NearestRounding nearest;
-  return surface_->find_to_nearest(x);
+  return surface_->find_to_nearest(x, false);
+}
+
+ClosestPoint ClosestPointFinder::find_any(const Vector3& x) const {
+  if (!x.allFinite()) throw std::invalid_argument("point must be finite");
+  const NearestRounding nearest;
+  return surface_->find_to_nearest(x, true);
 }
 
 }  // namespace ashlar

@@ -97,6 +97,15 @@ std::vector<CellBelow> bounding_cells(const PlacedSurface& with_cell, const std:
     });
     if (bounds) bounding.push_back(one);
   }
+  // What is outside of a face is outside of the solid as far as faces are joined to it by convex edges.
+  const auto is_beside = [&](const CellBelow& one) {
+    return one.gap < 0.0 && std::any_of(near.begin(), near.end(), [&](const CellBelow& other) {
+             return other.past.empty() && other.gap > with_cell.chord_bound(other.cell) &&
+                    across_convex_edge(with_cell.surface(), with_cell.surface().cells[at(one.cell)].face,
+                                       with_cell.surface().cells[at(other.cell)].face);
+           });
+  };
+  std::erase_if(bounding, is_beside);
   return bounding;
 }
 

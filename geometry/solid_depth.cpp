@@ -136,7 +136,7 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment_in_convex(const Vector3& 
 
 std::optional<SolidDepth> SolidDepthFinder::of_point(const Vector3& x) const {
   if (convex()) return of_point_in_convex(x);
-  const ClosestPoint nearest = closest_->find(x);
+  const ClosestPoint nearest = closest_->find_any(x);
   if (nearest.place != PointPlace::inside) return std::nullopt;
   const double depth = std::sqrt(nearest.squared_distance);
   if (!(depth > 0.0)) return std::nullopt;
@@ -145,7 +145,7 @@ std::optional<SolidDepth> SolidDepthFinder::of_point(const Vector3& x) const {
 }
 
 double SolidDepthFinder::clear_radius(const Vector3& x) const {
-  const ClosestPoint nearest = closest_->find(x);
+  const ClosestPoint nearest = closest_->find_any(x);
   return nearest.place == PointPlace::outside ? std::sqrt(nearest.squared_distance) : 0.0;
 }
 
@@ -183,7 +183,7 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     parts.pop_back();
     const Vector3 middle = 0.5 * (part.start + part.end);
     const double half = 0.5 * (part.end - part.start).norm();
-    const ClosestPoint nearest = closest_->find(middle);
+    const ClosestPoint nearest = closest_->find_any(middle);
     const double distance = std::sqrt(nearest.squared_distance);
     const bool inside = nearest.place == PointPlace::inside;
     if (inside && distance > (deepest ? deepest->depth : known)) {

@@ -161,14 +161,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   largest_energy_ = std::max({largest_energy_, ledger_.kinetic, ledger_.elastic, ledger_.contact,
                               std::abs(ledger_.friction), std::abs(ledger_.applied)});
   largest_penetration_ = std::max(largest_penetration_, report_.penetration);
-  true_depths_.clear();
-  for (const PairDepth& pair : depths) {
-    double& depth =
-        true_depths_[{std::min(pair.blocks[0], pair.blocks[1]), std::max(pair.blocks[0], pair.blocks[1])}];
-    depth = std::max(depth, pair.depth);
-    report_.depth = std::max(report_.depth, pair.depth);
-    if (pair.depth > deepest_.depth) deepest_ = {pair.blocks, pair.depth, time_, pair.place};
-  }
+  note_depths(depths);
 }
 
 void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& trial,

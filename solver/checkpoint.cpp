@@ -81,7 +81,7 @@ static void visit_members(Archive& archive, Ledger& ledger) {
 
 template <class Archive>
 static void visit_members(Archive& archive, DeepestPoint& deepest) {
-  archive(deepest.blocks, deepest.depth, deepest.time, deepest.place);
+  archive(deepest.blocks, deepest.depth, deepest.share, deepest.time, deepest.place);
 }
 
 template <class Archive>

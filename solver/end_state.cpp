@@ -69,34 +69,74 @@ std::optional<StateFault> Simulation::broken_block(const Trial& trial) const {
   return std::nullopt;
 }
 
-std::optional<StateFault> Simulation::audit_depths(Trial& trial) {
-  const Stopwatch watch(seconds_.depth_audit);
+std::vector<PairDepth> Simulation::measure_depths(const std::vector<BlockState>& states, bool all_edges) {
   const AuditScope scope{[this](int a, int b) { return !finder_.leaves_out(a, b); },
-                         settings_.passing_share * settings_.contact_distance, settings_.threads};
-  trial.depths = audit_.run(blocks_, states_after(trial), finder_.surfaces(), scope);
-  std::map<PairKey, double> known;  // depths of contacts
+                         settings_.passing_share * settings_.contact_distance, all_edges, settings_.threads};
+  return audit_.run(blocks_, states, finder_.surfaces(), scope);
+}
+
+std::optional<StateFault> Simulation::too_deep_of(const std::vector<PairDepth>& depths,
+                                                  const std::map<PairKey, double>& known) const {
+  std::optional<StateFault> fault;
+  double most = 0.0;
+  const auto hold_against = [&](const PairDepth& pair, double allowed) {
+    if (pair.depth - allowed <= most) return;
+    most = pair.depth - allowed;
+    fault = StateFault{RejectionReason::too_deep, pair.blocks, pair.depth, allowed, pair.place};
+  };
+  for (const PairDepth& pair : depths) {
+    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto allowed = [&, size = smaller_size({a, b})](double share) {
+      return settings_.allowed_depth > 0.0 ? settings_.allowed_depth : share * size;
+    };
+    const auto contact = known.find({a, b});
+    hold_against(pair,
+                 allowed(settings_.unknown_depth_share) + (contact == known.end() ? 0.0 : contact->second));
+    // A joint of given stiffness gives way as its user has asked for.
+    if (law_(a, b).rigid) hold_against(pair, allowed(settings_.allowed_depth_share));
+  }
+  return fault;
+}
+
+std::optional<StateFault> Simulation::audit_depths(Trial& trial, bool all_edges) {
+  const Stopwatch watch(seconds_.depth_audit);
+  trial.depths = measure_depths(states_after(trial), all_edges);
+  std::map<PairKey, double> known;
   for (const ContactPair& pair : trial.pairs) {
     if (pair.tied()) continue;
     double& deepest = known[{pair.a(), pair.b()}];
     for (const double gap : pair.gaps(trial.bodies[at(pair.a())].change, trial.bodies[at(pair.b())].change))
       deepest = std::max(deepest, -gap);
   }
-  std::optional<StateFault> fault;
-  double most = 0.0;
-  for (const PairDepth& pair : trial.depths) {
-    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    double allowed = settings_.allowed_depth;
-    if (allowed == 0.0)
-      allowed =
-          settings_.allowed_depth_share * std::min(block_size(blocks_[at(a)]), block_size(blocks_[at(b)]));
-    // A joint of given stiffness gives way as its user has asked for.
-    if (const auto contact = known.find({a, b}); contact != known.end() && !law_(a, b).rigid)
-      allowed += contact->second;
-    if (pair.depth - allowed <= most) continue;
-    most = pair.depth - allowed;
-    fault = StateFault{RejectionReason::too_deep, pair.blocks, pair.depth, allowed, pair.place};
+  return too_deep_of(trial.depths, known);
+}
+
+std::optional<StateFault> Simulation::audit() {
+  const Stopwatch watch(seconds_.depth_audit);
+  std::map<PairKey, double> known;
+  for (const PairRecord& pair : records_) {
+    double& deepest = known[{pair.a, pair.b}];
+    for (const double gap : pair.gaps) deepest = std::max(deepest, -gap);
   }
-  return fault;
+  const std::vector<PairDepth> depths = measure_depths(states_, true);
+  note_depths(depths);
+  return too_deep_of(depths, known);
+}
+
+double Simulation::smaller_size(const std::array<int, 2>& blocks) const {
+  return std::min(block_size(blocks_[at(blocks[0])]), block_size(blocks_[at(blocks[1])]));
+}
+
+void Simulation::note_depths(const std::vector<PairDepth>& depths) {
+  true_depths_.clear();
+  for (const PairDepth& pair : depths) {
+    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    double& depth = true_depths_[{a, b}];
+    depth = std::max(depth, pair.depth);
+    report_.depth = std::max(report_.depth, pair.depth);
+    if (pair.depth > deepest_.depth)
+      deepest_ = {pair.blocks, pair.depth, pair.depth / smaller_size(pair.blocks), time_, pair.place};
+  }
 }
 
 void Simulation::note_gradients(std::size_t k) {

@@ -51,10 +51,16 @@ struct SimulationSettings {
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
   double smallest_cut = 0.01;
 
-  /// m, > 0: no corner or edge may be deeper in another block, beyond what springs of a given stiffness give
-  /// way; 0: allowed_depth_share of the smaller block's size
+  /// m, > 0: how deep a corner or edge may be in another block beyond what contacts know, and in all where
+  /// springs only stand for contact that does not give way. 0: the shares below of the smaller block's size
   double allowed_depth = 0.0;
-  double allowed_depth_share = 0.01;
+  double unknown_depth_share = 0.01;  ///< beyond what contacts know: such contact is not what was computed
+  /// in all: blocks that are so far in each other are not what their springs stand for; from the share above
+  /// on a run says so
+  double allowed_depth_share = 0.1;
+  /// steps between audits of edges in solids that are not convex, which cost most; all else is audited in
+  /// each step
+  int edge_audit_interval = 10;
 
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 

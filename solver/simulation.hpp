@@ -95,6 +95,7 @@ struct StepReport {
 struct DeepestPoint {
   std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: none has been
   double depth = 0.0;                    ///< m
+  double share = 0.0;                    ///< depth over the size of the smaller block
   double time = 0.0;                     ///< s
   Vector3 place = Vector3::Zero();       ///< m
 };
@@ -193,6 +194,9 @@ class Simulation {
   [[nodiscard]] double largest_penetration() const { return largest_penetration_; }
   /// Of any corner or edge, whatever its contacts say (depth_audit.hpp).
   [[nodiscard]] const DeepestPoint& deepest() const { return deepest_; }
+  /// Measures how deep blocks are in each other now, all edges included. @return the pair that is too deep by
+  /// most
+  std::optional<StateFault> audit();
   /// What was wrong with the end of the last rejected step, if that was why.
   [[nodiscard]] const std::optional<StateFault>& fault() const { return fault_; }
   [[nodiscard]] Vector3 momentum() const;
@@ -289,8 +293,16 @@ class Simulation {
   // end_state.cpp
   /// Whether a block's state at the end of a trial is none that it can have.
   [[nodiscard]] std::optional<StateFault> broken_block(const Trial& trial) const;
-  /// Measures how deep blocks are in each other at the end of a trial. @return those that are too deep
-  [[nodiscard]] std::optional<StateFault> audit_depths(Trial& trial);
+  /// How deep blocks are in each other. @param all_edges see AuditScope
+  [[nodiscard]] std::vector<PairDepth> measure_depths(const std::vector<BlockState>& states, bool all_edges);
+  /// The same at the end of a trial. @return the pair that is too deep by most
+  [[nodiscard]] std::optional<StateFault> audit_depths(Trial& trial, bool all_edges);
+  /// @param known depths of contacts, m
+  [[nodiscard]] std::optional<StateFault> too_deep_of(const std::vector<PairDepth>& depths,
+                                                      const std::map<PairKey, double>& known) const;
+  void note_depths(const std::vector<PairDepth>& depths);
+  /// block_size of the smaller of two blocks, m.
+  [[nodiscard]] double smaller_size(const std::array<int, 2>& blocks) const;
   [[nodiscard]] std::vector<BlockState> states_after(const Trial& trial) const;
   /// Of a block that is new: what broken_block() needs.
   void note_gradients(std::size_t block);

@@ -165,7 +165,7 @@ StaticStatus Simulation::static_step(double end_time) {
         raise = std::max(1.0 / passing.front().touch.share, cut_to_touch ? 2.0 : 1.0);
         cut_to_touch = true;
       }
-    } else if (const auto deep = audit_depths(trial); deep && !has_set_off()) {
+    } else if (const auto deep = audit_depths(trial, true); deep && !has_set_off()) {
       reject(step, *deep);
     } else {
       const std::array<int, 3> before = contact_states(report_);
