@@ -72,10 +72,8 @@ class PairAudit {
         resolution_(resolution),
         clear_(clear) {}
 
-  /// @param edges whether they are looked at too
-  [[nodiscard]] PairDepth run(bool edges) {
+  [[nodiscard]] PairDepth run() {
     for (std::size_t k = 0; k < with_points_.points.size(); ++k) check_point(static_cast<int>(k));
-    if (!edges) return deepest_;
     for (std::size_t k = 0; k < surface_.edges.size(); ++k) {
       if (surface_.edges[k].convex && with_points_.edges[k].meets(outer_.box)) check_edge(k);
     }
@@ -201,7 +199,7 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
       PairDepth depth =
           PairAudit(audited_blocks[at(inner)], surfaces[at(inner)].surface(), audited_blocks[at(outer)],
                     *finders_[at(outer)], *maps[at(outer)], scope.resolution, clear_.at({inner, outer}))
-              .run(scope.all_edges || finders_[at(outer)]->convex());
+              .run();
       depth.blocks = {inner, outer};
       return depth;
     };

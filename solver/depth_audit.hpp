@@ -62,7 +62,6 @@ struct ClearParts {
 struct AuditScope {
   std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
   double resolution = 0.0;  ///< m, > 0: how exact depths of edges are in solids that are not convex
-  bool all_edges = true;    ///< false: edges in solids that are not convex are left out
   int threads = 1;
 };
 

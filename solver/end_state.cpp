@@ -69,9 +69,10 @@ std::optional<StateFault> Simulation::broken_block(const Trial& trial) const {
   return std::nullopt;
 }
 
-std::vector<PairDepth> Simulation::measure_depths(const std::vector<BlockState>& states, bool all_edges) {
+std::vector<PairDepth> Simulation::measure_depths(const std::vector<BlockState>& states, bool fine) {
   const AuditScope scope{[this](int a, int b) { return !finder_.leaves_out(a, b); },
-                         settings_.passing_share * settings_.contact_distance, all_edges, settings_.threads};
+                         (fine ? settings_.passing_share : 1.0) * settings_.contact_distance,
+                         settings_.threads};
   return audit_.run(blocks_, states, finder_.surfaces(), scope);
 }
 
@@ -98,9 +99,9 @@ std::optional<StateFault> Simulation::too_deep_of(const std::vector<PairDepth>& 
   return fault;
 }
 
-std::optional<StateFault> Simulation::audit_depths(Trial& trial, bool all_edges) {
+std::optional<StateFault> Simulation::audit_depths(Trial& trial, bool fine) {
   const Stopwatch watch(seconds_.depth_audit);
-  trial.depths = measure_depths(states_after(trial), all_edges);
+  trial.depths = measure_depths(states_after(trial), fine);
   std::map<PairKey, double> known;
   for (const ContactPair& pair : trial.pairs) {
     if (pair.tied()) continue;

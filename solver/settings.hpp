@@ -58,9 +58,9 @@ struct SimulationSettings {
   /// in all: blocks that are so far in each other are not what their springs stand for; from the share above
   /// on a run says so
   double allowed_depth_share = 0.1;
-  /// steps between audits of edges in solids that are not convex, which cost most; all else is audited in
-  /// each step
-  int edge_audit_interval = 10;
+  /// steps between audits in which depths of edges in solids that are not convex are exact to passing_share
+  /// of the contact distance; in the others they are to the contact distance
+  int fine_audit_interval = 10;
 
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 

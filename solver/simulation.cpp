@@ -195,7 +195,7 @@ StepStatus Simulation::step(double end_time) {
       continue;
     }
     if (passing.empty()) {
-      if (const auto deep = audit_depths(trial, steps_ % settings_.edge_audit_interval == 0)) {
+      if (const auto deep = audit_depths(trial, (steps_ + 1) % settings_.fine_audit_interval == 0)) {
         reject(step, *deep);
         step *= 0.5;
         ++cuts;

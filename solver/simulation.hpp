@@ -194,7 +194,7 @@ class Simulation {
   [[nodiscard]] double largest_penetration() const { return largest_penetration_; }
   /// Of any corner or edge, whatever its contacts say (depth_audit.hpp).
   [[nodiscard]] const DeepestPoint& deepest() const { return deepest_; }
-  /// Measures how deep blocks are in each other now, all edges included. @return the pair that is too deep by
+  /// Measures how deep blocks are in each other now. @return the pair that is too deep by
   /// most
   std::optional<StateFault> audit();
   /// What was wrong with the end of the last rejected step, if that was why.
@@ -293,10 +293,10 @@ class Simulation {
   // end_state.cpp
   /// Whether a block's state at the end of a trial is none that it can have.
   [[nodiscard]] std::optional<StateFault> broken_block(const Trial& trial) const;
-  /// How deep blocks are in each other. @param all_edges see AuditScope
-  [[nodiscard]] std::vector<PairDepth> measure_depths(const std::vector<BlockState>& states, bool all_edges);
+  /// How deep blocks are in each other. @param fine see SimulationSettings::fine_audit_interval
+  [[nodiscard]] std::vector<PairDepth> measure_depths(const std::vector<BlockState>& states, bool fine);
   /// The same at the end of a trial. @return the pair that is too deep by most
-  [[nodiscard]] std::optional<StateFault> audit_depths(Trial& trial, bool all_edges);
+  [[nodiscard]] std::optional<StateFault> audit_depths(Trial& trial, bool fine);
   /// @param known depths of contacts, m
   [[nodiscard]] std::optional<StateFault> too_deep_of(const std::vector<PairDepth>& depths,
                                                       const std::map<PairKey, double>& known) const;

@@ -302,12 +302,12 @@ def audit(folder):
     """All findings on a result folder.
 
     @return dict: status, found (see deepest_of), allowed (m), deep, energy (bool), rise (share), rise_joule, rise_time,
-    penetration_max, deepest (the program's own, or None), disagreement (text or None)
+    contact_depth_max, deepest (the program's own, or None), disagreement (text or None)
     """
     summary, found = summary_of(folder), deepest_of(folder)
     rise, joule, when = energy_rise(folder)
-    allowed = (summary.get("penetration_max") or 0.0) + ALLOWED_SHARE * found["size"]
+    allowed = (summary.get("contact_depth_max") or 0.0) + ALLOWED_SHARE * found["size"]
     return {"status": summary["status"], "found": found, "allowed": allowed, "deep": found["depth"] > allowed,
             "energy": rise > ENERGY_RISE, "rise": rise, "rise_joule": joule, "rise_time": when,
-            "penetration_max": summary.get("penetration_max"), "deepest": summary.get("deepest"),
+            "contact_depth_max": summary.get("contact_depth_max"), "deepest": summary.get("deepest"),
             "disagreement": disagreement(summary, found)}
