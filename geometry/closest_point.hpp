@@ -37,7 +37,8 @@ class ClosestPointFinder {
   [[nodiscard]] const Polyhedron& solid() const;
   /// @param x finite. @throws std::invalid_argument if it is not.
   [[nodiscard]] ClosestPoint find(const Vector3& x) const;
-  /// The same without rational numbers: of features that are as near but for rounding any one may be the answer.
+  /// The same without rational numbers: of features that are as near but for rounding any one may be the
+  /// answer.
   [[nodiscard]] ClosestPoint find_any(const Vector3& x) const;
 
  private:

@@ -256,7 +256,8 @@ TEST(ContactSearch, AFlankEndsAtItsConvexRim) {
   const Body ground(groove());
   const Body beside(tip({2.004, 0.1, 1.99}));
   for (const VertexContact& contact : find_contacts(beside.placed, ground.placed, limits).vertices) {
-    EXPECT_FALSE(contact.vertex_of_a && std::abs(ground.placed.normal(contact.cell).z() - std::sqrt(0.5)) < 0.1);
+    EXPECT_FALSE(contact.vertex_of_a &&
+                 std::abs(ground.placed.normal(contact.cell).z() - std::sqrt(0.5)) < 0.1);
   }
 }
 
