@@ -133,9 +133,10 @@ class Run {
     seconds_.setup = seconds_now() - start;
     ProgressLine progress(scene_.analysis.end_time, quiet, err);
     const bool is_static = scene_.analysis.type == SceneAnalysis::Type::statics;
-    const RunStatus status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
+    RunStatus status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
     // Before the last frame, which a run that goes on has only if it is due.
     save(start);
+    if (status == RunStatus::completed) status = audited();
     folder_.add_frame(built_.simulation);
     progress.finish();
     const auto summary =
@@ -169,12 +170,18 @@ class Run {
       }
       record_step(start, saved_at, progress);
     }
-    if (const auto deep = simulation.audit()) {
-      message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
-                             simulation.time(), description_of(*deep));
-      return RunStatus::failed;
-    }
     return RunStatus::completed;
+  }
+
+  /// Whether blocks are where they may be at the end. After the run is saved: one that goes on has no end
+  /// here.
+  RunStatus audited() {
+    Simulation& simulation = built_.simulation;
+    const auto deep = simulation.audit();
+    if (!deep) return RunStatus::completed;
+    message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
+                           simulation.time(), description_of(*deep));
+    return RunStatus::failed;
   }
 
   RunStatus find_equilibrium(double start, ProgressLine& progress) {

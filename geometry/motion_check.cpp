@@ -9,6 +9,7 @@
 #include <span>
 
 #include "geometry/box_pairs.hpp"
+#include "geometry/triangle_distance.hpp"
 
 namespace ashlar {
 namespace {
@@ -58,25 +59,6 @@ double least_after(std::array<double, 4> cubic, double share) {
     for (std::size_t k = 0; k + step < 4; ++k) cubic[k] += share * (cubic[k + 1] - cubic[k]);
   }
   return *std::min_element(cubic.begin(), cubic.end());
-}
-
-Vector3 closest_on_segment(const Vector3& p, const Vector3& a, const Vector3& b) {
-  const Vector3 along = b - a;
-  const double squared = along.squaredNorm();
-  return a + (squared > 0.0 ? std::clamp(along.dot(p - a) / squared, 0.0, 1.0) : 0.0) * along;
-}
-
-double distance_to_triangle(const Vector3& p, const std::array<Vector3, 3>& corners) {
-  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  bool over = normal.squaredNorm() > 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3& a = corners[k];
-    const Vector3& b = corners[(k + 1) % 3];
-    if (normal.cross(b - a).dot(p - a) < 0.0) over = false;
-    least = std::min(least, (p - closest_on_segment(p, a, b)).norm());
-  }
-  return over ? std::min(least, std::abs(normal.normalized().dot(p - corners[0]))) : least;
 }
 
 /// Shares of two segments (a, b) and (c, d) where they are nearest to each other.

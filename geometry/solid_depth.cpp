@@ -8,32 +8,13 @@
 #include <vector>
 
 #include "geometry/rounded_convexity.hpp"
+#include "geometry/triangle_distance.hpp"
 
 namespace ashlar {
 namespace {
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
-}
-
-/// Nearest point to x of the segment from a to b.
-Vector3 nearest_on_segment(const Vector3& x, const Vector3& a, const Vector3& b) {
-  const Vector3 along = b - a;
-  const double squared = along.squaredNorm();
-  return squared > 0.0 ? Vector3(a + std::clamp(along.dot(x - a) / squared, 0.0, 1.0) * along) : a;
-}
-
-double distance_to_triangle(const Vector3& x, const std::array<Vector3, 3>& corners) {
-  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  bool over = normal.squaredNorm() > 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3& a = corners[k];
-    const Vector3& b = corners[(k + 1) % 3];
-    over = over && normal.cross(b - a).dot(x - a) >= 0.0;
-    least = std::min(least, (x - nearest_on_segment(x, a, b)).norm());
-  }
-  return over ? std::min(least, std::abs(normal.normalized().dot(x - corners[0]))) : least;
 }
 
 std::array<Vector3, 3> triangle_of(const Polyhedron& solid, int triangle) {
