@@ -14,6 +14,8 @@ import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
 
+from scenes import cross, dot, sub
+
 SAMPLES = 7          # along each edge, without its ends
 ALLOWED_SHARE = 1e-3  # of the size of a block, beyond what the program says that its springs hold
 ENERGY_RISE = 1e-4   # of the span of the mechanical energy
@@ -91,18 +93,6 @@ def surfaces_of(path):
 
 
 # --- depth in a closed surface
-
-def sub(a, b):
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def dot(a, b):
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
 
 def distance_to_segment(p, a, b):
     d, e = sub(b, a), sub(p, a)
