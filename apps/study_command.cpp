@@ -15,6 +15,7 @@
 #include "apps/headless_browser.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/orders_study.hpp"
+#include "apps/stability_study.hpp"
 #include "apps/sub_face_study.hpp"
 #include "apps/svg_picture.hpp"
 
@@ -22,12 +23,14 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-const std::array<Study, 4> studies = {
+const std::array<Study, 5> studies = {
     {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
       study_sub_faces},
      {"orders", "error, unknowns and time of one block against its order", study_orders},
      {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning},
-     {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps", study_contact}}};
+     {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps", study_contact},
+     {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
+      study_stability}}};
 
 std::vector<std::string> names() {
   std::vector<std::string> list;

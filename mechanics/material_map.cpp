@@ -28,15 +28,16 @@ std::optional<Vector3> MaterialMap::material(const Vector3& place) const {
   if (!invertible_) return std::nullopt;
   Vector3 point = centroid_ + inverse_ * (place - middle_);
   if (affine_) return point;
-  // A bent block's surroundings are left when a step would go farther than the block is large.
+  // A bent block's surroundings are left when a step would go farther than the block is large. What a step
+  // leaves is of the order of its square: after one of 1e-8 sizes, of rounding.
   constexpr int step_limit = 12;
-  constexpr double accuracy = 1e-13;
+  constexpr double last_step = 1e-8;
   for (int step = 0; step < step_limit; ++step) {
     const Vector3 lacking = place - state_->position.transpose() * model_->basis().values(point);
     const Vector3 change = gradient(point).partialPivLu().solve(lacking);
     if (!change.allFinite() || change.norm() > size_) return std::nullopt;
     point += change;
-    if (change.norm() <= accuracy * size_) return point;
+    if (change.norm() <= last_step * size_) return point;
   }
   return std::nullopt;
 }

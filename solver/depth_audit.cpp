@@ -14,24 +14,19 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-/// A block as an audit sees it.
-struct AuditedBlock {
-  std::vector<Vector3> points;   ///< of its surface, m
-  std::vector<Vector3> middles;  ///< of its edges, m; empty: they are straight
-  std::vector<Box> edges;
-  Box box;  ///< of the points, grown by how far the surface is off its cells
-};
-
-AuditedBlock audited(const BlockSurface& surface, const BlockState& state) {
+AuditedBlock placed_block(const BlockSurface& surface, const BlockState& state) {
   AuditedBlock block;
   block.points = surface.points(state);
   block.box = box_of(block.points).grown(surface.bulge(state));
+  return block;
+}
+
+void place_edges(const BlockSurface& surface, const BlockState& state, AuditedBlock& block) {
   block.middles = surface.edge_middles(state);
   for (const SurfaceEdge& edge : surface.surface().edges) {
     block.edges.push_back(box_of(std::array{block.points[at(edge.ends[0])], block.points[at(edge.ends[1])]}));
     if (!block.middles.empty()) block.edges.back().include(block.middles[block.edges.size() - 1]);
   }
-  return block;
 }
 
 bool contains(const Box& box, const Vector3& point) {
@@ -70,7 +65,9 @@ class PairAudit {
         finder_(finder),
         map_(map),
         resolution_(resolution),
-        clear_(clear) {}
+        clear_(clear),
+        points_(with_points.points.size()),
+        middles_(with_points.middles.size()) {}
 
   [[nodiscard]] PairDepth run() {
     for (std::size_t k = 0; k < with_points_.points.size(); ++k) check_point(static_cast<int>(k));
@@ -81,10 +78,26 @@ class PairAudit {
   }
 
  private:
+  /// Where a place is in the outer block: asked for once.
+  struct Preimage {
+    bool asked = false;
+    std::optional<Vector3> material;
+  };
+  /// An end of a piece of an edge.
+  struct EdgePlace {
+    const Vector3& place;
+    Preimage& preimage;
+  };
+
+  const std::optional<Vector3>& material_of(Preimage& preimage, const Vector3& place) const {
+    if (!preimage.asked) preimage = {true, map_.material(place)};
+    return preimage.material;
+  }
+
   void check_point(int point) {
     const Vector3& place = with_points_.points[at(point)];
     if (!contains(outer_.box, place)) return;
-    const auto material = map_.material(place);
+    const auto& material = material_of(points_[at(point)], place);
     if (!material) return;
     if (!clear_.points.empty()) {
       ClearBall& ball = clear_.points[at(point)];
@@ -97,24 +110,31 @@ class PairAudit {
 
   void check_edge(std::size_t index) {
     const SurfaceEdge& edge = surface_.edges[index];
-    const Vector3& start = with_points_.points[at(edge.ends[0])];
-    const Vector3& end = with_points_.points[at(edge.ends[1])];
+    const EdgePlace start{with_points_.points[at(edge.ends[0])], points_[at(edge.ends[0])]};
+    const EdgePlace end{with_points_.points[at(edge.ends[1])], points_[at(edge.ends[1])]};
     if (with_points_.middles.empty()) {
       check_piece(index, {start, end}, {0.0, 1.0});
     } else {
-      check_piece(2 * index, {start, with_points_.middles[index]}, {0.0, 0.5});
-      check_piece(2 * index + 1, {with_points_.middles[index], end}, {0.5, 1.0});
+      const EdgePlace middle{with_points_.middles[index], middles_[index]};
+      check_piece(2 * index, {start, middle}, {0.0, 0.5});
+      check_piece(2 * index + 1, {middle, end}, {0.5, 1.0});
     }
   }
 
   /// @param piece of an edge; @param shares of the edge
-  void check_piece(std::size_t piece, const std::array<Vector3, 2>& ends,
+  void check_piece(std::size_t piece, const std::array<EdgePlace, 2>& ends,
                    const std::array<double, 2>& shares) {
-    const auto part = clipped(outer_.box, ends[0], ends[1]);
+    const Vector3& start = ends[0].place;
+    const Vector3 whole = ends[1].place - start;
+    const auto part = clipped(outer_.box, start, ends[1].place);
     if (!part) return;
-    const Vector3 whole = ends[1] - ends[0];
-    const auto first = map_.material(ends[0] + (*part)[0] * whole);
-    const auto last = map_.material(ends[0] + (*part)[1] * whole);
+    const auto at_share = [&](double share) {
+      if (share == 0.0) return material_of(ends[0].preimage, start);
+      if (share == 1.0) return material_of(ends[1].preimage, ends[1].place);
+      return map_.material(start + share * whole);
+    };
+    const auto first = at_share((*part)[0]);
+    const auto last = at_share((*part)[1]);
     if (!first || !last) return;
     ClearSegment* known = clear_.edges.empty() ? nullptr : &clear_.edges[piece];
     if (known != nullptr && known->clears(*first, *last)) return;
@@ -126,7 +146,7 @@ class PairAudit {
     const double within = way.squaredNorm() > 0.0 ? way.dot(depth->place - *first) / way.squaredNorm() : 0.0;
     const double along = (*part)[0] + within * ((*part)[1] - (*part)[0]);
     const std::size_t edge = with_points_.middles.empty() ? piece : piece / 2;
-    take(*depth, ends[0] + along * whole, surface_.edges[edge].ends,
+    take(*depth, start + along * whole, surface_.edges[edge].ends,
          shares[0] + along * (shares[1] - shares[0]));
   }
 
@@ -148,6 +168,8 @@ class PairAudit {
   const MaterialMap& map_;
   double resolution_;
   ClearParts& clear_;
+  std::vector<Preimage> points_;
+  std::vector<Preimage> middles_;
   PairDepth deepest_{};
 };
 
@@ -155,6 +177,7 @@ class PairAudit {
 
 void DepthAudit::forget(std::size_t block) {
   finders_[block].reset();
+  audited_[block] = {};
   std::erase_if(
       clear_, [&](const auto& entry) { return at(entry.first[0]) == block || at(entry.first[1]) == block; });
 }
@@ -169,11 +192,10 @@ void DepthAudit::prepare(const std::array<int, 2>& blocks, std::size_t points, s
 std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
                                        const std::vector<BlockState>& states,
                                        const std::vector<BlockSurface>& surfaces, const AuditScope& scope) {
-  std::vector<AuditedBlock> audited_blocks;
   std::vector<Box> boxes;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    audited_blocks.push_back(audited(surfaces[k], states[k]));
-    boxes.push_back(audited_blocks.back().box);
+    if (!blocks[k].fixed() || audited_[k].points.empty()) audited_[k] = placed_block(surfaces[k], states[k]);
+    boxes.push_back(audited_[k].box);
   }
   std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
   std::erase_if(pairs, [&](const auto& pair) {
@@ -184,12 +206,14 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
     for (const int block : pair) {
       if (!maps[at(block)]) maps[at(block)].emplace(blocks[at(block)], states[at(block)]);
       if (!finders_[at(block)]) finders_[at(block)].emplace(blocks[at(block)].solid());
+      if (audited_[at(block)].edges.empty())
+        place_edges(surfaces[at(block)], states[at(block)], audited_[at(block)]);
     }
   }
   std::vector<std::array<PairDepth, 2>> found(pairs.size());
   for (const auto& [a, b] : pairs) {
     for (const auto& [inner, outer] : {std::array{a, b}, std::array{b, a}}) {
-      const AuditedBlock& block = audited_blocks[at(inner)];
+      const AuditedBlock& block = audited_[at(inner)];
       prepare({inner, outer}, block.points.size(), block.edges.size() + block.middles.size());
     }
   }
@@ -197,7 +221,7 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
     const auto& [a, b] = pairs[k];
     const auto audit = [&](int inner, int outer) {
       PairDepth depth =
-          PairAudit(audited_blocks[at(inner)], surfaces[at(inner)].surface(), audited_blocks[at(outer)],
+          PairAudit(audited_[at(inner)], surfaces[at(inner)].surface(), audited_[at(outer)],
                     *finders_[at(outer)], *maps[at(outer)], scope.resolution, clear_.at({inner, outer}))
               .run();
       depth.blocks = {inner, outer};

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/box.hpp"
 #include "geometry/solid_depth.hpp"
 #include "mechanics/block_surface.hpp"
 
@@ -58,6 +59,14 @@ struct ClearParts {
   std::vector<ClearSegment> edges;  ///< halves of edges that may curve, one after the other
 };
 
+/// A block as an audit sees it.
+struct AuditedBlock {
+  std::vector<Vector3> points;   ///< of its surface, m; empty: not looked at yet
+  Box box;                       ///< of the points, grown by how far the surface is off its cells
+  std::vector<Vector3> middles;  ///< of its edges, m; empty: they are straight
+  std::vector<Box> edges;        ///< empty: no other block has been near
+};
+
 /// What an audit looks at.
 struct AuditScope {
   std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
@@ -68,7 +77,7 @@ struct AuditScope {
 /// Keeps what does not change of each block from audit to audit.
 class DepthAudit {
  public:
-  explicit DepthAudit(std::size_t blocks) : finders_(blocks) {}
+  explicit DepthAudit(std::size_t blocks) : audited_(blocks), finders_(blocks) {}
 
   /// The deepest point of every ordered pair of blocks that are in each other, by blocks.
   /// @param states finite
@@ -83,6 +92,7 @@ class DepthAudit {
   /// Makes room for what is known of the points of the first block near the second.
   void prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges);
 
+  std::vector<AuditedBlock> audited_;                     ///< those of fixed blocks stay
   std::vector<std::optional<SolidDepthFinder>> finders_;  ///< of blocks that have been near others
   std::map<std::array<int, 2>, ClearParts>
       clear_;  ///< of a block (first) near another one; empty: that is convex

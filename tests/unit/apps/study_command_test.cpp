@@ -8,6 +8,7 @@
 
 #include "apps/conditioning_study.hpp"
 #include "apps/orders_study.hpp"
+#include "apps/stability_study.hpp"
 #include "apps/study.hpp"
 #include "apps/sub_face_study.hpp"
 #include "support/temporary_folder.hpp"
@@ -79,6 +80,17 @@ TEST(ConditioningStudy, TheOrthonormalBasisLosesLittleAnywhere) {
     if (row[0] == 0.0 && row[1] == 10.0 && row[2] == 3.0) {
       EXPECT_GT(row[3], 1e12);
     }
+  }
+}
+
+TEST(StabilityStudy, BlocksFarFromTheOrdinaryAreWhatIsPromised) {
+  const StudyResult result = study_stability_of({{1, 2}, 4, 2.5e-3});
+  EXPECT_TRUE(result.holds);
+  for (const std::string& finding : result.findings)
+    EXPECT_EQ(finding.find("NOT"), std::string::npos) << finding;
+  for (const auto& row : result.rows) {
+    EXPECT_EQ(row[8], 1.0) << "sweep " << row[0] << ", value " << row[1];
+    EXPECT_LE(row[4], row[9]) << "sweep " << row[0] << ", value " << row[1];
   }
 }
 
