@@ -151,6 +151,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["contact_depth_max"] = simulation.largest_penetration();
   if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
     summary["deepest"] = json_of(deepest, simulation);
+  if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
+    summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
   summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},
                                {"lost", simulation.ledger().refound_lost}};
   summary["energy_residual"] = simulation.ledger().residual;

@@ -142,6 +142,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
         acted[k].force = after.means[k].force;
         if (!stop.forces.empty()) acted[k].force += stop.forces[k];
       }
+      if (settings_.augmented && !scheme.from_rest) tally_friction(acted, laws, scheme.step);
       if (const auto slowed = slowed_.find({pair.a(), pair.b()}); slowed != slowed_.end())
         add_impulse(slowed->second, scheme.step, pair.points(), acted);
       records_.push_back({pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps),
@@ -198,6 +199,16 @@ void Simulation::keep_angular_momentum(const TimeScheme& scheme, const Trial& tr
     const double gain = add_spin(blocks_, body, -stray, std::max(limit, 0.0), states_);
     ledger_.numerical -= gain;
     spin_debts_[at(body.front())] = std::min(0.0, limit - gain);
+  }
+}
+
+void Simulation::tally_friction(const std::vector<PointResponse>& acted, const std::vector<PointLaw>& laws,
+                                double step) {
+  for (std::size_t k = 0; k < acted.size(); ++k) {
+    if (acted[k].state != ContactState::sliding) continue;
+    const Eigen::Vector3d& force = acted[k].force;
+    sliding_friction_.due += step * (laws[k].cohesion + laws[k].friction * std::max(force[0], 0.0));
+    sliding_friction_.acted += step * force.tail<2>().norm();
   }
 }
 

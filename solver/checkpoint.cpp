@@ -80,6 +80,11 @@ static void visit_members(Archive& archive, Ledger& ledger) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, FrictionTally& tally) {
+  archive(tally.due, tally.acted);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, DeepestPoint& deepest) {
   archive(deepest.blocks, deepest.depth, deepest.share, deepest.time, deepest.place);
 }
@@ -144,8 +149,8 @@ static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
           snapshot.carried, snapshot.accelerations, snapshot.spin_debts, snapshot.memory,
           snapshot.contact_work, snapshot.taken, snapshot.finder, snapshot.report, snapshot.records,
           snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
-          snapshot.largest_energy, snapshot.largest_penetration, snapshot.deepest, snapshot.true_depths,
-          snapshot.rejections, snapshot.counts, snapshot.seconds);
+          snapshot.largest_energy, snapshot.largest_penetration, snapshot.deepest, snapshot.sliding_friction,
+          snapshot.true_depths, snapshot.rejections, snapshot.counts, snapshot.seconds);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -191,6 +196,7 @@ SimulationSnapshot Simulation::snapshot() const {
   result.largest_energy = largest_energy_;
   result.largest_penetration = largest_penetration_;
   result.deepest = deepest_;
+  result.sliding_friction = sliding_friction_;
   result.true_depths = true_depths_;
   result.rejections = rejections_;
   result.counts = counts();
@@ -241,6 +247,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   largest_energy_ = snapshot.largest_energy;
   largest_penetration_ = snapshot.largest_penetration;
   deepest_ = snapshot.deepest;
+  sliding_friction_ = snapshot.sliding_friction;
   true_depths_ = snapshot.true_depths;
   rejections_ = snapshot.rejections;
   solvers_ = IslandSolvers();

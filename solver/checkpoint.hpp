@@ -45,6 +45,7 @@ struct SimulationSnapshot {
   double largest_energy = 0.0;
   double largest_penetration = 0.0;
   DeepestPoint deepest;
+  FrictionTally sliding_friction;
   std::map<std::array<int, 2>, double> true_depths;
   std::vector<Rejection> rejections;
   SimulationCounts counts;

@@ -100,6 +100,15 @@ struct DeepestPoint {
   Vector3 place = Vector3::Zero();       ///< m
 };
 
+/// Friction at points that slid on multipliers, beside what Coulomb's law makes of their normal forces.
+struct FrictionTally {
+  double due = 0.0;    ///< N s, tan(phi) times normal impulses, and cohesion
+  double acted = 0.0;  ///< N s, of the shear forces
+
+  /// By how much of what was due more has acted, < 0: less.
+  [[nodiscard]] double excess() const { return due > 0.0 ? acted / due - 1.0 : 0.0; }
+};
+
 /// Initial motion of a block.
 struct InitialMotion {
   Vector3 velocity = Vector3::Zero();          ///< m/s
@@ -194,6 +203,8 @@ class Simulation {
   [[nodiscard]] double largest_penetration() const { return largest_penetration_; }
   /// Of any corner or edge, whatever its contacts say (depth_audit.hpp).
   [[nodiscard]] const DeepestPoint& deepest() const { return deepest_; }
+  /// 0 where contact is springs, whose friction is Coulomb's at each point and time.
+  [[nodiscard]] const FrictionTally& sliding_friction() const { return sliding_friction_; }
   /// Measures how deep blocks are in each other now. @return the pair that is too deep by
   /// most
   std::optional<StateFault> audit();
@@ -353,6 +364,9 @@ class Simulation {
   /// Counts it; what multipliers give beyond what they have taken so far is booked as gained.
   /// @param work that they have taken from the blocks of a pair in the step, J; negative: given
   void take_for_multipliers(const ContactPair& pair, double work);
+  /// @param acted forces of a pair's points over a step, impulses included
+  void tally_friction(const std::vector<PointResponse>& acted, const std::vector<PointLaw>& laws,
+                      double step);
   void note_elastic_energy(std::size_t block);
   void note_elastic_energies();
   /// Of the present state; elastic as noted.
@@ -428,6 +442,7 @@ class Simulation {
   double largest_energy_ = 0.0;
   double largest_penetration_ = 0.0;
   DeepestPoint deepest_;
+  FrictionTally sliding_friction_;
   std::map<PairKey, double>
       true_depths_;  ///< at the end of the last step, m, of pairs that are in each other
   DepthAudit audit_;

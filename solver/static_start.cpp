@@ -38,6 +38,7 @@ StaticStatus Simulation::start_from_statics() {
   largest_step_residual_ = largest_energy_ = 0.0;
   largest_penetration_ = report_.penetration;
   deepest_ = DeepestPoint{};
+  sliding_friction_ = FrictionTally{};
   return status;
 }
 
