@@ -27,7 +27,7 @@ void append_csv_number(std::string& text, double value) {
 }
 
 std::string quote_csv_field(std::string_view text) {
-  const std::string field = looks_like_formula(text) ? '\'' + std::string(text) : std::string(text);
+  std::string field = looks_like_formula(text) ? '\'' + std::string(text) : std::string(text);
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
   std::string quoted = "\"";
   for (const char c : field) {
