@@ -20,6 +20,14 @@ Vector3 required_vector(TomlTableReader& table, const char* key) {
   return result;
 }
 
+// The same of coordinates.
+Vector3 required_place(TomlTableReader& table, const char* key) {
+  Vector3 result = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  table.require(key);
+  table.read_place(key, result);
+  return result;
+}
+
 // A direction of any length but zero.
 Vector3 required_direction(TomlTableReader& table, const char* key) {
   Vector3 result = required_vector(table, key);
@@ -33,7 +41,7 @@ Vector3 required_direction(TomlTableReader& table, const char* key) {
 }
 
 SceneShape read_box(TomlTableReader table) {
-  const SceneBox box{required_vector(table, "min"), required_vector(table, "max")};
+  const SceneBox box{required_place(table, "min"), required_place(table, "max")};
   if (!box.min.allFinite() || !box.max.allFinite()) return {};
   for (int axis = 0; axis < 3; ++axis)
     if (box.min[axis] >= box.max[axis]) {
@@ -59,18 +67,16 @@ SceneShape read_mesh_shape(TomlTableReader table) {
 
 SceneShape read_hull(TomlTableReader table) {
   SceneHull hull;
-  std::vector<std::vector<double>> rows;
   table.require("points");
-  if (!table.read_rows("points", rows, 3, 4, "[x, y, z]")) return {};
-  for (const auto& row : rows) hull.points.emplace_back(row[0], row[1], row[2]);
+  if (!table.read_places("points", hull.points, 4)) return {};
   return hull;
 }
 
 SceneShape read_sphere(TomlTableReader table) {
   SceneSphere sphere;
   table.require("radius");
-  const bool center_good = table.read_vector("center", sphere.center) || !table.given("center");
-  const bool radius_good = table.read_number("radius", sphere.radius, range::positive);
+  const bool center_good = table.read_place("center", sphere.center) || !table.given("center");
+  const bool radius_good = table.read_number("radius", sphere.radius, range::positive_length);
   const bool fineness_good =
       table.read_integer("subdivisions", sphere.subdivisions, 0, 7) || !table.given("subdivisions");
   if (!center_good || !radius_good || !fineness_good) return {};
@@ -105,7 +111,7 @@ SceneRotation read_rotation(TomlTableReader table) {
   rotation.axis = required_direction(table, "axis");
   table.require("angle");
   table.read_number("angle", rotation.angle, range::any_number);
-  table.read_vector("about", rotation.about);
+  table.read_place("about", rotation.about);
   return rotation;
 }
 
@@ -117,10 +123,10 @@ std::variant<ScenePlane, Vector3> read_where(TomlTableReader& table) {
                                      plane_given ? "two places" : "no place"));
   if (plane_given) {
     TomlTableReader plane = table.table_or_empty("plane");
-    return ScenePlane{required_vector(plane, "point"), required_direction(plane, "normal")};
+    return ScenePlane{required_place(plane, "point"), required_direction(plane, "normal")};
   }
   Vector3 point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  table.read_vector("point", point);
+  table.read_place("point", point);
   return point;
 }
 
@@ -213,7 +219,7 @@ SceneBlock read_block(TomlTableReader& table) {
   block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name));
   if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);
   if (table.given("rotate") && !(block.rotate && block.rotate->axis.allFinite())) block.shape = {};
-  if (!table.read_vector("translate", block.translate) && table.given("translate")) block.shape = {};
+  if (!table.read_place("translate", block.translate) && table.given("translate")) block.shape = {};
   table.read_vector("velocity", block.velocity);
   table.read_vector("angular_velocity", block.angular_velocity);
   block.fix = table.read_tables("fix", read_fix);

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <nlohmann/json.hpp>
+
+#include "apps/json_text.hpp"
 
 namespace ashlar {
 namespace {
@@ -17,12 +18,8 @@ void put(Buffer& out, std::string_view text) {
   out.append(text.data(), text.data() + text.size());
 }
 
-// JSON readers of some languages take a number without a point for an integer.
 void put(Buffer& out, double value) {
-  const std::size_t start = out.size();
-  fmt::format_to(std::back_inserter(out), "{}", value);
-  if (std::string_view(out.data() + start, out.size() - start).find_first_of(".e") == std::string_view::npos)
-    put(out, ".0");
+  append_json_number(out, value);
 }
 
 void put(Buffer& out, const Vector3& v) {
@@ -212,9 +209,7 @@ std::string contact_report_json(const ContactReport& report, double angle) {
 }
 
 std::string contact_error_json(const std::vector<std::string>& messages) {
-  const nlohmann::json json = {{"error", messages}};
-  // File names need not be text of any encoding.
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text({{"error", messages}});
 }
 
 std::string contact_report_text(const ContactReport& report, std::string_view a, std::string_view b) {

@@ -67,12 +67,13 @@ std::optional<Resolution> resolution_of(const ContactsOptions& options) {
 std::optional<ContactReport> report_of(const LoadedBody& a, const LoadedBody& b, const std::string& a_path,
                                        const std::string& b_path, const std::optional<Resolution>& resolution,
                                        std::vector<Diagnostic>& faults) {
-  for (const auto& [body, path] : {std::pair(&a, &a_path), std::pair(&b, &b_path)}) {
-    if (body == &b && *path == a_path) break;
-    faults.insert(faults.end(), body->faults.begin(), body->faults.end());
-    if (resolution && resolution->sine > 0.0 && body->body && body->body->shape() == nullptr)
-      faults.push_back(fault_at(*path, 0, 0, not_convex));
-  }
+  const auto add_faults = [&](const LoadedBody& body, const std::string& path) {
+    faults.insert(faults.end(), body.faults.begin(), body.faults.end());
+    if (resolution && resolution->sine > 0.0 && body.body && body.body->shape() == nullptr)
+      faults.push_back(fault_at(path, 0, 0, not_convex));
+  };
+  add_faults(a, a_path);
+  if (b_path != a_path) add_faults(b, b_path);
   if (!faults.empty()) return std::nullopt;
   return report_contact(*a.body, *b.body, resolution);
 }

@@ -5,6 +5,16 @@
 #include <cmath>
 
 namespace ashlar {
+namespace {
+
+/// Whether a spreadsheet would compute the field, or would if apostrophes before it were taken off.
+bool looks_like_formula(std::string_view field) {
+  const std::size_t start = field.find_first_not_of('\'');
+  return start != std::string_view::npos &&
+         std::string_view("=+-@\t\r").find(field[start]) != std::string_view::npos;
+}
+
+}  // namespace
 
 void append_csv_number(std::string& text, double value) {
   std::array<char, 32> digits;
@@ -16,8 +26,9 @@ void append_csv_number(std::string& text, double value) {
   text.append(begin, result.ptr);
 }
 
-std::string quote_csv_field(std::string_view field) {
-  if (field.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(field);
+std::string quote_csv_field(std::string_view text) {
+  std::string field = looks_like_formula(text) ? '\'' + std::string(text) : std::string(text);
+  if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
   std::string quoted = "\"";
   for (const char c : field) {
     if (c == '"') quoted += '"';
@@ -43,6 +54,11 @@ std::vector<std::string> split_csv_line(std::string_view line) {
     }
   }
   return fields;
+}
+
+std::string unmarked_csv_field(std::string_view field) {
+  const bool marked = field.starts_with('\'') && looks_like_formula(field);
+  return std::string(marked ? field.substr(1) : field);
 }
 
 }  // namespace ashlar

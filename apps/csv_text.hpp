@@ -11,10 +11,15 @@ namespace ashlar {
 /// exponent, "nan", "inf" and "-inf" for what is not finite.
 void append_csv_number(std::string& text, double value);
 
-/// RFC 4180: a field with a comma, a quote or a line break is quoted, others are returned as they are.
+/// A field that is text, as a name of the scene: RFC 4180, so that one with a comma, a quote or a line break
+/// is quoted; and with an apostrophe before it if it begins with = + - @ or a tab, after any apostrophes,
+/// which spreadsheets take for the beginning of a formula. Numbers are not text.
 [[nodiscard]] std::string quote_csv_field(std::string_view field);
 
-/// The fields of one line, unquoted; a line break inside a quoted field belongs to the line.
+/// The fields of one line without quotes; a line break inside a quoted field belongs to the line.
 [[nodiscard]] std::vector<std::string> split_csv_line(std::string_view line);
+
+/// The text that was given to quote_csv_field, from a field without quotes: the apostrophe is taken off.
+[[nodiscard]] std::string unmarked_csv_field(std::string_view field);
 
 }  // namespace ashlar

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <map>
 #include <stdexcept>
+#include <unordered_map>
 #include <utility>
 
 #include "apps/drawn_surface.hpp"
+#include "apps/grid_arrays.hpp"
 #include "apps/lagrange_triangle.hpp"
+#include "mechanics/basis.hpp"
 
 namespace ashlar {
 namespace {
@@ -17,16 +20,10 @@ std::size_t at(int index) {
   return static_cast<std::size_t>(index);
 }
 
-const DataArray* find_array(const std::vector<DataArray>& arrays, std::string_view name) {
-  const auto found =
-      std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) { return array.name == name; });
-  return found == arrays.end() ? nullptr : &*found;
-}
-
 /// The order n with (n + 1)(n + 2) / 2 points.
 int order_of(int points) {
   int order = 1;
-  while ((order + 1) * (order + 2) / 2 < points) ++order;
+  while (order < PolynomialBasis::max_order && (order + 1) * (order + 2) / 2 < points) ++order;
   if ((order + 1) * (order + 2) / 2 != points)
     throw std::runtime_error(fmt::format("a Lagrange triangle with {} points", points));
   return order;
@@ -34,19 +31,25 @@ int order_of(int points) {
 
 std::vector<Vector3> undeformed(const UnstructuredGrid& frame) {
   std::vector<Vector3> points = frame.points;
-  const DataArray* array = find_array(frame.point_data, "displacement");
-  if (array == nullptr) return points;
-  const auto& values = std::get<std::vector<double>>(array->values);
+  const auto* values = find_values<double>(frame.point_data, "displacement", 3);
+  if (values == nullptr) return points;
   for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] -= Vector3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    points[i] -= Vector3((*values)[3 * i], (*values)[3 * i + 1], (*values)[3 * i + 2]);
   return points;
 }
 
-const std::vector<std::int32_t>& blocks_of_cells(const UnstructuredGrid& frame) {
-  const DataArray* array = find_array(frame.cell_data, "block");
-  if (array == nullptr || !std::holds_alternative<std::vector<std::int32_t>>(array->values))
-    throw std::runtime_error("a frame has no array 'block'");
-  return std::get<std::vector<std::int32_t>>(array->values);
+/// With the corners alone as its points, by numbers of its own.
+CurvedTriangles with_own_points(const CurvedTriangles& triangles, const std::vector<Vector3>& points) {
+  CurvedTriangles own{triangles.order, {}, triangles.corners};
+  std::unordered_map<int, int> number;
+  for (auto& corners : own.corners) {
+    for (int& corner : corners) {
+      const auto [known, is_new] = number.try_emplace(corner, static_cast<int>(own.points.size()));
+      if (is_new) own.points.push_back(points[at(corner)]);
+      corner = known->second;
+    }
+  }
+  return own;
 }
 
 /// The values of some cells, one after the other.
@@ -71,7 +74,7 @@ CurvedCells::CurvedCells(const UnstructuredGrid& frame)
   const auto is_curved = [](VtkCellType type) { return type == VtkCellType::lagrange_triangle; };
   curved_ = std::any_of(frame.types.begin(), frame.types.end(), is_curved);
   if (!curved_) return;
-  const auto& block_of_cell = blocks_of_cells(frame);
+  const auto& block_of_cell = required_values<std::int32_t>(frame.cell_data, "block", 1);
   std::map<std::pair<int, int>, Block> blocks;  // by number and order
   std::vector<int> new_index(frame.points.size(), -1);
   for (int cell = 0; cell < static_cast<int>(frame.types.size()); ++cell) {
@@ -87,11 +90,10 @@ CurvedCells::CurvedCells(const UnstructuredGrid& frame)
         {connectivity_[at(first)], connectivity_[at(first) + 1], connectivity_[at(first) + 2]});
     block.cells.push_back(cell);
   }
+  const std::vector<Vector3> points = undeformed(frame);
   std::vector<CurvedTriangles> triangles;
-  for (auto& [key, block] : blocks) {
-    block.triangles.points = undeformed(frame);
-    triangles.push_back(block.triangles);
-  }
+  triangles.reserve(blocks.size());
+  for (const auto& [key, block] : blocks) triangles.push_back(with_own_points(block.triangles, points));
   const std::vector<int> pieces = pieces_of_sides(triangles);
   std::size_t next = 0;
   for (const auto& [key, block] : blocks) divide(block, pieces[next++]);
@@ -110,15 +112,20 @@ void CurvedCells::keep(const UnstructuredGrid& frame, int cell, std::vector<int>
   cells_.push_back(std::move(kept));
 }
 
-void CurvedCells::divide(const Block& block, int pieces) {
-  const int first_row = static_cast<int>(rows_.size());
-  std::map<LatticeWeights, int> row_of;
+const CurvedCells::RowIndex& CurvedCells::rows_for(int order, int pieces) {
+  const auto [known, is_new] = row_of_.try_emplace({order, pieces});
+  if (!is_new) return known->second;
   for (const LatticeWeights& weights : lagrange_nodes(pieces)) {
-    row_of.emplace(weights, first_row + static_cast<int>(row_of.size()));
-    rows_.push_back(lagrange_values(block.triangles.order, {static_cast<double>(weights[0]) / pieces,
-                                                            static_cast<double>(weights[1]) / pieces,
-                                                            static_cast<double>(weights[2]) / pieces}));
+    known->second.emplace(weights, static_cast<int>(rows_.size()));
+    rows_.push_back(lagrange_values(
+        order, {static_cast<double>(weights[0]) / pieces, static_cast<double>(weights[1]) / pieces,
+                static_cast<double>(weights[2]) / pieces}));
   }
+  return known->second;
+}
+
+void CurvedCells::divide(const Block& block, int pieces) {
+  const RowIndex& row_of = rows_for(block.triangles.order, pieces);
   const SharedLattice lattice = shared_lattice(block.triangles.corners, pieces);
   const int first_point = static_cast<int>(points_.size());
   for (const SharedLattice::Point& point : lattice.points) {

@@ -2,6 +2,9 @@
 // only.
 #pragma once
 
+#include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "apps/vtu_writer.hpp"
@@ -14,8 +17,8 @@ class CurvedCells {
  public:
   /// @param frame with cells in blocks by the cell array "block"; the point array "displacement", if there,
   /// gives the undeformed places, on which the number of pieces depends (pieces_of_sides)
-  /// @throws std::runtime_error if a Lagrange triangle has a number of points that no order has, or there is
-  /// no array "block"
+  /// @throws std::runtime_error if a Lagrange triangle has a number of points that no order up to 12 has,
+  /// there is no array "block", or one of the two arrays has another type or number of components
   explicit CurvedCells(const UnstructuredGrid& frame);
 
   /// The frame with small triangles in place of each Lagrange triangle, their points and real point data from
@@ -37,7 +40,10 @@ class CurvedCells {
     std::vector<int> points;  ///< indices into points_
   };
   struct Block;
+  using RowIndex = std::map<std::array<int, 3>, int>;  ///< row of rows_ by the weights of a lattice point
 
+  /// Of a triangle of an order whose sides have so many pieces; made when first asked for.
+  const RowIndex& rows_for(int order, int pieces);
   void keep(const UnstructuredGrid& frame, int cell, std::vector<int>& new_index);
   void divide(const Block& block, int pieces);
   [[nodiscard]] std::vector<double> interpolated(const std::vector<double>& values,
@@ -47,6 +53,7 @@ class CurvedCells {
   std::vector<int> connectivity_;
   std::vector<int> offsets_;
   std::vector<std::vector<double>> rows_ = {{1.0}};
+  std::map<std::pair<int, int>, RowIndex> row_of_;  ///< by order and pieces
   std::vector<Point> points_;
   std::vector<Cell> cells_;
 };

@@ -22,7 +22,8 @@ bool may_curve(const BlockModel& block) {
   return block.incremental() == nullptr && block.order() >= 2 && !block.fixed();
 }
 
-/// Longest side of the triangles over the diagonal of the box around them.
+/// Longest side of the triangles over the diagonal of the box around them; 0 if that is a point or not
+/// finite.
 double relative_side(const CurvedTriangles& block) {
   Eigen::AlignedBox3d box;
   double longest = 0.0;
@@ -33,7 +34,8 @@ double relative_side(const CurvedTriangles& block) {
       longest = std::max(longest, (block.points[at(corners[(k + 1) % 3])] - start).norm());
     }
   }
-  return box.isEmpty() ? 0.0 : longest / box.diagonal().norm();
+  const double share = box.isEmpty() ? 0.0 : longest / box.diagonal().norm();
+  return std::isfinite(share) ? share : 0.0;
 }
 
 DrawnSurface flat_surface(const SubFaceSurface& surface) {

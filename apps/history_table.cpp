@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "apps/csv_text.hpp"
+#include "apps/input_file.hpp"
 #include "apps/thinned_series.hpp"
 
 namespace ashlar {
@@ -42,12 +43,13 @@ std::vector<double> parse_row(std::string_view line, std::size_t columns) {
 }  // namespace
 
 HistoryTable read_history(const std::filesystem::path& path, std::size_t most_rows) {
+  naming_the_file(path, [&] { require_regular_file(path); });
   const std::size_t count = count_rows(path);
   std::ifstream input(path, std::ios::binary);
   std::string line;
   if (!std::getline(input, line)) fail(path, "it cannot be opened or is empty");
   HistoryTable table;
-  table.columns = split_csv_line(line);
+  for (const std::string& field : split_csv_line(line)) table.columns.push_back(unmarked_csv_field(field));
   ThinnedSeries<std::vector<double>> rows(most_rows, {count == 0 ? 0 : count - 1});
   for (std::size_t row = 0; row < count && std::getline(input, line); ++row) {
     if (!rows.wants(row)) continue;

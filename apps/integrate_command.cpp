@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "apps/json_text.hpp"
 #include "apps/mesh_loading.hpp"
 #include "mechanics/moments.hpp"
 
@@ -33,7 +34,7 @@ std::string moments_json(int degree, const std::vector<std::array<int, 3>>& expo
     const auto& [a, b, c] = exponents[k];
     list.push_back({{"a", a}, {"b", b}, {"c", c}, {"value", values[k]}});
   }
-  return nlohmann::ordered_json{{"degree", degree}, {"moments", std::move(list)}}.dump() + '\n';
+  return json_text({{"degree", degree}, {"moments", std::move(list)}}) + '\n';
 }
 
 }  // namespace

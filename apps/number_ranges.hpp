@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "geometry/coordinate_limit.hpp"
+
 namespace ashlar {
 
 /// Numbers that are allowed and the words for them ("a number > 0").
@@ -24,6 +26,8 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 inline constexpr NumberRange any_number = {-no_limit, no_limit, false, false, "a number"};
 inline constexpr NumberRange positive = {0.0, no_limit, false, false, "a number > 0"};
+inline constexpr NumberRange positive_length = {0.0, largest_coordinate, false, true,
+                                                "a number > 0 and <= 1e150"};
 inline constexpr NumberRange not_negative = {0.0, no_limit, true, false, "a number >= 0"};
 inline constexpr NumberRange zero_to_one = {0.0, 1.0, true, true, "a number from 0 to 1"};
 inline constexpr NumberRange zero_to_below_half = {0.0, 0.5, true, false, "a number >= 0 and < 0.5"};

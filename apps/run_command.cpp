@@ -13,6 +13,7 @@
 #include "apps/atomic_file.hpp"
 #include "apps/command_line.hpp"
 #include "apps/initial_state.hpp"
+#include "apps/json_text.hpp"
 #include "apps/loose_blocks.hpp"
 #include "apps/progress.hpp"
 #include "apps/result_folder.hpp"
@@ -141,7 +142,7 @@ class Run {
     progress.finish();
     const auto summary =
         run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
-    write_file_atomically(folder_.path() / "summary.json", summary.dump(2) + "\n", Durability::process);
+    write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
     return status;
   }
 

@@ -124,7 +124,7 @@ SceneMeasure read_measure(TomlTableReader& table) {
   for (const char* key : {"name", "block", "point"}) table.require(key);
   table.read_name("name", measure.name);
   table.read_name("block", measure.block);
-  table.read_vector("point", measure.point);
+  table.read_place("point", measure.point);
   return measure;
 }
 

@@ -11,8 +11,10 @@
 #include <stdexcept>
 
 #include "apps/scene_json.hpp"
+#include "geometry/coordinate_limit.hpp"
 #include "geometry/hull_solid.hpp"
 #include "geometry/mesh_io.hpp"
+#include "geometry/shape_loss.hpp"
 #include "geometry/shapes.hpp"
 
 namespace ashlar {
@@ -61,12 +63,17 @@ std::vector<Vector3> turned_points(std::vector<Vector3> points, double scale, co
   return points;
 }
 
+double largest_coordinate_of(const std::vector<Vector3>& points) {
+  double largest = 0.0;
+  for (const Vector3& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  return largest;
+}
+
 // What given coordinates are known to, m: they may have been turned before, in double precision and some
 // operations, by whoever wrote them.
 double resolution_of(const std::vector<Vector3>& points) {
   constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
-  double largest = 0.0;
-  for (const Vector3& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  const double largest = largest_coordinate_of(points);
   return std::isfinite(largest) ? share * largest : 0.0;
 }
 
@@ -74,6 +81,22 @@ double resolution_of(const std::vector<Vector3>& points) {
 struct ShapeError : std::runtime_error {
   using runtime_error::runtime_error;
 };
+
+Polyhedron not_lost(Polyhedron solid, double resolution) {
+  if (!is_lost_in_rounding(solid)) return solid;
+  throw ShapeError(fmt::format(
+      "shape is lost in rounding (coordinates up to {:.4g} m are known to {:.4g} m), a thicker one or one "
+      "nearer to the origin is needed",
+      largest_coordinate_of(solid.mesh().points), resolution));
+}
+
+void require_coordinates(const std::vector<Vector3>& points) {
+  const double largest = largest_coordinate_of(points);
+  if (!is_too_far(largest)) return;
+  throw ShapeError(
+      fmt::format("shape has a coordinate that is too large ({:.4g} m), at most {:.4g} m is allowed", largest,
+                  largest_coordinate));
+}
 
 // All defects by kind, each with the first elements that have it.
 std::string describe_defects(const MeshError& error) {
@@ -95,7 +118,7 @@ Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
   try {
     TriangleMesh mesh = read_mesh(file);
     const double resolution = resolution_of(mesh.points);
-    return Polyhedron(std::move(mesh), resolution);
+    return not_lost(Polyhedron(std::move(mesh), resolution), resolution);
   } catch (const MeshFileError& error) {
     const std::string place = to_string(Place{file.string(), error.line(), error.column()});
     throw ShapeError(
@@ -117,7 +140,8 @@ struct SolidBuilder {
   Polyhedron operator()(const SceneBox& box) const { return Polyhedron(make_box(box.min, box.max)); }
   Polyhedron operator()(const SceneMesh& mesh) const { return build_mesh_solid(scene, mesh); }
   Polyhedron operator()(const SceneHull& hull) const {
-    return make_hull_solid(hull.points, resolution_of(hull.points));
+    const double resolution = resolution_of(hull.points);
+    return not_lost(make_hull_solid(hull.points, resolution), resolution);
   }
   Polyhedron operator()(const SceneSphere& sphere) const {
     return Polyhedron(make_sphere(sphere.center, sphere.radius, sphere.subdivisions));
@@ -129,7 +153,9 @@ Polyhedron build_shape(const Scene& scene, const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   try {
     const Polyhedron own = std::visit(SolidBuilder{scene}, block.shape);
-    return own.with_points(turned_points(own.mesh().points, mesh ? mesh->scale : 1.0, block));
+    std::vector<Vector3> points = turned_points(own.mesh().points, mesh ? mesh->scale : 1.0, block);
+    require_coordinates(points);
+    return own.with_points(std::move(points));
   } catch (const MeshError& error) {
     throw ShapeError(fmt::format("shape bounds no solid ({}), a larger or rounder one is needed",
                                  describe_defects(error)));
@@ -142,6 +168,7 @@ Polyhedron build_shape(const Scene& scene, const SceneBlock& block) {
 Polyhedron translated(const Polyhedron& shape, const Vector3& way) {
   std::vector<Vector3> points = shape.mesh().points;
   for (Vector3& point : points) point += way;
+  require_coordinates(points);
   try {
     return shape.with_points(std::move(points));
   } catch (const std::invalid_argument& error) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "apps/nearest_name.hpp"
+#include "geometry/coordinate_limit.hpp"
 
 namespace ashlar {
 
@@ -229,6 +230,37 @@ bool TomlTableReader::read_vector(std::string_view key, Vector3& result) {
   const auto row = read_row(*node, key, 3, "[x, y, z]");
   if (!row) return false;
   result = Vector3((*row)[0], (*row)[1], (*row)[2]);
+  return true;
+}
+
+bool TomlTableReader::check_place(const toml::node& node, std::string_view key, const Vector3& place) {
+  for (const double coordinate : place) {
+    if (!is_too_far(coordinate)) continue;
+    reading_.error(
+        node, fmt::format("{} has a coordinate that is too large ({:g} m), -1e150 to 1e150 is needed", key,
+                          coordinate));
+    return false;
+  }
+  return true;
+}
+
+bool TomlTableReader::read_place(std::string_view key, Vector3& result) {
+  Vector3 place;
+  if (!read_vector(key, place) || !check_place(*find(key), key, place)) return false;
+  result = place;
+  return true;
+}
+
+bool TomlTableReader::read_places(std::string_view key, std::vector<Vector3>& result, std::size_t minimum) {
+  std::vector<std::vector<double>> rows;
+  if (!read_rows(key, rows, 3, minimum, "[x, y, z]")) return false;
+  const toml::array& entries = *find(key)->as_array();
+  std::vector<Vector3> places;
+  for (const auto& row : rows) {
+    places.emplace_back(row[0], row[1], row[2]);
+    if (!check_place(entries[places.size() - 1], key, places.back())) return false;
+  }
+  result = std::move(places);
   return true;
 }
 

@@ -47,10 +47,14 @@ class TomlTableReader {
   bool read_integer(std::string_view key, int& result, int low, int high);
   bool read_integer(std::string_view key, std::optional<int>& result, int low, int high);
   bool read_vector(std::string_view key, Vector3& result);
+  /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
+  bool read_place(std::string_view key, Vector3& result);
   bool read_texts(std::string_view key, std::vector<std::string>& result);
   /// An array of rows of `width` finite numbers each, at least `minimum` of them. @param words for a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                  std::size_t minimum, const char* words);
+  /// Rows of three coordinates, as read_rows and read_place.
+  bool read_places(std::string_view key, std::vector<Vector3>& result, std::size_t minimum);
   /// Rows whose first number is a time, which must increase from row to row.
   bool read_history(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                     const char* words);
@@ -104,6 +108,8 @@ class TomlTableReader {
                                                     std::string_view words);
   [[nodiscard]] std::optional<std::vector<double>> read_row(const toml::node& node, std::string_view key,
                                                             std::size_t width, std::string_view words);
+  /// Reports the first coordinate that is too large, at the node. @return whether there is none
+  bool check_place(const toml::node& node, std::string_view key, const Vector3& place);
   [[nodiscard]] std::string child_name(std::string_view key) const;
   void wrong_type(const toml::node& node, std::string_view key, std::string_view words);
 

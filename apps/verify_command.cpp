@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "apps/json_text.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/verification.hpp"
 
@@ -96,7 +97,7 @@ int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const VerificationCase& listed : all_verification_cases())
       list.push_back({{"name", listed.name}, {"description", listed.description}});
-    out << list.dump(2) << '\n';
+    out << json_text(list, 2) << '\n';
     return exit_status::done;
   }
   if (options.list) {
@@ -117,7 +118,7 @@ int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream
       print(outcome, out);
   }
   if (options.json) {
-    out << nlohmann::ordered_json{{"passed", failed == 0}, {"cases", std::move(list)}}.dump(2) << '\n';
+    out << json_text({{"passed", failed == 0}, {"cases", std::move(list)}}, 2) << '\n';
   } else {
     out << fmt::format("{} of {} cases passed\n", cases.size() - static_cast<std::size_t>(failed),
                        cases.size());

@@ -31,7 +31,8 @@ Polyhedron prism(const Outline& outline) {
     for (const auto& [x, z] : outline) mesh.points.emplace_back(x, y, z);
   std::vector<int> loop(outline.size());
   std::iota(loop.begin(), loop.end(), 0);
-  triangulate_polygon(mesh.points, loop, mesh.triangles);
+  std::size_t tests_left = loop.size() * loop.size() * loop.size();
+  triangulate_polygon(mesh.points, loop, mesh.triangles, tests_left);
   const std::vector<std::array<int, 3>> front = mesh.triangles;
   for (const auto& [a, b, c] : front) mesh.triangles.push_back({count + a, count + c, count + b});
   for (int k = 0; k < count; ++k) {

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <fstream>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -16,7 +15,10 @@
 #include "apps/atomic_file.hpp"
 #include "apps/base64.hpp"
 #include "apps/curved_cells.hpp"
+#include "apps/grid_arrays.hpp"
 #include "apps/history_table.hpp"
+#include "apps/input_file.hpp"
+#include "apps/json_text.hpp"
 #include "apps/thinned_series.hpp"
 #include "apps/view_assets.hpp"
 #include "apps/vtu_reader.hpp"
@@ -34,20 +36,6 @@ std::string base64_of(const std::vector<T>& values) {
   return to_base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
-const DataArray* find_array(const std::vector<DataArray>& arrays, std::string_view name) {
-  const auto found =
-      std::find_if(arrays.begin(), arrays.end(), [&](const DataArray& array) { return array.name == name; });
-  return found == arrays.end() ? nullptr : &*found;
-}
-
-template <class T>
-const std::vector<T>& required_values(const std::vector<DataArray>& arrays, std::string_view name) {
-  const DataArray* array = find_array(arrays, name);
-  if (array == nullptr || !std::holds_alternative<std::vector<T>>(array->values))
-    throw std::runtime_error(fmt::format("a frame has no array '{}'", name));
-  return std::get<std::vector<T>>(array->values);
-}
-
 void append_floats(std::vector<float>& floats, const std::vector<double>& values) {
   for (const double value : values) floats.push_back(static_cast<float>(value));
 }
@@ -63,14 +51,13 @@ struct Surface {
 Surface surface_of(const UnstructuredGrid& grid) {
   Surface surface;
   surface.reference = grid.points;
-  if (const DataArray* array = find_array(grid.point_data, "displacement")) {
-    const auto& values = std::get<std::vector<double>>(array->values);
+  if (const auto* values = find_values<double>(grid.point_data, "displacement", 3)) {
     for (std::size_t i = 0; i < grid.points.size(); ++i)
-      surface.reference[i] -= Vector3(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+      surface.reference[i] -= Vector3((*values)[3 * i], (*values)[3 * i + 1], (*values)[3 * i + 2]);
   }
-  const auto& block = required_values<std::int32_t>(grid.cell_data, "block");
-  const auto& order = required_values<std::int32_t>(grid.cell_data, "order");
-  const auto& face = required_values<std::int32_t>(grid.cell_data, "face");
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
+  const auto& order = required_values<std::int32_t>(grid.cell_data, "order", 1);
+  const auto& face = required_values<std::int32_t>(grid.cell_data, "face", 1);
   int start = 0;
   for (std::size_t c = 0; c < grid.offsets.size(); ++c) {
     const int end = grid.offsets[c];
@@ -79,8 +66,8 @@ Surface surface_of(const UnstructuredGrid& grid) {
                          grid.connectivity.begin() + end);
     start = end;
   }
-  surface.velocity = find_array(grid.point_data, "velocity") != nullptr;
-  surface.stress = find_array(grid.point_data, "stress") != nullptr;
+  surface.velocity = find_values<double>(grid.point_data, "velocity", 3) != nullptr;
+  surface.stress = find_values<double>(grid.point_data, "stress", 6) != nullptr;
   return surface;
 }
 
@@ -92,19 +79,20 @@ void append_blocks(std::vector<float>& floats, const UnstructuredGrid& grid, con
     const Vector3 displacement = grid.points[i] - surface.reference[i];
     for (int k = 0; k < 3; ++k) floats.push_back(static_cast<float>(displacement[k]));
   }
-  if (surface.velocity) append_floats(floats, required_values<double>(grid.point_data, "velocity"));
-  if (surface.stress) append_floats(floats, required_values<double>(grid.point_data, "stress"));
+  if (surface.velocity) append_floats(floats, required_values<double>(grid.point_data, "velocity", 3));
+  if (surface.stress) append_floats(floats, required_values<double>(grid.point_data, "stress", 6));
 }
 
 /// Place, force, normal, gap, area, type, state and both blocks of each contact: 15 numbers.
 void append_contacts(std::vector<float>& floats, const UnstructuredGrid& grid) {
   const auto& data = grid.point_data;
-  const std::array vectors = {&required_values<double>(data, "force"),
-                              &required_values<double>(data, "normal")};
-  const std::array scalars = {&required_values<double>(data, "gap"), &required_values<double>(data, "area")};
+  const std::array vectors = {&required_values<double>(data, "force", 3),
+                              &required_values<double>(data, "normal", 3)};
+  const std::array scalars = {&required_values<double>(data, "gap", 1),
+                              &required_values<double>(data, "area", 1)};
   const std::array numbers = {
-      &required_values<std::int32_t>(data, "type"), &required_values<std::int32_t>(data, "state"),
-      &required_values<std::int32_t>(data, "block_a"), &required_values<std::int32_t>(data, "block_b")};
+      &required_values<std::int32_t>(data, "type", 1), &required_values<std::int32_t>(data, "state", 1),
+      &required_values<std::int32_t>(data, "block_a", 1), &required_values<std::int32_t>(data, "block_b", 1)};
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     for (int k = 0; k < 3; ++k) floats.push_back(static_cast<float>(grid.points[i][k]));
     for (const auto* values : vectors) {
@@ -118,7 +106,9 @@ void append_contacts(std::vector<float>& floats, const UnstructuredGrid& grid) {
 /// "frames/blocks_0000950.vtu" is step 950.
 int step_of(const std::string& file) {
   const std::size_t start = file.find_last_of('_');
-  return start == std::string::npos ? 0 : std::atoi(file.c_str() + start + 1);
+  int step = 0;
+  if (start != std::string::npos) std::from_chars(file.data() + start + 1, file.data() + file.size(), step);
+  return step;
 }
 
 struct ViewFrame {
@@ -150,19 +140,25 @@ class FrameReader {
     // A run that goes on has written one of the two first.
     count_ = std::min(blocks_.size(), contacts_.size());
     if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
-    UnstructuredGrid first = read_vtu(folder_ / blocks_.front().file);
-    curved_ = std::make_unique<CurvedCells>(first);
-    surface_ = surface_of(curved_->divided(std::move(first)));
+    const std::filesystem::path path = folder_ / blocks_.front().file;
+    UnstructuredGrid first = read_vtu(path);
+    naming_the_file(path, [&] {
+      curved_ = std::make_unique<CurvedCells>(first);
+      surface_ = surface_of(curved_->divided(std::move(first)));
+    });
   }
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
   [[nodiscard]] ViewFrame read(std::size_t index) const {
-    const UnstructuredGrid contacts = read_vtu(folder_ / contacts_[index].file);
+    const std::filesystem::path of_blocks = folder_ / blocks_[index].file;
+    const std::filesystem::path of_contacts = folder_ / contacts_[index].file;
     std::vector<float> floats;
-    append_blocks(floats, curved_->divided(read_vtu(folder_ / blocks_[index].file)), surface_);
-    append_contacts(floats, contacts);
+    UnstructuredGrid blocks = read_vtu(of_blocks);
+    naming_the_file(of_blocks, [&] { append_blocks(floats, curved_->divided(std::move(blocks)), surface_); });
+    const UnstructuredGrid contacts = read_vtu(of_contacts);
+    naming_the_file(of_contacts, [&] { append_contacts(floats, contacts); });
     Json head = {{"index", index},
                  {"step", step_of(blocks_[index].file)},
                  {"time", blocks_[index].time},
@@ -187,9 +183,9 @@ Json history_json(const std::filesystem::path& folder) {
 }
 
 Json summary_json(const std::filesystem::path& folder) {
-  std::ifstream input(folder / "summary.json");
-  if (!input) return nullptr;
-  return Json::parse(input, nullptr, false);
+  const std::filesystem::path path = folder / "summary.json";
+  if (!std::filesystem::exists(path)) return nullptr;
+  return naming_the_file(path, [&] { return parse_json(whole_file(path)); });
 }
 
 Json scene_json(const std::filesystem::path& folder, const Surface& surface) {
@@ -210,7 +206,7 @@ Json scene_json(const std::filesystem::path& folder, const Surface& surface) {
 /// JSON that cannot end the script element it stands in, whatever a name in the scene contains.
 std::string script_safe(const Json& json) {
   std::string safe;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : json_text(json)) {
     if (c == '<') {
       safe += "\\u003c";
     } else {

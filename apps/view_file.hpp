@@ -27,8 +27,8 @@ struct ViewReport {
 
 /// Reads the result folder and writes the page to `page`. A folder without summary.json (a run that goes on
 /// or was killed) is shown with block numbers for names.
-/// @throws std::runtime_error with path and reason if the folder has no frames, or a file cannot be read or
-/// written; std::out_of_range if there is no frame `options.frame`.
+/// @throws std::runtime_error with path and reason if the folder has no frames, or a file cannot be read, is
+/// not what a run writes or cannot be written; std::out_of_range if there is no frame `options.frame`.
 ViewReport write_view_file(const std::filesystem::path& folder, const std::filesystem::path& page,
                            const ViewOptions& options = {});
 

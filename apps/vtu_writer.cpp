@@ -85,6 +85,8 @@ void check_arrays(const std::vector<DataArray>& arrays, std::size_t tuples, std:
     };
     if (!names.insert(array.name).second) complain("the name is used twice");
     if (array.components < 1) complain("fewer than one component");
+    if (array.components > most_components)
+      complain(fmt::format("{} components, {} at most", array.components, most_components));
     const auto components = static_cast<std::size_t>(array.components);
     if (!array.component_names.empty() && array.component_names.size() != components) {
       complain(fmt::format("{} component names for {} components", array.component_names.size(), components));

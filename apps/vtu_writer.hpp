@@ -22,11 +22,14 @@ enum class VtkCellType : std::uint8_t {
   lagrange_triangle = 69,  ///< (n + 1)(n + 2) / 2 points of a triangle of order n, see lagrange_triangle.hpp
 };
 
+/// Largest number of components of a field: a tensor has nine.
+inline constexpr int most_components = 9;
+
 /// One field. ParaView shows 3 components as a vector and 9 (row by row) as a tensor; it takes 6 as a
 /// symmetric tensor in the order xx, yy, zz, xy, yz, xz.
 struct DataArray {
   std::string name;
-  int components = 1;                        ///< values of each point or cell, at least 1
+  int components = 1;                        ///< values of each point or cell, 1 to most_components
   std::vector<std::string> component_names;  ///< none, or one for each component
   std::variant<std::vector<double>, std::vector<std::int32_t>>
       values;  ///< (#points or #cells x components), point after point

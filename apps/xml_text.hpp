@@ -54,16 +54,22 @@ namespace ashlar {
   return plain;
 }
 
-/// The value of an attribute of a tag, ` name="value"`, as a program of this project wrote it.
+/// The value of an attribute of a tag, ` name="value"`, as a program of this project wrote it. Values before
+/// it are passed over, whatever they hold.
 /// @return unescaped; empty if the tag has no such attribute.
 [[nodiscard]] inline std::optional<std::string> xml_attribute(std::string_view tag, std::string_view name) {
-  const std::string start = ' ' + std::string(name) + "=\"";
-  const std::size_t found = tag.find(start);
-  if (found == std::string_view::npos) return std::nullopt;
-  const std::string_view rest = tag.substr(found + start.size());
-  const std::size_t end = rest.find('"');
-  if (end == std::string_view::npos) return std::nullopt;
-  return unescape_xml(rest.substr(0, end));
+  constexpr std::string_view start = "=\"";
+  for (;;) {
+    const std::size_t equals = tag.find(start);
+    if (equals == std::string_view::npos) return std::nullopt;
+    const std::size_t end = tag.find('"', equals + start.size());
+    if (end == std::string_view::npos) return std::nullopt;
+    const std::string_view before = tag.substr(0, equals);
+    const std::size_t blank = before.find_last_of(' ');
+    if (blank != std::string_view::npos && before.substr(blank + 1) == name)
+      return unescape_xml(tag.substr(equals + start.size(), end - equals - start.size()));
+    tag.remove_prefix(end + 1);
+  }
 }
 
 }  // namespace ashlar

@@ -27,7 +27,8 @@ struct PolygonSoup {
 };
 
 /// All readers promise: indices in range, at least three corners to a face. They allocate no more than a
-/// multiple of the bytes given, whatever a header claims. Coordinates may be NaN or infinite.
+/// multiple of the bytes given, whatever a header claims. Coordinates may be NaN or infinite, but finite ones
+/// are no farther from zero than largest_coordinate.
 /// @param text at most 2^31 - 1 bytes. @throws MeshFileError.
 /// @{
 
@@ -48,5 +49,8 @@ struct PolygonSoup {
 [[nodiscard]] PolygonSoup read_ply(std::string_view text);
 
 /// @}
+
+/// The faces divided by triangulate_polygon. @throws MeshFileError if their corners are too many for that
+[[nodiscard]] TriangleMesh triangulated(PolygonSoup soup);
 
 }  // namespace ashlar

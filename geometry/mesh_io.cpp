@@ -55,17 +55,30 @@ std::string read_bytes(const fs::path& path) {
 
 }  // namespace
 
-TriangleMesh read_mesh(const fs::path& path) {
-  const Format& format = format_of(path);
-  const std::string bytes = read_bytes(path);
-  PolygonSoup soup = format.read(bytes);
+TriangleMesh triangulated(PolygonSoup soup) {
+  // About a second of work: enough for a face of 10,000 corners whose ears are found at the first try.
+  constexpr std::size_t most_tests = 50'000'000;
+  std::size_t tests_left = most_tests;
   TriangleMesh mesh;
   mesh.points = std::move(soup.points);
   mesh.triangles.reserve(soup.face_count());
   for (std::size_t f = 0; f < soup.face_count(); ++f) {
-    triangulate_polygon(mesh.points, soup.face(f), mesh.triangles);
+    try {
+      triangulate_polygon(mesh.points, soup.face(f), mesh.triangles, tests_left);
+    } catch (const std::length_error&) {
+      throw MeshFileError("corners of face " + std::to_string(f) + " (" +
+                              std::to_string(soup.face(f).size()) +
+                              "), too many to divide it, triangles are needed",
+                          0, 0);
+    }
   }
   return mesh;
+}
+
+TriangleMesh read_mesh(const fs::path& path) {
+  const Format& format = format_of(path);
+  const std::string bytes = read_bytes(path);
+  return triangulated(format.read(bytes));
 }
 
 }  // namespace ashlar

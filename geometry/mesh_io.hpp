@@ -28,8 +28,8 @@ class MeshFileError : public std::runtime_error {
 /// else is changed or repaired, non-finite coordinates included; see Polyhedron::find_defects for what is
 /// then refused.
 /// @return points in m as written.
-/// @throws MeshFileError: missing, unreadable, unknown ending, malformed, truncated, index out of range, no
-/// faces.
+/// @throws MeshFileError: missing, unreadable, unknown ending, malformed, truncated, index out of range,
+/// coordinate beyond 1e150 (binary files: with the byte it begins at in the message), no faces.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
 
 }  // namespace ashlar

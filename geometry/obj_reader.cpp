@@ -41,9 +41,9 @@ class ObjReader {
  private:
   // A fourth number is a weight; six or seven are a point with its colour.
   void read_point() {
-    const double x = scan_.number("x coordinate");
-    const double y = scan_.number("y coordinate");
-    const double z = scan_.number("z coordinate");
+    const double x = scan_.coordinate("x coordinate");
+    const double y = scan_.coordinate("y coordinate");
+    const double z = scan_.coordinate("z coordinate");
     soup_.points.emplace_back(x, y, z);
     TextScanner ahead = scan_;
     if (ahead.word().empty()) return;

@@ -28,9 +28,9 @@ int read_count(TextScanner& scan, std::string_view what) {
 
 void read_point(TextScanner& scan, bool more_columns, PolygonSoup& soup) {
   scan.require_line("point " + std::to_string(soup.points.size()));
-  const double x = scan.number("x coordinate");
-  const double y = scan.number("y coordinate");
-  const double z = scan.number("z coordinate");
+  const double x = scan.coordinate("x coordinate");
+  const double y = scan.coordinate("y coordinate");
+  const double z = scan.coordinate("z coordinate");
   soup.points.emplace_back(x, y, z);
   if (!more_columns) scan.expect_end_of_line();
 }

@@ -38,7 +38,7 @@ PlyFormat read_format(TextScanner& scan) {
 }
 
 PlyElement read_element(TextScanner& scan) {
-  const std::string name(scan.require_word("the element's name"));
+  const std::string name = printable(scan.require_word("the element's name"));
   const long long count = scan.integer("number of elements", 0, std::numeric_limits<int>::max());
   scan.expect_end_of_line();
   return {name, count, {}};
@@ -54,7 +54,7 @@ PlyProperty read_property(TextScanner& scan) {
     if (!is_integer(property.count_type)) scan.fail("type of a list's length", "must be an integer type");
   }
   property.type = read_type(scan);
-  property.name = scan.require_word("the property's name");
+  property.name = printable(scan.require_word("the property's name"));
   scan.expect_end_of_line();
   return property;
 }

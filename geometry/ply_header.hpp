@@ -18,14 +18,14 @@ enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64
 [[nodiscard]] bool is_integer(PlyType type);
 
 struct PlyProperty {
-  std::string name;
+  std::string name;  ///< made printable, for messages
   PlyType type;
   bool is_list = false;
   PlyType count_type = PlyType::uint8;  ///< of a list's length
 };
 
 struct PlyElement {
-  std::string name;
+  std::string name;  ///< made printable, for messages
   long long count;
   std::vector<PlyProperty> properties;
 };

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <sstream>
 
 #include "geometry/binary_values.hpp"
+#include "geometry/coordinate_limit.hpp"
 #include "geometry/mesh_formats.hpp"
 #include "geometry/ply_header.hpp"
 
@@ -31,7 +33,8 @@ class TextValues {
     scan_.word();
     scan_.fail("text after the last element", "the file must end here");
   }
-  [[noreturn]] void fail(const std::string& what, long long /*value*/, const std::string& allowed) const {
+  template <class Number>
+  [[noreturn]] void fail(const std::string& what, Number /*value*/, const std::string& allowed) const {
     scan_.fail(what, allowed);
   }
 
@@ -43,7 +46,9 @@ class TextValues {
 
 class BinaryValues {
  public:
-  BinaryValues(std::string_view bytes, std::endian order) : bytes_(bytes), order_(order) {}
+  // @param start of the body in the file
+  BinaryValues(std::string_view bytes, std::size_t start, std::endian order)
+      : bytes_(bytes), file_size_(start + bytes.size()), order_(order) {}
 
   [[nodiscard]] std::size_t most_items(const PlyElement& element) const {
     std::size_t size = 0;
@@ -57,6 +62,7 @@ class BinaryValues {
       throw MeshFileError("file ends before " + property.name + " of the last " + element_->name, 0, 0);
     }
     const double result = decode(type);
+    place_ = file_size_ - bytes_.size();
     bytes_.remove_prefix(size);
     return result;
   }
@@ -65,8 +71,11 @@ class BinaryValues {
     if (bytes_.empty()) return;
     throw MeshFileError(std::to_string(bytes_.size()) + " bytes after the last element", 0, 0);
   }
-  [[noreturn]] void fail(const std::string& what, long long value, const std::string& allowed) const {
-    throw MeshFileError(what + " (" + std::to_string(value) + "), " + allowed, 0, 0);
+  template <class Number>
+  [[noreturn]] void fail(const std::string& what, Number value, const std::string& allowed) const {
+    std::ostringstream text;
+    text << what << " at byte " << place_ << " (" << value << "), " << allowed;
+    throw MeshFileError(text.str(), 0, 0);
   }
 
  private:
@@ -93,6 +102,8 @@ class BinaryValues {
   }
 
   std::string_view bytes_;
+  std::size_t file_size_;
+  std::size_t place_ = 0;  // of the last value in the file
   std::endian order_;
   const PlyElement* element_ = nullptr;
 };
@@ -158,7 +169,9 @@ class BodyReader {
         }
         const double value = values_.value(property, property.type);
         const auto* const axis = std::find(axes_.begin(), axes_.end(), p);
-        if (is_vertex && axis != axes_.end()) point[axis - axes_.begin()] = value;
+        if (!is_vertex || axis == axes_.end()) continue;
+        if (is_too_far(value)) values_.fail(property.name + " coordinate", value, "allowed -1e150 to 1e150");
+        point[axis - axes_.begin()] = value;
       }
       values_.end_item();
       if (is_vertex) soup_.points.push_back(point);
@@ -199,7 +212,7 @@ PolygonSoup read_ply(std::string_view text) {
   if (header.format == PlyFormat::text) return BodyReader(header, TextValues(scan)).run();
   const std::endian order =
       header.format == PlyFormat::little_endian ? std::endian::little : std::endian::big;
-  return BodyReader(header, BinaryValues(scan.rest(), order)).run();
+  return BodyReader(header, BinaryValues(scan.rest(), text.size() - scan.rest().size(), order)).run();
 }
 
 }  // namespace ashlar

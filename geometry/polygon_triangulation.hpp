@@ -1,6 +1,7 @@
 // Flat polygons of mesh files as triangles.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "geometry/triangle_mesh.hpp"
@@ -12,9 +13,13 @@ namespace ashlar {
 /// exactly in the projection along the axis nearest to the polygon's normal; corners in straight sides give
 /// no triangle without area. A polygon that is not simple gets some triangles, for the check of the mesh to
 /// refuse.
+///
+/// The time goes with the square of the number of corners, hence a limit.
 /// @param corners at least 3 indices into points.
+/// @param tests_left of corners in ears, lessened by those made
+/// @throws std::length_error if it comes to 0
 void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int> corners,
-                         std::vector<std::array<int, 3>>& triangles);
+                         std::vector<std::array<int, 3>>& triangles, std::size_t& tests_left);
 
 /// Appends a convex polygon as a fan from the smallest of its indices, wherever its loop begins.
 /// @param loop at least 3 indices

@@ -82,9 +82,9 @@ void read_facet(TextScanner& scan, PointWelder& welder) {
   for (int corner = 0; corner < 3; ++corner) {
     scan.require_line("\"vertex\"");
     scan.expect({"vertex"});
-    const double x = scan.number("x coordinate");
-    const double y = scan.number("y coordinate");
-    const double z = scan.number("z coordinate");
+    const double x = scan.coordinate("x coordinate");
+    const double y = scan.coordinate("y coordinate");
+    const double z = scan.coordinate("z coordinate");
     scan.expect_end_of_line();
     welder.add_corner({x, y, z});
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "geometry/coordinate_limit.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -87,6 +89,12 @@ double TextScanner::number(std::string_view what) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::result_out_of_range) fail(what, "must be in the range of double precision");
   if (error != std::errc() || end != digits.data() + digits.size()) fail(what, "must be a number");
+  return value;
+}
+
+double TextScanner::coordinate(std::string_view what) {
+  const double value = number(what);
+  if (is_too_far(value)) fail(what, "allowed -1e150 to 1e150");
   return value;
 }
 

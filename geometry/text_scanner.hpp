@@ -32,6 +32,8 @@ class TextScanner {
 
   /// A decimal number, "inf" and "nan" included; overflow and underflow to zero are refused.
   double number(std::string_view what);
+  /// A number that is no coordinate beyond largest_coordinate.
+  double coordinate(std::string_view what);
   /// A decimal integer from low to high.
   long long integer(std::string_view what, long long low, long long high);
   /// The same from a given part of the last word.

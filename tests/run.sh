@@ -42,7 +42,7 @@ check_format() {
 run_clang_tidy() {
   say 'clang-tidy'
   cmake --preset clang
-  sources | grep -z '\.cpp$' | grep -zv '^tests/package/' |
+  sources | grep -z '\.cpp$' | grep -zEv '^tests/(package/|fuzz/fuzz_main)' |
     xargs -0 -n 1 -P "$jobs" clang-tidy --quiet -p build/clang
 }
 

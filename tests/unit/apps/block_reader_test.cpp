@@ -41,6 +41,23 @@ INSTANTIATE_TEST_SUITE_P(
         FaultCase{
             16, "",
             "s.toml:13:1: error: block \"A\" has no shape, exactly one of box, mesh, hull, sphere is needed"},
+        FaultCase{
+            16, "box = { min = [0, 0, 0], max = [1, 1, 1.7e308] }",
+            "s.toml:16:32: error: max has a coordinate that is too large (1.7e+308 m), -1e150 to 1e150"},
+        FaultCase{16, "box = { min = [0, -2e150, 0], max = [1, 1, 1] }",
+                  "s.toml:16:15: error: min has a coord"},
+        FaultCase{16, "hull = { points = [[0,0,0],[1,0,0],[0,1,0],[0,0,2e150]] }",
+                  "s.toml:16:44: error: points has a coordinate that is too large (2e+150 m)"},
+        FaultCase{16, "sphere = { radius = 2e150 }", "s.toml:16:21: error: radius is out of range (2.e+150)"},
+        FaultCase{16, "sphere = { radius = 1, center = [2e150, 0, 0] }",
+                  "s.toml:16:33: error: center has a coord"},
+        FaultCase{16, "box = { min = [0,0,0], max = [1,1,1] }\ntranslate = [0, 0, -2e150]",
+                  "s.toml:17:13: error: translate has a coordinate that is too large (-2e+150 m)"},
+        FaultCase{
+            16,
+            "box = { min = [0,0,0], max = [1,1,1] }\nrotate = { axis = [0, 0, 1e200], angle = 30, about = "
+            "[2e150, 0, 0] }",
+            "s.toml:17:54: error: about has a coordinate that is too large (2e+150 m)"},
         FaultCase{16, "box = { min = [0,0,0], max = [1,1,1] }\nsphere = { radius = 1 }",
                   "s.toml:13:1: error: block \"A\" has 2 shapes (box, sphere), exactly one of"},
         FaultCase{16, "box = [1, 2, 3]",
@@ -72,6 +89,10 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Fix, BlockReaderFault,
     ::testing::Values(
+        FaultCase{22, "plane = { point = [2e150, 0, 0], normal = [-1, 0, 0] }",
+                  "s.toml:22:19: error: point has a coordinate that is too large (2e+150 m)"},
+        FaultCase{22, "point = [2e150, 0, 0]",
+                  "s.toml:22:9: error: point has a coordinate that is too large"},
         FaultCase{22, "",
                   "s.toml:21:1: error: block.fix has no place (plane, point), exactly one of both is needed"},
         FaultCase{22, "plane = { point = [0, 0, 0], normal = [-1, 0, 0] }\npoint = [0, 0, 0]",

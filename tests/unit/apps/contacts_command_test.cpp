@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -216,6 +218,38 @@ TEST_F(ContactsCommand, PairsAreAnsweredInOrderAndBadOnesInTheirPlace) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr(list + ":4:9: error: open.off: open edge: edge 1-5"),
                                  HasSubstr(list + ":5:1: error: number of files (1)"),
                                  HasSubstr(list + ":6:7: error: quote is not closed")));
+}
+
+TEST_F(ContactsCommand, APairOfTheSameBadMeshHasItsFaultsOnceAndLeavesOthersTheirAnswers) {
+  write_cube("a.off", {0, 0, 1});
+  write_cube("b.off", {0, 0, 0});
+  TriangleMesh open = make_box({0, 0, 0}, {1, 1, 1});
+  open.triangles.pop_back();
+  write_off("open.off", open);
+  const std::string list =
+      write_list("a.off b.off\nmissing.off missing.off\nopen.off open.off\nb.off a.off\na.off a.off\n");
+  const Outcome outcome = run_line({"--pairs", list, "--json"});
+  EXPECT_EQ(outcome.status, exit_status::bad_input);
+  const std::vector<json> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[0]["type"], "F-F");
+  EXPECT_EQ(lines[1]["error"], json({list + ":2:1: error: missing.off: mesh file does not exist"}));
+  EXPECT_EQ(lines[2]["error"].size(), 3u);
+  EXPECT_EQ(lines[3]["type"], "F-F");
+  EXPECT_EQ(lines[4]["relation"], "crossing");
+  const std::string open_mesh = (folder_ / "open.off").string();
+  const Outcome two = run({open_mesh, open_mesh, {}, {}, {}, true});
+  EXPECT_EQ(std::count(two.err.begin(), two.err.end(), '\n'), 3);
+}
+
+TEST_F(ContactsCommand, NumbersThatAreNotFiniteAreNull) {
+  ContactReport report;
+  report.contacts.push_back({});
+  report.contacts[0].area = std::numeric_limits<double>::infinity();
+  report.squared_distance = std::numeric_limits<double>::quiet_NaN();
+  const json parsed = json::parse(contact_report_json(report, 0.0));
+  EXPECT_TRUE(parsed["contacts"][0]["area"].is_null());
+  EXPECT_TRUE(parsed["squared_distance"].is_null());
 }
 
 TEST_F(ContactsCommand, LongListsKeepTheirOrder) {

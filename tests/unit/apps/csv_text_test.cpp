@@ -55,6 +55,28 @@ TEST(CsvField, IsQuotedOnlyWhereNeeded) {
   EXPECT_EQ(quote_csv_field("a\nb"), "\"a\nb\"");
 }
 
+TEST(CsvField, DoesNotBeginAFormula) {
+  EXPECT_EQ(quote_csv_field("=cmd|'/c calc'!A1"), "'=cmd|'/c calc'!A1");
+  EXPECT_EQ(quote_csv_field("@SUM(1,1)"), "\"'@SUM(1,1)\"");
+  EXPECT_EQ(quote_csv_field("+1"), "'+1");
+  EXPECT_EQ(quote_csv_field("-1"), "'-1");
+  EXPECT_EQ(quote_csv_field("\t=1"), "'\t=1");
+  EXPECT_EQ(quote_csv_field("a=b"), "a=b");
+  EXPECT_EQ(quote_csv_field("'a'"), "'a'");
+  std::string number;
+  append_csv_number(number, -1.5);
+  EXPECT_EQ(number, "-1.5");
+}
+
+TEST(CsvField, GivesTheTextBack) {
+  for (const std::string text :
+       {"", "'", "=", "'=", "''-x", "'a", "a", "+,", "\"@\"", "\t", "-\"x\"", "it's"}) {
+    const auto fields = split_csv_line(quote_csv_field(text));
+    ASSERT_EQ(fields.size(), 1U) << text;
+    EXPECT_EQ(unmarked_csv_field(fields[0]), text);
+  }
+}
+
 TEST(CsvLine, IsSplitAtCommasOutsideQuotes) {
   using Fields = std::vector<std::string>;
   EXPECT_EQ(split_csv_line("step,tip.x"), (Fields{"step", "tip.x"}));

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ using ::testing::ThrowsMessage;
 
 TEST(HistoryTable, ReadsWhatTheWriterWrote) {
   const TemporaryFolder folder;
-  const std::vector<std::string> columns = {"step", "time", "a, \"b\".x"};
+  const std::vector<std::string> columns = {"step", "-a.y", "=a, \"b\".x"};
   HistoryWriter writer(folder / "h.csv", columns);
   writer.append(0, std::vector<double>{0.0, 0.1 + 0.2});
   writer.append(7, std::vector<double>{-1e-300, std::nan("")});
@@ -44,6 +45,13 @@ TEST(HistoryTable, ACutLastLineIsNotRead) {
   const TemporaryFolder folder;
   write_text(folder / "h.csv", "step,time\n0,0\n1,0.");
   EXPECT_EQ(read_history(folder / "h.csv", 4).rows.size(), 1U);
+}
+
+TEST(HistoryTable, APipeIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "h.csv").c_str(), 0600), 0);
+  EXPECT_THAT([&] { (void)read_history(folder / "h.csv", 4); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("h.csv: it is not a regular file")));
 }
 
 TEST(HistoryTable, FaultsNameTheLine) {

@@ -101,6 +101,39 @@ TEST(SceneSolids, HullAndSphere) {
   EXPECT_THAT(sphere.mesh().triangles, SizeIs(80));
 }
 
+std::vector<std::string> hull_faults(const std::string& points) {
+  Diagnostics diagnostics;
+  const std::string text = sample_with(16, "hull = { points = [" + points + "] }");
+  (void)build_solids(parse_scene(text, "s.toml", {}, diagnostics), diagnostics);
+  return printed(diagnostics);
+}
+
+TEST(SceneSolids, AShapeThatIsFlatToTheRoundingOfItsCoordinatesIsRefused) {
+  // Coordinates of 1e14 m are known to 64 units in the last place, 2^-46 of that: 1.4 m.
+  EXPECT_THAT(
+      hull_faults("[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1e14]"),
+      ElementsAre(StartsWith("s.toml:16:1: error: shape is lost in rounding (coordinates up to 1e+14 m "
+                             "are known to 1.421 m), a thicker one")));
+  EXPECT_THAT(hull_faults("[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1e13]"), ::testing::IsEmpty());
+  EXPECT_THAT(hull_faults("[0, 0, 0], [1e14, 0, 0], [0, 1e14, 0], [0, 0, 1]"), SizeIs(1));
+}
+
+TEST(SceneSolids, ShapesThatArePlacedTooFarAreRefused) {
+  const auto faults_with = [](double translation) {
+    Scene scene;
+    scene.block = {block_of(SceneBox{{0, 0, 0}, {9e149, 1, 1}})};
+    scene.block[0].translate = {translation, 0, 0};
+    Diagnostics diagnostics;
+    const bool built = build_solids(scene, diagnostics).at(0).has_value();
+    EXPECT_EQ(built, diagnostics.good());
+    return printed(diagnostics);
+  };
+  EXPECT_THAT(faults_with(1e149), ::testing::IsEmpty());
+  EXPECT_THAT(
+      faults_with(2e149),
+      ElementsAre(HasSubstr("shape has a coordinate that is too large (1.1e+150 m), at most 1e+150 m is")));
+}
+
 const std::string cube_off =
     "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
     "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
@@ -141,6 +174,23 @@ TEST_F(SceneMeshes, MalformedFileNamesItsOwnLine) {
   text.replace(text.find("1 0 0"), 5, "1 x 0");
   EXPECT_THAT(faults(text), ElementsAre(AllOf(StartsWith(mesh_place() + "mesh file cannot be used ("),
                                               HasSubstr("stone.off:4:"))));
+}
+
+TEST_F(SceneMeshes, AMeshThatIsFlatToTheRoundingOfItsCoordinatesIsRefused) {
+  const auto faults_at = [&](const std::string& far, const std::string& beyond) {
+    return faults("OFF\n4 4 0\n" + far + " 0 0\n" + beyond + " 0 0\n" + far + " 1 0\n" + far +
+                  " 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  };
+  EXPECT_THAT(faults_at("100000000000000", "100000000000001"),
+              ElementsAre(StartsWith(mesh_place() + "shape is lost in rounding (")));
+  EXPECT_THAT(faults_at("10000000000000", "10000000000001"), ::testing::IsEmpty());
+}
+
+TEST_F(SceneMeshes, ACoordinateBeyondTheLimitNamesItsLine) {
+  std::string text = cube_off;
+  text.replace(text.find("1 0 0"), 5, "2e150 0 0");
+  EXPECT_THAT(faults(text), ElementsAre(AllOf(StartsWith(mesh_place() + "mesh file cannot be used ("),
+                                              HasSubstr("stone.off:4:1: x coordinate (2e150), allowed"))));
 }
 
 TEST_F(SceneMeshes, OpenMeshNamesItsOpenEdges) {

@@ -11,6 +11,7 @@
 
 #include "apps/base64.hpp"
 #include "apps/view_file.hpp"
+#include "apps/vtu_reader.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar {
@@ -171,6 +172,60 @@ TEST_F(ViewCommand, FaultsNameTheFile) {
   write_text(folder / "out/frames/blocks_0000002.vtu", "");
   EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::bad_input);
   EXPECT_THAT(err.str(), HasSubstr("blocks_0000002.vtu"));
+}
+
+TEST_F(ViewCommand, ArraysOfAnotherShapeNameFileAndArray) {
+  const auto view_with = [&](const std::string& file, const std::string& name, int components, auto value) {
+    simulate();
+    UnstructuredGrid grid = read_vtu(folder / "out/frames" / file);
+    const auto change = [&](std::vector<DataArray>& arrays, std::size_t tuples) {
+      for (DataArray& array : arrays) {
+        if (array.name != name) continue;
+        array.components = components;
+        array.component_names.clear();
+        array.values = std::vector(tuples * static_cast<std::size_t>(components), value);
+      }
+    };
+    change(grid.point_data, grid.points.size());
+    change(grid.cell_data, grid.types.size());
+    write_vtu(folder / "out/frames" / file, grid);
+    err.str("");
+    EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::bad_input) << file << ' ' << name;
+    return err.str();
+  };
+  const std::string first = "blocks_0000000.vtu";
+  const std::string later = "blocks_0000002.vtu";
+  const std::string contacts = "contacts_0000001.vtu";
+  EXPECT_THAT(view_with(first, "displacement", 1, 0.0),
+              HasSubstr(first + ": array 'displacement' has 1 components, 3 needed"));
+  EXPECT_THAT(view_with(first, "displacement", 3, 0),
+              HasSubstr(first + ": array 'displacement' has the wrong type, Float64 is needed"));
+  EXPECT_THAT(view_with(first, "block", 1, 0.0),
+              HasSubstr(first + ": array 'block' has the wrong type, Int32 is needed"));
+  EXPECT_THAT(view_with(first, "order", 2, 0),
+              HasSubstr(first + ": array 'order' has 2 components, 1 needed"));
+  EXPECT_THAT(view_with(later, "velocity", 2, 0.0), HasSubstr(later + ": array 'velocity' has 2 components"));
+  EXPECT_THAT(view_with(later, "stress", 9, 0.0), HasSubstr(later + ": array 'stress' has 9 components"));
+  for (const std::string name : {"force", "normal"})
+    EXPECT_THAT(view_with(contacts, name, 1, 0.0),
+                HasSubstr(contacts + ": array '" + name + "' has 1 components"));
+  for (const std::string name : {"gap", "area"})
+    EXPECT_THAT(view_with(contacts, name, 3, 0.0),
+                HasSubstr(contacts + ": array '" + name + "' has 3 components"));
+}
+
+TEST_F(ViewCommand, ASummaryThatIsNoneIsNamed) {
+  simulate();
+  const auto view_with = [&](const std::string& text) {
+    write_text(folder / "out/summary.json", text);
+    err.str("");
+    EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::bad_input) << text.substr(0, 20);
+    return err.str();
+  };
+  EXPECT_THAT(view_with(std::string(100'000, '[') + std::string(100'000, ']')),
+              HasSubstr("summary.json: it is nested more than 100 deep"));
+  EXPECT_THAT(view_with("{\"status\": "), HasSubstr("summary.json: it is no JSON from byte"));
+  EXPECT_THAT(view_with(""), HasSubstr("summary.json: it is no JSON"));
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <string>
 
 #include "support/temporary_folder.hpp"
 
@@ -87,6 +90,111 @@ TEST(VtuReader, DamageIsNoticed) {
   }
 }
 
+std::string replaced(std::string text, const std::string& old, const std::string& other) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), other);
+}
+
+auto refused_with(const std::string& what) {
+  return ThrowsMessage<std::runtime_error>(HasSubstr(what));
+}
+
+std::string uint64(std::uint64_t value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+// A frame with one array of integers on its cells whose bytes in the file are given.
+std::string frame_of(const std::string& cells, const std::string& components, const std::string& data) {
+  return "<VTKFile type=\"UnstructuredGrid\">\n<Piece NumberOfPoints=\"0\" NumberOfCells=\"" + cells +
+         "\">\n<CellData>\n<DataArray type=\"Int32\" Name=\"block\" NumberOfComponents=\"" + components +
+         "\" offset=\"0\"/>\n<AppendedData encoding=\"raw\">\n_" + data;
+}
+
+TEST(VtuReader, CountsThatWrapRoundAreRefused) {
+  // 3 x 6148914691236517206 doubles are 2 doubles modulo 2^64.
+  const std::string frame = to_vtu(sample());
+  EXPECT_THAT([&] { (void)from_vtu(replaced(frame, "Points=\"5\"", "Points=\"6148914691236517206\"")); },
+              refused_with("an array of 80 bytes for 6148914691236517206 x 2 values"));
+  EXPECT_THAT(
+      [&] { (void)from_vtu(frame_of("4611686018427387904", "4", uint64(0) + uint64(32768) + uint64(0))); },
+      refused_with("an array of 0 bytes"));
+}
+
+TEST(VtuReader, NumbersOfComponentsAreHeldAgainstTheLargest) {
+  const std::string empty = uint64(0) + uint64(32768) + uint64(0);
+  for (const std::string components : {"2147483647", "10", "0", "-1"}) {
+    EXPECT_THAT([&] { (void)from_vtu(frame_of("0", components, empty)); },
+                refused_with("array 'block' of " + components + " components, 1 to 9 are allowed"));
+  }
+}
+
+TEST(VtuReader, BlocksThatClaimMoreThanZlibCanGiveAreRefused) {
+  // 100 blocks of 16 MiB, from 20 bytes each.
+  std::string data = uint64(100) + uint64(1 << 24) + uint64(0);
+  for (int k = 0; k < 100; ++k) data += uint64(20);
+  data += std::string(2000, 'x');
+  EXPECT_THAT([&] { (void)from_vtu(frame_of("419430400", "1", data)); },
+              refused_with("a damaged array header"));
+}
+
+TEST(VtuReader, ArraysTogetherAreHeldAgainstTheFile) {
+  // 100 MiB of zeros in blocks of 32768, each in 52 bytes at the highest effort: valid, but no frame.
+  constexpr std::size_t blocks = 3200;
+  const std::string zeros(32768, '\0');
+  std::string packed(compressBound(zeros.size()), '\0');
+  uLongf size = packed.size();
+  ASSERT_EQ(compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                      reinterpret_cast<const Bytef*>(zeros.data()), zeros.size(), Z_BEST_COMPRESSION),
+            Z_OK);
+  std::string data = uint64(blocks) + uint64(zeros.size()) + uint64(0);
+  for (std::size_t k = 0; k < blocks; ++k) data += uint64(size);
+  for (std::size_t k = 0; k < blocks; ++k) data.append(packed, 0, size);
+  const std::string cells = std::to_string(blocks * zeros.size() / 4);
+  EXPECT_THAT([&] { (void)from_vtu(frame_of(cells, "1", data)); },
+              refused_with("larger than a file of this size"));
+}
+
+TEST(VtuReader, NoFrameOfZerosAloneIsHeldBack) {
+  UnstructuredGrid grid;
+  constexpr std::size_t count = 1'000'000;
+  grid.points.assign(count, Vector3::Zero());
+  grid.point_data.push_back({"stress", 9, {}, std::vector<double>(9 * count)});
+  EXPECT_EQ(from_vtu(to_vtu(grid)).points.size(), count);
+}
+
+TEST(VtuReader, ArraysMayNotShareBytes) {
+  EXPECT_THAT(
+      [&] { (void)from_vtu(replaced(to_vtu(sample()), "<Points>", "<Points>\n<DataArray offset=\"0\"")); },
+      refused_with("arrays overlap"));
+}
+
+TEST(VtuReader, TypesAreHeldAgainstTheGrid) {
+  const std::string frame = to_vtu(sample());
+  EXPECT_THAT([&] { (void)from_vtu(replaced(frame, "Float64\" Name=\"v\"", "Float32\" Name=\"v\"")); },
+              refused_with("array 'v' of type Float32, Float64 or Int32 is needed"));
+  for (const std::string name : {"Points", "connectivity", "offsets", "types"}) {
+    const std::string attribute = "\" Name=\"" + name + "\"";
+    const std::size_t end = frame.find(attribute);
+    ASSERT_NE(end, std::string::npos);
+    std::string other = frame;
+    other.replace(end - 1, 1, "7");
+    EXPECT_THAT([&] { (void)from_vtu(other); }, refused_with("an array of type")) << name;
+  }
+}
+
+TEST(VtuReader, AFrameHasOnePiece) {
+  const std::string frame = to_vtu(sample());
+  EXPECT_THAT([&] { (void)from_vtu(replaced(frame, "<PointData>\n", "<PointData>\n<Piece >\n")); },
+              refused_with("more than one piece"));
+}
+
+TEST(VtuReader, DevicesAndFoldersAreNoFrames) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { (void)read_vtu(folder.path()); }, refused_with("not a regular file"));
+  EXPECT_THAT([&] { (void)read_pvd("/dev/zero"); }, refused_with("not a regular file"));
+}
+
 TEST(VtuReader, NamesTheFile) {
   const TemporaryFolder folder;
   write_text(folder / "x.vtu", "<html>");
@@ -109,6 +217,15 @@ TEST(VtuReader, ReadsSeries) {
   EXPECT_EQ(frames[0].file, "frames/a & b.vtu");
   EXPECT_EQ(frames[1].time, 0.1 + 0.2);
   EXPECT_EQ(frames[1].file, "frames/c.vtu");
+}
+
+TEST(VtuReader, ASeriesThatIsCutOrHasNoTimesIsRefused) {
+  const std::string start = "<VTKFile type=\"Collection\">";
+  EXPECT_THAT([&] { (void)from_pvd(start + "<DataSet timestep=\"0\" file=\"a\""); }, refused_with("is cut"));
+  EXPECT_THAT([&] { (void)from_pvd(start + "<DataSet timestep=\"nan\" file=\"a\"/>"); },
+              refused_with("a frame at time nan"));
+  EXPECT_THAT([&] { (void)from_pvd(start + "<DataSet timestep=\"0\"/><DataSet file=\"a\"/>"); },
+              refused_with("no file"));
 }
 
 }  // namespace

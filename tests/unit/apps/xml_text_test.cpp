@@ -22,5 +22,11 @@ TEST(XmlAttribute, IsFoundByItsWholeName) {
   EXPECT_EQ(xml_attribute(tag, "open"), std::nullopt);
 }
 
+TEST(XmlAttribute, IsNotLookedForInValues) {
+  const char* tag = "<DataArray Name=\" offset=\" offset=\"7\"/>";
+  EXPECT_EQ(xml_attribute(tag, "Name"), " offset=");
+  EXPECT_EQ(xml_attribute(tag, "offset"), "7");
+}
+
 }  // namespace
 }  // namespace ashlar

@@ -12,6 +12,7 @@
 #include <random>
 #include <string>
 
+#include "geometry/coordinate_limit.hpp"
 #include "geometry/polyhedron.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
@@ -188,7 +189,7 @@ TEST_F(MeshIo, decimals_of_17_digits_give_the_same_double_back) {
     std::vector<double> values;
     while (values.size() < 9) {
       const double value = std::bit_cast<double>(random());
-      if (!std::isfinite(value)) continue;
+      if (!std::isfinite(value) || is_too_far(value)) continue;
       std::array<char, 40> text{};
       std::snprintf(text.data(), text.size(), "%.16e ", value);
       content += text.data();
@@ -281,6 +282,43 @@ TEST_F(MeshIo, refused_files_tell_place_value_and_what_is_allowed) {
             "1:7: z coordinate (1e999), must be in the range of double precision");
   EXPECT_EQ(refusal("a.stl", "solid a\n facet normal 0 0\n"), "2:18: line ends before normal");
   EXPECT_EQ(refusal("a.ply", "ply\nformat ascii 2.0\n"), "2:14: unexpected word (2.0), 1.0 must be here");
+}
+
+TEST_F(MeshIo, coordinates_beyond_the_limit_are_refused_at_their_place) {
+  const std::string allowed = "allowed -1e150 to 1e150";
+  EXPECT_EQ(refusal("a.off", "OFF\n4 4 6\n0 0 0\n1 0 -1.1e150\n"),
+            "4:5: z coordinate (-1.1e150), " + allowed);
+  EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv 1 1.8e308 0\n"),
+            "2:5: y coordinate (1.8e308), must be in the range of double precision");
+  EXPECT_EQ(refusal("a.obj", "v 0 0 0\nv 1 1.7e308 0\n"), "2:5: y coordinate (1.7e308), " + allowed);
+  EXPECT_EQ(refusal("a.stl", "solid a\nfacet normal 0 0 0\nouter loop\nvertex 2e150 0 0\n"),
+            "4:8: x coordinate (2e150), " + allowed);
+  TriangleMesh mesh = read("a.off", "OFF\n4 4 6\n0 0 0\n1 0 1e150\n0 1 0\n0 0 1\n" + tetrahedron_faces);
+  EXPECT_EQ(mesh.points[1].z(), 1e150);
+  mesh.points[2].y() = 1.25e150;
+  for (const std::endian order : {std::endian::little, std::endian::big}) {
+    const std::string file = binary_ply(mesh, order);
+    const std::size_t place = file.find(bytes_of(1.25e150, order));
+    EXPECT_EQ(refusal("a.ply", file),
+              "0:0: y coordinate at byte " + std::to_string(place) + " (1.25e+150), " + allowed);
+  }
+  EXPECT_EQ(
+      refusal(
+          "a.ply",
+          "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty double y\nproperty double "
+          "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 2e150\n3 0 0 0\n"),
+      "10:5: z coordinate (2e150), " + allowed);
+}
+
+TEST_F(MeshIo, names_in_messages_are_printable) {
+  const std::string name("\0\x1b[2J", 5);
+  EXPECT_EQ(refusal("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+                    "float z\nproperty float " +
+                        name +
+                        "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                        "0 0 0 no\n3 0 0 0\n"),
+            "11:7: ??[2J (no), must be a number");
 }
 
 TEST_F(MeshIo, folder_and_missing_file_are_refused) {

@@ -1,0 +1,78 @@
+// Runs every file of the corpus through every target, without libFuzzer: replay_corpus FOLDER
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "fuzz/targets.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_of(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream input(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(input), {}};
+}
+
+// Whether all went well.
+bool replay(const fs::path& file) {
+  const std::string bytes = bytes_of(file);
+  for (const auto& target : ashlar::fuzz::targets) {
+    const auto fail = [&](const char* what) {
+      std::fprintf(stderr, "%s: %s: %s\n", file.c_str(), std::string(target.name).c_str(), what);
+      return false;
+    };
+    try {
+      (void)target.run(bytes);
+    } catch (const ashlar::fuzz::BrokenPromise& broken) {
+      return fail(broken.what);
+    } catch (const std::exception& error) {
+      return fail(error.what());
+    }
+  }
+  return true;
+}
+
+// Every target whose format lasts has seeds that its reader takes, or fuzzing would begin far outside.
+bool has_good_seeds(const fs::path& folder) {
+  bool good = true;
+  for (const auto& target : ashlar::fuzz::targets) {
+    if (!target.lasting) continue;
+    const std::vector<fs::path> files = files_of(folder / target.name);
+    if (std::any_of(files.begin(), files.end(),
+                    [&](const fs::path& file) { return target.run(bytes_of(file)); }))
+      continue;
+    std::fprintf(stderr, "%s: no file is taken by its reader\n", std::string(target.name).c_str());
+    good = false;
+  }
+  return good;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) {
+    std::fprintf(stderr, "usage: replay_corpus FOLDER\n");
+    return 2;
+  }
+  const std::vector<fs::path> files = files_of(arguments[1]);
+  bool good = true;
+  for (const fs::path& file : files) good = replay(file) && good;
+  good = good && has_good_seeds(arguments[1]);
+  std::printf("%zu files, %zu targets: %s\n", files.size(), ashlar::fuzz::targets.size(),
+              good ? "good" : "failed");
+  return good ? 0 : 1;
+}
