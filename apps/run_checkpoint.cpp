@@ -19,8 +19,8 @@ static void visit_members(Archive& archive, PvdFrame& frame) {
 
 template <class Archive>
 static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_frame_step,
-          state.intervals_written);
+  archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_row_step,
+          state.last_frame_step, state.intervals_written);
 }
 
 template <class Archive>
@@ -54,14 +54,16 @@ std::uint64_t scene_hash(const LoadedScene& loaded) {
   return hash;
 }
 
-void write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
-                      const RunCheckpoint& checkpoint) {
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint) {
   ByteWriter payload;
   payload(to_bytes(checkpoint.simulation), checkpoint.folder, checkpoint.seconds);
   const std::string bytes = payload.take();
   ByteWriter header;
   header(layout_version, hash, hash_bytes(bytes));
-  write_file_atomically(path, std::string(magic) + header.take() + bytes, Durability::power);
+  const std::string content = std::string(magic) + header.take() + bytes;
+  write_file_atomically(path, content, Durability::power);
+  return content.size();
 }
 
 RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
