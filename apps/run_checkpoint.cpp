@@ -78,14 +78,14 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     reader(header.version, header.scene, header.payload_hash);
     if (header.version != layout_version) {
       throw CheckpointError(fmt::format(
-          "checkpoint of another version of the program (layout {}), layout {} is needed: run without "
-          "--resume",
+          "checkpoint of another version of the program (layout {}), layout {} is needed: run with "
+          "--force to start anew",
           header.version, layout_version));
     }
     const std::size_t start =
         magic.size() + sizeof header.version + sizeof header.scene + sizeof header.payload_hash;
     if (hash_bytes(std::string_view(bytes).substr(start)) != header.payload_hash) {
-      throw CheckpointError("checkpoint is damaged, run without --resume");
+      throw CheckpointError("checkpoint is damaged, run with --force to start anew");
     }
     if (header.scene != hash) {
       throw CheckpointError(
@@ -100,7 +100,8 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
   } catch (const CheckpointError&) {
     throw;
   } catch (const std::exception& error) {
-    throw CheckpointError(fmt::format("checkpoint is damaged ({}), run without --resume", error.what()));
+    throw CheckpointError(
+        fmt::format("checkpoint is damaged ({}), run with --force to start anew", error.what()));
   }
 }
 
