@@ -12,6 +12,22 @@
 namespace ashlar {
 namespace {
 
+/// A file of our own to write to. What a killed run left is replaced; anything else that has the name, e.g. a
+/// link that another user of the folder made, is left alone.
+OutputFile temporary_file(const std::filesystem::path& path) {
+  try {
+    return {path, OutputFile::Start::created};
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::file_exists) throw;
+  }
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path))) {
+    throw std::system_error(std::make_error_code(std::errc::file_exists),
+                            "cannot write " + path.string() + ", which is no regular file");
+  }
+  std::filesystem::remove(path);
+  return {path, OutputFile::Start::created};
+}
+
 // The new name is an entry of the folder, and the folder reaches the disk on its own schedule.
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -28,6 +44,10 @@ void sync_folder(const std::filesystem::path& folder) {
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability durability) {
+  if (path.empty()) {
+    throw std::system_error(std::make_error_code(std::errc::invalid_argument),
+                            "cannot write a file without a name (\"\")");
+  }
   // A rename would take the place of a device or a pipe.
   if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {
     throw std::system_error(std::make_error_code(std::errc::invalid_argument),
@@ -35,8 +55,8 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   }
   std::filesystem::path temporary = path;
   temporary += ".tmp";
+  OutputFile file = temporary_file(temporary);
   try {
-    OutputFile file(temporary, OutputFile::Start::empty);
     file.write(content);
     if (durability == Durability::power) file.sync();
     file.close();

@@ -12,8 +12,8 @@ enum class Durability {
   power,    ///< a power failure too; for a checkpoint
 };
 
-/// Writes `content` to `path` + ".tmp" and renames that onto `path`. A failure leaves `path` untouched and no
-/// temporary file behind.
+/// Writes `content` to `path` + ".tmp" and renames that onto `path`; neither follows a link. A failure leaves
+/// `path` untouched and no temporary file behind.
 /// @param path its folder must exist.
 /// @throws std::system_error (a std::runtime_error) with the path and the system's reason, also if `path` is
 /// a folder, a device or a pipe

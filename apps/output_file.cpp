@@ -12,11 +12,19 @@
 namespace ashlar {
 
 OutputFile::OutputFile(std::filesystem::path path, Start start) : path_(std::move(path)) {
-  const int mode = start == Start::empty ? O_CREAT | O_TRUNC : 0;
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | mode, 0666);
+  const int mode = start == Start::created ? O_CREAT | O_EXCL : start == Start::empty ? O_CREAT | O_TRUNC : 0;
+  // O_NONBLOCK: opening a pipe does not wait for a reader; of other files it means nothing.
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | mode, 0666);
   if (descriptor_ < 0) fail("open");
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0 || S_ISFIFO(status.st_mode)) {
+    const int reason = S_ISFIFO(status.st_mode) ? EINVAL : errno;
+    ::close(std::exchange(descriptor_, -1));
+    errno = reason;
+    fail("open");
+  }
   const off_t end = ::lseek(descriptor_, 0, SEEK_END);
-  // A pipe or a terminal has no position and starts empty.
+  // A terminal has no position and starts empty.
   size_ = end < 0 ? 0 : static_cast<std::uintmax_t>(end);
 }
 
@@ -60,6 +68,16 @@ void OutputFile::truncate(std::uintmax_t size) {
 
 void OutputFile::sync() {
   if (::fsync(descriptor_) != 0) fail("write");
+}
+
+void OutputFile::check_in_place() const {
+  struct stat named {};
+  struct stat held {};
+  if (::lstat(path_.c_str(), &named) != 0) fail("find");
+  if (::fstat(descriptor_, &held) != 0) fail("find");
+  if (named.st_dev == held.st_dev && named.st_ino == held.st_ino) return;
+  throw std::system_error(std::make_error_code(std::errc::no_such_file_or_directory),
+                          path_.string() + " was replaced while it was being written");
 }
 
 void OutputFile::close() {

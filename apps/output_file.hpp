@@ -13,10 +13,12 @@ namespace ashlar {
 class OutputFile {
  public:
   enum class Start {
-    empty,   ///< created, or emptied if it exists
-    at_end,  ///< must exist; writing goes on after its last byte
+    created,  ///< must not exist
+    empty,    ///< created, or emptied if it exists
+    at_end,   ///< must exist; writing goes on after its last byte
   };
 
+  /// Links are not followed, and pipes are refused: they would wait for a reader.
   OutputFile(std::filesystem::path path, Start start);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
@@ -31,6 +33,8 @@ class OutputFile {
   void truncate(std::uintmax_t size);
   /// Waits until everything written is on the disk.
   void sync();
+  /// @throws if the path does not name this file any more: it was removed, moved or replaced
+  void check_in_place() const;
   /// Closes and reports what closing finds (network file systems report a full disk here).
   void close();
 

@@ -116,6 +116,10 @@ int picture_command(const PictureOptions& options, std::ostream& out, std::ostre
     err << "ashlar: error: " << fault << '\n';
     return exit_status::bad_input;
   }
+  if (options.picture.empty()) {
+    err << "ashlar: error: a picture without a name (\"\"), a name is needed\n";
+    return exit_status::bad_input;
+  }
   const auto browser = find_browser();
   if (!browser) {
     err << "ashlar: error: no chromium in PATH, which draws the picture; install it or set ASHLAR_BROWSER\n";

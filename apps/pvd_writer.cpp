@@ -16,7 +16,12 @@ PvdWriter::PvdWriter(std::filesystem::path path, std::vector<PvdFrame> frames)
 
 void PvdWriter::add_frame(double time, std::string file) {
   frames_.push_back({time, std::move(file)});
-  write();
+  try {
+    write();
+  } catch (...) {
+    frames_.pop_back();
+    throw;
+  }
 }
 
 void PvdWriter::write() const {

@@ -20,8 +20,11 @@ class PvdWriter {
   /// @throws std::runtime_error with path and reason, here and in add_frame.
   explicit PvdWriter(std::filesystem::path path, std::vector<PvdFrame> frames = {});
 
-  /// To be called when the frame's own file is complete. Times are expected to increase.
+  /// To be called when the frame's own file is complete. Times are expected to increase. What fails adds
+  /// none.
   void add_frame(double time, std::string file);
+  /// Forgets the last frame; the file names it until it is written again.
+  void drop_last() { frames_.pop_back(); }
 
   [[nodiscard]] const std::vector<PvdFrame>& frames() const { return frames_; }
 

@@ -12,7 +12,7 @@ cmake --build --preset release --target ashlar -j"$(bash apps/build_jobs.sh)"
 program=build/release/apps/ashlar
 scene=data/scenes/falling_block.toml
 results=falling_block.out
-"$program" run "$scene" --out "$results" --view
+"$program" run "$scene" --out "$results" --view --force
 
 cat <<END
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "apps/csv_text.hpp"
@@ -29,24 +30,39 @@ std::vector<MeasuredPoint> find_measures(const Scene& scene) {
   return measures;
 }
 
+/// "blocks_0000010.vtu", "contacts_0000010.vtu", or what a killed run left of one
+bool is_frame_name(std::string_view name) {
+  for (const std::string_view start : {"blocks_", "contacts_"}) {
+    if (!name.starts_with(start)) continue;
+    const std::string_view rest = name.substr(start.size());
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    return digits >= 7 && (rest.substr(digits) == ".vtu" || rest.substr(digits) == ".vtu.tmp");
+  }
+  return false;
+}
+
 void remove_frames_but(const std::filesystem::path& folder, const std::set<std::filesystem::path>& kept) {
   for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
-    if (entry.path().extension() == ".vtu" && !kept.contains(entry.path()))
+    if (entry.symlink_status().type() == std::filesystem::file_type::regular &&
+        is_frame_name(entry.path().filename().string()) && !kept.contains(entry.path()))
       std::filesystem::remove(entry.path());
   }
 }
 
-/// Results of an earlier run must not be taken for those of the one that starts.
+/// Results of an earlier run must not be taken for those of the one that starts. Its checkpoint is replaced
+/// by the first one of this run: until then, tables that are not those of the checkpoint keep it from being
+/// used.
 std::filesystem::path emptied(std::filesystem::path folder) {
   std::error_code error;
   std::filesystem::create_directories(folder / "frames", error);
   if (error) {
     throw std::runtime_error(
-        fmt::format("cannot create the result folder {}: {}", folder.string(), error.message()));
+        fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
   }
   remove_frames_but(folder, {});
-  std::filesystem::remove(folder / "checkpoint");
-  std::filesystem::remove(folder / "summary.json");
+  // Removed, not emptied: other names of these files keep what they have.
+  for (const char* name : {"summary.json", "view.html", "history.csv", "contacts.csv"})
+    std::filesystem::remove(folder / name);
   return folder;
 }
 
@@ -217,10 +233,11 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(find_measures(scene)),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
       history_(
-          HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), simulation.steps())),
+          HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), state.last_row_step)),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
       contacts_(folder_ / "contacts.pvd", state.contact_frames),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
+      last_row_step_(state.last_row_step),
       last_frame_step_(state.last_frame_step),
       intervals_written_(state.intervals_written) {
   if (contact_rows_.size() < state.contact_bytes) {
@@ -234,39 +251,72 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
   }
   remove_frames_but(folder_, kept);
+  add_step(simulation);
 }
 
 ResultFolderState ResultFolder::synced_state() {
+  check_in_place();
   history_.sync();
   contact_rows_.sync();
-  return {blocks_.frames(), contacts_.frames(), contact_rows_.size(), last_frame_step_, intervals_written_};
+  return {blocks_.frames(), contacts_.frames(), contact_rows_.size(),
+          last_row_step_,   last_frame_step_,   intervals_written_};
+}
+
+void ResultFolder::check_in_place() const {
+  history_.check_in_place();
+  contact_rows_.check_in_place();
 }
 
 void ResultFolder::add_step(const Simulation& simulation) {
-  history_.append(simulation.steps(), history_row(simulation, measures_));
-  if (frame_is_due(simulation)) add_frame(simulation);
+  check_in_place();
+  if (simulation.steps() % output_.history_every == 0) add_row(simulation);
+  if (!frame_is_due(simulation)) return;
+  add_frame(simulation);
+  if (!output_.every) ++intervals_written_;
 }
 
-bool ResultFolder::frame_is_due(const Simulation& simulation) {
+void ResultFolder::add_end(const Simulation& simulation) {
+  check_in_place();
+  add_row(simulation);
+  add_frame(simulation);
+}
+
+bool ResultFolder::frame_is_due(const Simulation& simulation) const {
+  if (simulation.steps() == last_frame_step_) return false;
   if (output_.every) return simulation.steps() % *output_.every == 0;
   // Half a step early is as near as half a step late.
   const double due = intervals_written_ * output_.interval.value_or(0.0);
-  if (simulation.time() + 0.5 * simulation.report().step < due) return false;
-  ++intervals_written_;
-  return true;
+  return simulation.time() + 0.5 * simulation.report().step >= due;
+}
+
+void ResultFolder::add_row(const Simulation& simulation) {
+  if (simulation.steps() == last_row_step_) return;
+  history_.append(simulation.steps(), history_row(simulation, measures_));
+  last_row_step_ = simulation.steps();
 }
 
 void ResultFolder::add_frame(const Simulation& simulation) {
   if (simulation.steps() == last_frame_step_) return;
-  last_frame_step_ = simulation.steps();
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
   write_vtu(folder_ / blocks,
             block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields));
   write_vtu(folder_ / contacts, contact_frame(simulation));
   blocks_.add_frame(simulation.time(), blocks);
-  contacts_.add_frame(simulation.time(), contacts);
-  add_contact_rows(simulation);
+  try {
+    contacts_.add_frame(simulation.time(), contacts);
+  } catch (...) {
+    blocks_.drop_last();
+    throw;
+  }
+  try {
+    add_contact_rows(simulation);
+  } catch (...) {
+    contacts_.drop_last();
+    blocks_.drop_last();
+    throw;
+  }
+  last_frame_step_ = simulation.steps();
 }
 
 void ResultFolder::add_contact_rows(const Simulation& simulation) {

@@ -46,6 +46,7 @@ struct ResultFolderState {
   std::vector<PvdFrame> block_frames;
   std::vector<PvdFrame> contact_frames;
   std::uint64_t contact_bytes = 0;  ///< in contacts.csv
+  int last_row_step = -1;           ///< in history.csv
   int last_frame_step = -1;
   int intervals_written = 0;
 };
@@ -54,19 +55,23 @@ struct ResultFolderState {
 /// std::runtime_error with path and reason.
 class ResultFolder {
  public:
-  /// Creates the folder, or removes the results of an earlier run in it, and adds the simulation's present
-  /// step.
+  /// Removes the results of an earlier run in the folder but for its checkpoint, which the first one of this
+  /// run replaces, and adds the simulation's present step.
+  /// @param folder that the program has claimed (folder_claim.hpp)
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation);
 
-  /// Goes on in the folder of an earlier run: what was written after `state` was taken is dropped.
+  /// Goes on in the folder of an earlier run: what was written after `state` was taken is dropped, and what
+  /// could not be written of the step then is made good.
   /// @param simulation as it was then
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                const ResultFolderState& state);
 
-  /// Called after every accepted step.
+  /// Called after every accepted step. What fails to be written is not in state() either.
+  /// @throws std::runtime_error also if a table is not there any more
   void add_step(const Simulation& simulation);
-  /// Writes a frame now, unless one was written at this step.
-  void add_frame(const Simulation& simulation);
+  /// Adds row and frame of the end of a run, which are there whether they are due or not. A run that goes on
+  /// from a checkpoint before drops them.
+  void add_end(const Simulation& simulation);
 
   /// Waits until the tables are on the disk; a checkpoint counts on them.
   [[nodiscard]] ResultFolderState synced_state();
@@ -75,7 +80,10 @@ class ResultFolder {
   [[nodiscard]] int frames() const { return static_cast<int>(blocks_.frames().size()); }
 
  private:
-  [[nodiscard]] bool frame_is_due(const Simulation& simulation);
+  [[nodiscard]] bool frame_is_due(const Simulation& simulation) const;
+  void check_in_place() const;
+  void add_row(const Simulation& simulation);
+  void add_frame(const Simulation& simulation);
   void add_contact_rows(const Simulation& simulation);
 
   std::filesystem::path folder_;
@@ -86,6 +94,7 @@ class ResultFolder {
   PvdWriter blocks_;
   PvdWriter contacts_;
   OutputFile contact_rows_;
+  int last_row_step_ = -1;
   int last_frame_step_ = -1;
   int intervals_written_ = 0;  ///< output.interval: frames due by time so far
 };

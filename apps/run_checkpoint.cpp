@@ -19,8 +19,8 @@ static void visit_members(Archive& archive, PvdFrame& frame) {
 
 template <class Archive>
 static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_frame_step,
-          state.intervals_written);
+  archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_row_step,
+          state.last_frame_step, state.intervals_written);
 }
 
 template <class Archive>
@@ -31,7 +31,7 @@ static void visit_members(Archive& archive, RunSeconds& seconds) {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 9;
+constexpr std::uint32_t layout_version = 10;
 
 /// What follows the magic line; the payload follows it.
 struct Header {
@@ -54,14 +54,16 @@ std::uint64_t scene_hash(const LoadedScene& loaded) {
   return hash;
 }
 
-void write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
-                      const RunCheckpoint& checkpoint) {
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint) {
   ByteWriter payload;
   payload(to_bytes(checkpoint.simulation), checkpoint.folder, checkpoint.seconds);
   const std::string bytes = payload.take();
   ByteWriter header;
   header(layout_version, hash, hash_bytes(bytes));
-  write_file_atomically(path, std::string(magic) + header.take() + bytes, Durability::power);
+  const std::string content = std::string(magic) + header.take() + bytes;
+  write_file_atomically(path, content, Durability::power);
+  return content.size();
 }
 
 RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
@@ -76,14 +78,14 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     reader(header.version, header.scene, header.payload_hash);
     if (header.version != layout_version) {
       throw CheckpointError(fmt::format(
-          "checkpoint of another version of the program (layout {}), layout {} is needed: run without "
-          "--resume",
+          "checkpoint of another version of the program (layout {}), layout {} is needed: run with "
+          "--force to start anew",
           header.version, layout_version));
     }
     const std::size_t start =
         magic.size() + sizeof header.version + sizeof header.scene + sizeof header.payload_hash;
     if (hash_bytes(std::string_view(bytes).substr(start)) != header.payload_hash) {
-      throw CheckpointError("checkpoint is damaged, run without --resume");
+      throw CheckpointError("checkpoint is damaged, run with --force to start anew");
     }
     if (header.scene != hash) {
       throw CheckpointError(
@@ -98,7 +100,8 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
   } catch (const CheckpointError&) {
     throw;
   } catch (const std::exception& error) {
-    throw CheckpointError(fmt::format("checkpoint is damaged ({}), run without --resume", error.what()));
+    throw CheckpointError(
+        fmt::format("checkpoint is damaged ({}), run with --force to start anew", error.what()));
   }
 }
 

@@ -29,8 +29,10 @@ struct CheckpointError : std::runtime_error {
 /// so that a changed mesh file is noticed. analysis.end_time is left out: a run may go on beyond its end.
 [[nodiscard]] std::uint64_t scene_hash(const LoadedScene& loaded);
 
-/// Replaces the file as a whole; it outlives a power failure. @throws std::runtime_error with path and reason
-void write_checkpoint(const std::filesystem::path& path, std::uint64_t hash, const RunCheckpoint& checkpoint);
+/// Replaces the file as a whole; it outlives a power failure. @return its bytes
+/// @throws std::runtime_error with path and reason
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint);
 
 /// @param hash of the scene that is to go on. @throws CheckpointError
 [[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash);

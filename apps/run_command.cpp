@@ -1,64 +1,34 @@
 #include "apps/run_command.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
-#include <csignal>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <string_view>
 
 #include "apps/atomic_file.hpp"
+#include "apps/checkpoint_schedule.hpp"
 #include "apps/command_line.hpp"
+#include "apps/folder_claim.hpp"
 #include "apps/initial_state.hpp"
+#include "apps/interrupt_guard.hpp"
 #include "apps/json_text.hpp"
 #include "apps/loose_blocks.hpp"
 #include "apps/progress.hpp"
 #include "apps/result_folder.hpp"
 #include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
+#include "apps/scene_json.hpp"
+#include "apps/space_reserve.hpp"
 #include "apps/view_file.hpp"
 
 namespace ashlar {
 namespace {
 
 constexpr const char* checkpoint_name = "checkpoint";
-
-volatile std::sig_atomic_t interrupted = 0;
-volatile std::sig_atomic_t on_terminal = 0;
-
-extern "C" void on_interrupt(int) {
-  interrupted = 1;
-  // A step may take long, and a second Ctrl-C loses what was not saved.
-  constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
-  if (on_terminal != 0) (void)!::write(STDERR_FILENO, note.data(), note.size());
-}
-
-/// Turns an interrupt into a request to stop after the present step; a second one ends the program at once.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupted = 0;
-    on_terminal = ::isatty(STDERR_FILENO);
-    struct sigaction action {};
-    action.sa_handler = on_interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, &old_interrupt_);
-    sigaction(SIGTERM, &action, &old_terminate_);
-  }
-  ~InterruptGuard() {
-    sigaction(SIGINT, &old_interrupt_, nullptr);
-    sigaction(SIGTERM, &old_terminate_, nullptr);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  struct sigaction old_interrupt_ {};
-  struct sigaction old_terminate_ {};
-};
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -119,13 +89,17 @@ std::string describe_displaced(const Simulation& simulation) {
 /// A run from its first step, or from a checkpoint, to its end.
 class Run {
  public:
-  Run(const LoadedScene& loaded, BuiltSimulation built, std::filesystem::path folder,
-      const std::optional<RunCheckpoint>& earlier)
+  /// @param interval s between checkpoints; empty: growing, see CheckpointSchedule
+  Run(const LoadedScene& loaded, BuiltSimulation built, const FolderClaim& claim,
+      const std::optional<RunCheckpoint>& earlier, std::optional<double> interval)
       : scene_(loaded.scene),
         hash_(scene_hash(loaded)),
         built_(std::move(built)),
-        folder_(earlier ? ResultFolder(std::move(folder), scene_, built_.simulation, earlier->folder)
-                        : ResultFolder(std::move(folder), scene_, built_.simulation)) {
+        claim_(claim),
+        interval_(interval),
+        reserve_(claim.folder()),
+        folder_(earlier ? ResultFolder(claim.folder(), scene_, built_.simulation, earlier->folder)
+                        : ResultFolder(claim.folder(), scene_, built_.simulation)) {
     if (earlier) earlier_seconds_ = earlier->seconds;
   }
 
@@ -133,30 +107,35 @@ class Run {
   RunStatus go(double start, bool quiet, std::ostream& err) {
     seconds_.setup = seconds_now() - start;
     ProgressLine progress(scene_.analysis.end_time, quiet, err);
-    const bool is_static = scene_.analysis.type == SceneAnalysis::Type::statics;
-    RunStatus status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
-    // Before the last frame, which a run that goes on has only if it is due.
-    save(start);
-    if (status == RunStatus::completed) status = audited();
-    folder_.add_frame(built_.simulation);
+    RunStatus status = RunStatus::failed;
+    try {
+      save(start);
+      const bool is_static = scene_.analysis.type == SceneAnalysis::Type::statics;
+      status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
+      // Before the last frame, which a run that goes on has only if it is due.
+      save(start);
+      if (status == RunStatus::completed) status = audited();
+      folder_.add_end(built_.simulation);
+    } catch (const std::exception& error) {
+      status = saved_after(error, start);
+    }
     progress.finish();
-    const auto summary =
-        run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
-    write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
-    return status;
+    return summarised(status, start);
   }
 
   [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
   /// Why the run failed or where it was interrupted, or what moves.
   [[nodiscard]] const std::string& message() const { return message_; }
+  /// Why the state that the run ended in is not saved; empty: it is.
+  [[nodiscard]] const std::string& unsaved() const { return unsaved_; }
 
  private:
   RunStatus take_steps(double start, ProgressLine& progress) {
     Simulation& simulation = built_.simulation;
     const double end_time = scene_.analysis.end_time;
-    double saved_at = seconds_now();
+    CheckpointSchedule schedule(interval_, seconds_now());
     while (!simulation.reached(end_time)) {
-      if (interrupted != 0) return interrupted_here();
+      if (InterruptGuard::interrupted()) return interrupted_here();
       StepStatus status = StepStatus::accepted;
       try {
         status = simulation.step(end_time);
@@ -169,7 +148,7 @@ class Run {
                                simulation.steps() + 1, simulation.time(), last.step, reason_of(last));
         return RunStatus::failed;
       }
-      record_step(start, saved_at, progress);
+      record_step(start, schedule, progress);
     }
     return RunStatus::completed;
   }
@@ -187,8 +166,8 @@ class Run {
 
   RunStatus find_equilibrium(double start, ProgressLine& progress) {
     Simulation& simulation = built_.simulation;
-    double saved_at = seconds_now();
-    while (interrupted == 0) {
+    CheckpointSchedule schedule(interval_, seconds_now());
+    while (!InterruptGuard::interrupted()) {
       const int before = simulation.steps();
       StaticStatus status = StaticStatus::balancing;
       try {
@@ -196,7 +175,7 @@ class Run {
       } catch (const std::exception& error) {
         return failed_in_step(error);
       }
-      if (simulation.steps() > before) record_step(start, saved_at, progress);
+      if (simulation.steps() > before) record_step(start, schedule, progress);
       switch (status) {
         case StaticStatus::balancing:
           continue;
@@ -248,20 +227,65 @@ class Run {
     return RunStatus::interrupted;
   }
 
-  void record_step(double start, double& saved_at, ProgressLine& progress) {
+  void record_step(double start, CheckpointSchedule& schedule, ProgressLine& progress) {
     const double before = seconds_now();
+    claim_.check();
     folder_.add_step(built_.simulation);
     progress.update(progress_of(built_.simulation));
-    if (before - saved_at > checkpoint_interval) {
+    if (schedule.due(before)) {
       save(start);
-      saved_at = seconds_now();
+      schedule.saved(seconds_now());
     }
     seconds_.output += seconds_now() - before;
   }
 
   void save(double start) {
-    write_checkpoint(folder_.path() / checkpoint_name, hash_,
-                     {built_.simulation.snapshot(), folder_.synced_state(), seconds_until_now(start)});
+    write_state(start);
+    // The next state, which may have more contacts, and the summary fit in beside the state that is there.
+    constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
+    reserve_.hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
+  }
+
+  void write_state(double start) {
+    claim_.check();
+    state_bytes_ =
+        write_checkpoint(folder_.path() / checkpoint_name, hash_,
+                         {built_.simulation.snapshot(), folder_.synced_state(), seconds_until_now(start)});
+  }
+
+  /// After results could not be written, e.g. on a full disk: saves the state in the space that was kept.
+  RunStatus saved_after(const std::exception& error, double start) {
+    message_ = fmt::format("results of step {} at t = {:.9g} s could not be written: {}",
+                           built_.simulation.steps(), built_.simulation.time(), error.what());
+    reserve_.release();
+    try {
+      write_state(start);
+    } catch (const std::exception& fault) {
+      unsaved_ = fault.what();
+    }
+    return RunStatus::failed;
+  }
+
+  RunStatus summarised(RunStatus status, double start) {
+    const auto write = [&] {
+      claim_.check();
+      const auto summary =
+          run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
+      write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
+    };
+    try {
+      write();
+    } catch (const std::exception& error) {
+      status = RunStatus::failed;
+      if (message_.empty()) message_ = fmt::format("the summary could not be written: {}", error.what());
+      reserve_.release();
+      try {
+        write();
+      } catch (const std::exception& fault) {
+        if (unsaved_.empty()) unsaved_ = fault.what();
+      }
+    }
+    return status;
   }
 
   [[nodiscard]] RunSeconds seconds_until_now(double start) const {
@@ -272,10 +296,16 @@ class Run {
   const Scene& scene_;
   std::uint64_t hash_;
   BuiltSimulation built_;
+  const FolderClaim& claim_;
+  std::optional<double> interval_;
+  SpaceReserve reserve_;
   ResultFolder folder_;
+  std::uintmax_t scene_bytes_ = json_text(to_json(scene_), 2).size();  ///< in the summary
+  std::uintmax_t state_bytes_ = 0;                               ///< of the last checkpoint
   RunSeconds earlier_seconds_;
   RunSeconds seconds_;
   std::string message_;
+  std::string unsaved_;
 };
 
 /// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
@@ -315,8 +345,13 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
       name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
 }
 
-void tell_end(RunStatus status, const std::string& message, const std::filesystem::path& folder, bool quiet,
+void tell_end(RunStatus status, const Run& run, const std::filesystem::path& folder, bool quiet,
               std::ostream& err) {
+  const std::string& message = run.message();
+  if (!run.unsaved().empty()) {
+    err << fmt::format("ashlar: error: {}; the last state could not be saved: {}\n", message, run.unsaved());
+    return;
+  }
   switch (status) {
     case RunStatus::failed:
       err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message, folder.string());
@@ -339,6 +374,26 @@ void tell_end(RunStatus status, const std::string& message, const std::filesyste
   }
 }
 
+/// The folder for this run alone. @return null: refused, and told why
+std::unique_ptr<FolderClaim> claim_folder(const std::filesystem::path& folder, const RunOptions& options,
+                                          std::ostream& err) {
+  const ClaimPurpose purpose = options.resume  ? ClaimPurpose::resume
+                               : options.force ? ClaimPurpose::replacement
+                                               : ClaimPurpose::new_run;
+  try {
+    auto claim = std::make_unique<FolderClaim>(folder, purpose);
+    if (!claim->unlocked().empty()) {
+      err << fmt::format(
+          "ashlar: warning: {} cannot be locked ({}): a second run into it would not be noticed\n",
+          folder.string(), claim->unlocked());
+    }
+    return claim;
+  } catch (const ClaimRefused& refused) {
+    err << "ashlar: error: " << refused.what() << '\n';
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options, std::ostream& err) {
@@ -350,11 +405,21 @@ int run_command(const RunOptions& options, std::ostream& err) {
   if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics);
   if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
     refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
-  std::optional<RunCheckpoint> earlier;
-  if (built && options.resume) earlier = find_checkpoint(folder, *loaded, diagnostics);
+  // Where there is nothing to go on from, nothing is made.
+  if (built && options.resume && !std::filesystem::exists(folder / checkpoint_name))
+    (void)find_checkpoint(folder, *loaded, diagnostics);
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
-  if (earlier) built->simulation.restore(earlier->simulation);
+  const std::unique_ptr<FolderClaim> claim = claim_folder(folder, options, err);
+  if (!claim) return exit_status::bad_input;
+  std::optional<RunCheckpoint> earlier;
+  if (options.resume) {
+    Diagnostics faults;
+    earlier = find_checkpoint(folder, *loaded, faults);
+    faults.print(err);
+    if (!faults.good()) return exit_status::bad_input;
+    built->simulation.restore(earlier->simulation);
+  }
   if (!options.quiet) tell_choices(*built, err);
   if (starts_from_statics(loaded->scene) && !earlier) {
     const StaticStart statics = start_in_statics(built->simulation);
@@ -365,7 +430,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const InterruptGuard guard;
   std::optional<Run> started;
   try {
-    started.emplace(*loaded, std::move(*built), folder, earlier);
+    started.emplace(*loaded, std::move(*built), *claim, earlier, options.checkpoint);
   } catch (const std::exception& error) {
     // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
     err << "ashlar: error: " << error.what() << '\n';
@@ -373,7 +438,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   }
   Run& run = *started;
   const RunStatus status = run.go(start, options.quiet, err);
-  tell_end(status, run.message(), folder, options.quiet, err);
+  tell_end(status, run, folder, options.quiet, err);
   warn_of_depth(run.simulation(), err);
   if (options.view) {
     (void)write_view_file(folder, folder / "view.html");

@@ -17,6 +17,13 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
   command->add_option("--out", options->out, "Result folder (default: scene name + .out)")->type_name("DIR");
   declare_overrides(*command, options->overrides);
   command->add_flag("--resume", options->resume, "Go on from the checkpoint in the result folder");
+  command->add_flag("--force", options->force,
+                    "Replace results in the result folder; --resume goes on with them instead");
+  command
+      ->add_option("--checkpoint", options->checkpoint,
+                   "Seconds between checkpoints (default: 1, 2, 4, ... to 60; 0: after every step)")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, std::numeric_limits<double>::max(), ">= 0"));
   command->add_option("--threads", options->threads, "Number of threads")
       ->type_name("N")
       ->check(CLI::Range(1, std::numeric_limits<int>::max(), ">= 1"));

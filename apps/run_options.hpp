@@ -15,6 +15,8 @@ struct RunOptions {
   std::optional<std::filesystem::path> out;  ///< result folder; empty: the scene's name + ".out"
   std::vector<std::string> overrides;        ///< "key.path=value" each, in order
   bool resume = false;                       ///< go on from the checkpoint in the result folder
+  bool force = false;                        ///< replace results that are there; not with resume
+  std::optional<double> checkpoint;          ///< s between checkpoints, >= 0; empty: growing to a minute
   int threads = 0;                           ///< >= 1; 0: not given
   bool quiet = false;                        ///< no progress on stderr
   bool view = false;                         ///< write view.html at the end

@@ -155,6 +155,7 @@ Json to_json(const SceneOutput& output) {
   Json json = Json::object();
   if (output.every) json["every"] = *output.every;
   if (output.interval) json["interval"] = *output.interval;
+  json["history_every"] = output.history_every;
   json["fields"] = Json::array();
   for (const auto& [name, member] : field_names)
     if (output.fields.*member) json["fields"].push_back(name);

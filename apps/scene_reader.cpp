@@ -135,6 +135,7 @@ void read_output(TomlTableReader table, SceneOutput& output) {
   if (every_given && interval_given)
     table.error_at_key("interval", "interval beside every (both given), only one of both is allowed");
   if (!every_given && !interval_given) output.every = default_frame_distance;
+  table.read_integer("history_every", output.history_every, 1, std::numeric_limits<int>::max());
   table.read_bool("curved", output.curved);
   std::vector<std::string> fields;
   if (!table.read_words("fields", fields, field_names)) return;

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "apps/atomic_file.hpp"
 #include "apps/conditioning_study.hpp"
 #include "apps/contact_study.hpp"
+#include "apps/folder_claim.hpp"
 #include "apps/headless_browser.hpp"
 #include "apps/nearest_name.hpp"
 #include "apps/orders_study.hpp"
@@ -64,11 +66,11 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
     return exit_status::bad_input;
   }
   const std::filesystem::path folder = options.folder.value_or(options.name + ".study");
-  std::error_code fault;
-  std::filesystem::create_directories(folder, fault);
-  if (fault) {
-    err << fmt::format("ashlar: error: cannot create the result folder {}: {}\n", folder.string(),
-                       fault.message());
+  std::optional<FolderClaim> claim;
+  try {
+    claim.emplace(folder, ClaimPurpose::addition);
+  } catch (const ClaimRefused& refused) {
+    err << "ashlar: error: " << refused.what() << '\n';
     return exit_status::bad_input;
   }
   const StudyResult result = study->run();

@@ -36,7 +36,7 @@ LIST
 while read -r scene picture options; do
   if [[ $# -gt 0 && " $* " != *" $scene "* ]]; then continue; fi
   folder=$results/$scene.out
-  [[ -f $folder/summary.json ]] || "$program" run "$data/scenes/$scene.toml" --out "$folder"
+  [[ -f $folder/summary.json ]] || "$program" run "$data/scenes/$scene.toml" --out "$folder" --force
   # shellcheck disable=SC2086  # options are words
   "$program" picture "$folder" --size 640x420 $options -o "$data/pictures/$picture.png"
 done < <(pictures)

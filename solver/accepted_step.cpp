@@ -29,9 +29,9 @@ double Simulation::move_block(std::size_t k, const TimeScheme& scheme, const Bod
   const bool carried = !accelerations_.empty();
   const Eigen::MatrixX3d acceleration =
       carried ? accelerations_[k] : Eigen::MatrixX3d::Zero(change.rows(), 3);
-  Eigen::MatrixX3d load = block.load_force(time_ + scheme.step);
+  Eigen::MatrixX3d load = block.load_force(clock_.time_after(scheme.step));
   if (scheme.end_share < 1.0)
-    load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(time_);
+    load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(time());
   ledger_.applied += body.motion().cwiseProduct(load).sum();
   const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
   const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
@@ -154,7 +154,7 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
   ledger_.numerical -= potential_work + potential_change + friction;
 
   for (auto& [block, next] : trial.carried) start_carried_step(block, std::move(next));
-  time_ += scheme.step;
+  clock_.advance(scheme.step);
   ++steps_;
   measure_energies(ledger_);
   ledger_.residual = ledger_.balance() - start_balance_;

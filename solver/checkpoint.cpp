@@ -7,6 +7,11 @@
 namespace ashlar {
 
 template <class Archive>
+static void visit_members(Archive& archive, StepClock& clock) {
+  archive(clock.start, clock.step, clock.count);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, BlockState& state) {
   archive(state.position, state.velocity);
 }
@@ -145,7 +150,7 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.time, snapshot.next_step, snapshot.steps, snapshot.remembers_statics, snapshot.states,
+  archive(snapshot.clock, snapshot.next_step, snapshot.steps, snapshot.remembers_statics, snapshot.states,
           snapshot.carried, snapshot.accelerations, snapshot.spin_debts, snapshot.memory,
           snapshot.contact_work, snapshot.taken, snapshot.finder, snapshot.report, snapshot.records,
           snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
@@ -169,7 +174,7 @@ SimulationSnapshot snapshot_from_bytes(std::string_view bytes) {
 
 SimulationSnapshot Simulation::snapshot() const {
   SimulationSnapshot result;
-  result.time = time_;
+  result.clock = clock_;
   result.next_step = next_step_;
   result.steps = steps_;
   result.remembers_statics = remembers_statics_;
@@ -220,7 +225,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   }
   if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
   for (const auto& [k, order] : orders) replace_model(k, blocks_[k].with_order(order));
-  time_ = snapshot.time;
+  clock_ = snapshot.clock;
   next_step_ = snapshot.next_step;
   steps_ = snapshot.steps;
   remembers_statics_ = snapshot.remembers_statics;

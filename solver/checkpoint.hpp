@@ -24,7 +24,7 @@ struct RememberedPair {
 /// Everything that a step depends on or reports; see the members of Simulation for meaning and units. What
 /// follows from the scene and kept factorisations are left out: those are made anew with the same values.
 struct SimulationSnapshot {
-  double time = 0.0;
+  StepClock clock;
   double next_step = 0.0;
   int steps = 0;
   bool remembers_statics = false;

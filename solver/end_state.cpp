@@ -136,7 +136,7 @@ void Simulation::note_depths(const std::vector<PairDepth>& depths) {
     depth = std::max(depth, pair.depth);
     report_.depth = std::max(report_.depth, pair.depth);
     if (pair.depth > deepest_.depth)
-      deepest_ = {pair.blocks, pair.depth, pair.depth / smaller_size(pair.blocks), time_, pair.place};
+      deepest_ = {pair.blocks, pair.depth, pair.depth / smaller_size(pair.blocks), time(), pair.place};
   }
 }
 
@@ -154,7 +154,7 @@ void Simulation::note_gradients(std::size_t k) {
 }
 
 void Simulation::reject(double step, const StateFault& fault) {
-  rejections_.push_back({time_, step, fault.reason});
+  rejections_.push_back({time(), step, fault.reason});
   fault_ = fault;
 }
 

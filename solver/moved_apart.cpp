@@ -32,7 +32,7 @@ double Simulation::energy_of_motion(const std::vector<int>& island,
     const Eigen::MatrixX3d motion = bodies[at(k)].motion();
     const BlockModel& block = blocks_[at(k)];
     energy += block.elastic(states_[at(k)].position + motion).energy - elastic_energies_[at(k)] -
-              motion.cwiseProduct(block.external_force(settings_.gravity, time_)).sum();
+              motion.cwiseProduct(block.external_force(settings_.gravity, time())).sum();
   }
   return energy;
 }
@@ -135,7 +135,7 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
     const Eigen::MatrixX3d motion = trial.bodies[k].motion();
-    ledger_.applied += motion.cwiseProduct(blocks_[k].load_force(time_)).sum();
+    ledger_.applied += motion.cwiseProduct(blocks_[k].load_force(time())).sum();
     states_[k].position += motion;
     note_elastic_energy(k);
   }

@@ -140,15 +140,21 @@ std::vector<int> Simulation::settle_supported_blocks() {
   return settled;
 }
 
+double Simulation::time_rounding(double end_time) const {
+  constexpr double ulps = 4.0;
+  return std::max(step_rounding * settings_.time_step,
+                  ulps * std::numeric_limits<double>::epsilon() * std::abs(end_time));
+}
+
 bool Simulation::reached(double end_time) const {
-  return end_time - time_ <= step_rounding * settings_.time_step;
+  return end_time - time() <= time_rounding(end_time);
 }
 
 StepStatus Simulation::step(double end_time) {
   slowed_.clear();
   double step = next_step_;
-  const double left = end_time - time_;
-  if (left < step * (1.0 - step_rounding)) step = left;
+  const double left = end_time - time();
+  if (left < step - time_rounding(end_time)) step = left;
   if (settings_.integrator == Integrator::generalized_alpha && accelerations_.empty())
     accelerations_ = smooth_accelerations();
   std::vector<FoundContacts> found = find_contacts(step);
@@ -173,7 +179,7 @@ StepStatus Simulation::step(double end_time) {
     const TimeScheme scheme = time_scheme(settings_, step);
     const IslandStatus status = try_step(scheme, trial);
     if (status != IslandStatus::settled) {
-      rejections_.push_back({time_, step,
+      rejections_.push_back({time(), step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                                                  : RejectionReason::not_positive_definite});
       unsettled = true;
@@ -189,7 +195,7 @@ StepStatus Simulation::step(double end_time) {
     }
     const std::vector<PassingBlocks> passing = check_motion(trial, found);
     if (passing.empty() && !carry_blocks(trial)) {
-      rejections_.push_back({time_, step, RejectionReason::no_shape});
+      rejections_.push_back({time(), step, RejectionReason::no_shape});
       step *= 0.5;
       ++cuts;
       continue;
@@ -207,7 +213,7 @@ StepStatus Simulation::step(double end_time) {
     }
     const double first = passing.front().touch.share;
     if (first > settings_.smallest_cut && cuts < settings_.max_step_cuts) {
-      rejections_.push_back({time_, step, RejectionReason::passing});
+      rejections_.push_back({time(), step, RejectionReason::passing});
       step *= first;
       ++cuts;
       continue;
@@ -409,22 +415,23 @@ std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const
     body.free_change = block.space().restrict(
         scheme.free_change(still, states_[k].velocity, accelerations_.empty() ? still : accelerations_[k]));
     body.external_force = block.space().restrict(external_force(block, scheme));
-    body.prescribed = block.prescribed_change(states_[k].position, time_, time_ + scheme.step);
+    body.prescribed = block.prescribed_change(states_[k].position, time(), clock_.time_after(scheme.step));
   }
   return bodies;
 }
 
 Eigen::MatrixX3d Simulation::external_force(const BlockModel& block, const TimeScheme& scheme) const {
-  Eigen::MatrixX3d end = block.external_force(settings_.gravity, time_ + scheme.step);
+  Eigen::MatrixX3d end = block.external_force(settings_.gravity, clock_.time_after(scheme.step));
   if (scheme.end_share >= 1.0) return end;
-  return scheme.end_share * end + (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time_);
+  return scheme.end_share * end + (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time());
 }
 
 std::vector<BlockState> Simulation::driven_states(double step) const {
   std::vector<BlockState> states;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     const BlockModel& block = blocks_[k];
-    const Eigen::MatrixX3d prescribed = block.prescribed_change(states_[k].position, time_, time_ + step);
+    const Eigen::MatrixX3d prescribed =
+        block.prescribed_change(states_[k].position, time(), clock_.time_after(step));
     if (prescribed.size() == 0 || prescribed.isZero(0.0)) continue;
     if (states.empty()) states = states_;
     states[k].velocity = block.space().expand(block.space().restrict(states_[k].velocity)) +
@@ -440,7 +447,7 @@ std::vector<Eigen::MatrixX3d> Simulation::smooth_accelerations() const {
     result.emplace_back(Eigen::MatrixX3d::Zero(block.basis().size(), 3));
     if (!moving_[k]) continue;
     const Eigen::MatrixX3d force =
-        block.external_force(settings_.gravity, time_) - block.elastic(states_[k].position).force;
+        block.external_force(settings_.gravity, time()) - block.elastic(states_[k].position).force;
     result.back() = block.space().expand(block.space().restrict(force)) / block.material().density -
                     settings_.mass_damping * states_[k].velocity;
   }

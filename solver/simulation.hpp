@@ -20,6 +20,7 @@
 #include "solver/seams.hpp"
 #include "solver/settings.hpp"
 #include "solver/static_analysis.hpp"
+#include "solver/step_clock.hpp"
 
 namespace ashlar {
 
@@ -158,7 +159,7 @@ class Simulation {
   /// @throws std::invalid_argument if one of them is incremental
   bool tie_blocks(int a, int b, double stiffness);
 
-  /// Whether nothing is left up to `end_time` but the rounding of summed steps.
+  /// Whether nothing is left up to `end_time` but rounding, or less than 1e-9 of a step.
   [[nodiscard]] bool reached(double end_time) const;
   /// Takes one step of at most settings.time_step, and not beyond `end_time`, which is not yet reached. A
   /// step that ends there but for rounding is not fitted to it, so that a run that goes on later has had the
@@ -187,7 +188,7 @@ class Simulation {
   /// @throws std::invalid_argument if the snapshot was taken of other blocks.
   void restore(const SimulationSnapshot& snapshot);
 
-  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] double time() const { return clock_.time(); }
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
   [[nodiscard]] const std::vector<BlockState>& states() const { return states_; }
@@ -239,8 +240,10 @@ class Simulation {
     std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks
     std::vector<PairDepth> depths;                ///< at its end
   };
-  /// Rounding of times that are sums of steps, in parts of a step: a remainder of this length is none.
+  /// In parts of a step: a remainder of this length up to the end is no step of its own.
   static constexpr double step_rounding = 1e-9;
+  /// Such a remainder in s, and at least the rounding of times near the end.
+  [[nodiscard]] double time_rounding(double end_time) const;
 
   [[nodiscard]] std::vector<FoundContacts> find_contacts(double step);
   /// By how much a block is shorter or longer along a unit direction, in the mean, than it is without load,
@@ -429,7 +432,7 @@ class Simulation {
   std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;
-  double time_ = 0.0;
+  StepClock clock_;
   double next_step_;  ///< s, grows back to settings_.time_step after cuts
   int steps_ = 0;
   bool remembers_statics_ = false;  ///< contacts were known before the first step

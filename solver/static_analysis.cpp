@@ -83,10 +83,13 @@ double Simulation::least_inertia() const {
 
 void Simulation::start_load_level(double end_time) {
   const bool changing = std::any_of(blocks_.begin(), blocks_.end(), [&](const BlockModel& block) {
-    return block.loads_change_between(time_, end_time);
+    return block.loads_change_between(time(), end_time);
   });
-  const double next = time_ + settings_.time_step;
-  time_ = changing && next < end_time - step_rounding * settings_.time_step ? next : end_time;
+  if (changing && clock_.time_after(settings_.time_step) < end_time - time_rounding(end_time)) {
+    clock_.advance(settings_.time_step);
+  } else {
+    clock_ = {.start = end_time};
+  }
   // From one equilibrium to the next, inertia would make blocks slide that supports only carry along.
   const bool from_equilibrium = static_.balanced;
   static_ = StaticState{};
@@ -142,7 +145,7 @@ StaticStatus Simulation::static_step(double end_time) {
     const IslandStatus status = try_step(scheme, trial);
     double raise = 10.0;
     if (status != IslandStatus::settled) {
-      rejections_.push_back({time_, step,
+      rejections_.push_back({time(), step,
                              status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                                                  : RejectionReason::not_positive_definite});
       if (static_.holds_bonds) {
@@ -154,7 +157,7 @@ StaticStatus Simulation::static_step(double end_time) {
     } else if (const double motion = largest_motion(trial); motion > settings_.static_motion) {
       raise = std::clamp(1.1 * motion / settings_.static_motion, 2.0, 1e4);
     } else if (const auto passing = check_motion(trial, found); !passing.empty()) {
-      rejections_.push_back({time_, step, RejectionReason::passing});
+      rejections_.push_back({time(), step, RejectionReason::passing});
       if (passing.front().touch.share <= settings_.smallest_cut) {
         add_contacts(passing, found);
         counts_.passing_contacts += passing.size();

@@ -16,7 +16,7 @@ StaticStatus Simulation::start_from_statics() {
   for (const std::vector<int>& blocks : loose_blocks())
     for (const int block : blocks) moving_[static_cast<std::size_t>(block)] = false;
   StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing) status = static_step(time_);
+  while (status == StaticStatus::balancing) status = static_step(time());
   moving_ = moving;
   if (status != StaticStatus::equilibrium) {
     restore(as_placed);

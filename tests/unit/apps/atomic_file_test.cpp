@@ -51,6 +51,22 @@ TEST_P(AtomicFile, PipesAndDevicesAreNotReplaced) {
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
+// In a shared folder someone else may have made a link of the temporary name.
+TEST_P(AtomicFile, DoesNotFollowLinks) {
+  const TemporaryFolder folder;
+  write_text(folder / "mine", "mine");
+  std::filesystem::create_symlink(folder / "mine", folder / "a.tmp");
+  EXPECT_THAT([&] { write_file_atomically(folder / "a", "x", GetParam()); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("a.tmp, which is no regular file")));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.tmp"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a"));
+  std::filesystem::create_symlink(folder / "mine", folder / "b");
+  write_file_atomically(folder / "b", "x", GetParam());
+  EXPECT_EQ(read_text(folder / "b"), "x");
+  EXPECT_EQ(read_text(folder / "mine"), "mine");
+  EXPECT_THROW(write_file_atomically("", "x", GetParam()), std::runtime_error);
+}
+
 TEST_P(AtomicFile, FailsWithoutATrace) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "taken");

@@ -1,9 +1,11 @@
 #include "apps/output_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <stdexcept>
@@ -56,6 +58,44 @@ TEST(OutputFile, MovesKeepTheFileOpen) {
   third = std::move(second);
   third.write("3");
   EXPECT_EQ(read_text(folder / "a"), "123");
+}
+
+TEST(OutputFile, LinksAreNotFollowedAndPipesDoNotWait) {
+  const TemporaryFolder folder;
+  write_text(folder / "mine", "mine");
+  std::filesystem::create_symlink(folder / "mine", folder / "link");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const Start start : {Start::empty, Start::at_end}) {
+    EXPECT_THAT([&] { OutputFile(folder / "link", start); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("link: ")));
+    EXPECT_THAT([&] { OutputFile(folder / "pipe", start); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("pipe: ")));
+  }
+  const int reader = ::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  EXPECT_THROW(OutputFile(folder / "pipe", Start::empty), std::runtime_error) << "with a reader";
+  ::close(reader);
+  EXPECT_EQ(read_text(folder / "mine"), "mine");
+}
+
+TEST(OutputFile, CreatedOnlyWhereNothingIs) {
+  const TemporaryFolder folder;
+  OutputFile(folder / "a", Start::created).write("a");
+  EXPECT_THROW(OutputFile(folder / "a", Start::created), std::runtime_error);
+  std::filesystem::create_symlink(folder / "nowhere", folder / "link");
+  EXPECT_THROW(OutputFile(folder / "link", Start::created), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "nowhere"));
+  EXPECT_EQ(read_text(folder / "a"), "a");
+}
+
+TEST(OutputFile, MissesItsFile) {
+  const TemporaryFolder folder;
+  const OutputFile file(folder / "a", Start::empty);
+  EXPECT_NO_THROW(file.check_in_place());
+  std::filesystem::rename(folder / "a", folder / "b");
+  EXPECT_THAT([&] { file.check_in_place(); }, ThrowsMessage<std::runtime_error>(HasSubstr("No such file")));
+  write_text(folder / "a", "another");
+  EXPECT_THAT([&] { file.check_in_place(); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("a was replaced while it was being written")));
 }
 
 TEST(OutputFile, NamesThePathAndTheReason) {

@@ -32,8 +32,8 @@ using ::testing::StartsWith;
 
 TEST_F(RunCommand, WritesTheResultFolder) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  EXPECT_THAT(files("out"), ElementsAre("blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd", "frames",
-                                        "history.csv", "summary.json"));
+  EXPECT_THAT(files("out"), ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd",
+                                        "frames", "history.csv", "summary.json"));
   EXPECT_THAT(
       files("out/frames"),
       ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu", "blocks_0000030.vtu",
@@ -93,10 +93,10 @@ TEST_F(RunCommand, ContactsOfEveryFrameAreInTheTable) {
 TEST_F(RunCommand, ContactForcesAreWhatChangesMomentum) {
   // m dv/dt = m g + F of the cube in every step, also of points that have opened at its end.
   for (const char* integrator : {"dda", "average-acceleration", "generalized-alpha"}) {
-    ASSERT_EQ(
-        run("out", {"--set", "analysis.integrator=" + std::string(integrator), "--set", "output.every=1",
-                    "--set", "measure.tip.block=A", "--set", "measure.tip.point=[3.25, 0, 0.75]"}),
-        exit_status::done)
+    ASSERT_EQ(run("out", {"--force", "--set", "analysis.integrator=" + std::string(integrator), "--set",
+                          "output.every=1", "--set", "measure.tip.block=A", "--set",
+                          "measure.tip.point=[3.25, 0, 0.75]"}),
+              exit_status::done)
         << faults_;
     std::map<double, double> forces;  // by step
     const std::vector<double> steps = column("out/contacts.csv", "step");
@@ -203,7 +203,7 @@ TEST_F(RunCommand, ResultsThatCannotBeWrittenEndTheRunWithTheReason) {
 TEST_F(RunCommand, FailedRunSavesItsLastState) {
   // Springs that stiff swallow the inertia of the blocks, or make the numbers of the system overflow.
   for (const char* stiffness : {"1e40", "1e300"}) {
-    EXPECT_EQ(run("out", {"--set", "contact.normal_stiffness=" + std::string(stiffness)}),
+    EXPECT_EQ(run("out", {"--force", "--set", "contact.normal_stiffness=" + std::string(stiffness)}),
               exit_status::failed);
     EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: step "), HasSubstr("was rejected"),
                                HasSubstr((folder_ / "out").string())));
@@ -298,14 +298,14 @@ TEST_F(RunCommand, ResumeNeedsTheTablesOfTheCheckpoint) {
 
 TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  ASSERT_EQ(run("out", {"--set", "analysis.end_time=0.01"}), exit_status::done) << faults_;
+  ASSERT_EQ(run("out", {"--force", "--set", "analysis.end_time=0.01"}), exit_status::done) << faults_;
   EXPECT_THAT(files("out/frames"), ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu",
                                                "contacts_0000000.vtu", "contacts_0000010.vtu"));
   EXPECT_EQ(lines("out/history.csv").size(), 12U);
 }
 
 TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const std::string name = "out" + std::to_string(signal);
     // Sent as soon as some steps are written, whenever that is.
     std::thread sender([&] {
@@ -325,7 +325,7 @@ TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
                           steps, summary["time"].get<double>(), (folder_ / name).string()));
     const std::string end = "analysis.end_time=" + std::to_string(0.001 * (steps + 10));
     ASSERT_EQ(run(name, {"--resume", "--set", end}), exit_status::done) << faults_;
-    ASSERT_EQ(run("straight", {"--set", end}), exit_status::done) << faults_;
+    ASSERT_EQ(run("straight", {"--force", "--set", end}), exit_status::done) << faults_;
     expect_same_results("straight", name);
   }
 }

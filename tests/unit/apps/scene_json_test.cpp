@@ -35,7 +35,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
        "fix": [{"plane": {"point": [0.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}, "components": ["x", "y", "z"]}],
        "load": [{"plane": {"point": [4.0, 0.0, 0.0], "normal": [1.0, 0.0, 0.0]}, "traction": [0.0, 0.0, -1e5]}]}],
     "measure": [{"name": "tip", "block": "B", "point": [4.0, 0.5, 0.5]}],
-    "output": {"every": 5, "fields": ["displacement", "velocity", "stress"], "curved": false}
+    "output": {"every": 5, "history_every": 1, "fields": ["displacement", "velocity", "stress"], "curved": false}
   })"));
 }
 
@@ -53,7 +53,8 @@ TEST(SceneJson, HoldsWhatIsNotDefault) {
   EXPECT_EQ(json["contact"]["normal_stiffness"], 5.0);
   EXPECT_EQ(json["joint"][0],
             nlohmann::json::parse(R"({"blocks": ["A", "B*"], "shear_stiffness": "auto", "tied": true})"));
-  EXPECT_EQ(json["output"], nlohmann::json::parse(R"({"interval": 0.5, "fields": [], "curved": true})"));
+  EXPECT_EQ(json["output"],
+            nlohmann::json::parse(R"({"interval": 0.5, "history_every": 1, "fields": [], "curved": true})"));
   EXPECT_EQ(json["block"][0]["sphere"],
             nlohmann::json::parse(R"({"center": [0.0, 0.0, 0.0], "radius": 1.0, "subdivisions": 3})"));
   EXPECT_EQ(json["block"][0]["rotate"],

@@ -90,7 +90,7 @@ TEST_F(StaticRun, EndsInEquilibrium) {
 TEST_F(StaticRun, HoldsContactByMultipliersUnlessAStiffnessIsGiven) {
   write_text(scene_, static_scene_text);
   const auto augmented = [&](const std::string& more) {
-    EXPECT_EQ(run("out", {"--set", more}), exit_status::done) << faults_;
+    EXPECT_EQ(run("out", {"--force", "--set", more}), exit_status::done) << faults_;
     return nlohmann::json::parse(text("out/summary.json"))["scene"]["contact"]["augmented"].get<bool>();
   };
   EXPECT_TRUE(augmented("contact.friction_angle=31"));

@@ -98,7 +98,7 @@ TEST_F(ViewCommand, ThePageHoldsTheFrames) {
 
 TEST_F(ViewCommand, CurvedFramesLookLikeDividedOnes) {
   const auto page_with = [&](const std::string& curved) {
-    simulate({"--set", "block.0.order=2", "--set", "block.0.angular_velocity=[0, 1, 0]", "--set",
+    simulate({"--force", "--set", "block.0.order=2", "--set", "block.0.angular_velocity=[0, 1, 0]", "--set",
               "output.curved=" + curved});
     EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
     return read_text(folder / "out" / "view.html");

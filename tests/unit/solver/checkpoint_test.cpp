@@ -60,7 +60,7 @@ TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
 
 TEST(Checkpoint, EverySnapshotMemberIsStored) {
   SimulationSnapshot snapshot;
-  snapshot.time = 0.1;
+  snapshot.clock = {0.1, 0.25, 14};
   snapshot.next_step = 1e-300;
   snapshot.steps = 7;
   snapshot.states = {{Eigen::MatrixX3d::Constant(4, 3, -0.0), Eigen::MatrixX3d::Constant(4, 3, 2.5)}};
@@ -81,7 +81,9 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
   snapshot.counts.factors.solves = 13;
   const SimulationSnapshot back = snapshot_from_bytes(to_bytes(snapshot));
-  EXPECT_EQ(back.time, 0.1);
+  EXPECT_EQ(back.clock.start, 0.1);
+  EXPECT_EQ(back.clock.step, 0.25);
+  EXPECT_EQ(back.clock.count, 14);
   EXPECT_EQ(back.next_step, 1e-300);
   EXPECT_EQ(back.steps, 7);
   ASSERT_EQ(back.states.size(), 1U);

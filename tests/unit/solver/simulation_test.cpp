@@ -48,6 +48,68 @@ TEST(Simulation, FreeFallIsExact) {
   }
 }
 
+TEST(Simulation, TimesAreMultiplesOfTheStepAndTheLastStepIsAWholeOne) {
+  SimulationSettings settings;
+  settings.time_step = 2e-3;
+  Simulation simulation(models(block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1)), {{}},
+                        same_law({}), settings);
+  constexpr double end = 30.0;
+  while (!simulation.reached(end)) {
+    ASSERT_EQ(simulation.step(end), StepStatus::accepted);
+    ASSERT_EQ(simulation.time(), 2 * simulation.steps() / 1e3);
+    ASSERT_EQ(simulation.report().step, 2e-3);
+  }
+  EXPECT_EQ(simulation.steps(), 15000);
+  // What is left up to a later end is a step of its own unless it is less than rounding.
+  const double sliver = end * (1.0 + 1e-15);
+  EXPECT_TRUE(simulation.reached(sliver));
+  EXPECT_TRUE(simulation.reached(end + 1e-12));
+  EXPECT_FALSE(simulation.reached(end + 1e-10));
+  ASSERT_EQ(simulation.step(end + 1e-10), StepStatus::accepted);
+  EXPECT_NEAR(simulation.report().step, 1e-10, 1e-14);
+}
+
+TEST(Simulation, AStepThatEndsASliverBeforeTheEndIsTheLastOne) {
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  for (const double sliver : {-1e-13, 1e-13}) {
+    Simulation simulation(models(block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1)), {{}},
+                          same_law({}), settings);
+    ASSERT_TRUE(run_until(simulation, 0.01 + sliver));
+    EXPECT_EQ(simulation.steps(), 10);
+    EXPECT_EQ(simulation.time(), 0.01);
+  }
+}
+
+TEST(Simulation, TimesAfterACutAreMultiplesFromThere) {
+  // Falls on a floor without contact springs that would slow it before: cut to the first touch.
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  InitialMotion motion;
+  motion.velocity = {0, 0, -20};
+  Simulation simulation(models(block_of("A", Polyhedron(make_box({0, 0, 0.1}, {0.2, 0.2, 0.3})), rock, 1),
+                               fixed_block(Polyhedron(make_box({-1, -1, -0.005}, {1, 1, 0})))),
+                        {motion, {}}, same_law({1e9, 1e9, 0.0, 0.0, 0.0, true}), settings);
+  double start = 0.0;
+  int count = 0;
+  double last = 0.0;
+  int changes = 0;
+  while (!simulation.reached(0.05)) {
+    ASSERT_EQ(simulation.step(0.05), StepStatus::accepted);
+    const double step = simulation.report().step;
+    if (step != last && last != 0.0) {
+      start = decimal_sum(start, count, last);
+      count = 0;
+      ++changes;
+    }
+    last = step;
+    ++count;
+    ASSERT_EQ(simulation.time(), decimal_sum(start, count, step));
+  }
+  EXPECT_NEAR(simulation.time(), 0.05, 1e-12);
+  EXPECT_GT(changes, 0) << "no step was cut";
+}
+
 /// A 1 x 2 x 3 box of order 1 turned by 0.01 rad per step for 628 steps, without gravity.
 Simulation spinning_box(Integrator integrator, const Material& material) {
   SimulationSettings settings;

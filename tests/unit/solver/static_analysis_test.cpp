@@ -437,6 +437,27 @@ TEST(StaticAnalysis, SoftPlatesOnStiffPiersSettleWithMultipliers) {
   }
 }
 
+TEST(StaticAnalysis, LevelsOfLoadsAreMultiplesOfTheStep) {
+  BlockDefinition stone = block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1);
+  Load push;
+  push.where = Plane{{0, 0, 0}, {1, 0, 0}};
+  push.vector = {0.1 * 2700 * 9.81, 0, 0};
+  push.history = {{0.0, 1.0}, {0.0, 1.0}};
+  stone.loads.push_back(push);
+  SimulationSettings settings;
+  settings.time_step = 0.1;
+  Simulation simulation(models(std::move(stone), fixed_block(Polyhedron(make_box({-2, -2, -1}, {3, 3, 0})))),
+                        {{}, {}}, same_law({1e10, 5e9, 0.5, 0.0, 0.0, true}), settings);
+  std::vector<double> times;
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) {
+    status = simulation.static_step(1.0);
+    if (times.empty() || times.back() != simulation.time()) times.push_back(simulation.time());
+  }
+  EXPECT_EQ(status, StaticStatus::equilibrium);
+  EXPECT_EQ(times, (std::vector<double>{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}));
+}
+
 TEST(StaticAnalysis, LoadsThatChangeAreFollowed) {
   // A block pushed along its base by a tenth of its weight and let go again: friction 0.5 holds it all the
   // time.
