@@ -1,16 +1,20 @@
 #include "apps/run_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <string_view>
 
 #include "apps/atomic_file.hpp"
+#include "apps/base_motion.hpp"
 #include "apps/command_line.hpp"
 #include "apps/initial_state.hpp"
 #include "apps/loose_blocks.hpp"
@@ -18,6 +22,8 @@
 #include "apps/result_folder.hpp"
 #include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
+#include "apps/scene_difference.hpp"
+#include "apps/scene_json.hpp"
 #include "apps/view_file.hpp"
 
 namespace ashlar {
@@ -71,6 +77,7 @@ ProgressState progress_of(const Simulation& simulation) {
 
 std::filesystem::path result_folder_of(const RunOptions& options) {
   if (options.out) return *options.out;
+  if (options.scene == "-") return "stdin.out";
   return options.scene.stem().string() + ".out";
 }
 
@@ -277,12 +284,34 @@ class Run {
   std::string message_;
 };
 
+/// "; changed: KEY (was A, is B), ..." from the summary of the run before; empty if it has none or says
+/// nothing else.
+std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
+  constexpr int deepest = 100;  // a scene's own tables are less than ten deep
+  constexpr std::size_t most_shown = 5;
+  std::ifstream stream(folder / "summary.json");
+  const auto shallow = [](int depth, nlohmann::ordered_json::parse_event_t, nlohmann::ordered_json&) {
+    return depth < deepest;
+  };
+  const auto summary = nlohmann::ordered_json::parse(stream, shallow, false);
+  if (!summary.is_object() || !summary.contains("scene")) return {};
+  std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
+  if (keys.empty()) return {};
+  const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
+  keys.resize(keys.size() - hidden);
+  return fmt::format("; changed: {}{}", fmt::join(keys, ", "),
+                     hidden > 0 ? fmt::format(" and {} more", hidden) : "");
+}
+
 /// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
                                              Diagnostics& diagnostics) {
   const std::filesystem::path path = folder / checkpoint_name;
   try {
     return read_checkpoint(path, scene_hash(loaded));
+  } catch (const OtherSceneError& error) {
+    diagnostics.error({path.string()}, error.what() + changed_keys(folder, loaded.scene));
+    return std::nullopt;
   } catch (const CheckpointError& error) {
     diagnostics.error({path.string()}, error.what());
     return std::nullopt;
@@ -344,17 +373,25 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const double start = seconds_now();
   const std::filesystem::path folder = result_folder_of(options);
   Diagnostics diagnostics;
-  const std::optional<LoadedScene> loaded = load_scene(options.scene, options.overrides, diagnostics);
+  std::optional<LoadedScene> loaded;
   std::optional<BuiltSimulation> built;
-  if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics);
-  if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
-    refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  {
+    Preparation preparation(options.quiet, err);
+    loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
+    if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics, &preparation);
+    if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+      refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  }
   std::optional<RunCheckpoint> earlier;
   if (built && options.resume) earlier = find_checkpoint(folder, *loaded, diagnostics);
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
   if (earlier) built->simulation.restore(earlier->simulation);
-  if (!options.quiet) tell_choices(*built, err);
+  if (!options.quiet) {
+    tell_choices(*built, err);
+    err << to_string(loaded->cost, loaded->scene.block.size()) << '\n';
+    for (const std::string& line : motion_left(loaded->scene)) err << line << '\n';
+  }
   if (starts_from_statics(loaded->scene) && !earlier) {
     const StaticStart statics = start_in_statics(built->simulation);
     if (!statics.message.empty())

@@ -173,9 +173,13 @@ StepStatus Simulation::step(double end_time) {
     const TimeScheme scheme = time_scheme(settings_, step);
     const IslandStatus status = try_step(scheme, trial);
     if (status != IslandStatus::settled) {
-      rejections_.push_back({time_, step,
-                             status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
-                                                                 : RejectionReason::not_positive_definite});
+      // Numbers that overflow settle nowhere.
+      if (const auto broken = broken_block(trial); broken && broken->reason == RejectionReason::not_finite)
+        reject(step, *broken);
+      else
+        rejections_.push_back({time_, step,
+                               status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
+                                                                   : RejectionReason::not_positive_definite});
       unsettled = true;
       step *= 0.5;
       ++cuts;

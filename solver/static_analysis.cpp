@@ -142,9 +142,12 @@ StaticStatus Simulation::static_step(double end_time) {
     const IslandStatus status = try_step(scheme, trial);
     double raise = 10.0;
     if (status != IslandStatus::settled) {
-      rejections_.push_back({time_, step,
-                             status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
-                                                                 : RejectionReason::not_positive_definite});
+      if (const auto broken = broken_block(trial); broken && broken->reason == RejectionReason::not_finite)
+        reject(step, *broken);
+      else
+        rejections_.push_back({time_, step,
+                               status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
+                                                                   : RejectionReason::not_positive_definite});
       if (static_.holds_bonds) {
         let_bonds_go();
         trial.pairs = make_pairs(found, false);
