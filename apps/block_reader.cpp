@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
+#include "apps/history_reader.hpp"
 #include "apps/support_history.hpp"
 
 namespace ashlar {
@@ -141,34 +143,93 @@ void read_components(TomlTableReader& table, std::array<bool, 3>& components) {
     components[static_cast<std::size_t>(axis)] = std::find(words.begin(), words.end(), name) != words.end();
 }
 
+struct RecordKey {
+  const char* key;
+  MotionRecord record;
+  const char* letter;
+  const char* row;
+};
+
+constexpr std::array<RecordKey, 3> record_keys = {
+    {{"displacement_history", MotionRecord::displacement, "u", "[t, ux, uy, uz]"},
+     {"velocity_history", MotionRecord::velocity, "v", "[t, vx, vy, vz]"},
+     {"acceleration_history", MotionRecord::acceleration, "a", "[t, ax, ay, az]"}}};
+
+// What a history is held to once its rows are good by themselves. @return whether it can be used
+bool check_history(TomlTableReader& table, const RecordKey& kind, const SceneFix& fix) {
+  for (const auto& [time, value] : fix.history) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double component = value[static_cast<Eigen::Index>(axis)];
+      if (fix.components[axis] || component == 0.0) continue;
+      table.error_at_value(
+          kind.key, fmt::format("{} moves a component that is not held ({}{} = {:g} at t = {:g}), 0 or "
+                                "\"{}\" among components is needed",
+                                kind.key, kind.letter, "xyz"[axis], component, time, "xyz"[axis]));
+      return false;
+    }
+  }
+  if (kind.record != MotionRecord::displacement && fix.history.front().time < 0.0) {
+    table.error_at_value(kind.key,
+                         fmt::format("{} begins before t = 0, where the block is at rest ({:g}), times "
+                                     "of at least 0 are needed",
+                                     kind.key, fix.history.front().time));
+    return false;
+  }
+  try {
+    const Vector3 start = RecordedMotion(support_history(fix)).displacement(0.0);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (start[axis] == 0.0) continue;
+      table.error_at_value(
+          kind.key, fmt::format("{} is not zero at t = 0, where the block is placed (u{} = {:g}), 0 is "
+                                "needed",
+                                kind.key, "xyz"[axis], start[axis]));
+      return false;
+    }
+  } catch (const std::domain_error&) {
+    table.error_at_value(kind.key,
+                         fmt::format("{} leads to numbers that are not finite, smaller values or times "
+                                     "farther apart are needed",
+                                     kind.key));
+    return false;
+  }
+  return true;
+}
+
 SceneFix read_fix(TomlTableReader& table) {
   SceneFix fix;
   fix.where = read_where(table);
   read_components(table, fix.components);
-  std::vector<std::vector<double>> rows;
-  table.read_history("displacement_history", rows, 4, "[t, ux, uy, uz]");
-  for (const auto& row : rows) {
-    const Vector3 displacement{row[1], row[2], row[3]};
-    fix.displacement_history.push_back({row[0], displacement});
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (fix.components[axis] || row[axis + 1] == 0.0) continue;
-      table.error_at_value(
-          "displacement_history",
-          fmt::format("displacement_history moves a component that is not held (u{} = {:g} at t = "
-                      "{:g}), 0 or \"{}\" among components is needed",
-                      "xyz"[axis], row[axis + 1], row[0], "xyz"[axis]));
-      return fix;
-    }
+  std::vector<std::string> given;
+  const RecordKey* kind = nullptr;
+  std::optional<HistoryRows> history;
+  for (const RecordKey& candidate : record_keys) {
+    if (!table.given(candidate.key)) continue;
+    given.emplace_back(candidate.key);
+    kind = &candidate;
+    history = read_history(table, candidate.key, 4, candidate.row);
   }
-  for (std::size_t axis = 0; axis < 3 && !rows.empty(); ++axis) {
-    const double start = displacement_at(support_history(fix), axis, 0.0);
-    if (start == 0.0) continue;
-    table.error_at_value("displacement_history",
-                         fmt::format("displacement_history is not zero at t = 0, where the block is placed "
-                                     "(u{} = {:g}), 0 is needed",
-                                     "xyz"[axis], start));
+  enum class Interpolation { linear, cubic };
+  constexpr std::array<std::pair<const char*, Interpolation>, 2> names = {
+      {{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}}};
+  Interpolation interpolation = Interpolation::linear;
+  const bool chosen = table.read_choice("interpolation", interpolation, names);
+  if (given.size() > 1) {
+    table.error_at_key(given.back(), fmt::format("a support has {} histories ({}), at most one is allowed",
+                                                 given.size(), fmt::join(given, ", ")));
     return fix;
   }
+  if (chosen && (kind == nullptr || kind->record != MotionRecord::displacement))
+    table.error_at_key(
+        "interpolation",
+        fmt::format("interpolation without displacement_history ({}), it is that of displacements",
+                    kind == nullptr ? "no history" : kind->key));
+  if (!history) return fix;
+  fix.file = std::move(history->file);
+  fix.record = kind->record;
+  if (fix.record == MotionRecord::displacement && interpolation == Interpolation::cubic)
+    fix.record = MotionRecord::smooth_displacement;
+  for (const auto& row : history->rows) fix.history.push_back({row[0], {row[1], row[2], row[3]}});
+  if (!check_history(table, *kind, fix)) fix.history.clear();
   return fix;
 }
 
@@ -185,9 +246,10 @@ SceneLoad read_load(TomlTableReader& table) {
   if (traction_given && table.given("point"))
     table.error_at_key("traction",
                        "traction at a point (point), a traction needs a plane, a point takes a force");
-  std::vector<std::vector<double>> rows;
-  table.read_history("history", rows, 2, "[t, factor]");
-  for (const auto& row : rows) load.history.push_back({row[0], row[1]});
+  if (std::optional<HistoryRows> history = read_history(table, "history", 2, "[t, factor]")) {
+    load.file = std::move(history->file);
+    for (const auto& row : history->rows) load.history.push_back({row[0], row[1]});
+  }
   return load;
 }
 

@@ -8,10 +8,11 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <type_traits>
 
 #include "apps/initial_state.hpp"
-#include "apps/name_pattern.hpp"
+#include "apps/joint_table.hpp"
 #include "apps/support_history.hpp"
 #include "apps/turned_supports.hpp"
 #include "solver/automatic.hpp"
@@ -119,50 +120,32 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   return settings;
 }
 
-/// Laws between blocks. Memory and time to build are those of the kinds of blocks, not of pairs: blocks that
-/// the same globs match have the same joints.
+/// Laws between blocks.
 class JointLaws {
  public:
-  JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks, std::vector<AutomaticChoice>& choices)
+  JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks,
+            std::shared_ptr<const JointTable> table, std::vector<AutomaticChoice>& choices)
       : area_(scene.contact.springs == SceneContact::Springs::area),
         multipliers_(has_multipliers(scene)),
-        asked_for_(scene.contact.augmented.value_or(false)) {
-    std::map<std::string, int> group_of_matches;
-    std::vector<std::string> examples;  // a block of each group
-    std::map<std::pair<int, StiffnessSource>, int> kinds;
-    for (const BlockModel& block : blocks) {
-      std::string matches;
-      for (const SceneJoint& joint : scene.joint) {
-        for (const std::string& pattern : joint.blocks)
-          matches += pattern_matches(pattern, block.name()) ? '1' : '0';
-      }
-      const auto [place, added] = group_of_matches.emplace(matches, static_cast<int>(examples.size()));
-      if (added) examples.push_back(block.name());
-      group_.push_back(place->second);
-      source_.push_back(stiffness_source(block));
-      ++kinds[{group_.back(), source_.back()}];
-    }
-    groups_ = examples.size();
-    for (const std::string& a : examples) {
-      for (const std::string& b : examples) laws_.push_back(joint_law_between(scene, a, b));
-    }
-    if (!multipliers_ || asked_for_) note_choices(kinds, choices);
+        asked_for_(scene.contact.augmented.value_or(false)),
+        table_(std::move(table)) {
+    source_.reserve(blocks.size());
+    for (const BlockModel& block : blocks) source_.push_back(stiffness_source(block));
+    if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
   }
 
   JointLaw operator()(int a, int b) const {
-    const auto first = static_cast<std::size_t>(a);
-    const auto second = static_cast<std::size_t>(b);
-    return law(group_[first], source_[first], group_[second], source_[second]);
+    return law(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
 
  private:
-  [[nodiscard]] JointLaw law(int group_a, const StiffnessSource& a, int group_b,
-                             const StiffnessSource& b) const {
-    const SceneJointLaw& given = between(group_a, group_b);
+  [[nodiscard]] JointLaw law(std::size_t a, std::size_t b) const {
+    const SceneJointLaw given = table_->law_between(a, b);
     JointLaw result;
     result.area_springs = area_;
-    result.normal_stiffness =
-        given.normal_stiffness ? *given.normal_stiffness : automatic_normal_stiffness(a, b, area_, ratios_);
+    result.normal_stiffness = given.normal_stiffness
+                                  ? *given.normal_stiffness
+                                  : automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
     result.rigid = !given.normal_stiffness;
     result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
     result.shear_stiffness =
@@ -173,23 +156,38 @@ class JointLaws {
     return result;
   }
 
-  [[nodiscard]] const SceneJointLaw& between(int group_a, int group_b) const {
-    return laws_[static_cast<std::size_t>(group_a) * groups_ + static_cast<std::size_t>(group_b)];
+  /// Two blocks, or one, of each kind: equal blocks that the same globs match have the same joints.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> kinds_of_blocks(const Scene& scene) const {
+    std::vector<std::vector<std::size_t>> globs(source_.size());
+    for (std::size_t joint = 0; joint < scene.joint.size(); ++joint) {
+      for (const std::size_t side : {0U, 1U}) {
+        // What matches every block tells none apart.
+        if (table_->matched(joint, side).size() == source_.size()) continue;
+        for (const std::size_t block : table_->matched(joint, side)) globs[block].push_back(2 * joint + side);
+      }
+    }
+    std::map<std::pair<std::vector<std::size_t>, StiffnessSource>, std::vector<std::size_t>> kinds;
+    for (std::size_t k = 0; k < source_.size(); ++k) {
+      std::vector<std::size_t>& blocks = kinds[{std::move(globs[k]), source_[k]}];
+      if (blocks.size() < 2) blocks.push_back(k);
+    }
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& [kind, blocks] : kinds) result.push_back(std::move(blocks));
+    return result;
   }
 
   /// The softest and the stiffest pair whose stiffness is left to the program.
-  void note_choices(const std::map<std::pair<int, StiffnessSource>, int>& kinds,
+  void note_choices(const std::vector<std::vector<std::size_t>>& kinds,
                     std::vector<AutomaticChoice>& choices) const {
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
-    for (auto a = kinds.begin(); a != kinds.end(); ++a) {
-      for (auto b = a; b != kinds.end(); ++b) {
-        const auto& [group_a, source_a] = a->first;
-        const auto& [group_b, source_b] = b->first;
-        const bool no_pair = a == b && a->second < 2;
-        if (no_pair || (source_a.fixed && source_b.fixed) || between(group_a, group_b).normal_stiffness)
-          continue;
-        const double stiffness = automatic_normal_stiffness(source_a, source_b, area_, ratios_);
+    for (std::size_t m = 0; m < kinds.size(); ++m) {
+      for (std::size_t n = m; n < kinds.size(); ++n) {
+        const std::size_t a = kinds[m].front(), b = kinds[n].back();
+        if (a == b || (source_[a].fixed && source_[b].fixed)) continue;
+        const double stiffness = automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
+        if (stiffness >= least && stiffness <= most) continue;
+        if (table_->law_between(a, b).normal_stiffness) continue;
         least = std::min(least, stiffness);
         most = std::max(most, stiffness);
       }
@@ -205,48 +203,63 @@ class JointLaws {
   bool multipliers_;
   bool asked_for_;  ///< for all joints, whatever stiffness they are given
   AutomaticRatios ratios_;
-  std::vector<int> group_;               ///< (#blocks) by the globs that match
+  std::shared_ptr<const JointTable> table_;
   std::vector<StiffnessSource> source_;  ///< (#blocks)
-  std::size_t groups_ = 0;
-  std::vector<SceneJointLaw> laws_;  ///< (#groups, #groups)
 };
 
-/// Whether a later [[joint]] of the blocks that one ties unties all of them.
-bool is_untied(const Scene& scene, const std::vector<BlockModel>& blocks, const SceneJoint& joint) {
-  bool tied_any = false;
-  bool left_any = false;
-  for (std::size_t a = 0; a < blocks.size(); ++a) {
-    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
-      if (!pattern_matches_pair(joint.blocks, blocks[a].name(), blocks[b].name())) continue;
-      tied_any = true;
-      left_any = left_any || joint_law_between(scene, blocks[a].name(), blocks[b].name()).tied;
+/// Calls visit(a, b) for each pair of blocks, a < b, that a joint matches until it returns false.
+template <class Visit>
+void for_each_pair(const JointTable& table, std::size_t joint, Visit visit) {
+  for (const std::size_t first : table.matched(joint, 0)) {
+    for (const std::size_t second : table.matched(joint, 1)) {
+      if (first == second) continue;
+      if (!visit(std::min(first, second), std::max(first, second))) return;
     }
   }
-  return tied_any && !left_any;
+}
+
+/// Pairs that a joint ties, sorted.
+std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, const JointTable& table,
+                                                            const std::vector<BlockModel>& blocks) {
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    if (!scene.joint[k].tied.value_or(false)) continue;
+    for_each_pair(table, k, [&](std::size_t a, std::size_t b) {
+      if (!(blocks[a].fixed() && blocks[b].fixed())) pairs.insert({a, b});
+      return true;
+    });
+  }
+  std::erase_if(pairs, [&](const auto& pair) { return !table.law_between(pair.first, pair.second).tied; });
+  return {pairs.begin(), pairs.end()};
+}
+
+/// Whether a later [[joint]] of the blocks that one ties unties all of them.
+bool is_untied(const JointTable& table, std::size_t joint) {
+  bool left_any = false;
+  for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
+    left_any = table.law_between(a, b).tied;
+    return !left_any;
+  });
+  return table.matches_a_pair(joint) && !left_any;
 }
 
 /// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key, one
 /// that later ones undo a warning.
-void tie_joints(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+void tie_joints(const Scene& scene, const JointTable& table, Simulation& simulation,
+                Diagnostics& diagnostics) {
   const AutomaticRatios ratios;
   const std::vector<BlockModel>& blocks = simulation.blocks();
   std::vector<bool> ties(scene.joint.size(), false);
-  for (std::size_t a = 0; a < blocks.size(); ++a) {
-    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
-      if (blocks[a].fixed() && blocks[b].fixed()) continue;
-      if (!joint_law_between(scene, blocks[a].name(), blocks[b].name()).tied) continue;
-      if (!simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
-                                 automatic_tie_stiffness(blocks[a], blocks[b], ratios)))
-        continue;
-      for (std::size_t k = 0; k < scene.joint.size(); ++k) {
-        if (pattern_matches_pair(scene.joint[k].blocks, blocks[a].name(), blocks[b].name())) ties[k] = true;
-      }
-    }
+  for (const auto& [a, b] : tied_pairs(scene, table, blocks)) {
+    if (!simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
+                               automatic_tie_stiffness(blocks[a], blocks[b], ratios)))
+      continue;
+    for (const std::size_t joint : table.joints_between(a, b)) ties[joint] = true;
   }
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
     if (!joint.tied.value_or(false) || ties[k]) continue;
-    if (is_untied(scene, blocks, joint)) {
+    if (is_untied(table, k)) {
       diagnostics.warning(scene.places.key(fmt::format("joint.{}.tied", k)),
                           "tied has no effect: a later [[joint]] of the same blocks unties them");
       continue;
@@ -262,13 +275,15 @@ void tie_joints(const Scene& scene, Simulation& simulation, Diagnostics& diagnos
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
-                                                Diagnostics& diagnostics) {
+                                                Diagnostics& diagnostics, Preparation* preparation) {
   const Scene& scene = loaded.scene;
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions;
   BlockPartsLibrary parts;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
+    if (preparation != nullptr)
+      preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
       blocks.emplace_back(define_block(loaded, k), parts);
     } catch (const OrderTooHigh& error) {
@@ -285,15 +300,17 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   }
   if (!diagnostics.good()) return std::nullopt;
   warn_of_turned_supports(scene, blocks, diagnostics);
+  if (preparation != nullptr) preparation->phase("surfaces and neighbours of all blocks");
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
-  JointLaws laws(scene, blocks, choices);
+  const auto table = std::make_shared<const JointTable>(scene);
+  JointLaws laws(scene, blocks, table, choices);
   BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
                         std::move(choices),
                         parts.size(),
                         {}};
   try {
-    tie_joints(scene, built.simulation, diagnostics);
+    tie_joints(scene, *table, built.simulation, diagnostics);
   } catch (const std::invalid_argument& error) {
     diagnostics.error(scene.places.key("analysis.formulation"), error.what());
   }

@@ -30,6 +30,7 @@ struct BuiltSimulation {
 /// @param threads >= 1
 /// @return nothing if a block cannot be built (named in diagnostics at its key)
 [[nodiscard]] std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
-                                                              Diagnostics& diagnostics);
+                                                              Diagnostics& diagnostics,
+                                                              Preparation* preparation = nullptr);
 
 }  // namespace ashlar

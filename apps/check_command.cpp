@@ -7,6 +7,7 @@
 #include <optional>
 #include <ostream>
 
+#include "apps/base_motion.hpp"
 #include "apps/build_simulation.hpp"
 #include "apps/loose_blocks.hpp"
 #include "apps/override_option.hpp"
@@ -16,11 +17,15 @@ namespace ashlar {
 
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   Diagnostics diagnostics;
-  const std::optional<LoadedScene> loaded = load_scene(options.scene, options.overrides, diagnostics);
+  std::optional<LoadedScene> loaded;
   std::optional<BuiltSimulation> built;
-  if (loaded) built = build_simulation(*loaded, 1, diagnostics);
-  if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
-    refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  {
+    Preparation preparation(false, err);
+    loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
+    if (loaded) built = build_simulation(*loaded, 1, diagnostics, &preparation);
+    if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+      refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  }
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
   const Scene& scene = loaded->scene;
@@ -30,6 +35,8 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
   out << fmt::format("{}: good: {}, {}, {}, {}\n", options.scene.string(),
                      counted(scene.block.size(), "block"), counted(scene.material.size(), "material"),
                      counted(scene.joint.size(), "joint"), counted(scene.measure.size(), "measure"));
+  out << to_string(loaded->cost, scene.block.size()) << '\n';
+  for (const std::string& line : motion_left(scene)) out << line << '\n';
   return exit_status::done;
 }
 
@@ -37,7 +44,9 @@ void declare_check_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("check", "Read and validate a scene; lists every error");
   // Lives as long as the callback that reads it.
   const auto options = std::make_shared<CheckOptions>();
-  command->add_option("SCENE", options->scene, "Scene file (TOML)")->required()->type_name("");
+  command->add_option("SCENE", options->scene, "Scene file (TOML); - is standard input")
+      ->required()
+      ->type_name("");
   declare_overrides(*command, options->overrides);
   command->callback(
       [options, &context] { context.status = check_command(*options, context.out, context.err); });

@@ -33,10 +33,9 @@ void refuse_unknown_command(const CLI::App& program, const std::vector<std::stri
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), arguments.front()) != names.end()) return;
-  throw CLI::ParseError(
-      fmt::format("unknown command ({}), did you mean {}? one of {} is needed", arguments.front(),
-                  nearest_name(arguments.front(), names), fmt::join(names, ", ")),
-      CLI::ExitCodes::InvalidError);
+  throw CLI::ParseError(fmt::format("unknown command ({}), {}one of {} is needed", arguments.front(),
+                                    guess(arguments.front(), names), fmt::join(names, ", ")),
+                        CLI::ExitCodes::InvalidError);
 }
 
 }  // namespace
@@ -51,6 +50,11 @@ int run_command_line(std::vector<std::string> arguments, std::ostream& out, std:
   program.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("ashlar: error: {}\nRun with --help for more information.\n", error.what());
   });
+  // As other programs have it: help, help COMMAND.
+  if (!arguments.empty() && arguments.front() == "help") {
+    std::rotate(arguments.begin(), arguments.begin() + 1, arguments.end());
+    arguments.back() = "--help";
+  }
   try {
     refuse_unknown_command(program, arguments);
     // CLI11 takes arguments last first.

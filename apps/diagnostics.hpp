@@ -1,6 +1,7 @@
 // What a user is told about bad input: every fault with its place, all of them in one run.
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 #include <utility>
@@ -35,6 +36,9 @@ struct Diagnostic {
 /// "PLACE: error: MESSAGE" or "PLACE: warning: MESSAGE" in one line: control characters become blanks.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 
+/// Faults of one kind that print() lists; of the others it gives the number.
+inline constexpr std::size_t listed_of_a_kind = 20;
+
 /// All faults found so far.
 class Diagnostics {
  public:
@@ -47,7 +51,8 @@ class Diagnostics {
   /// In file order; faults of arguments come after those of files. Faults at one place keep the order in
   /// which they were found, and a fault found twice is listed once.
   [[nodiscard]] std::vector<Diagnostic> sorted() const;
-  /// One line each, sorted.
+  /// One line each, sorted; of faults that differ in names and numbers only, the first listed_of_a_kind and a
+  /// line with the number of the others.
   void print(std::ostream& stream) const;
 
  private:

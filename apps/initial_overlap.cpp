@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -181,7 +182,10 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
     boxes.push_back(box_of(solids[k]->mesh().points));
     shapes.push_back(convex_shape(*solids[k]));
   }
-  for (const auto& [first, second] : meeting_boxes(boxes)) {
+  std::size_t found = 0;
+  const std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const auto& [first, second] = pairs[n];
     const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
     const SceneBlock& a = scene.block[blocks[i]];
     const SceneBlock& b = scene.block[blocks[j]];
@@ -195,6 +199,12 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
         scene.places.key(fmt::format("block.{}", blocks[j])),
         fmt::format("blocks \"{}\" and \"{}\" overlap by {}{:.3g} m, allowed is touching or {:.3g} m", a.name,
                     b.name, overlap.exact ? "" : "at least ", overlap.depth, allowed));
+    if (++found < listed_of_a_kind || n + 1 == pairs.size()) continue;
+    diagnostics.error(
+        scene.places.key(fmt::format("block.{}", blocks[j])),
+        fmt::format("{} pairs of blocks overlap, {} more pairs with boxes that meet were not looked at",
+                    found, pairs.size() - n - 1));
+    return;
   }
 }
 

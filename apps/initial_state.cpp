@@ -9,6 +9,9 @@ namespace ashlar {
 namespace {
 
 bool has_tie(const Scene& scene, const std::string& name) {
+  if (std::none_of(scene.joint.begin(), scene.joint.end(),
+                   [](const SceneJoint& joint) { return joint.tied.value_or(false); }))
+    return false;
   return std::any_of(scene.block.begin(), scene.block.end(), [&](const SceneBlock& other) {
     return other.name != name && joint_law_between(scene, name, other.name).tied;
   });

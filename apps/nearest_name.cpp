@@ -1,11 +1,16 @@
 #include "apps/nearest_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 namespace ashlar {
 
 namespace {
+
+/// One letter in so many may be another one.
+constexpr std::size_t most_changed = 3;
 
 char to_small(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
@@ -30,9 +35,23 @@ std::vector<std::size_t> prefix_distances(std::string_view a, std::string_view b
   return row;
 }
 
-std::size_t distance_or_short_form(std::string_view name, std::string_view candidate) {
+/// How far a name is from a candidate.
+struct Likeness {
+  std::size_t changes;   ///< of its letters, to the candidate or to a beginning of it
+  std::size_t distance;  ///< the same, with one for the rest behind a beginning
+};
+
+/// A short form has two letters at least and begins as its candidate does.
+bool may_be_short(std::string_view name, std::string_view candidate) {
+  return name.size() >= 2 && !candidate.empty() && to_small(name.front()) == to_small(candidate.front());
+}
+
+Likeness likeness_of(std::string_view name, std::string_view candidate) {
   const std::vector<std::size_t> distances = prefix_distances(name, candidate);
-  return std::min(distances.back(), *std::min_element(distances.begin(), distances.end()) + 1);
+  const std::size_t whole = distances.back();
+  if (!may_be_short(name, candidate)) return {whole, whole};
+  const std::size_t beginning = *std::min_element(distances.begin(), distances.end());
+  return {std::min(whole, beginning), std::min(whole, beginning + 1)};
 }
 
 bool contains(std::string_view candidate, std::string_view name) {
@@ -49,21 +68,28 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::vector<std::string> likely_names(std::string_view name, const std::vector<std::string>& candidates) {
-  std::vector<std::string> names = candidates;
-  std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-    return distance_or_short_form(name, a) < distance_or_short_form(name, b);
-  });
+  std::vector<std::pair<Likeness, std::string>> names;
+  names.reserve(candidates.size());
+  for (const std::string& candidate : candidates) names.emplace_back(likeness_of(name, candidate), candidate);
+  std::stable_sort(names.begin(), names.end(),
+                   [](const auto& a, const auto& b) { return a.first.distance < b.first.distance; });
   std::vector<std::string> containing;
-  std::copy_if(names.begin(), names.end(), std::back_inserter(containing),
-               [&](const std::string& candidate) { return contains(candidate, name); });
+  for (const auto& [likeness, candidate] : names)
+    if (contains(candidate, name)) containing.push_back(candidate);
   if (!containing.empty()) return containing;
-  names.resize(std::min<std::size_t>(names.size(), 1));
-  return names;
+  for (const auto& [likeness, candidate] : names)
+    if (!name.empty() && most_changed * likeness.changes <= name.size()) return {candidate};
+  return {};
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   const std::vector<std::string> names = likely_names(name, candidates);
   return names.empty() ? std::string() : names.front();
+}
+
+std::string guess(std::string_view name, const std::vector<std::string>& candidates, std::string_view quote) {
+  const std::string nearest = nearest_name(name, candidates);
+  return nearest.empty() ? "" : fmt::format("did you mean {}{}{}? ", quote, nearest, quote);
 }
 
 }  // namespace ashlar

@@ -14,12 +14,17 @@ namespace ashlar {
 
 /// What a name that is none of the candidates may have meant: those that contain it, nearest first, if it has
 /// three letters or more (fewer are part of too many names); else the one with the smallest edit distance,
-/// the first of equals. A name that is nearest to the beginning of a candidate is taken for its short form:
-/// the rest counts as one letter. Empty only if there are no candidates.
+/// the first of equals, unless more than a third of the name's letters would have to change: that is no slip,
+/// and a guess would mislead. A name of two letters or more that begins as a candidate and is nearest to the
+/// beginning of it is taken for its short form: the rest counts as one letter.
 [[nodiscard]] std::vector<std::string> likely_names(std::string_view name,
                                                     const std::vector<std::string>& candidates);
 
-/// The first of likely_names; empty if there are no candidates.
+/// The first of likely_names; empty if there is none.
 [[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+/// "did you mean NAME? " for the nearest name, in quotes of the kind given; empty if there is none.
+[[nodiscard]] std::string guess(std::string_view name, const std::vector<std::string>& candidates,
+                                std::string_view quote = "");
 
 }  // namespace ashlar

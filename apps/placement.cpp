@@ -34,8 +34,7 @@ BlockDefinition placed(BlockDefinition block, const Placement& placement) {
     if (turned && support.components != std::array<bool, 3>{true, true, true})
       throw std::invalid_argument("a support of some components cannot be turned");
     support.where = placed(support.where, placement);
-    for (Vector3& displacement : support.history.displacements)
-      displacement = placement.direction(displacement);
+    for (Vector3& value : support.history.values) value = placement.direction(value);
   }
   for (Load& load : block.loads) {
     load.where = placed(load.where, placement);

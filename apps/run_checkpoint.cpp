@@ -44,14 +44,26 @@ struct Header {
 
 std::uint64_t scene_hash(const LoadedScene& loaded) {
   nlohmann::ordered_json json = to_json(loaded.scene);
-  json["analysis"].erase("end_time");
+  for (const char* key : {"end_time", "memory_limit"}) json["analysis"].erase(key);
+  json.erase("title");
   std::uint64_t hash = hash_bytes(json.dump());
   for (const Polyhedron& solid : loaded.solids) {
     ByteWriter writer;
     writer(solid.mesh().points, solid.mesh().triangles);
     hash = hash_bytes(writer.take(), hash);
   }
-  return hash;
+  ByteWriter records;
+  for (const SceneBlock& block : loaded.scene.block) {
+    for (const SceneFix& fix : block.fix) {
+      for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)
+        records(fix.history[n].time, fix.history[n].value);
+    }
+    for (const SceneLoad& load : block.load) {
+      for (std::size_t n = 0; load.file && n < load.history.size(); ++n)
+        records(load.history[n].time, load.history[n].factor);
+    }
+  }
+  return hash_bytes(records.take(), hash);
 }
 
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
@@ -88,7 +100,7 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
       throw CheckpointError("checkpoint is damaged, run with --force to start anew");
     }
     if (header.scene != hash) {
-      throw CheckpointError(
+      throw OtherSceneError(
           "checkpoint of another scene, the scene, mesh files and --set options the run was started with are "
           "needed; only analysis.end_time may differ");
     }

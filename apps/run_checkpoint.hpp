@@ -25,8 +25,14 @@ struct CheckpointError : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
+/// That of another scene.
+struct OtherSceneError : CheckpointError {
+  using CheckpointError::CheckpointError;
+};
+
 /// Of the scene as used: every key with defaults and overrides, and the points and triangles of every block,
-/// so that a changed mesh file is noticed. analysis.end_time is left out: a run may go on beyond its end.
+/// so that a changed mesh file is noticed, and so are records. analysis.end_time is left out, as a run may go
+/// on beyond its end, and what no result depends on: title, analysis.memory_limit.
 [[nodiscard]] std::uint64_t scene_hash(const LoadedScene& loaded);
 
 /// Replaces the file as a whole; it outlives a power failure. @return its bytes

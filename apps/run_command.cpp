@@ -1,15 +1,20 @@
 #include "apps/run_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <string_view>
 
 #include "apps/atomic_file.hpp"
+#include "apps/base_motion.hpp"
 #include "apps/checkpoint_schedule.hpp"
 #include "apps/command_line.hpp"
 #include "apps/folder_claim.hpp"
@@ -21,6 +26,7 @@
 #include "apps/result_folder.hpp"
 #include "apps/run_checkpoint.hpp"
 #include "apps/run_summary.hpp"
+#include "apps/scene_difference.hpp"
 #include "apps/scene_json.hpp"
 #include "apps/space_reserve.hpp"
 #include "apps/view_file.hpp"
@@ -42,6 +48,7 @@ ProgressState progress_of(const Simulation& simulation) {
 
 std::filesystem::path result_folder_of(const RunOptions& options) {
   if (options.out) return *options.out;
+  if (options.scene == "-") return "stdin.out";
   return options.scene.stem().string() + ".out";
 }
 
@@ -271,7 +278,8 @@ class Run {
       claim_.check();
       const auto summary =
           run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
-      write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
+      write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n",
+                            Durability::process);
     };
     try {
       write();
@@ -301,12 +309,31 @@ class Run {
   SpaceReserve reserve_;
   ResultFolder folder_;
   std::uintmax_t scene_bytes_ = json_text(to_json(scene_), 2).size();  ///< in the summary
-  std::uintmax_t state_bytes_ = 0;                               ///< of the last checkpoint
+  std::uintmax_t state_bytes_ = 0;                                     ///< of the last checkpoint
   RunSeconds earlier_seconds_;
   RunSeconds seconds_;
   std::string message_;
   std::string unsaved_;
 };
+
+/// "; changed: KEY (was A, is B), ..." from the summary of the run before; empty if it has none or says
+/// nothing else.
+std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
+  constexpr int deepest = 100;  // a scene's own tables are less than ten deep
+  constexpr std::size_t most_shown = 5;
+  std::ifstream stream(folder / "summary.json");
+  const auto shallow = [](int depth, nlohmann::ordered_json::parse_event_t, nlohmann::ordered_json&) {
+    return depth < deepest;
+  };
+  const auto summary = nlohmann::ordered_json::parse(stream, shallow, false);
+  if (!summary.is_object() || !summary.contains("scene")) return {};
+  std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
+  if (keys.empty()) return {};
+  const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
+  keys.resize(keys.size() - hidden);
+  return fmt::format("; changed: {}{}", fmt::join(keys, ", "),
+                     hidden > 0 ? fmt::format(" and {} more", hidden) : "");
+}
 
 /// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
@@ -314,6 +341,9 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
   const std::filesystem::path path = folder / checkpoint_name;
   try {
     return read_checkpoint(path, scene_hash(loaded));
+  } catch (const OtherSceneError& error) {
+    diagnostics.error({path.string()}, error.what() + changed_keys(folder, loaded.scene));
+    return std::nullopt;
   } catch (const CheckpointError& error) {
     diagnostics.error({path.string()}, error.what());
     return std::nullopt;
@@ -343,6 +373,20 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
       "block's size; up to "
       "{} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them apart\n",
       name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+}
+
+/// Multipliers stop what lands by impulses without friction, which the next steps make up for where blocks
+/// stay together.
+void warn_of_friction(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.02;
+  const double excess = simulation.sliding_friction().excess();
+  if (!(std::abs(excess) > ordinary)) return;
+  err << fmt::format(
+      "ashlar: warning: where blocks slid on multipliers, {:.3g} of the friction has acted that Coulomb's "
+      "law "
+      "makes of their normal forces, as they part and meet again from step to step: a larger time_step, or "
+      "augmented = false, whose friction is exact\n",
+      1.0 + excess);
 }
 
 void tell_end(RunStatus status, const Run& run, const std::filesystem::path& folder, bool quiet,
@@ -400,11 +444,15 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const double start = seconds_now();
   const std::filesystem::path folder = result_folder_of(options);
   Diagnostics diagnostics;
-  const std::optional<LoadedScene> loaded = load_scene(options.scene, options.overrides, diagnostics);
+  std::optional<LoadedScene> loaded;
   std::optional<BuiltSimulation> built;
-  if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics);
-  if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
-    refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  {
+    Preparation preparation(options.quiet, err);
+    loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
+    if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics, &preparation);
+    if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+      refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  }
   // Where there is nothing to go on from, nothing is made.
   if (built && options.resume && !std::filesystem::exists(folder / checkpoint_name))
     (void)find_checkpoint(folder, *loaded, diagnostics);
@@ -420,7 +468,11 @@ int run_command(const RunOptions& options, std::ostream& err) {
     if (!faults.good()) return exit_status::bad_input;
     built->simulation.restore(earlier->simulation);
   }
-  if (!options.quiet) tell_choices(*built, err);
+  if (!options.quiet) {
+    tell_choices(*built, err);
+    err << to_string(loaded->cost, loaded->scene.block.size()) << '\n';
+    for (const std::string& line : motion_left(loaded->scene)) err << line << '\n';
+  }
   if (starts_from_statics(loaded->scene) && !earlier) {
     const StaticStart statics = start_in_statics(built->simulation);
     if (!statics.message.empty())
@@ -440,6 +492,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const RunStatus status = run.go(start, options.quiet, err);
   tell_end(status, run, folder, options.quiet, err);
   warn_of_depth(run.simulation(), err);
+  warn_of_friction(run.simulation(), err);
   if (options.view) {
     (void)write_view_file(folder, folder / "view.html");
     if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());

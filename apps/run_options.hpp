@@ -11,15 +11,16 @@
 namespace ashlar {
 
 struct RunOptions {
-  std::filesystem::path scene;
-  std::optional<std::filesystem::path> out;  ///< result folder; empty: the scene's name + ".out"
-  std::vector<std::string> overrides;        ///< "key.path=value" each, in order
-  bool resume = false;                       ///< go on from the checkpoint in the result folder
-  bool force = false;                        ///< replace results that are there; not with resume
-  std::optional<double> checkpoint;          ///< s between checkpoints, >= 0; empty: growing to a minute
-  int threads = 0;                           ///< >= 1; 0: not given
-  bool quiet = false;                        ///< no progress on stderr
-  bool view = false;                         ///< write view.html at the end
+  std::filesystem::path scene;  ///< "-": standard input
+  std::optional<std::filesystem::path>
+      out;                             ///< result folder; empty: the scene's name + ".out" ("stdin.out")
+  std::vector<std::string> overrides;  ///< "key.path=value" each, in order
+  bool resume = false;                 ///< go on from the checkpoint in the result folder
+  bool force = false;                  ///< replace results that are there; not with resume
+  std::optional<double> checkpoint;    ///< s between checkpoints, >= 0; empty: growing to a minute
+  int threads = 0;                     ///< >= 1; 0: not given
+  bool quiet = false;                  ///< no progress on stderr
+  bool view = false;                   ///< write view.html at the end
 };
 
 /// Declares `ashlar run`; it calls run_command (run_command.hpp).

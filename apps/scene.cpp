@@ -6,18 +6,34 @@
 
 namespace ashlar {
 
+void override_law(SceneJointLaw& law, const SceneJoint& joint) {
+  law.normal_stiffness = joint.normal_stiffness.value_or(law.normal_stiffness);
+  law.shear_stiffness = joint.shear_stiffness.value_or(law.shear_stiffness);
+  law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
+  law.cohesion = joint.cohesion.value_or(law.cohesion);
+  law.tensile_strength = joint.tensile_strength.value_or(law.tensile_strength);
+  law.tied = joint.tied.value_or(law.tied);
+}
+
 SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, const std::string& block_b) {
   SceneJointLaw law = scene.contact.law;
   for (const SceneJoint& joint : scene.joint) {
-    if (!pattern_matches_pair(joint.blocks, block_a, block_b)) continue;
-    law.normal_stiffness = joint.normal_stiffness.value_or(law.normal_stiffness);
-    law.shear_stiffness = joint.shear_stiffness.value_or(law.shear_stiffness);
-    law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
-    law.cohesion = joint.cohesion.value_or(law.cohesion);
-    law.tensile_strength = joint.tensile_strength.value_or(law.tensile_strength);
-    law.tied = joint.tied.value_or(law.tied);
+    if (pattern_matches_pair(joint.blocks, block_a, block_b)) override_law(law, joint);
   }
   return law;
+}
+
+const char* history_key(const SceneFix& fix) {
+  switch (fix.record) {
+    case MotionRecord::displacement:
+    case MotionRecord::smooth_displacement:
+      return "displacement_history";
+    case MotionRecord::velocity:
+      return "velocity_history";
+    case MotionRecord::acceleration:
+      return "acceleration_history";
+  }
+  return "displacement_history";
 }
 
 bool starts_from_statics(const Scene& scene) {

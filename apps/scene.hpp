@@ -15,6 +15,7 @@
 
 #include "apps/scene_places.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "mechanics/recorded_motion.hpp"
 
 namespace ashlar {
 
@@ -55,6 +56,7 @@ struct SceneAnalysis {
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
+  std::optional<double> memory_limit;          ///< bytes, > 0, that the estimate may reach; empty: auto
 };
 
 /// The law between the faces of two blocks. Strengths default to none: a joint's strength has to be stated.
@@ -150,17 +152,31 @@ struct ScenePlane {
   Vector3 normal = Vector3::Zero();  ///< not zero, any length
 };
 
+/// { file, time, values, scale } in place of the rows of a history.
+struct SceneRecord {
+  std::filesystem::path file;  ///< CSV, as written; relative paths are relative to the scene file's folder
+  std::string time;            ///< name of the column of times
+  std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
+  double scale = 1.0;               ///< of the values
+};
+
 /// [[block.fix]]: clamped faces or a fixed point.
 struct SceneFix {
   struct Motion {
-    double time = 0.0;                       ///< s
-    Vector3 displacement = Vector3::Zero();  ///< m
+    double time = 0.0;                ///< s
+    Vector3 value = Vector3::Zero();  ///< m, m/s or m/s^2
   };
   std::variant<ScenePlane, Vector3>
       where;  ///< a plane with at least one face, or a point, m, placed coordinates
   std::array<bool, 3> components = {true, true, true};  ///< x, y, z held
-  std::vector<Motion> displacement_history;             ///< times increase; empty: the support stands still
+  /// What the rows of the history are; displacements are linear or cubic between rows (`interpolation`).
+  MotionRecord record = MotionRecord::displacement;
+  std::vector<Motion> history;      ///< the rows of the history that is given; times increase; empty: at rest
+  std::optional<SceneRecord> file;  ///< where they come from, if not from the scene
 };
+
+/// The key of a support's history: "displacement_history", "velocity_history" or "acceleration_history".
+[[nodiscard]] const char* history_key(const SceneFix& fix);
 
 /// [[block.load]]: traction on faces, or a force on faces or at a point.
 struct SceneLoad {
@@ -176,6 +192,7 @@ struct SceneLoad {
   Kind kind = Kind::traction;
   Vector3 vector = Vector3::Zero();  ///< Pa or N
   std::vector<Factor> history;       ///< times increase; empty: factor 1 always
+  std::optional<SceneRecord> file;   ///< where it comes from, if not from the scene
 };
 
 /// [[block]]
@@ -231,7 +248,11 @@ struct Scene {
   ScenePlaces places;  ///< of every key that was given
 };
 
-/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair.
+/// What a joint gives replaces what the law had.
+void override_law(SceneJointLaw& law, const SceneJoint& joint);
+
+/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair. Of many pairs
+/// ask a JointTable.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
 

@@ -9,9 +9,10 @@
 #include <map>
 #include <string>
 
-#include "apps/name_pattern.hpp"
+#include "apps/joint_table.hpp"
 #include "apps/nearest_name.hpp"
 #include "mechanics/face_selection.hpp"
+#include "mechanics/poisson_limit.hpp"
 
 namespace ashlar {
 namespace {
@@ -50,10 +51,9 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
 void check_known(const Scene& scene, const std::string& key, const char* what, const std::string& name,
                  const std::vector<std::string>& known, Diagnostics& diagnostics) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
-  const std::string allowed = known.empty()
-                                  ? fmt::format("there is no [[{}]]", what)
-                                  : fmt::format("did you mean \"{}\"? the name of a [[{}]] is needed",
-                                                nearest_name(name, known), what);
+  const std::string allowed =
+      known.empty() ? fmt::format("there is no [[{}]]", what)
+                    : fmt::format("{}the name of a [[{}]] is needed", guess(name, known, "\""), what);
   diagnostics.error(scene.places.value(key), fmt::format("unknown {} (\"{}\"), {}", what, name, allowed));
 }
 
@@ -72,33 +72,43 @@ void check_materials(const Scene& scene, const std::vector<std::string>& known, 
   }
 }
 
-bool matches_a_pair(const SceneJoint& joint, const std::vector<std::string>& blocks) {
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-    for (std::size_t j = 0; j < blocks.size(); ++j)
-      if (i != j && pattern_matches(joint.blocks[0], blocks[i]) &&
-          pattern_matches(joint.blocks[1], blocks[j]))
-        return true;
-  return false;
+// A material whose volume can hardly change has pressures that rounding makes; the higher the order, the
+// sooner.
+void check_poisson_ratios(const Scene& scene, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.material.size(); ++i) {
+    const SceneMaterial& material = scene.material[i];
+    const SceneBlock* highest = nullptr;
+    for (const SceneBlock& block : scene.block) {
+      if (block.fixed || block.material != material.name) continue;
+      if (highest == nullptr || block.order > highest->order) highest = &block;
+    }
+    if (highest == nullptr || material.poisson_ratio <= largest_poisson_ratio(highest->order)) continue;
+    diagnostics.error(
+        scene.places.value(entry_key("material", i, "poisson_ratio")),
+        fmt::format(
+            "poisson_ratio is too near 0.5 for order {} of block \"{}\" in double precision ({}), at most "
+            "{:.8g} is allowed",
+            highest->order, highest->name, material.poisson_ratio, largest_poisson_ratio(highest->order)));
+  }
 }
 
 void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Diagnostics& diagnostics) {
+  const JointTable table(scene);
   for (std::size_t i = 0; i < scene.joint.size(); ++i) {
     const SceneJoint& joint = scene.joint[i];
     if (joint.blocks[0].empty() && joint.blocks[1].empty()) continue;  // not read
     const Place place = scene.places.value(entry_key("joint", i, "blocks"));
     bool all_match = true;
-    for (const std::string& pattern : joint.blocks) {
-      if (std::any_of(blocks.begin(), blocks.end(),
-                      [&](const auto& name) { return pattern_matches(pattern, name); }))
-        continue;
+    for (const std::size_t side : {0U, 1U}) {
+      if (!table.matched(i, side).empty()) continue;
       all_match = false;
-      const std::string nearest = nearest_name(pattern, blocks);
+      const std::string& pattern = joint.blocks[side];
       diagnostics.error(place,
-                        fmt::format("joint names no block (\"{}\"), {}the name of a [[block]] or a glob that "
-                                    "matches one is needed",
-                                    pattern, nearest.empty() ? "" : "did you mean \"" + nearest + "\"? "));
+                        fmt::format("joint names no block (\"{}\"), {}the name of a [[block]] or a glob "
+                                    "that matches one is needed",
+                                    pattern, guess(pattern, blocks, "\"")));
     }
-    if (all_match && !matches_a_pair(joint, blocks))
+    if (all_match && !table.matches_a_pair(i))
       diagnostics.error(place,
                         fmt::format("joint between a block and itself (\"{}\", \"{}\"), two different blocks "
                                     "are needed",
@@ -246,6 +256,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
   check_measure_names(scene, diagnostics);
   const std::vector<std::string> materials = names_of(scene.material), blocks = names_of(scene.block);
   check_materials(scene, materials, diagnostics);
+  check_poisson_ratios(scene, diagnostics);
   for (std::size_t i = 0; i < scene.measure.size(); ++i)
     check_known(scene, entry_key("measure", i, "block"), "block", scene.measure[i].block, blocks,
                 diagnostics);

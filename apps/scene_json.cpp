@@ -26,7 +26,8 @@ Json to_json(const SceneAnalysis& analysis) {
           {"initial_state", name_of(initial_state_names, analysis.initial_state)},
           {"gravity", to_json(analysis.gravity)},
           {"solver", name_of(solver_names, analysis.solver)},
-          {"mass_damping", analysis.mass_damping}};
+          {"mass_damping", analysis.mass_damping},
+          {"memory_limit", or_auto(analysis.memory_limit)}};
 }
 
 Json to_json(const SceneContact& contact, bool augmented) {
@@ -98,15 +99,26 @@ void add_where(Json& json, const std::variant<ScenePlane, Vector3>& where) {
   json["plane"] = {{"point", to_json(plane.point)}, {"normal", to_json(plane.normal)}};
 }
 
+Json to_json(const SceneRecord& record) {
+  return {{"file", record.file.string()},
+          {"time", record.time},
+          {"values", record.values},
+          {"scale", record.scale}};
+}
+
 Json to_json(const SceneFix& fix) {
   Json json = Json::object();
   add_where(json, fix.where);
   json["components"] = Json::array();
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (fix.components[axis]) json["components"].push_back(std::string(1, "xyz"[axis]));
-  for (const SceneFix::Motion& motion : fix.displacement_history)
-    json["displacement_history"].push_back(
-        {motion.time, motion.displacement.x(), motion.displacement.y(), motion.displacement.z()});
+  if (fix.record == MotionRecord::smooth_displacement) json["interpolation"] = "cubic";
+  if (fix.file) {
+    json[history_key(fix)] = to_json(*fix.file);
+    return json;
+  }
+  for (const auto& [time, value] : fix.history)
+    json[history_key(fix)].push_back({time, value.x(), value.y(), value.z()});
   return json;
 }
 
@@ -114,6 +126,10 @@ Json to_json(const SceneLoad& load) {
   Json json = Json::object();
   add_where(json, load.where);
   json[load.kind == SceneLoad::Kind::traction ? "traction" : "force"] = to_json(load.vector);
+  if (load.file) {
+    json["history"] = to_json(*load.file);
+    return json;
+  }
   for (const SceneLoad::Factor& factor : load.history)
     json["history"].push_back({factor.time, factor.factor});
   return json;

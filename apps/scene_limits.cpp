@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "apps/initial_overlap.hpp"
+#include "apps/support_history.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -32,6 +33,24 @@ void check_length(const char* name, const std::optional<double>& length, double 
                                 name, *length, least));
 }
 
+/// Masses and moments of inertia go with the fifth power of lengths. @return whether the size is good
+bool check_size(const Scene& scene, std::size_t k, const Polyhedron& solid, Diagnostics& diagnostics) {
+  constexpr double least = 1e-50, most = 1e50;
+  double extent = 0.0;
+  const Vector3& first = solid.mesh().points.front();
+  for (const Vector3& point : solid.mesh().points)
+    extent = std::max(extent, (point - first).cwiseAbs().maxCoeff());
+  const double size = std::cbrt(solid.volume());
+  if (size >= least && extent <= most) return true;
+  diagnostics.error(
+      scene.places.key(fmt::format("block.{}", k)),
+      fmt::format("block \"{}\" is {} for double precision ({:.4g} m wide, volume {:.4g} m^3), {:g} to "
+                  "{:g} m is allowed",
+                  scene.block[k].name, extent > most ? "too large" : "too small", extent, solid.volume(),
+                  least, most));
+  return false;
+}
+
 void check_speeds(const Scene& scene, std::size_t k, double size, Diagnostics& diagnostics) {
   const double steps = std::ldexp(1.0, SimulationSettings{}.max_step_cuts);
   const SceneBlock& block = scene.block[k];
@@ -51,14 +70,14 @@ void check_speeds(const Scene& scene, std::size_t k, double size, Diagnostics& d
 void check_histories(const Scene& scene, std::size_t k, double size, Diagnostics& diagnostics) {
   const double most = allowed_initial_overlap * size / rounding;
   for (std::size_t n = 0; n < scene.block[k].fix.size(); ++n) {
-    double farthest = 0.0;
-    for (const SceneFix::Motion& motion : scene.block[k].fix[n].displacement_history)
-      farthest = std::max(farthest, motion.displacement.cwiseAbs().maxCoeff());
-    if (!(farthest > most)) continue;
-    diagnostics.error(scene.places.value(fmt::format("block.{}.fix.{}.displacement_history", k, n)),
-                      fmt::format("displacement_history goes so far that the block is lost in rounding "
+    const SceneFix& fix = scene.block[k].fix[n];
+    if (fix.history.empty()) continue;
+    const double farthest = RecordedMotion(support_history(fix)).farthest_until(scene.analysis.end_time);
+    if (farthest <= most) continue;
+    diagnostics.error(scene.places.value(fmt::format("block.{}.fix.{}.{}", k, n, history_key(fix))),
+                      fmt::format("{} goes so far that the block is lost in rounding "
                                   "({:.4g} m), at most {:.4g} m is allowed",
-                                  farthest, most));
+                                  history_key(fix), farthest, most));
   }
 }
 
@@ -79,6 +98,7 @@ void check_limits(const Scene& scene, const std::vector<std::optional<Polyhedron
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (!solids[k]) continue;
     const double size = std::cbrt(solids[k]->volume());
+    if (!check_size(scene, k, *solids[k], diagnostics)) continue;
     check_speeds(scene, k, size, diagnostics);
     check_histories(scene, k, size, diagnostics);
   }

@@ -1,6 +1,8 @@
 #include "apps/scene_loading.hpp"
 
 #include "apps/available_features.hpp"
+#include "apps/base_motion.hpp"
+#include "apps/doubtful_keys.hpp"
 #include "apps/idle_keys.hpp"
 #include "apps/initial_overlap.hpp"
 #include "apps/scene_checks.hpp"
@@ -12,16 +14,30 @@
 namespace ashlar {
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
-                                      const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
-  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}};
+                                      const std::vector<std::string>& overrides, Diagnostics& diagnostics,
+                                      Preparation* preparation) {
+  const auto phase = [&](const char* words) {
+    if (preparation != nullptr) preparation->phase(words);
+  };
+  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}, {}};
   check_references(loaded.scene, diagnostics);
   check_availability(loaded.scene, diagnostics);
-  std::vector<std::optional<Polyhedron>> solids = build_solids(loaded.scene, diagnostics, &loaded.shapes);
+  // Nothing of a scene that is too large is built.
+  if (!check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics)) return std::nullopt;
+  std::vector<std::optional<Polyhedron>> solids =
+      build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
   check_placement(loaded.scene, solids, diagnostics);
   check_limits(loaded.scene, solids, diagnostics);
+  warn_of_mesh_units(loaded.scene, solids, diagnostics);
+  phase("overlaps of blocks");
   check_initial_overlap(loaded.scene, solids, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
+  phase("sizes of the scene");
+  loaded.cost = estimate_cost(loaded.scene, &solids);
+  if (!check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_idle_keys(loaded.scene, diagnostics);
+  warn_of_doubtful_keys(loaded.scene, diagnostics);
+  warn_of_jumping_supports(loaded.scene, diagnostics);
   warn_of_soft_blocks(loaded.scene, solids, diagnostics);
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;

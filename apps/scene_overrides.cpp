@@ -16,11 +16,13 @@ namespace ashlar {
 namespace {
 
 // Keys of one table of which only one may be given.
-const std::vector<std::vector<std::string_view>> exclusive_keys = {{"every", "interval"},
-                                                                   {"box", "mesh", "hull", "sphere"},
-                                                                   {"chord_tolerance", "subdivisions"},
-                                                                   {"traction", "force"},
-                                                                   {"plane", "point"}};
+const std::vector<std::vector<std::string_view>> exclusive_keys = {
+    {"every", "interval"},
+    {"box", "mesh", "hull", "sphere"},
+    {"chord_tolerance", "subdivisions"},
+    {"traction", "force"},
+    {"plane", "point"},
+    {"displacement_history", "velocity_history", "acceleration_history"}};
 
 // A fault of one override, reported by apply_overrides.
 struct OverrideError : std::runtime_error {
@@ -115,8 +117,7 @@ std::size_t find_entry(const toml::array& array, const std::string& step, const 
   for (const std::string& name : names)
     if (!name.empty()) named.push_back(name);
   if (!named.empty())
-    allowed = fmt::format("did you mean {}? {} or one of {}", nearest_name(step, named), allowed,
-                          fmt::join(named, ", "));
+    allowed = fmt::format("{}{} or one of {}", guess(step, named), allowed, fmt::join(named, ", "));
   throw OverrideError(fmt::format("no such entry of {} ({}), {} is needed", where, step, allowed));
 }
 

@@ -6,12 +6,14 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <limits>
 #include <sstream>
 
 #include "apps/block_reader.hpp"
 #include "apps/scene_names.hpp"
 #include "apps/scene_overrides.hpp"
+#include "apps/toml_faults.hpp"
 #include "apps/toml_table_reader.hpp"
 
 namespace ashlar {
@@ -28,11 +30,12 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_vector("gravity", analysis.gravity);
   table.read_choice("solver", analysis.solver, solver_names);
   table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
+  table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
 }
 
 bool has_history(const SceneBlock& block) {
   return std::any_of(block.fix.begin(), block.fix.end(),
-                     [](const SceneFix& fix) { return !fix.displacement_history.empty(); }) ||
+                     [](const SceneFix& fix) { return !fix.history.empty(); }) ||
          std::any_of(block.load.begin(), block.load.end(),
                      [](const SceneLoad& load) { return !load.history.empty(); });
 }
@@ -174,7 +177,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   } catch (const toml::parse_error& error) {
     const toml::source_position& position = error.source().begin;
     diagnostics.error({start.origin, static_cast<int>(position.line), static_cast<int>(position.column)},
-                      fmt::format("malformed TOML ({}), a scene is a TOML 1.0 file", error.description()));
+                      malformed_toml(text, error));
   }
   return scene;
 }
@@ -183,6 +186,11 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
                  Diagnostics& diagnostics) {
   std::error_code ignored;
   std::string reason;
+  if (file == "-") {
+    std::ostringstream input;
+    input << std::cin.rdbuf();
+    return parse_scene(input.str(), "(standard input)", overrides, diagnostics);
+  }
   if (std::filesystem::is_directory(file, ignored)) reason = "is a folder";
   // Some devices have no end.
   if (std::filesystem::is_character_file(file, ignored)) reason = "is a device";

@@ -192,7 +192,8 @@ Place shape_place(const Scene& scene, std::size_t index) {
 }  // namespace
 
 std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics,
-                                                    std::vector<std::shared_ptr<const Polyhedron>>* shapes) {
+                                                    std::vector<std::shared_ptr<const Polyhedron>>* shapes,
+                                                    Preparation* preparation) {
   std::vector<std::optional<Polyhedron>> solids(scene.block.size());
   if (shapes != nullptr) shapes->assign(scene.block.size(), nullptr);
   const nlohmann::ordered_json json = to_json(scene);
@@ -200,6 +201,8 @@ std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnost
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];
     if (std::holds_alternative<std::monostate>(block.shape)) continue;
+    if (preparation != nullptr)
+      preparation->phase(fmt::format("solid of block {} ({} of {})", block.name, i + 1, scene.block.size()));
     const auto& keys = json.at("block").at(i);
     const std::string said = shape_key(block.shape) + keys.at(shape_key(block.shape)).dump() +
                              (keys.contains("rotate") ? keys.at("rotate").dump() : "");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/diagnostics.hpp"
+#include "apps/preparation.hpp"
 #include "apps/scene.hpp"
 #include "geometry/polyhedron.hpp"
 
@@ -22,6 +23,6 @@ namespace ashlar {
 /// the solid is empty
 [[nodiscard]] std::vector<std::optional<Polyhedron>> build_solids(
     const Scene& scene, Diagnostics& diagnostics,
-    std::vector<std::shared_ptr<const Polyhedron>>* shapes = nullptr);
+    std::vector<std::shared_ptr<const Polyhedron>>* shapes = nullptr, Preparation* preparation = nullptr);
 
 }  // namespace ashlar

@@ -80,15 +80,31 @@ void warn_of_material(const Scene& scene, std::size_t index, const std::vector<J
     if (&judged.material != &material) continue;
     take_larger(largest, {judged.weight_stress / modulus, "under its own weight", &judged.block});
     take_larger(largest, {judged.load_stress / modulus, "under its load", &judged.block});
-    take_larger(largest, {judged.speed / std::sqrt(modulus / material.density),
-                          "where it meets something at its velocity", &judged.block});
   }
   if (!(largest.strain > largest_ordinary_strain)) return;
   diagnostics.warning(
       scene.places.value(fmt::format("material.{}.young_modulus", index)),
-      fmt::format("young_modulus is small ({} Pa): block \"{}\" is strained by {:.3g} {}, up to {} is "
+      fmt::format("young_modulus is small ({:.10g} Pa): block \"{}\" is strained by {:.3g} {}, up to {} is "
                   "ordinary; rock has 1e9 to 1e11 Pa",
                   modulus, largest.block->name, largest.strain, largest.words, largest_ordinary_strain));
+}
+
+/// A body that meets something at a speed v is strained by v / c, c the speed of sound in it.
+void warn_of_speed(const Scene& scene, std::size_t k, const JudgedBlock& judged, Diagnostics& diagnostics) {
+  const double sound = std::sqrt(judged.material.young_modulus / judged.material.density);
+  const double strain = judged.speed / sound;
+  if (!(strain > largest_ordinary_strain)) return;
+  const bool turns = judged.block.angular_velocity.stableNorm() > 0.0 &&
+                     judged.speed > 2.0 * judged.block.velocity.stableNorm();
+  const char* key = turns ? "angular_velocity" : "velocity";
+  diagnostics.warning(
+      scene.places.value(fmt::format("block.{}.{}", k, key)),
+      fmt::format(
+          "{} is large ({:.4g} m/s at the fastest point of block \"{}\"): where it meets something it is "
+          "strained by {:.3g}, up to {} is ordinary, that of {:.3g} m/s in a material of young_modulus "
+          "{:.3g} Pa",
+          key, judged.speed, judged.block.name, strain, largest_ordinary_strain,
+          largest_ordinary_strain * sound, judged.material.young_modulus));
 }
 
 /// @param key of a normal stiffness. @param concerns whether a block has joints with it
@@ -106,10 +122,10 @@ void warn_of_stiffness(const Scene& scene, const std::string& key, double stiffn
   if (!(largest.strain > largest_ordinary_strain)) return;
   diagnostics.warning(
       scene.places.value(key),
-      fmt::format("normal_stiffness is small ({} {}): block \"{}\" sinks by {:.3g} of its size into what "
-                  "bears its own weight, up to {} is ordinary",
-                  stiffness, area ? "Pa/m" : "N/m", largest.block->name, largest.strain,
-                  largest_ordinary_strain));
+      fmt::format(
+          "normal_stiffness is small ({:.10g} {}): block \"{}\" sinks by {:.3g} of its size into what "
+          "bears its own weight, up to {} is ordinary",
+          stiffness, area ? "Pa/m" : "N/m", largest.block->name, largest.strain, largest_ordinary_strain));
 }
 
 }  // namespace
@@ -123,6 +139,8 @@ void warn_of_soft_blocks(const Scene& scene, const std::vector<std::optional<Pol
     if (block.fixed || material == nullptr || !solids[k]) continue;
     blocks.push_back(judged(scene, block, *material, *solids[k]));
   }
+  for (const JudgedBlock& block : blocks)
+    warn_of_speed(scene, static_cast<std::size_t>(&block.block - scene.block.data()), block, diagnostics);
   for (std::size_t k = 0; k < scene.material.size(); ++k) warn_of_material(scene, k, blocks, diagnostics);
   if (scene.contact.law.normal_stiffness) {
     warn_of_stiffness(

@@ -61,8 +61,8 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   const auto* study = std::find_if(studies.begin(), studies.end(),
                                    [&](const Study& candidate) { return candidate.name == options.name; });
   if (study == studies.end()) {
-    err << fmt::format("ashlar: error: unknown study ({}), did you mean {}? one of {} is needed\n",
-                       options.name, nearest_name(options.name, names()), fmt::join(names(), ", "));
+    err << fmt::format("ashlar: error: unknown study ({}), {}one of {} is needed\n", options.name,
+                       guess(options.name, names()), fmt::join(names(), ", "));
     return exit_status::bad_input;
   }
   const std::filesystem::path folder = options.folder.value_or(options.name + ".study");

@@ -8,9 +8,10 @@ namespace ashlar {
 
 inline SupportHistory support_history(const SceneFix& fix) {
   SupportHistory history;
-  for (const SceneFix::Motion& motion : fix.displacement_history) {
+  history.record = fix.record;
+  for (const SceneFix::Motion& motion : fix.history) {
     history.times.push_back(motion.time);
-    history.displacements.push_back(motion.displacement);
+    history.values.push_back(motion.value);
   }
   return history;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -92,23 +93,23 @@ void TomlReading::error(const toml::node& node, std::string message) {
   error(place(node.source()), std::move(message));
 }
 
-std::string TomlReading::suggestion(const KnownTable& table, const std::string& key) const {
-  std::set<std::string> homes;
-  for (const KnownTable& other : tables_)
-    if (other.keys.contains(key)) homes.insert(other.name.empty() ? "the top of the file" : other.name);
-  if (!homes.empty()) return fmt::format("{} belongs to {}", key, fmt::join(homes, " or "));
-  const std::vector<std::string> known(table.keys.begin(), table.keys.end());
-  return fmt::format("did you mean {}? known here: {}", nearest_name(key, known), fmt::join(known, ", "));
-}
-
 void TomlReading::report_unknown_keys() {
+  // Names of the tables in which each key is known.
+  std::map<std::string, std::set<std::string>> homes;
+  for (const KnownTable& table : tables_)
+    for (const std::string& key : table.keys)
+      homes[key].insert(table.name.empty() ? "the top of the file" : table.name);
   for (const KnownTable& table : tables_)
     for (const auto& [key_node, value] : *table.table) {
       const std::string key(key_node.str());
       if (table.keys.contains(key)) continue;
       const std::string where = table.name.empty() ? "" : fmt::format(" in {}", table.name);
-      error(place(key_node.source()),
-            fmt::format("unknown key{} ({}), {}", where, key, suggestion(table, key)));
+      const auto home = homes.find(key);
+      const std::vector<std::string> known(table.keys.begin(), table.keys.end());
+      const std::string suggestion =
+          home != homes.end() ? fmt::format("{} belongs to {}", key, fmt::join(home->second, " or "))
+                              : fmt::format("{}known here: {}", guess(key, known), fmt::join(known, ", "));
+      error(place(key_node.source()), fmt::format("unknown key{} ({}), {}", where, key, suggestion));
     }
 }
 

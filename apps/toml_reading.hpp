@@ -5,6 +5,7 @@
 
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <list>
 #include <set>
 #include <string>
@@ -37,14 +38,15 @@ class TomlReading {
   void error(const toml::node& node, std::string message);
   void error(Place place, std::string message) { diagnostics_.error(std::move(place), std::move(message)); }
   [[nodiscard]] const ScenePlaces& places() const { return places_; }
+  [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
+  /// That relative paths of the document are relative to.
+  [[nodiscard]] std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
 
   /// One error for each key of a registered table that was never asked for. A key known in another table only
   /// is said to belong there: TOML makes it easy to write a key below the wrong header.
   void report_unknown_keys();
 
  private:
-  [[nodiscard]] std::string suggestion(const KnownTable& table, const std::string& key) const;
-
   std::string file_;
   Diagnostics& diagnostics_;
   ScenePlaces& places_;

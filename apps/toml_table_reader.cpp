@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "apps/nearest_name.hpp"
+#include "apps/toml_faults.hpp"
 #include "geometry/coordinate_limit.hpp"
 
 namespace ashlar {
@@ -44,14 +45,17 @@ void TomlTableReader::error_at_value(std::string_view key, std::string message) 
   reading_.error(reading_.places().value(path(key)), std::move(message));
 }
 
-void TomlTableReader::wrong_type(const toml::node& node, std::string_view key, std::string_view words) {
-  reading_.error(node, fmt::format("{} has the wrong type ({}), {} is needed", key, describe(node), words));
+void TomlTableReader::wrong_type(const toml::node& node, std::string_view key, std::string_view words,
+                                 std::string_view hint) {
+  reading_.error(node,
+                 fmt::format("{} has the wrong type ({}), {} is needed{}", key, describe(node), words, hint));
 }
 
 std::optional<double> TomlTableReader::finite_number(const toml::node& node, std::string_view key,
                                                      std::string_view words) {
   if (!node.is_number()) {
-    wrong_type(node, key, words);
+    const auto* text = node.as_string();
+    wrong_type(node, key, words, text == nullptr ? "" : number_hint(**text));
     return std::nullopt;
   }
   const double value = *node.value<double>();
@@ -174,8 +178,8 @@ std::optional<std::size_t> TomlTableReader::find_word(const toml::node& node, st
   }
   const auto found = std::find(words.begin(), words.end(), **text);
   if (found != words.end()) return found - words.begin();
-  reading_.error(node, fmt::format("unknown {} ({}), did you mean \"{}\"? one of {} is needed", key,
-                                   describe(node), nearest_name(**text, words), all));
+  reading_.error(node, fmt::format("unknown {} ({}), {}one of {} is needed", key, describe(node),
+                                   guess(**text, words, "\""), all));
   return std::nullopt;
 }
 
@@ -280,8 +284,8 @@ bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>&
 }
 
 bool TomlTableReader::read_rows(std::string_view key, std::vector<std::vector<double>>& result,
-                                std::size_t width, std::size_t minimum, const char* words) {
-  const toml::array* array = find_array(key, fmt::format("an array of {}", words));
+                                std::size_t width, std::size_t minimum, const char* words, const char* form) {
+  const toml::array* array = find_array(key, fmt::format("an array of {}{}", words, form));
   if (!array) return false;
   if (array->size() < minimum) {
     reading_.error(*array, fmt::format("{} has too few entries ({}), at least {} of {} are needed", key,
@@ -297,9 +301,9 @@ bool TomlTableReader::read_rows(std::string_view key, std::vector<std::vector<do
 }
 
 bool TomlTableReader::read_history(std::string_view key, std::vector<std::vector<double>>& result,
-                                   std::size_t width, const char* words) {
+                                   std::size_t width, const char* words, const char* form) {
   std::vector<std::vector<double>> rows;
-  if (!read_rows(key, rows, width, 1, words)) return false;
+  if (!read_rows(key, rows, width, 1, words, form)) return false;
   const toml::array& entries = *find(key)->as_array();
   bool increasing = true;
   for (std::size_t i = 1; i < rows.size(); ++i) {

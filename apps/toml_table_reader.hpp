@@ -30,6 +30,12 @@ class TomlTableReader {
   [[nodiscard]] std::string path(std::string_view key) const;
   /// Whether the key is there, good or not. Makes it a known one.
   [[nodiscard]] bool given(std::string_view key) { return find(key) != nullptr; }
+  /// The table that the key holds, null if it holds none. Makes it a known one.
+  [[nodiscard]] const toml::table* table_at(std::string_view key) {
+    const toml::node* node = find(key);
+    return node == nullptr ? nullptr : node->as_table();
+  }
+  [[nodiscard]] TomlReading& reading() { return reading_; }
   /// Reports a missing key at the table's place.
   void require(std::string_view key);
   void error_at_table(std::string message);
@@ -52,12 +58,13 @@ class TomlTableReader {
   bool read_texts(std::string_view key, std::vector<std::string>& result);
   /// An array of rows of `width` finite numbers each, at least `minimum` of them. @param words for a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
-                 std::size_t minimum, const char* words);
+                 std::size_t minimum, const char* words, const char* form = "");
   /// Rows of three coordinates, as read_rows and read_place.
   bool read_places(std::string_view key, std::vector<Vector3>& result, std::size_t minimum);
-  /// Rows whose first number is a time, which must increase from row to row.
+  /// Rows whose first number is a time, which must increase from row to row. @param form words for what else
+  /// the key may hold
   bool read_history(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
-                    const char* words);
+                    const char* words, const char* form = "");
 
   /// One of several words.
   template <typename Names, typename Choice>
@@ -111,7 +118,9 @@ class TomlTableReader {
   /// Reports the first coordinate that is too large, at the node. @return whether there is none
   bool check_place(const toml::node& node, std::string_view key, const Vector3& place);
   [[nodiscard]] std::string child_name(std::string_view key) const;
-  void wrong_type(const toml::node& node, std::string_view key, std::string_view words);
+  /// @param hint what else to say of the value
+  void wrong_type(const toml::node& node, std::string_view key, std::string_view words,
+                  std::string_view hint = "");
 
   TomlReading& reading_;
   TomlReading::KnownTable& known_;

@@ -14,7 +14,8 @@ namespace ashlar {
 inline constexpr double largest_ordinary_turn = 0.1;
 
 /// Warns of each block with linear elasticity whose supports hold its frame (BlockModel::elastic) and whose
-/// displacement histories turn it by more than that before end_time.
+/// histories turn its supported points by more than that before end_time. What a translation of supports does
+/// to the rest of the block is no turn.
 /// @param blocks one per scene.block
 void warn_of_turned_supports(const Scene& scene, const std::vector<BlockModel>& blocks,
                              Diagnostics& diagnostics);

@@ -71,6 +71,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> hertz_cases();
 /// Impacts, waves and rocking.
 [[nodiscard]] std::span<const VerificationCase> impact_cases();
+/// Supports that move.
+[[nodiscard]] std::span<const VerificationCase> support_cases();
 /// The paper's example.
 [[nodiscard]] std::span<const VerificationCase> falling_block_cases();
 

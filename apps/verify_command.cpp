@@ -29,8 +29,9 @@ std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names
   bool good = true;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    err << fmt::format("ashlar: error: unknown case ({}), did you mean {}? --list names all\n", name,
-                       fmt::join(likely_names(name, known), " or "));
+    const std::vector<std::string> likely = likely_names(name, known);
+    err << fmt::format("ashlar: error: unknown case ({}), {}--list names all\n", name,
+                       likely.empty() ? "" : fmt::format("did you mean {}? ", fmt::join(likely, " or ")));
     good = false;
   }
   std::vector<VerificationCase> chosen;

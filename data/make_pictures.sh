@@ -26,7 +26,7 @@ arch_stands     arch_stands         --from 0.1,-1,0.1
 arch_collapses  arch_collapses      --frame 55 --from 0.1,-1,0.1 --frame-range --zoom 1.3
 columns         columns             --frame 36 --from 0.3,-1,0.2 --frame-range --contacts none
 dominoes        dominoes            --frame 60 --from 0.5,-1,0.4 --no-arrows --zoom 1.4 --at 2.2,0,0.1
-shaken_tower    shaken_tower        --frame 95  --from 0.3,-1,0.2 --frame-range --contacts none
+shaken_tower    shaken_tower        --frame 88  --from 0.3,-1,0.2 --frame-range --contacts none
 wall            wall                --frame 75 --from 0.6,-1,0.3 --contacts none --scale 30 --frame-range
 rockfall        rockfall            --frame 45 --from 0.3,-1,0.4 --color velocity --frame-range --contacts none --zoom 1.8 --at 7,0,4.5
 hertz           hertz               --from 0.3,-1,0.1 --color pressure --zoom 1.3 --at 0,0,0.06 --contacts none

@@ -121,6 +121,12 @@ Eigen::MatrixX3d BlockModel::prescribed_change(const Eigen::MatrixX3d& position,
   return motion_.at(to) - (displacement - space().expand(space().restrict(displacement)));
 }
 
+Eigen::MatrixX3d BlockModel::prescribed_velocity(const Eigen::MatrixX3d& change, double from,
+                                                 double step) const {
+  if (motion_.has_velocity()) return motion_.velocity(from, step);
+  return change / step;
+}
+
 bool BlockModel::loads_change_between(double start, double end) const {
   if (motion_.changes_between(start, end)) return true;
   return std::any_of(definition_.loads.begin(), definition_.loads.end(),

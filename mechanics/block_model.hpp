@@ -98,6 +98,10 @@ class BlockModel {
   /// at the first one. @return (p, 3), orthogonal to all motions of the unknowns; empty if not driven
   [[nodiscard]] Eigen::MatrixX3d prescribed_change(const Eigen::MatrixX3d& position, double from,
                                                    double to) const;
+  /// Velocity that supports prescribe at the end of a step. @param change prescribed_change of the step
+  /// @param step s, > 0. @return (p, 3); only if driven
+  [[nodiscard]] Eigen::MatrixX3d prescribed_velocity(const Eigen::MatrixX3d& change, double from,
+                                                     double step) const;
   /// Whether any load or support may differ between two times.
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.

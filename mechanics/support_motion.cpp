@@ -1,6 +1,8 @@
 #include "mechanics/support_motion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace ashlar {
@@ -34,72 +36,110 @@ Conditions conditions_of(const Polyhedron& solid, const PolynomialBasis& basis,
   return result;
 }
 
-}  // namespace
-
-double displacement_at(const SupportHistory& history, std::size_t axis, double time) {
-  const auto next = std::upper_bound(history.times.begin(), history.times.end(), time);
-  const auto k = static_cast<std::size_t>(next - history.times.begin());
-  const auto value = [&](std::size_t n) { return history.displacements[n][static_cast<Eigen::Index>(axis)]; };
-  if (k == 0) return value(0);
-  if (k == history.times.size()) return value(k - 1);
-  const double share = (time - history.times[k - 1]) / (history.times[k] - history.times[k - 1]);
-  return value(k - 1) + share * (value(k) - value(k - 1));
+/// Times at which polynomials of degree 3 between the times of all histories, and after them, that agree
+/// there agree everywhere.
+std::vector<double> telling_times(const std::vector<RecordedMotion>& motions) {
+  std::vector<double> rows;
+  for (const RecordedMotion& motion : motions) {
+    const std::vector<double> times = motion.times();
+    rows.insert(rows.end(), times.begin(), times.end());
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  std::vector<double> times;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double length = k + 1 < rows.size() ? rows[k + 1] - rows[k] : 1.0;
+    for (const double share : {0.0, 1.0 / 3.0, 2.0 / 3.0}) times.push_back(rows[k] + share * length);
+  }
+  return times;
 }
+
+/// Whether supports that share points want them in one place at all times.
+/// @param unmet (#conditions, #motions) what is left of each condition for a unit displacement
+bool agree(const Eigen::MatrixXd& unmet, const std::vector<RecordedMotion>& motions, Eigen::Index component) {
+  if (!(unmet.cwiseAbs().maxCoeff() > agreement)) return true;
+  const std::vector<double> times = telling_times(motions);
+  double most_unmet = 0.0, farthest = 0.0;
+  for (const double time : times) {
+    Eigen::VectorXd displacements(unmet.cols());
+    for (Eigen::Index n = 0; n < displacements.size(); ++n)
+      displacements[n] = motions[static_cast<std::size_t>(n)].displacement(time)[component];
+    farthest = std::max(farthest, displacements.cwiseAbs().maxCoeff());
+    most_unmet = std::max(most_unmet, (unmet * displacements).cwiseAbs().maxCoeff());
+  }
+  return most_unmet <= agreement * farthest;
+}
+
+}  // namespace
 
 SupportMotion::SupportMotion(const Polyhedron& solid, const PolynomialBasis& basis,
                              const std::vector<BlockSupport>& supports) {
-  double largest = 0.0;
-  for (const BlockSupport& support : supports) {
-    const SupportHistory& history = support.history;
-    times_.insert(times_.end(), history.times.begin(), history.times.end());
+  constexpr std::size_t at_rest = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> group(supports.size(), at_rest);
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    const BlockSupport& support = supports[k];
+    if (support.history.times.empty()) continue;
+    group[k] = 0;
+    while (group[k] < driven_.size() && !(driven_[group[k]].history == support.history)) ++group[k];
+    if (group[k] == driven_.size())
+      driven_.push_back(
+          {support.history, RecordedMotion(support.history), Eigen::MatrixX3d::Zero(basis.size(), 3)});
+    const Vector3 start = driven_[group[k]].motion.displacement(0.0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (history.times.empty() || !support.components[axis]) continue;
-      if (displacement_at(history, axis, 0.0) != 0.0)
-        throw std::invalid_argument(
-            "the displacement_history of a support is not zero at time 0, where it was placed");
+      if (support.components[axis] && start[static_cast<Eigen::Index>(axis)] != 0.0)
+        throw std::invalid_argument("the history of a support is not zero at time 0, where it was placed");
     }
-    for (const Vector3& displacement : history.displacements)
-      largest = std::max(largest, displacement.cwiseAbs().maxCoeff());
   }
-  std::sort(times_.begin(), times_.end());
-  times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
   if (!moves()) return;
 
-  coefficients_.assign(times_.size(), Eigen::MatrixX3d::Zero(basis.size(), 3));
+  std::vector<RecordedMotion> motions;
+  for (const Driven& driven : driven_) motions.push_back(driven.motion);
   const double scale = std::sqrt(basis.volume());
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto component = static_cast<Eigen::Index>(axis);
     const Conditions conditions = conditions_of(solid, basis, supports, axis);
     if (conditions.matrix.rows() == 0) continue;
-    for (std::size_t n = 0; n < times_.size(); ++n) {
+    // Of each row what is not met of a unit displacement of each group.
+    Eigen::MatrixXd unmet(conditions.matrix.rows(), static_cast<Eigen::Index>(driven_.size()));
+    for (std::size_t n = 0; n < driven_.size(); ++n) {
       Eigen::VectorXd target(conditions.matrix.rows());
-      for (Eigen::Index row = 0; row < target.size(); ++row) {
-        const SupportHistory& history = supports[conditions.support[static_cast<std::size_t>(row)]].history;
-        target[row] = history.times.empty() ? 0.0 : scale * displacement_at(history, axis, times_[n]);
-      }
-      const Eigen::VectorXd c = conditions.solution.solve(target);
-      if ((conditions.matrix * c - target).cwiseAbs().maxCoeff() > agreement * scale * largest)
-        throw std::invalid_argument(
-            "supports that share points move them to different places, the same history is needed where they "
-            "meet");
-      coefficients_[n].col(static_cast<Eigen::Index>(axis)) = c;
+      for (Eigen::Index row = 0; row < target.size(); ++row)
+        target[row] = group[conditions.support[static_cast<std::size_t>(row)]] == n ? scale : 0.0;
+      driven_[n].field.col(component) = conditions.solution.solve(target);
+      unmet.col(static_cast<Eigen::Index>(n)) =
+          (conditions.matrix * driven_[n].field.col(component) - target) / scale;
     }
+    if (!agree(unmet, motions, component))
+      throw std::invalid_argument(
+          "supports that share points move them to different places, the same history is needed where they "
+          "meet");
   }
+}
+
+bool SupportMotion::has_velocity() const {
+  return std::any_of(driven_.begin(), driven_.end(), [](const Driven& d) { return d.motion.smooth(); });
 }
 
 Eigen::MatrixX3d SupportMotion::at(double time) const {
-  const auto next = std::upper_bound(times_.begin(), times_.end(), time);
-  const auto k = static_cast<std::size_t>(next - times_.begin());
-  if (k == 0) return coefficients_.front();
-  if (k == times_.size()) return coefficients_.back();
-  const double share = (time - times_[k - 1]) / (times_[k] - times_[k - 1]);
-  return coefficients_[k - 1] + share * (coefficients_[k] - coefficients_[k - 1]);
+  Eigen::MatrixX3d sum = Eigen::MatrixX3d::Zero(driven_.front().field.rows(), 3);
+  for (const Driven& driven : driven_) sum += driven.field * driven.motion.displacement(time).asDiagonal();
+  return sum;
+}
+
+Eigen::MatrixX3d SupportMotion::velocity(double from, double step) const {
+  Eigen::MatrixX3d sum = Eigen::MatrixX3d::Zero(driven_.front().field.rows(), 3);
+  for (const auto& [history, motion, field] : driven_) {
+    const Vector3 velocity =
+        motion.smooth() ? motion.velocity(from + step)
+                        : Vector3((motion.displacement(from + step) - motion.displacement(from)) / step);
+    sum += field * velocity.asDiagonal();
+  }
+  return sum;
 }
 
 bool SupportMotion::changes_between(double start, double end) const {
-  for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
-    if (times_[k] < end && times_[k + 1] > start && coefficients_[k] != coefficients_[k + 1]) return true;
-  }
-  return false;
+  return std::any_of(driven_.begin(), driven_.end(),
+                     [&](const Driven& driven) { return driven.motion.changes_between(start, end); });
 }
 
 }  // namespace ashlar

@@ -9,22 +9,16 @@
 
 #include "mechanics/basis.hpp"
 #include "mechanics/face_selection.hpp"
+#include "mechanics/recorded_motion.hpp"
 
 namespace ashlar {
-
-/// Displacement of a support over time: linear between the points, constant before the first and after the
-/// last; none if there are none.
-struct SupportHistory {
-  std::vector<double> times;           ///< s, increasing
-  std::vector<Vector3> displacements;  ///< m, same number
-};
 
 /// A support of faces or of one material point; chosen components of its displacement are zero or follow a
 /// history.
 struct BlockSupport {
   BlockPlace where;  ///< reference coordinates, m
   std::array<bool, 3> components = {true, true, true};
-  SupportHistory history = {};  ///< of the chosen components, see support_motion.hpp
+  SupportHistory history = {};  ///< of the chosen components; empty: at rest
 };
 
 /// Singular values below this part of the largest are conditions that repeat others.

@@ -40,7 +40,10 @@ double Simulation::move_block(std::size_t k, const TimeScheme& scheme, const Bod
   const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
   if (driven) {
     Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
-    if (scheme.step > 0.0) rate = body.prescribed / scheme.step;
+    // In statics time stands for loads.
+    if (scheme.step > 0.0)
+      rate = scheme.from_rest ? Eigen::MatrixX3d(body.prescribed / scheme.step)
+                              : block.prescribed_velocity(body.prescribed, time(), scheme.step);
     // Supports push against inertia and all forces but those of contacts, which accept() knows.
     ledger_.applied += 0.5 * density * (rate.squaredNorm() - (state.velocity - velocity).squaredNorm()) +
                        body.prescribed.cwiseProduct(body.elastic.force - external_force(block, scheme)).sum();

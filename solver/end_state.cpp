@@ -43,6 +43,19 @@ Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>
   return gradients;
 }
 
+/// Whether doubles cannot hold what a step is to do with a block or has done: a square of it that is not
+/// finite, or a way so long that the block's coordinates would be rounded to more than 1e-6 of its size, as
+/// overlaps are judged by.
+bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX3d& position) {
+  constexpr double longest_way = 1e-6 / std::numeric_limits<double>::epsilon();  // in sizes of the block
+  for (const Eigen::VectorXd* vector : {&body.external_force, &body.free_change, &body.change})
+    if (!std::isfinite(vector->squaredNorm())) return true;
+  if (!std::isfinite(position.squaredNorm())) return true;
+  const double volume = block.basis().volume();
+  const Eigen::MatrixX3d way = position - block.basis().identity_map();
+  return way.row(0).norm() / std::sqrt(volume) > longest_way * std::cbrt(volume);
+}
+
 }  // namespace
 
 std::vector<BlockState> Simulation::states_after(const Trial& trial) const {
@@ -58,7 +71,8 @@ std::optional<StateFault> Simulation::broken_block(const Trial& trial) const {
     if (!moving_[k]) continue;
     const Eigen::MatrixX3d position = states_[k].position + trial.bodies[k].motion();
     const int block = static_cast<int>(k);
-    if (!position.allFinite()) return StateFault{RejectionReason::not_finite, {block, block}};
+    if (is_lost(blocks_[k], trial.bodies[k], position))
+      return StateFault{RejectionReason::not_finite, {block, block}};
     if (asked_gradients_[k] == nullptr) continue;
     const Eigen::MatrixX3d deformation = *asked_gradients_[k] * position;
     for (Eigen::Index row = 0; row < deformation.rows(); row += 3) {
@@ -156,6 +170,15 @@ void Simulation::note_gradients(std::size_t k) {
 void Simulation::reject(double step, const StateFault& fault) {
   rejections_.push_back({time(), step, fault.reason});
   fault_ = fault;
+}
+
+void Simulation::reject_unsettled(double step, IslandStatus status, const Trial& trial) {
+  // Numbers that overflow settle nowhere.
+  if (const auto broken = broken_block(trial); broken && broken->reason == RejectionReason::not_finite)
+    return reject(step, *broken);
+  rejections_.push_back({time(), step,
+                         status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
+                                                             : RejectionReason::not_positive_definite});
 }
 
 }  // namespace ashlar

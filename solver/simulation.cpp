@@ -179,9 +179,7 @@ StepStatus Simulation::step(double end_time) {
     const TimeScheme scheme = time_scheme(settings_, step);
     const IslandStatus status = try_step(scheme, trial);
     if (status != IslandStatus::settled) {
-      rejections_.push_back({time(), step,
-                             status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
-                                                                 : RejectionReason::not_positive_definite});
+      reject_unsettled(step, status, trial);
       unsettled = true;
       step *= 0.5;
       ++cuts;

@@ -322,6 +322,8 @@ class Simulation {
   void note_gradients(std::size_t block);
   /// Takes note of a state that a step would have ended in.
   void reject(double step, const StateFault& fault);
+  /// Takes note of a step whose islands found no balance: why, or that their numbers have overflowed.
+  void reject_unsettled(double step, IslandStatus status, const Trial& trial);
 
   // block_changes.cpp
   [[nodiscard]] bool any_incremental() const;

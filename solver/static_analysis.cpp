@@ -145,9 +145,7 @@ StaticStatus Simulation::static_step(double end_time) {
     const IslandStatus status = try_step(scheme, trial);
     double raise = 10.0;
     if (status != IslandStatus::settled) {
-      rejections_.push_back({time(), step,
-                             status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
-                                                                 : RejectionReason::not_positive_definite});
+      reject_unsettled(step, status, trial);
       if (static_.holds_bonds) {
         let_bonds_go();
         trial.pairs = make_pairs(found, false);

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <iostream>
 #include <sstream>
 
 #include "support/temporary_folder.hpp"
@@ -69,7 +71,9 @@ TEST(CommandLine, CheckSaysWhatAGoodSceneHolds) {
   write_text(file, sample());
   const Outcome outcome = run({"check", file});
   EXPECT_EQ(outcome.status, exit_status::done);
-  EXPECT_EQ(outcome.out, file + ": good: 2 blocks, 1 material, 1 joint, 1 measure\n");
+  EXPECT_EQ(outcome.out, file +
+                             ": good: 2 blocks, 1 material, 1 joint, 1 measure\n"
+                             "estimate: 2 blocks, 24 sub-faces, 24 unknowns, 1 pair of near blocks, 20 MB\n");
   EXPECT_EQ(outcome.err, "");
 }
 
@@ -102,6 +106,34 @@ TEST(CommandLine, RunOfABadSceneEndsWithTwoAndLeavesNoFolder) {
   write_text(file, sample_with(10, "density = -1"));
   EXPECT_EQ(run({"run", file, "--quiet", "--out", (folder / "out").string()}).status, exit_status::bad_input);
   EXPECT_EQ(folder.entry_count(), 1u);
+}
+
+TEST(CommandLine, HelpIsACommandToo) {
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  EXPECT_EQ(run({"help"}).status, exit_status::done);
+  EXPECT_EQ(run({"help", "run"}).out, run({"run", "--help"}).out);
+}
+
+TEST(CommandLine, RunHasShortOptions) {
+  const TemporaryFolder folder;
+  write_text(folder / "s.toml", sample_with(2, "end_time = 0.01"));
+  const Outcome outcome =
+      run({"run", (folder / "s.toml").string(), "-o", (folder / "out").string(), "-t", "2", "--quiet"});
+  EXPECT_EQ(outcome.status, exit_status::done) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/summary.json"));
+}
+
+TEST(CommandLine, ScenesComeFromStandardInput) {
+  std::istringstream input(sample_with(2, "end_time = -1"));
+  std::streambuf* const before = std::cin.rdbuf(input.rdbuf());
+  const Outcome bad = run({"check", "-"});
+  std::istringstream good(sample());
+  std::cin.rdbuf(good.rdbuf());
+  const Outcome outcome = run({"check", "-"});
+  std::cin.rdbuf(before);
+  EXPECT_EQ(bad.status, exit_status::bad_input);
+  EXPECT_THAT(bad.err, StartsWith("(standard input):2:12: error: end_time is out of range"));
+  EXPECT_EQ(outcome.status, exit_status::done) << outcome.err;
 }
 
 }  // namespace

@@ -51,5 +51,22 @@ TEST(Diagnostics, WarningsAreListedButNoFaults) {
   EXPECT_EQ(stream.str(), "s.toml:1:1: error: wrong\ns.toml:2:1: warning: soft (5)\n");
 }
 
+TEST(Diagnostics, ManyOfAKindAreCounted) {
+  Diagnostics diagnostics;
+  for (int k = 1; k <= 50; ++k)
+    diagnostics.error({"s.toml", k, 1}, "unknown key (k" + std::to_string(k) + "), none");
+  diagnostics.error({"s.toml", 60, 1}, "wrong");
+  std::ostringstream stream;
+  diagnostics.print(stream);
+  const std::string text = stream.str();
+  EXPECT_NE(text.find("s.toml:20:1: error: unknown key (k20), none\ns.toml:60:1: error: wrong\n"),
+            std::string::npos);
+  EXPECT_NE(
+      text.find(
+          "s.toml:21:1: error: 30 more of this kind from here on (unknown key), the first 20 are listed\n"),
+      std::string::npos);
+  EXPECT_EQ(diagnostics.sorted().size(), 51u);
+}
+
 }  // namespace
 }  // namespace ashlar::test

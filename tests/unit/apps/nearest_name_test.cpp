@@ -35,9 +35,23 @@ TEST(NearestName, NamesThatContainTheTextComeFirst) {
   EXPECT_THAT(likely_names("slide", {"glide", "Incline-Slide", "side-slide"}),
               ElementsAre("side-slide", "Incline-Slide"));
   EXPECT_EQ(nearest_name("slide", {"glide", "incline-slide"}), "incline-slide");
-  EXPECT_THAT(likely_names("slede", {"incline-slide", "glide"}), ElementsAre("glide"));
-  EXPECT_THAT(likely_names("or", {"for", "orders", "at"}), ElementsAre("for"));
+  EXPECT_THAT(likely_names("glede", {"incline-slide", "glide"}), ElementsAre("glide"));
+  EXPECT_THAT(likely_names("or", {"for", "orders", "at"}), ElementsAre("orders"));
   EXPECT_THAT(likely_names("slide", {}), IsEmpty());
+}
+
+TEST(NearestName, NothingIsGuessedBeyondAThirdOfTheLetters) {
+  const std::vector<std::string> keys = {"analysis", "block",   "contact", "joint",
+                                         "material", "measure", "output"};
+  for (const char* name : {"include", "water", "foo", "stage", "C", ""})
+    EXPECT_EQ(nearest_name(name, keys), "") << name;
+  EXPECT_EQ(nearest_name("help", {"run", "check", "verify", "picture"}), "");
+  EXPECT_EQ(nearest_name("blcok", keys), "block");
+  EXPECT_EQ(nearest_name("outprt", keys), "output");
+  EXPECT_EQ(nearest_name("meesura", keys), "measure");
+  EXPECT_EQ(guess("blok", keys), "did you mean block? ");
+  EXPECT_EQ(guess("blok", keys, "\""), "did you mean \"block\"? ");
+  EXPECT_EQ(guess("foo", keys), "");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(Placement, ABlockTakesSupportsLoadsAndPointsAlong) {
   EXPECT_EQ(turned.solid->faces().size(), 6U);
   EXPECT_EQ(std::get<Plane>(turned.supports[0].where).point, Vector3(1, 2, 3));
   EXPECT_EQ(std::get<Plane>(turned.supports[0].where).normal, Vector3::UnitY());
-  EXPECT_EQ(turned.supports[0].history.displacements[1], Vector3::UnitY());
+  EXPECT_EQ(turned.supports[0].history.values[1], Vector3::UnitY());
   EXPECT_EQ(std::get<Vector3>(turned.loads[0].where), Vector3(1, 3, 3));
   EXPECT_EQ(turned.loads[0].vector, Vector3(-7, 0, 0));
   EXPECT_EQ(turned.followed[0], Vector3(0, 2, 3));

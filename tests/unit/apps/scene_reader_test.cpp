@@ -155,7 +155,7 @@ curved = true
   EXPECT_EQ(a.angular_velocity, Vector3(0, 1, 0));
   EXPECT_EQ(std::get<Vector3>(a.fix.at(0).where), Vector3(1, 2, 3));
   EXPECT_EQ(a.fix[0].components, (std::array<bool, 3>{true, false, true}));
-  EXPECT_EQ(a.fix[0].displacement_history.at(1).displacement, Vector3(0.1, 0.0, 0.3));
+  EXPECT_EQ(a.fix[0].history.at(1).value, Vector3(0.1, 0.0, 0.3));
   EXPECT_EQ(a.load.at(0).kind, SceneLoad::Kind::force);
   EXPECT_EQ(a.load[0].history.at(1).factor, 1.0);
   EXPECT_EQ(std::get<SceneMesh>(scene.block.at(1).shape).scale, 2.0);

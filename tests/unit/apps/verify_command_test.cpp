@@ -58,6 +58,7 @@ TEST(VerifyCommand, ListsCasesOfRecord) {
                            "bounce",
                            "bar-impact",
                            "hertz-sphere",
+                           "base-record",
                            "joint-wave",
                            "rocking-block",
                            "falling-block"})

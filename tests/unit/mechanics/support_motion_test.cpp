@@ -70,6 +70,29 @@ TEST(SupportMotion, RefusesContradictions) {
   EXPECT_NO_THROW(SupportMotion(box, basis, {end_support(0, to_and_fro), side}));
 }
 
+TEST(SupportMotion, HistoriesThatAgreeAtTheirRowsOnlyAreContradictions) {
+  const PolynomialBasis basis(box, 2);
+  BlockSupport side{Plane{{0, 0, 0}, Vector3::UnitY()}};
+  side.history = to_and_fro;
+  side.history.record = MotionRecord::smooth_displacement;
+  EXPECT_THROW(SupportMotion(box, basis, {end_support(0, to_and_fro), side}), std::invalid_argument);
+}
+
+TEST(SupportMotion, VelocityIsThatOfTheRecordAtTheEndOfAStep) {
+  const PolynomialBasis basis(box, 2);
+  const SupportHistory record{{0.0, 1.0}, {Vector3::Zero(), {3, 0, 0}}, MotionRecord::acceleration};
+  const SupportMotion smooth(box, basis, {end_support(0, record)});
+  EXPECT_TRUE(smooth.has_velocity());
+  const auto velocity = [&](const SupportMotion& motion, double from, double step) {
+    return Vector3(motion.velocity(from, step).transpose() * basis.values(Vector3(0, 0.5, 0.5)));
+  };
+  EXPECT_LT((velocity(smooth, 0.2, 0.3) - Vector3(1.5 * 0.25, 0, 0)).norm(), 1e-12);
+  // Straight lines have their mean.
+  const SupportMotion lines(box, basis, {end_support(0, to_and_fro)});
+  EXPECT_FALSE(lines.has_velocity());
+  EXPECT_LT((velocity(lines, 1.5, 1.5) - Vector3(0.15 / 1.5, 0, 0)).norm(), 1e-12);
+}
+
 TEST(SupportMotion, RefusesAStartElsewhere) {
   const PolynomialBasis basis(box, 1);
   EXPECT_THROW(SupportMotion(box, basis, {end_support(0, {{0.0, 1.0}, {{0.1, 0, 0}, {0.2, 0, 0}}})}),

@@ -155,7 +155,7 @@ Vector3 carried(const Vector3& acceleration, const Vector3& velocity, double fri
   SupportHistory history;
   for (double t = 0.0; t < time + 1.5 * time_step; t += time_step) {
     history.times.push_back(t);
-    history.displacements.emplace_back(0.5 * t * t * acceleration);
+    history.values.emplace_back(0.5 * t * t * acceleration);
   }
   Simulation simulation = on_moving_base(history, velocity, friction, augmented(time_step, integrator));
   EXPECT_TRUE(test_support::run_until(simulation, time));

@@ -1,6 +1,7 @@
 // What a step may not end in, and that it then ends with the last good state.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "support/simulations.hpp"
@@ -97,6 +98,49 @@ TEST(EndState, SoftAndFastBlocksFailOrStayWhatTheyAre) {
                                      simulation.blocks()[1].basis().gradients(Vector3(0.5, 0.5, 0.5));
     EXPECT_GT(gradient.determinant(), 0.0);
   }
+}
+
+/// A free cube of 1 m, or what else is given, in its first 5 ms.
+Simulation lone(const Vector3& size, const Vector3& gravity, const Vector3& force) {
+  SimulationSettings settings;
+  settings.gravity = gravity;
+  BlockDefinition block =
+      block_of("lone", Polyhedron(make_box(Vector3::Zero(), size)), {2700.0, 1e10, 0.2}, 1);
+  if (!force.isZero(0.0)) block.loads.push_back({size, false, force, {}});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(block));
+  return {std::move(blocks), {{}}, same_law({}), settings};
+}
+
+TEST(EndState, WhatDoublesCannotHoldIsNoState) {
+  const Vector3 cube = Vector3::Ones(), none = Vector3::Zero();
+  struct Case {
+    Vector3 gravity, force;
+  };
+  for (const auto& [gravity, force] : {Case{none, {1e300, 0, 0}}, Case{{0, 0, -1e30}, none},
+                                       Case{{0, 0, -1e160}, none}, Case{none, {0, 1e160, 0}}}) {
+    Simulation simulation = lone(cube, gravity, force);
+    EXPECT_FALSE(test_support::run_until(simulation, 0.005));
+    ASSERT_TRUE(simulation.fault());
+    EXPECT_EQ(simulation.fault()->reason, RejectionReason::not_finite);
+    EXPECT_EQ(simulation.fault()->blocks[0], 0);
+    EXPECT_EQ(simulation.rejections().back().reason, RejectionReason::not_finite);
+    for (const BlockState& state : simulation.states()) {
+      EXPECT_TRUE(state.position.allFinite());
+      EXPECT_TRUE(state.velocity.allFinite());
+    }
+    EXPECT_TRUE(std::isfinite(simulation.ledger().kinetic));
+  }
+}
+
+TEST(EndState, ANeedleThatIsTooThinToSpinFalls) {
+  // Its moment of inertia about its axis is 1e-16 of the others.
+  Simulation simulation = lone({1, 1, 1e8}, {0, 0, -9.81}, Vector3::Zero());
+  ASSERT_TRUE(test_support::run_until(simulation, 0.005));
+  const BlockState& state = simulation.states()[0];
+  EXPECT_TRUE(state.position.allFinite());
+  EXPECT_TRUE(state.velocity.allFinite());
+  EXPECT_NEAR(simulation.blocks()[0].momentum(state).z() / (2700.0 * 1e8 * -9.81 * 0.005), 1.0, 1e-6);
 }
 
 }  // namespace
