@@ -19,7 +19,7 @@ namespace ashlar {
 /// step in s), value, order, contact (0 springs, 1 multipliers), error (relative, of the displacement of the
 /// top or the distance slid), condition (of the block's elastic stiffness, rigid motions apart), iterations
 /// (of the static analysis, or steps), rejected steps, ended (1: as it should), promised (what the error is
-/// promised to be below).
+/// promised to be below; infinity: nothing is).
 [[nodiscard]] StudyResult study_stability();
 
 /// How far a study of stability goes.

@@ -5,6 +5,8 @@ usage='use: tests/run.sh [OPTION]...
   --format       also check that all sources are formatted
   --lint         also --format, and clang-tidy on all sources
   --clang        also build and test with clang
+  --readers      also the geometry's tests and what fuzzers have tried on readers of files, with the address and
+                 undefined sanitizers
   --sanitizers   also build and test with the address and undefined sanitizers, then with the thread sanitizer
   --all          all of these
   --only PRESET  build and test this preset of CMakePresets.json instead of release'
@@ -15,11 +17,13 @@ cd "$root"
 presets=(release)
 format=no
 lint=no
+readers=no
 while (($#)); do
   case $1 in
     --format) format=yes ;;
     --lint) format=yes lint=yes ;;
     --clang) presets+=(clang) ;;
+    --readers) readers=yes ;;
     --sanitizers) presets+=(asan tsan) ;;
     --all) format=yes lint=yes presets+=(clang asan tsan) ;;
     --only) presets=("${2:?--only needs the name of a preset}"); shift ;;
@@ -54,6 +58,15 @@ build_and_test() {
   ctest --preset "$1" -j"$(nproc)"
 }
 
+# A part of the sanitizers' runs that is done in minutes.
+check_readers() {
+  say 'asan: geometry and readers'
+  cmake --preset asan
+  cmake --build --preset asan -j"$jobs" --target geometry_tests replay_corpus
+  build/asan/tests/geometry_tests --gtest_brief=1 --gtest_filter='-*FiftyThousandPairs*:*MillionVariants*'
+  build/asan/tests/fuzz/replay_corpus tests/fuzz/corpus
+}
+
 bash apps/install_packages.sh
 jobs=$(bash apps/build_jobs.sh)
 if command -v ccache >/dev/null; then
@@ -64,5 +77,6 @@ fi
 for preset in "${presets[@]}"; do
   build_and_test "$preset"
 done
+[[ $readers == no ]] || check_readers
 [[ $lint == no ]] || run_clang_tidy
 say "passed: ${presets[*]}$([[ $format == no ]] || echo ' format')$([[ $lint == no ]] || echo ' clang-tidy')"

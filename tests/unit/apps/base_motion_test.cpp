@@ -1,6 +1,7 @@
 // Histories of supports as users write them, and what is said of them.
 #include "apps/base_motion.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "apps/build_simulation.hpp"
