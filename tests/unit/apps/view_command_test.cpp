@@ -176,7 +176,7 @@ TEST_F(ViewCommand, FaultsNameTheFile) {
 
 TEST_F(ViewCommand, ArraysOfAnotherShapeNameFileAndArray) {
   const auto view_with = [&](const std::string& file, const std::string& name, int components, auto value) {
-    simulate();
+    simulate({"--force"});
     UnstructuredGrid grid = read_vtu(folder / "out/frames" / file);
     const auto change = [&](std::vector<DataArray>& arrays, std::size_t tuples) {
       for (DataArray& array : arrays) {
