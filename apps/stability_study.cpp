@@ -143,7 +143,7 @@ Outcome slide(const Subject& subject) {
   outcome.ended = accepted;
   outcome.error = std::abs((centroid(simulation, 1).x() - start) / way - 1.0);
   // In shorter steps the block leaves the floor and meets it again from one step to the next, and what
-  // multipliers stop it by then has no friction (solver/README.md): a run says so.
+  // multipliers stop it by then has no friction (solver/notes/augmented_contact.md): a run says so.
   constexpr double least_with_multipliers = 1e-3;  // s
   const bool promises = !subject.multipliers || subject.time_step >= least_with_multipliers;
   outcome.promised =
