@@ -286,7 +286,6 @@ void declare_contacts_command(CLI::App& program, CommandContext& context) {
   const auto options = std::make_shared<ContactsOptions>();
   CLI::Option* a = command->add_option("A", options->a, "First mesh")->type_name("");
   CLI::Option* b = command->add_option("B", options->b, "Second mesh")->type_name("");
-  a->needs(b);
   command->add_option("--pairs", options->pairs, "Many pairs: a file with a line A B for each")
       ->type_name("LIST")
       ->excludes(a, b);
@@ -302,7 +301,8 @@ void declare_contacts_command(CLI::App& program, CommandContext& context) {
       ->type_name("DEG")
       ->check(within(90.0));
   command->add_flag("--json", options->json, "Print JSON, one object a line");
-  command->callback([options, &context, b] {
+  command->callback([options, &context, a, b] {
+    if (a->count() > 0 && b->count() == 0) throw CLI::RequiredError("a second mesh B");
     if (!options->pairs && b->count() == 0) throw CLI::RequiredError("two meshes A B, or --pairs LIST,");
     context.status = contacts_command(*options, context.out, context.err);
   });

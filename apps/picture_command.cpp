@@ -120,6 +120,12 @@ int picture_command(const PictureOptions& options, std::ostream& out, std::ostre
     err << "ashlar: error: a picture without a name (\"\"), a name is needed\n";
     return exit_status::bad_input;
   }
+  if (const std::string suffix = CLI::detail::to_lower(options.picture.extension().string());
+      !suffix.empty() && suffix != ".png") {
+    err << fmt::format("ashlar: error: pictures are PNG files ({}), a name that ends with .png is needed\n",
+                       options.picture.string());
+    return exit_status::bad_input;
+  }
   const auto browser = find_browser();
   if (!browser) {
     err << "ashlar: error: no chromium in PATH, which draws the picture; install it or set ASHLAR_BROWSER\n";

@@ -178,7 +178,7 @@ std::vector<Sweep> sweeps(const StabilityRange& range) {
            1.0,
            {1e1, 1e2, 1e3, 1e4},
            [](Subject& s, double v) { s.shape.x() = v; }},
-          {"mass of the upper of two blocks over the lower",
+          {"mass ratio of two blocks",
            1.0,
            {1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6},
            [](Subject& s, double v) {

@@ -51,6 +51,7 @@ TEST(CommandLine, UsageFaultsGoToErrAndEndWithTwo) {
       {{}, "subcommand is required"},
       {{"chek", "a.toml"}, "unknown command (chek), did you mean check?"},
       {{"check"}, "SCENE is required"},
+      {{"contacts", "a.off"}, "a second mesh B is required"},
       {{"check", "a.toml", "b.toml"}, "b.toml"},
       {{"run", "a.toml", "--fast"}, "--fast"},
       {{"run", "a.toml", "--threads", "0"}, "--threads"},

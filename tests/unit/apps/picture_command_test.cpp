@@ -87,6 +87,12 @@ TEST_F(PictureCommand, RefusesFramesBelowZero) {
   EXPECT_THAT(err.str(), HasSubstr("--frame: Value -1 not in range"));
 }
 
+TEST_F(PictureCommand, WritesPngOnly) {
+  EXPECT_EQ(run_command_line({"picture", path("out"), "-o", path("p.jpg")}, out, err),
+            exit_status::bad_input);
+  EXPECT_THAT(err.str(), HasSubstr("p.jpg), a name that ends with .png is needed"));
+}
+
 TEST_F(PictureCommand, ABrowserThatFailsIsNamed) {
   EXPECT_EQ(picture({}), exit_status::failed);
   EXPECT_THAT(err.str(), HasSubstr("/bin/false failed"));
