@@ -1,4 +1,4 @@
-// The words for what two bodies do to each other; every later layer uses these and never re-decides geometry.
+// The words for the exact contact of two bodies. Contact points have types of their own (mechanics).
 #pragma once
 
 #include <string_view>

@@ -77,7 +77,7 @@ struct Resolution {
   double sine = 0.0;      ///< of the contact angle, 0 to 1
 };
 
-/// The type at a resolution: what a step uses.
+/// The type at a resolution: what the contact report tells. A step asks for it at resolution zero.
 ///
 /// With w the direction of the exact contact (touching, crossing: chosen as in classify), P_tau is the convex
 /// hull of the corners of P that are at most `distance` above its support along w, or seen from every support

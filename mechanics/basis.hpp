@@ -1,10 +1,10 @@
 // The polynomial basis of a block (theory.md section 2): complete of order n, orthonormal on the block's own
 // volume and graded, so that the first 4, 10, 20, ... functions span the orders 1, 2, 3, ...
 //
-//   xi = (A' (X - c) - m) / h                 c the first point of the solid; along the block's principal
-//   axes A, -1 to 1 in its box along them seed_k(X) = L_a(xi_1) L_b(xi_2) L_c(xi_3)  Legendre polynomials, G
-//   = integral of seed seed' dV = L L'       exact moments, Cholesky factor in 50-digit arithmetic, phi =
-//   inverse(L) seed so that  integral of phi phi' dV = I.
+//   xi = (A' (X - c) - m) / h                  A: principal axes, c: first point; -1 to 1 in the box along A,
+//   seed_k(X) = L_a(xi_1) L_b(xi_2) L_c(xi_3)  Legendre polynomials,
+//   G = integral of seed seed' dV = L L'       exact moments, Cholesky factor in 50-digit arithmetic,
+//   phi = inverse(L) seed                      so that  integral of phi phi' dV = I.
 //
 // phi is not evaluated so: where the block fills little of its box, inverse(L) is large and rounding with it.
 // Multiplied by xi_i, a function of degree d - 1 is a combination of those of degrees d, d - 1 and d - 2

@@ -5,10 +5,10 @@
 // Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells, one
 // on each of its parts where it is in part open (pressure_end.hpp; not where flat sub-faces stand for blocks
 // that bend, nor with multipliers). Per point (the paper's springs) they are the vertices of the faces'
-// overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a tributary area. With
-// curved surfaces, the point on the master block is the closest one on its true polynomial surface, so that
-// x_a - x_b is along the normal;
-// with flat surfaces both points stay on their sub-face planes.
+// overlap polygon (face_overlap.hpp). Isolated vertices and edge crossings carry a tributary area.
+//
+// With curved surfaces, the point on the master block is the closest one on its true polynomial surface, so
+// that x_a - x_b is along the normal; with flat surfaces both points stay on their sub-face planes.
 #pragma once
 
 #include <vector>

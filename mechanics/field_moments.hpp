@@ -1,7 +1,7 @@
-// Moments of vector fields over the reference volume V of a block, from their coefficients:
+// Moments of vector fields over the reference volume V of a block, from their coefficients (theory.md
+// section 1):
 //
-//   f(X) = sum_k phi_k(X) f_k,   integral phi_k phi_l dV = delta_kl,   phi_0 = 1 / sqrt(V)     theory.md
-//   section 1
+//   f(X) = sum_k phi_k(X) f_k,   integral phi_k phi_l dV = delta_kl,   phi_0 = 1 / sqrt(V)
 //
 // An integral of a product is so the sum of the products of coefficients, in any configuration of the block.
 // Coefficient arrays are (p, 3), p >= 1, in the unit of the field times m^3/2.

@@ -1,4 +1,4 @@
-// External loads of one block: gravity, tractions and forces with their histories in time.
+// Tractions and forces on one block, with their histories in time. Gravity: BlockModel::external_force.
 #pragma once
 
 #include <Eigen/Dense>

@@ -45,8 +45,8 @@ struct Stop {
 /// angular acceleration, which strain nothing.
 ///
 /// Constant after construction. Points are linear in the unknowns within a step: with ya, yb the changes of
-/// the blocks' unknowns,  gap = g0 + n . (C_a ya - C_b yb)  and likewise the slip (theory.md section 7; H =
-/// rows_a, Q = rows_b).
+/// the blocks' unknowns,  gap = g0 + n . (C_a ya - C_b yb)  and likewise the slip (theory.md section 7,
+/// where H = rows_a, Q = rows_b).
 class ContactPair {
  public:
   /// @param a,b indices of the blocks, used by the solver only. @param cuts that the points come from, to be

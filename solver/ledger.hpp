@@ -1,6 +1,6 @@
 // The energy ledger of a run (theory.md section 9). Positive terms add up to what was put in:
-//   kinetic + elastic + gravity + contact + friction + damping + numerical - applied - refound = constant +
-//   residual.
+//   kinetic + elastic + gravity + contact + friction + damping + numerical - applied - refound
+//     = constant + residual.
 //
 // Refound: each step finds its contacts anew. Where the springs of a pair then hold another energy than at
 // the end of the step before, because polygons, quadrature points, feet or the kind of a contact changed,

@@ -3,17 +3,17 @@
 //   w (F_external - F_elastic) + F_contact - rho m (D - D_free) = 0
 //
 // w: weight of the smooth forces, m: effective inertia, D_free: where the block goes without forces. Mass
-// damping -alpha M v is linear in D and hidden in m and D_free. F_external and F_elastic are taken
-// `end_share` of the step after its start. With v, a at the start and v', a' at the end of a step of length
-// dt:
+// damping -alpha M v is linear in D and hidden in m and D_free. F_external, F_elastic are taken `end_share`
+// of the step after its start. With v, a at the start and v', a' at the end of a step of length dt:
 //
 // Newmark family (dda: beta 1/2, gamma 1, alpha_m = alpha_f = 0; generalized-alpha: Chung and Hulbert 1993)
 //   D  = dt v + dt^2 (1/2 - beta) a + beta dt^2 A         A the whole end acceleration,
 //   v' = v + dt (1 - gamma) a + gamma dt A                 A = a' + F_contact / (gamma M)
-//   (1 - alpha_m) M a' + alpha_m M a = F_external - F_elastic - alpha M v_f,   v_f = (1 - alpha_f) v' +
-//   alpha_f v so  w = gamma/(1 - alpha_m). Only smooth forces enter the acceleration that is carried on; the
-//   impulse of a contact is exactly dt F_contact with F_contact at the end of the step, as in the dda step. A
-//   jump of the contact force therefore leaves no oscillation behind, and momentum is exchanged exactly.
+//   (1 - alpha_m) M a' + alpha_m M a = F_external - F_elastic - alpha M v_f,
+//   v_f = (1 - alpha_f) v' + alpha_f v,   so that  w = gamma/(1 - alpha_m).
+// Only smooth forces enter the acceleration that is carried on; the impulse of a contact is exactly
+// dt F_contact with F_contact at the end of the step, as in the dda step. A jump of the contact force
+// therefore leaves no oscillation behind, and momentum is exchanged exactly.
 // The dda step multiplies an oscillation with W = w dt by (1 + W^2/2)^(-1/2) as long as W <= 4. Stiffer ones
 // it does not damp more, but less again: x' = 2 (x + dt v)/(2 + W^2), dt v' = 2 (x' - x) - dt v has the
 // determinant 2/(2 + W^2) and the trace (4 - W^2)/(2 + W^2), so that beyond W = 4 one eigenvalue is real and
@@ -48,9 +48,9 @@ struct TimeScheme {
   double force_weight = 1.0;  ///< w
   double inertia = 0.0;       ///< m, 1/s^2
   bool from_rest = false;     ///< an iteration of a static analysis
-  bool mean_contacts =
-      false;                  ///< contact forces are means over the step (MeanResponse), not those at its end
-  double mass_damping = 0.0;  ///< alpha, 1/s
+  /// Contact forces are means over the step (MeanResponse), not those at its end.
+  bool mean_contacts = false;
+  double mass_damping = 0.0;         ///< alpha, 1/s
   StepCombination free_change;       ///< D_free, without D
   StepCombination end_velocity;      ///< v'
   StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f

@@ -268,8 +268,8 @@ StaticStatus pushed_wall(double push, int order) {
 }
 
 // A joint without tension under a rigid wall of weight N: turned by t it is pressed over c, N = kn t c^2 w/2,
-// and F h = N (b/2 - c/3 - t h) with h = 1 m. The largest F is at t^(3/2) = sqrt(2 N/(kn w))/6 = 1.044e-3: t
-// = 0.01029, c = 0.0617 m, F = 12.90 kN; with all of N on the edge it would be 14.7 kN.
+// and F h = N (b/2 - c/3 - t h) with h = 1 m. The largest F is at t^(3/2) = sqrt(2 N/(kn w))/6 = 1.044e-3:
+// t = 0.01029, c = 0.0617 m, F = 12.90 kN; with all of N on the edge it would be 14.7 kN.
 TEST(StaticAnalysis, AWallTurnsOverWhereItsJointIsPressed) {
   for (const int order : {1, 2, 3}) {
     EXPECT_EQ(pushed_wall(12800.0, order), StaticStatus::equilibrium) << order;

@@ -44,8 +44,8 @@ TEST(MassDamping, FreeFallFollowsTheRecurrenceOfTheStep) {
     Vector3 velocity(3, 0, 4);
     Vector3 path(0, 0, 0);
     for (int k = 0; k < 50; ++k) {
-      // dda: (v' - v)/dt = g - alpha v';  average: (v' - v)/dt = g - alpha (v + v')/2;  both D = dt (v +
-      // v')/2
+      // dda: (v' - v)/dt = g - alpha v';  average: (v' - v)/dt = g - alpha (v + v')/2;
+      // both D = dt (v + v')/2
       const Vector3 next =
           integrator == Integrator::dda
               ? Vector3((velocity + dt * gravity) / (1.0 + alpha * dt))
