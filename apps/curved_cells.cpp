@@ -11,14 +11,11 @@
 #include "apps/drawn_surface.hpp"
 #include "apps/grid_arrays.hpp"
 #include "apps/lagrange_triangle.hpp"
+#include "geometry/index.hpp"
 #include "mechanics/basis.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The order n with (n + 1)(n + 2) / 2 points.
 int order_of(int points) {

@@ -5,14 +5,11 @@
 #include <limits>
 
 #include "apps/lagrange_triangle.hpp"
+#include "geometry/index.hpp"
 #include "geometry/sub_face_surface.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 constexpr int pieces_per_order = 4;
 constexpr int most_pieces = 16;

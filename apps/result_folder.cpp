@@ -11,13 +11,10 @@
 #include <system_error>
 
 #include "apps/csv_text.hpp"
+#include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 std::vector<MeasuredPoint> find_measures(const Scene& scene) {
   std::vector<MeasuredPoint> measures;

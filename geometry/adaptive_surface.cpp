@@ -4,16 +4,14 @@
 #include <limits>
 #include <tuple>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
 
 /// A node's path: the number of its root, and below that a heap index: 1 for the root, 2 k and 2 k + 1 for
 /// the halves of k.
 constexpr int path_bits = AdaptiveSurface::max_bisections + 1;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 std::array<int, 2> sorted(int a, int b) {
   return {std::min(a, b), std::max(a, b)};

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Height of the plane of a cell over a place of the frame, along w.
 class CellHeight {

@@ -8,14 +8,11 @@
 #include <optional>
 
 #include "geometry/box_pairs.hpp"
+#include "geometry/index.hpp"
 #include "geometry/rounding_mode.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// @param chord bounds of the cells that meet, m
 bool within_limits(double gap, double chord, const ContactLimits& limits) {

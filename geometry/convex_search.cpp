@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/index.hpp"
 #include "geometry/rounding_mode.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 TriangleMesh triangles_of(const PlacedSurface& s) {
   TriangleMesh mesh;

@@ -6,12 +6,10 @@
 #include <optional>
 #include <set>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Where a corner of an overlap lies on a face, its inner sides and points left out.
 struct FacePlace {

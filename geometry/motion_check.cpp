@@ -9,14 +9,11 @@
 #include <span>
 
 #include "geometry/box_pairs.hpp"
+#include "geometry/index.hpp"
 #include "geometry/triangle_distance.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// A point on its way.
 struct Path {

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
 
 constexpr int kept_bits = 70;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Rounds to multiples of unit = 2^k by adding a number whose last place is that.
 double rounded(double value, double unit) {

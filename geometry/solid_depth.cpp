@@ -7,15 +7,12 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/index.hpp"
 #include "geometry/rounded_convexity.hpp"
 #include "geometry/triangle_distance.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 std::array<Vector3, 3> triangle_of(const Polyhedron& solid, int triangle) {
   const auto& [i, j, k] = solid.mesh().triangles[at(triangle)];

@@ -7,14 +7,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
 
 using Side = std::pair<int, int>;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 Side sorted(int a, int b) {
   return {std::min(a, b), std::max(a, b)};

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/index.hpp"
 #include "mechanics/quadrature.hpp"
 #include "mechanics/simplex_moments.hpp"
 
@@ -19,10 +20,6 @@ using Real = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Monomial coefficients of the Legendre polynomials L_0 to L_last. @return [k][power]
 std::vector<std::vector<Real>> legendre_coefficients(int last) {

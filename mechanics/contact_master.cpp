@@ -6,14 +6,11 @@
 #include <map>
 #include <optional>
 
+#include "geometry/index.hpp"
 #include "mechanics/overlap_outline.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// A side of an overlap.
 struct Side {

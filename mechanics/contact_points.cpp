@@ -4,15 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/index.hpp"
 #include "mechanics/overlap_outline.hpp"
 #include "mechanics/quadrature.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 const SurfaceCell& cell_of(const ContactBody& body, int cell) {
   return body.placed->surface().cells[at(cell)];

@@ -2,14 +2,11 @@
 
 #include <cmath>
 
+#include "geometry/index.hpp"
 #include "mechanics/moments.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Centroid and half the diagonal of the box.
 std::pair<Vector3, double> middle_and_size(const TriangleMesh& mesh) {

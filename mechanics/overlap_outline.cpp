@@ -5,14 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
   return u.x() * v.y() - u.y() * v.x();

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "geometry/index.hpp"
 #include "mechanics/quadrature.hpp"
 
 namespace ashlar {
@@ -15,10 +16,6 @@ constexpr std::array<std::array<int, 2>, 6> components = {{{0, 0}, {1, 1}, {2, 2
 /// How often a component stands in a double sum over J and K.
 double multiplicity(std::size_t c) {
   return c < 3 ? 1.0 : 2.0;
-}
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
 }
 
 /// Points at which polynomials of a basis are told apart best: approximate Fekete points (Sommariva and

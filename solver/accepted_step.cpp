@@ -3,17 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/index.hpp"
 #include "solver/angular_momentum.hpp"
 #include "solver/simulation.hpp"
 
 namespace ashlar {
-namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-}  // namespace
 
 /// What the equations say about the work of all forces and what the kinetic energy gained differ by what the
 /// integrator takes.

@@ -1,18 +1,14 @@
 #include "solver/angular_momentum.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
 #include "mechanics/field_moments.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Coefficients of the position of a block from a point on.
 Eigen::MatrixX3d arms_of(const BlockModel& block, const BlockState& state, const Vector3& point) {
@@ -23,21 +19,13 @@ Eigen::MatrixX3d arms_of(const BlockModel& block, const BlockState& state, const
 
 std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
                                           const std::vector<std::array<int, 2>>& ties) {
-  std::vector<int> first(blocks.size());  // of the set a block is in
-  std::iota(first.begin(), first.end(), 0);
-  const auto find = [&](int block) {
-    while (first[at(block)] != block) block = first[at(block)];
-    return block;
-  };
-  for (const auto& [a, b] : ties) {
-    const auto [low, high] = std::minmax({find(a), find(b)});
-    first[at(high)] = low;
-  }
+  UnionFind tied(blocks.size());
+  for (const auto& [a, b] : ties) tied.unite(a, b);
   std::vector<std::vector<int>> sets(blocks.size());
   std::vector<bool> free(blocks.size(), true);
   for (int k = 0; k < static_cast<int>(blocks.size()); ++k) {
     const BlockModel& block = blocks[at(k)];
-    const int set = find(k);
+    const int set = tied.find(k);
     sets[at(set)].push_back(k);
     if (block.fixed() || block.supported() || block.incremental() != nullptr) free[at(set)] = false;
   }

@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
-namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-}  // namespace
 
 BlockMatrix::BlockMatrix(std::vector<int> sizes, const std::vector<std::array<int, 2>>& pairs)
     : sizes_(std::move(sizes)),

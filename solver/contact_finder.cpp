@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/box_pairs.hpp"
+#include "geometry/index.hpp"
 #include "geometry/rounded_convexity.hpp"
 #include "mechanics/overlap_outline.hpp"
 #include "solver/hidden_sides.hpp"
@@ -13,10 +14,6 @@
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 double area_of_triangle(const TriangleMesh& mesh, const std::array<int, 3>& corners) {
   const Vector3& start = mesh.points[at(corners[0])];

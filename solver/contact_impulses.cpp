@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/index.hpp"
 #include "solver/angular_momentum.hpp"
 #include "solver/island_problem.hpp"
 #include "solver/simulation.hpp"
@@ -31,10 +32,6 @@
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 bool is_held(const PointLaw& law, const PointResponse& point) {
   return point.state != ContactState::open && (point.force[0] > 0.0 || law.tension > 0.0);

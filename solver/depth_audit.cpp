@@ -4,15 +4,12 @@
 #include <utility>
 
 #include "geometry/box_pairs.hpp"
+#include "geometry/index.hpp"
 #include "mechanics/material_map.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 AuditedBlock placed_block(const BlockSurface& surface, const BlockState& state) {
   AuditedBlock block;

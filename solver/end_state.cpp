@@ -5,16 +5,13 @@
 #include <limits>
 #include <memory>
 
+#include "geometry/index.hpp"
 #include "solver/automatic.hpp"
 #include "solver/simulation.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Where a block is asked whether it has turned inside out: its corners, the middles of its edges and the
 /// middles of the corners of its faces. An affine block is the same everywhere.

@@ -1,19 +1,10 @@
 #include "solver/island.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <numeric>
-
+#include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
 #include "solver/open_close.hpp"
 
 namespace ashlar {
-namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-}  // namespace
 
 IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std::vector<int>& sizes,
                                           const std::vector<std::array<int, 2>>& pairs) {
@@ -49,29 +40,20 @@ Eigen::MatrixX3d BodyStep::motion() const {
 }
 
 std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {
-  std::vector<int> parent(moving.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const std::function<int(int)> root = [&](int k) {
-    while (parent[at(k)] != k) k = parent[at(k)] = parent[at(parent[at(k)])];
-    return k;
-  };
-  for (const ContactPair& pair : pairs) {
-    if (!moving[at(pair.a())] || !moving[at(pair.b())]) continue;
-    const int a = root(pair.a());
-    const int b = root(pair.b());
-    parent[at(std::max(a, b))] = std::min(a, b);
-  }
+  UnionFind meeting(moving.size());
+  for (const ContactPair& pair : pairs)
+    if (moving[at(pair.a())] && moving[at(pair.b())]) meeting.unite(pair.a(), pair.b());
   std::vector<Island> islands;
   std::map<int, std::size_t> island_of_root;
   for (int block = 0; block < static_cast<int>(moving.size()); ++block) {
     if (!moving[at(block)]) continue;
-    const auto [place, added] = island_of_root.try_emplace(root(block), islands.size());
+    const auto [place, added] = island_of_root.try_emplace(meeting.find(block), islands.size());
     if (added) islands.emplace_back();
     islands[place->second].bodies.push_back(block);
   }
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int block = moving[at(pairs[k].a())] ? pairs[k].a() : pairs[k].b();
-    islands[island_of_root.at(root(block))].pairs.push_back(static_cast<int>(k));
+    islands[island_of_root.at(meeting.find(block))].pairs.push_back(static_cast<int>(k));
   }
   return islands;
 }

@@ -4,16 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/index.hpp"
 #include "solver/gmres.hpp"
 
 namespace ashlar {
-namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
-
-}  // namespace
 
 IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies,
                              const std::vector<ContactPair>& pairs, const TimeScheme& scheme,

@@ -10,6 +10,7 @@
 // back as a spin.
 #include <algorithm>
 
+#include "geometry/index.hpp"
 #include "solver/angular_momentum.hpp"
 #include "solver/simulation.hpp"
 #include "solver/stopwatch.hpp"
@@ -18,10 +19,6 @@ namespace ashlar {
 namespace {
 
 constexpr double inertia_share = 0.01;  // of that of a step: blocks move rather than strain
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 }  // namespace
 

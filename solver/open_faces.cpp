@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 class OpenFaces {
  public:

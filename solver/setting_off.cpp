@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/index.hpp"
 #include "solver/automatic.hpp"
 #include "solver/simulation.hpp"
 #include "solver/stopwatch.hpp"
@@ -45,10 +46,6 @@ bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
 }
 
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 constexpr double way = 1e-5;           // in sizes of the block that goes farthest
 constexpr double strain_share = 1e-4;  // of the way

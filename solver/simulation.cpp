@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/index.hpp"
 #include "mechanics/contact_master.hpp"
 #include "mechanics/overlap_outline.hpp"
 #include "solver/angular_momentum.hpp"
@@ -17,10 +18,6 @@
 
 namespace ashlar {
 namespace {
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Takes the slip of a load level so far for good: what comes counts from there.
 void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved,

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/index.hpp"
 #include "solver/simulation.hpp"
 
 namespace ashlar {
@@ -20,10 +21,6 @@ namespace {
 /// Of its normal force, what a point's impulse is at most: a normal that turns by more in a step is not why
 /// it is deep.
 constexpr double largest_lean = 0.1;
-
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
 
 }  // namespace
 

@@ -48,9 +48,9 @@ struct TimeScheme {
   double force_weight = 1.0;  ///< w
   double inertia = 0.0;       ///< m, 1/s^2
   bool from_rest = false;     ///< an iteration of a static analysis
-  /// Contact forces are means over the step (MeanResponse), not those at its end.
-  bool mean_contacts = false;
-  double mass_damping = 0.0;         ///< alpha, 1/s
+  bool mean_contacts =
+      false;                  ///< contact forces are means over the step (MeanResponse), not those at its end
+  double mass_damping = 0.0;  ///< alpha, 1/s
   StepCombination free_change;       ///< D_free, without D
   StepCombination end_velocity;      ///< v'
   StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f
