@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <stdexcept>
 
 #include "geometry/box_pairs.hpp"
 #include "geometry/convex_contact.hpp"
+#include "geometry/solid_depth.hpp"
 
 namespace ashlar {
 namespace {
@@ -20,36 +19,11 @@ namespace {
 /// triangles, and a triangle is not taken for the other side of its solid.
 constexpr double crossing_slack = 1e-9;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Squared distance of a point to a triangle: to its plane where the point lies over it, else to its sides.
-double squared_distance(const Vector3& point, const std::array<Vector3, 3>& corners) {
-  const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-  bool over = true;
-  double least = infinity;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3 side = corners[(k + 1) % 3] - corners[k];
-    const Vector3 offset = point - corners[k];
-    if (side.cross(offset).dot(normal) < 0.0) over = false;
-    const double along = std::clamp(offset.dot(side) / side.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (offset - along * side).squaredNorm());
-  }
-  if (!over) return least;
-  const double height = normal.dot(point - corners[0]);
-  return height * height / normal.squaredNorm();
-}
-
-/// Solid angle of a triangle seen from a point, positive from inside (van Oosterom and Strackee 1983).
-double solid_angle(const Vector3& point, const std::array<Vector3, 3>& corners) {
-  const Vector3 a = corners[0] - point, b = corners[1] - point, c = corners[2] - point;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
-
-/// A solid with the questions that are asked of it.
+/// A solid with the questions that are asked of it. Rounded crossings only choose the points; how deep these
+/// are is decided by geometry.
 class Probe {
  public:
-  explicit Probe(const Polyhedron& solid) : solid_(solid), box_(box_of(solid.mesh().points)) {
+  explicit Probe(const Polyhedron& solid) : solid_(solid), box_(box_of(solid.mesh().points)), depths_(solid) {
     for (const auto& triangle : solid.mesh().triangles) {
       triangles_.push_back({point(triangle[0]), point(triangle[1]), point(triangle[2])});
     }
@@ -58,14 +32,8 @@ class Probe {
   /// Distance to the surface, m; 0 outside.
   [[nodiscard]] double depth_of(const Vector3& place) const {
     if (!box_.meets({place, place})) return 0.0;
-    double angle = 0.0;
-    double least = infinity;
-    for (const auto& corners : triangles_) {
-      angle += solid_angle(place, corners);
-      least = std::min(least, squared_distance(place, corners));
-    }
-    // 4 pi inside, 0 outside.
-    return angle > 2.0 * std::numbers::pi ? std::sqrt(least) : 0.0;
+    const std::optional<SolidDepth> depth = depths_.of_point(place);
+    return depth ? depth->depth : 0.0;
   }
 
   /// Where the line from + t (to - from) meets the surface, t increasing. A crossing of a side of a triangle
@@ -131,12 +99,11 @@ class Probe {
 
   const Polyhedron& solid_;
   Box box_;
+  SolidDepthFinder depths_;
   std::vector<std::array<Vector3, 3>> triangles_;
 };
 
-double sampled_depth(const Polyhedron& solid_a, const Polyhedron& solid_b) {
-  const Probe a(solid_a);
-  const Probe b(solid_b);
+double sampled_depth(const Probe& a, const Probe& b) {
   double deepest = 0.0;
   for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
     for (const Vector3& point : one->edge_points(*other)) deepest = std::max(deepest, other->depth_of(point));
@@ -158,29 +125,46 @@ std::optional<ConvexShape> convex_shape(const Polyhedron& solid) {
   }
 }
 
-OverlapDepth overlap_depth(const Polyhedron& a, const std::optional<ConvexShape>& shape_a,
-                           const Polyhedron& b, const std::optional<ConvexShape>& shape_b) {
-  if (!shape_a || !shape_b) return {sampled_depth(a, b), false};
-  const ConvexContact contact = classify(*shape_a, *shape_b, std::nullopt, CrossingDetail{false, false});
+/// A solid made ready for the way it is asked in, once for all its pairs.
+class Candidate {
+ public:
+  explicit Candidate(const Polyhedron& solid) : solid_(&solid), shape_(convex_shape(solid)) {}
+  [[nodiscard]] const std::optional<ConvexShape>& shape() const { return shape_; }
+  /// Made when it is first asked for: pairs of convex solids need none.
+  [[nodiscard]] const Probe& probe() {
+    if (!probe_) probe_.emplace(*solid_);
+    return *probe_;
+  }
+
+ private:
+  const Polyhedron* solid_;
+  std::optional<ConvexShape> shape_;
+  std::optional<Probe> probe_;
+};
+
+OverlapDepth overlap_depth(Candidate& a, Candidate& b) {
+  if (!a.shape() || !b.shape()) return {sampled_depth(a.probe(), b.probe()), false};
+  const ConvexContact contact = classify(*a.shape(), *b.shape(), std::nullopt, CrossingDetail{false, false});
   return {contact.relation == Relation::crossing ? std::sqrt(contact.squared_depth) : 0.0, true};
 }
 
 }  // namespace
 
 OverlapDepth overlap_depth(const Polyhedron& a, const Polyhedron& b) {
-  return overlap_depth(a, convex_shape(a), b, convex_shape(b));
+  Candidate first(a), second(b);
+  return overlap_depth(first, second);
 }
 
 void check_initial_overlap(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                            Diagnostics& diagnostics) {
   std::vector<std::size_t> blocks;
   std::vector<Box> boxes;
-  std::vector<std::optional<ConvexShape>> shapes;
+  std::vector<Candidate> candidates;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (!solids[k]) continue;
     blocks.push_back(k);
     boxes.push_back(box_of(solids[k]->mesh().points));
-    shapes.push_back(convex_shape(*solids[k]));
+    candidates.emplace_back(*solids[k]);
   }
   std::size_t found = 0;
   const std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
@@ -192,7 +176,7 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
     if (a.fixed && b.fixed) continue;
     const Polyhedron& solid_a = *solids[blocks[i]];
     const Polyhedron& solid_b = *solids[blocks[j]];
-    const OverlapDepth overlap = overlap_depth(solid_a, shapes[i], solid_b, shapes[j]);
+    const OverlapDepth overlap = overlap_depth(candidates[i], candidates[j]);
     const double allowed = allowed_initial_overlap * std::cbrt(std::min(solid_a.volume(), solid_b.volume()));
     if (overlap.depth <= allowed) continue;
     diagnostics.error(
