@@ -4,13 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/convex_contact.hpp"
-#include "geometry/triangle_pair.hpp"
 
 namespace ashlar {
 namespace {
@@ -123,28 +123,24 @@ void touching_cubes_report(benchmark::State& state) {
   run(state, touching_cubes());
 }
 
-std::vector<std::pair<TriangleCorners, TriangleCorners>> triangles(double spread) {
+ShapePairs triangles(double spread) {
   std::mt19937_64 random(3);
-  std::vector<std::pair<TriangleCorners, TriangleCorners>> pairs(pair_count);
-  for (auto& pair : pairs)
-    for (TriangleCorners* t : {&pair.first, &pair.second}) {
-      const Vector3 corner = Vector3(uniform(random), uniform(random), uniform(random)) * spread;
-      for (Vector3& p : *t) p = corner + Vector3(uniform(random), uniform(random), uniform(random));
-    }
+  const auto triangle = [&] {
+    const Vector3 corner = Vector3(uniform(random), uniform(random), uniform(random)) * spread;
+    std::array<Vector3, 3> t;
+    for (Vector3& p : t) p = corner + Vector3(uniform(random), uniform(random), uniform(random));
+    return ConvexShape::from_triangle(t[0], t[1], t[2]);
+  };
+  ShapePairs pairs;
+  for (int k = 0; k < pair_count; ++k) {
+    ConvexShape a = triangle();
+    pairs.emplace_back(std::move(a), triangle());
+  }
   return pairs;
 }
 
-void triangle_type(benchmark::State& state) {
-  const auto pairs = triangles(static_cast<double>(state.range(0)));
-  std::size_t k = 0;
-  long crossing = 0;
-  for ([[maybe_unused]] auto unused : state) {
-    const TrianglePairType type = classify_triangles(pairs[k].first, pairs[k].second);
-    crossing += static_cast<long>(type.relation == Relation::crossing);
-    k = k + 1 == pairs.size() ? 0 : k + 1;
-  }
-  state.SetItemsProcessed(state.iterations());
-  state.counters["crossing"] = static_cast<double>(crossing) / static_cast<double>(state.iterations());
+void triangles_report(benchmark::State& state) {
+  run(state, triangles(static_cast<double>(state.range(0))));
 }
 
 // Side of the box the centers are drawn from: 20 all apart, 4 a ninth cross, 1 nearly all cross.
@@ -153,7 +149,7 @@ BENCHMARK(rotated_cubes_report)->Arg(20)->Arg(4)->Arg(1);
 BENCHMARK(random_cubes_mixed)->Arg(8)->Arg(10);
 BENCHMARK(touching_cubes_report);
 // Corners are drawn from unit boxes; side of the box the corners of those are drawn from: 0 one common box.
-BENCHMARK(triangle_type)->Arg(4)->Arg(1)->Arg(0);
+BENCHMARK(triangles_report)->Arg(4)->Arg(1)->Arg(0);
 
 }  // namespace
 }  // namespace ashlar
