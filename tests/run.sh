@@ -5,7 +5,7 @@ usage='use: tests/run.sh [OPTION]...
   --format       also check that all sources are formatted
   --lint         also --format, and clang-tidy on all sources
   --clang        also build and test with clang
-  --readers      also the geometry's tests and what fuzzers have tried on readers of files, with the address and
+  --readers      also the tests of geometry and what fuzzers tried on readers of files, with the address and
                  undefined sanitizers
   --sanitizers   also build and test with the address and undefined sanitizers, then with the thread sanitizer
   --all          all of these
