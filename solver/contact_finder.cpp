@@ -229,7 +229,8 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
   if (hidden_sides_.empty()) return;
   std::vector<std::size_t> again;
   for (std::size_t k = 0; k < searched.size(); ++k) {
-    const auto& [blocks, contacts] = searched[k];
+    const auto& blocks = searched[k].blocks;
+    const auto& contacts = searched[k].contacts;
     const HiddenPlaces places = hidden_sides_.of_pair(blocks);
     const bool below =
         std::any_of(contacts.vertices.begin(), contacts.vertices.end(), [&](const auto& contact) {
