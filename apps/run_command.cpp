@@ -6,7 +6,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "apps/command_line.hpp"
 #include "apps/folder_claim.hpp"
 #include "apps/initial_state.hpp"
+#include "apps/input_file.hpp"
 #include "apps/interrupt_guard.hpp"
 #include "apps/json_text.hpp"
 #include "apps/loose_blocks.hpp"
@@ -319,13 +319,13 @@ class Run {
 /// "; changed: KEY (was A, is B), ..." from the summary of the run before; empty if it has none or says
 /// nothing else.
 std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
-  constexpr int deepest = 100;  // a scene's own tables are less than ten deep
   constexpr std::size_t most_shown = 5;
-  std::ifstream stream(folder / "summary.json");
-  const auto shallow = [](int depth, nlohmann::ordered_json::parse_event_t, nlohmann::ordered_json&) {
-    return depth < deepest;
-  };
-  const auto summary = nlohmann::ordered_json::parse(stream, shallow, false);
+  nlohmann::ordered_json summary;
+  try {
+    summary = parse_json(whole_file(folder / "summary.json"));
+  } catch (const std::runtime_error&) {
+    return {};
+  }
   if (!summary.is_object() || !summary.contains("scene")) return {};
   std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
   if (keys.empty()) return {};
@@ -370,8 +370,8 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
   const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
   err << fmt::format(
       "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
-      "block's size; up to "
-      "{} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them apart\n",
+      "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
+      "apart\n",
       name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
 }
 
@@ -382,9 +382,9 @@ void warn_of_friction(const Simulation& simulation, std::ostream& err) {
   const double excess = simulation.sliding_friction().excess();
   if (!(std::abs(excess) > ordinary)) return;
   err << fmt::format(
-      "ashlar: warning: where blocks slid on multipliers, {:.3g} of the friction has acted that Coulomb's "
-      "law "
-      "makes of their normal forces, as they part and meet again from step to step: a larger time_step, or "
+      "ashlar: warning: where blocks slid on multipliers, {:.3g} of the friction has acted that "
+      "Coulomb's law makes of their normal forces, as they part and meet again from step to step: a larger "
+      "time_step, or "
       "augmented = false, whose friction is exact\n",
       1.0 + excess);
 }

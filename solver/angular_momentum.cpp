@@ -1,6 +1,6 @@
 #include "solver/angular_momentum.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 
 #include "geometry/index.hpp"
@@ -64,19 +64,6 @@ Vector3 angular_momentum_of(const std::vector<BlockModel>& blocks, const std::ve
   return sum;
 }
 
-/// The angular velocity that gives a body an angular momentum. Moments of inertia that are lost in the
-/// rounding of the largest one, as those of a needle about its axis, take none.
-static Vector3 spin_of(const Eigen::Matrix3d& inertia, const Vector3& angular_momentum) {
-  constexpr double lost = 1e-12;
-  const Eigen::LLT<Eigen::Matrix3d> factor(inertia);
-  if (factor.info() == Eigen::Success && factor.rcond() > lost) return factor.solve(angular_momentum);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(inertia);
-  const Vector3& moments = axes.eigenvalues();
-  Vector3 parts = axes.eigenvectors().transpose() * angular_momentum;
-  for (int k = 0; k < 3; ++k) parts[k] = moments[k] > lost * moments[2] ? parts[k] / moments[k] : 0.0;
-  return axes.eigenvectors() * parts;
-}
-
 double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
                 const Vector3& angular_momentum, double limit, std::vector<BlockState>& states) {
   const Vector3 centroid = centroid_of(blocks, body, states);
@@ -85,7 +72,8 @@ double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& b
     inertia +=
         blocks[at(k)].material().density * unit_inertia(arms_of(blocks[at(k)], states[at(k)], centroid));
   }
-  const Vector3 spin = spin_of(inertia, angular_momentum);
+  // A moment that is lost in the rounding of the largest one, as that of a needle about its axis, takes none.
+  const Vector3 spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
   // The kinetic energy is gained as  linear s + square s^2  with the share s of the spin.
   double linear = 0.0;
   const double square = 0.5 * spin.dot(angular_momentum);

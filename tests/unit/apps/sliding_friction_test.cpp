@@ -36,14 +36,18 @@ velocity = [3, 0, 0]
 every = 100000
 )";
 
+/// N s, of friction by hand. @param rise momentum upwards that the stone has gained
+double coulomb_impulse(double rise) {
+  return std::tan(std::acos(-1.0) / 6.0) * (2500.0 * 9.81 * 0.05 + rise);
+}
+
 TEST_F(RunCommand, FrictionThatActedIsTheMomentumThatASlidingStoneLost) {
   write_text(scene_, slide);
   ASSERT_EQ(run("out", {"--set", "contact.augmented=true"}), exit_status::done) << faults_;
   const auto friction = nlohmann::json::parse(text("out/summary.json"))["sliding_friction"];
   const double lost = 3.0 * 2500.0 - column("out/history.csv", "momentum.x").back();
-  const double weight_impulse = 2500.0 * (9.81 * 0.05) + column("out/history.csv", "momentum.z").back();
   EXPECT_NEAR(friction["acted"], lost, 1e-3 * lost);
-  const double coulomb = std::tan(std::acos(-1.0) / 6.0) * weight_impulse;
+  const double coulomb = coulomb_impulse(column("out/history.csv", "momentum.z").back());
   EXPECT_NEAR(friction["coulomb"], coulomb, 0.02 * coulomb)
       << "points that are locked for a step do not count";
   ASSERT_LT(lost, 0.97 * coulomb) << "the scene loses friction";
@@ -56,8 +60,7 @@ TEST_F(RunCommand, SpringsLoseNoFriction) {
   EXPECT_THAT(faults_, Not(HasSubstr("Coulomb")));
   EXPECT_FALSE(nlohmann::json::parse(text("out/summary.json")).contains("sliding_friction"));
   const double lost = 3.0 * 2500.0 - column("out/history.csv", "momentum.x").back();
-  const double weight_impulse = 2500.0 * (9.81 * 0.05) + column("out/history.csv", "momentum.z").back();
-  const double coulomb = std::tan(std::acos(-1.0) / 6.0) * weight_impulse;
+  const double coulomb = coulomb_impulse(column("out/history.csv", "momentum.z").back());
   EXPECT_NEAR(lost, coulomb, 5e-3 * coulomb);
 }
 
