@@ -7,11 +7,11 @@
 #include <optional>
 #include <ostream>
 
-#include "apps/base_motion.hpp"
-#include "apps/build_simulation.hpp"
-#include "apps/loose_blocks.hpp"
-#include "apps/override_option.hpp"
-#include "apps/scene_loading.hpp"
+#include "apps/run/build_simulation.hpp"
+#include "apps/run/loose_blocks.hpp"
+#include "apps/run/override_option.hpp"
+#include "apps/scene/base_motion.hpp"
+#include "apps/scene/scene_loading.hpp"
 
 namespace ashlar {
 

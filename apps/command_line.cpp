@@ -9,15 +9,15 @@
 #include <ostream>
 
 #include "apps/check_command.hpp"
-#include "apps/contacts_command.hpp"
-#include "apps/integrate_command.hpp"
-#include "apps/nearest_name.hpp"
-#include "apps/picture_command.hpp"
+#include "apps/contacts/contacts_command.hpp"
+#include "apps/contacts/integrate_command.hpp"
 #include "apps/program_version.hpp"
-#include "apps/run_options.hpp"
-#include "apps/study_command.hpp"
-#include "apps/verify_command.hpp"
-#include "apps/view_command.hpp"
+#include "apps/run/run_options.hpp"
+#include "apps/scene/nearest_name.hpp"
+#include "apps/study/study_command.hpp"
+#include "apps/verify/verify_command.hpp"
+#include "apps/view/picture_command.hpp"
+#include "apps/view/view_command.hpp"
 
 namespace ashlar {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "geometry/triangle_mesh.hpp"
-#include "mechanics/contact_points.hpp"
+#include "mechanics/contact/contact_points.hpp"
 
 namespace ashlar {
 
@@ -92,10 +92,10 @@ struct SimulationSettings {
   [[nodiscard]] double tolerated_depth() const { return (1.0 - multiplier_share) * penetration_tolerance; }
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
-  /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (contact_impulses.cpp).
+  /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.cpp).
   /// Larger makes more of rounding, smaller lets forces alternate longer
   double stop_stiffness = 300.0;
-  /// before a step, of blocks that are deeper in each other: contacts are others after each (moved_apart.cpp)
+  /// before a step, of blocks that are deeper in each other: contacts are others after each (position_projection.cpp)
   int moves_apart = 4;
   double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart
   int augmented_rounds = 40;     ///< balances of a step with other stiffness or multipliers; more: it is cut

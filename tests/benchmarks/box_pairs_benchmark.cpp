@@ -1,5 +1,5 @@
 // Time of the broad phase against the number of boxes, at about three neighbours each.
-#include "geometry/box_pairs.hpp"
+#include "geometry/boxes/box_pairs.hpp"
 
 #include <benchmark/benchmark.h>
 

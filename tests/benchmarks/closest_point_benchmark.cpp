@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
-#include "geometry/closest_point.hpp"
-#include "geometry/shapes.hpp"
+#include "geometry/any_solid/closest_point.hpp"
+#include "geometry/solid/shapes.hpp"
 
 namespace ashlar {
 namespace {

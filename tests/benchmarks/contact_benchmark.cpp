@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/convex_contact.hpp"
+#include "geometry/convex/convex_contact.hpp"
 
 namespace ashlar {
 namespace {

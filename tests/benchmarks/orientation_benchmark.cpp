@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/contact_direction.hpp"
+#include "geometry/exact/direction_predicates.hpp"
 
 namespace ashlar {
 namespace {

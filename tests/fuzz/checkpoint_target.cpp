@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "fuzz/targets.hpp"
-#include "solver/checkpoint.hpp"
+#include "solver/run/checkpoint.hpp"
 
 namespace ashlar::fuzz {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fuzz/targets.hpp"
-#include "geometry/coordinate_limit.hpp"
-#include "geometry/mesh_formats.hpp"
+#include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/mesh/mesh_formats.hpp"
 
 namespace ashlar::fuzz {
 namespace {

@@ -1,9 +1,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/curved_cells.hpp"
-#include "apps/json_text.hpp"
-#include "apps/vtu_reader.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/results/vtu_reader.hpp"
+#include "apps/view/curved_cells.hpp"
 #include "fuzz/targets.hpp"
 
 namespace ashlar::fuzz {

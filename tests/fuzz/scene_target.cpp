@@ -1,6 +1,6 @@
-#include "apps/json_text.hpp"
-#include "apps/scene_json.hpp"
-#include "apps/scene_reader.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/scene/scene_json.hpp"
+#include "apps/scene/scene_reader.hpp"
 #include "fuzz/targets.hpp"
 
 namespace ashlar::fuzz {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/convex_contact.hpp"
+#include "geometry/convex/convex_contact.hpp"
 #include "oracle/exact_oracle.hpp"
 #include "oracle/variants.hpp"
 

@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
-#include "geometry/contact_report.hpp"
-#include "geometry/polyhedron.hpp"
-#include "geometry/shapes.hpp"
-#include "geometry/solid_contacts.hpp"
+#include "geometry/contacts/contact_report.hpp"
+#include "geometry/contacts/solid_contacts.hpp"
+#include "geometry/solid/polyhedron.hpp"
+#include "geometry/solid/shapes.hpp"
 #include "oracle/flat_overlap.hpp"
 
 namespace ashlar {

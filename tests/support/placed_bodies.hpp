@@ -1,8 +1,8 @@
 // Solids with their surfaces where they are, for tests of contact search.
 #pragma once
 
-#include "geometry/placed_surface.hpp"
-#include "geometry/shapes.hpp"
+#include "geometry/solid/shapes.hpp"
+#include "geometry/subfaces/placed_surface.hpp"
 
 namespace ashlar::test_support {
 

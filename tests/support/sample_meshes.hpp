@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/shapes.hpp"
+#include "geometry/solid/shapes.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar::test_support {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/polyhedron.hpp"
-#include "geometry/shapes.hpp"
+#include "geometry/solid/polyhedron.hpp"
+#include "geometry/solid/shapes.hpp"
 
 namespace ashlar::test_support {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/shapes.hpp"
-#include "solver/simulation.hpp"
+#include "geometry/solid/shapes.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace ashlar::test_support {
 

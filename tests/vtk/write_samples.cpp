@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/pvd_writer.hpp"
-#include "apps/result_folder.hpp"
-#include "apps/vtu_writer.hpp"
-#include "geometry/shapes.hpp"
+#include "apps/results/pvd_writer.hpp"
+#include "apps/results/result_folder.hpp"
+#include "apps/results/vtu_writer.hpp"
+#include "geometry/solid/shapes.hpp"
 
 namespace ashlar {
 namespace {

@@ -2,11 +2,11 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "geometry/polyhedron.hpp"
-#include "geometry/shapes.hpp"
-#include "mechanics/moments.hpp"
+#include "geometry/solid/polyhedron.hpp"
+#include "geometry/solid/shapes.hpp"
+#include "mechanics/basis/moments.hpp"
 #include "solver/library_versions.hpp"
-#include "solver/sparse_cholesky.hpp"
+#include "solver/linear/sparse_cholesky.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "apps/build_simulation.hpp"
-#include "apps/scene_loading.hpp"
+#include "apps/run/build_simulation.hpp"
+#include "apps/scene/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/diagnostics.hpp"
-#include "apps/scene_reader.hpp"
+#include "apps/scene/diagnostics.hpp"
+#include "apps/scene/scene_reader.hpp"
 
 namespace ashlar::test {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/run_command.hpp"
+#include "apps/run/run_command.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {

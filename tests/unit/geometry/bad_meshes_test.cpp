@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/mesh_io.hpp"
-#include "geometry/polyhedron.hpp"
+#include "geometry/mesh/mesh_io.hpp"
+#include "geometry/solid/polyhedron.hpp"
 
 namespace ashlar {
 namespace {

@@ -1,7 +1,7 @@
 // Runs in which supports move: position, momentum and work that mechanics gives.
 #include <gtest/gtest.h>
 
-#include "solver/checkpoint.hpp"
+#include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar {

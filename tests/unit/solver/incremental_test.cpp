@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solver/checkpoint.hpp"
+#include "solver/run/checkpoint.hpp"
 #include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 

@@ -164,7 +164,7 @@ TEST(TurnedScene, ASoftArchWithMultipliers) {
 }
 
 TEST(TurnedScene, ABeamOnTwoBasesWithMultipliers) {
-  // It swings and stays in contact. Without impulses that stop it there (contact_impulses.cpp) its velocity
+  // It swings and stays in contact. Without impulses that stop it there (velocity_contact.cpp) its velocity
   // turns round in each step, larger and larger: rounding comes to 4e-5 and 9e-5 of the motion.
   Scene scene;
   scene.pieces = {brick({0, -0.34, 0}, {0.55, 0.34, 0.4}), brick({0.55, -0.34, 0}, {1.1, 0.34, 0.4}),

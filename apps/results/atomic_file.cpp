@@ -1,0 +1,72 @@
+#include "apps/results/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "apps/results/output_file.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A file of our own to write to. What a killed run left is replaced; anything else that has the name, e.g. a
+/// link that another user of the folder made, is left alone.
+OutputFile temporary_file(const std::filesystem::path& path) {
+  try {
+    return {path, OutputFile::Start::created};
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::file_exists) throw;
+  }
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path))) {
+    throw std::system_error(std::make_error_code(std::errc::file_exists),
+                            "cannot write " + path.string() + ", which is no regular file");
+  }
+  std::filesystem::remove(path);
+  return {path, OutputFile::Start::created};
+}
+
+// The new name is an entry of the folder, and the folder reaches the disk on its own schedule.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  // Some file systems cannot sync a folder and say so with EINVAL; there is nothing more to do on them.
+  if (!synced && reason != EINVAL) {
+    throw std::system_error(reason, std::generic_category(), "cannot write folder " + folder.string());
+  }
+}
+
+}  // namespace
+
+void write_file_atomically(const std::filesystem::path& path, std::string_view content,
+                           Durability durability) {
+  if (path.empty()) {
+    throw std::system_error(std::make_error_code(std::errc::invalid_argument),
+                            "cannot write a file without a name (\"\")");
+  }
+  // A rename would take the place of a device or a pipe.
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {
+    throw std::system_error(std::make_error_code(std::errc::invalid_argument),
+                            "cannot write " + path.string() + ", which is no regular file");
+  }
+  std::filesystem::path temporary = path;
+  temporary += ".tmp";
+  OutputFile file = temporary_file(temporary);
+  try {
+    file.write(content);
+    if (durability == Durability::power) file.sync();
+    file.close();
+    std::filesystem::rename(temporary, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+  if (durability == Durability::power) sync_folder(path.parent_path());
+}
+
+}  // namespace ashlar

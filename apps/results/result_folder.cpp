@@ -1,0 +1,345 @@
+#include "apps/results/result_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "apps/results/csv_text.hpp"
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+std::vector<MeasuredPoint> find_measures(const Scene& scene) {
+  std::vector<MeasuredPoint> measures;
+  for (const SceneMeasure& measure : scene.measure) {
+    const auto block = std::find_if(scene.block.begin(), scene.block.end(), [&](const SceneBlock& candidate) {
+      return candidate.name == measure.block;
+    });
+    measures.push_back({measure.name, static_cast<int>(block - scene.block.begin()), measure.point});
+  }
+  return measures;
+}
+
+/// "blocks_0000010.vtu", "contacts_0000010.vtu", or what a killed run left of one
+bool is_frame_name(std::string_view name) {
+  for (const std::string_view start : {"blocks_", "contacts_"}) {
+    if (!name.starts_with(start)) continue;
+    const std::string_view rest = name.substr(start.size());
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    return digits >= 7 && (rest.substr(digits) == ".vtu" || rest.substr(digits) == ".vtu.tmp");
+  }
+  return false;
+}
+
+void remove_frames_but(const std::filesystem::path& folder, const std::set<std::filesystem::path>& kept) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "frames")) {
+    if (entry.symlink_status().type() == std::filesystem::file_type::regular &&
+        is_frame_name(entry.path().filename().string()) && !kept.contains(entry.path()))
+      std::filesystem::remove(entry.path());
+  }
+}
+
+/// Results of an earlier run must not be taken for those of the one that starts. Its checkpoint is replaced
+/// by the first one of this run: until then, tables that are not those of the checkpoint keep it from being
+/// used.
+std::filesystem::path emptied(std::filesystem::path folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder / "frames", error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
+  }
+  remove_frames_but(folder, {});
+  // Removed, not emptied: other names of these files keep what they have.
+  for (const char* name : {"summary.json", "view.html", "history.csv", "contacts.csv"})
+    std::filesystem::remove(folder / name);
+  return folder;
+}
+
+void append(std::vector<double>& values, const Vector3& vector) {
+  values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
+}
+
+/// xx, yy, zz, xy, yz, xz
+void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {
+  values.insert(values.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
+}
+
+constexpr const char* contact_columns =
+    "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
+    "normal_force.y,"
+    "normal_force.z,shear_force.x,shear_force.y,shear_force.z,work\n";
+
+}  // namespace
+
+std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures) {
+  std::vector<std::string> columns = {"step", "time", "dt"};
+  for (const MeasuredPoint& measure : measures) {
+    for (const char* part : {".x", ".y", ".z", ".ux", ".uy", ".uz", ".vx", ".vy", ".vz"}) {
+      columns.push_back(measure.name + part);
+    }
+  }
+  for (const char* name :
+       {"energy.kinetic",        "energy.elastic",     "energy.gravity",     "energy.contact",
+        "energy.friction",       "energy.damping",     "energy.applied",     "energy.numerical",
+        "energy.residual",       "momentum.x",         "momentum.y",         "momentum.z",
+        "angular_momentum.x",    "angular_momentum.y", "angular_momentum.z", "contacts.open",
+        "contacts.locked",       "contacts.sliding",   "penetration.max",    "open_close.iterations",
+        "energy.refound_gained", "energy.refound_lost"}) {
+    columns.emplace_back(name);
+  }
+  for (const MeasuredPoint& measure : measures) {
+    for (const char* part : {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"})
+      columns.push_back(measure.name + part);
+  }
+  return columns;
+}
+
+std::vector<double> history_row(const Simulation& simulation, const std::vector<MeasuredPoint>& measures) {
+  const StepReport& report = simulation.report();
+  std::vector<double> values = {simulation.time(), report.step};
+  std::vector<PointMotion> motions;
+  for (const MeasuredPoint& measure : measures) {
+    const PointMotion motion = motions.emplace_back(simulation.blocks()[at(measure.block)].motion_of(
+        simulation.states()[at(measure.block)], measure.point));
+    append(values, motion.place);
+    append(values, motion.displacement);
+    append(values, motion.velocity);
+  }
+  const Ledger& ledger = simulation.ledger();
+  values.insert(values.end(),
+                {ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction,
+                 ledger.damping, ledger.applied, ledger.numerical, ledger.residual});
+  append(values, simulation.momentum());
+  append(values, simulation.angular_momentum());
+  for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
+  values.push_back(report.depth);
+  values.push_back(report.iterations);
+  values.push_back(ledger.refound_gained);
+  values.push_back(ledger.refound_lost);
+  for (const PointMotion& motion : motions) append_stress(values, motion.stress);
+  return values;
+}
+
+UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
+                             const std::vector<DrawnSurface>& surfaces, const SceneOutput::Fields& fields) {
+  UnstructuredGrid grid;
+  std::vector<double> displacement;
+  std::vector<double> velocity;
+  std::vector<double> stress;
+  std::vector<std::int32_t> block_of_cell;
+  std::vector<std::int32_t> order_of_cell;
+  std::vector<std::int32_t> face_of_cell;
+  for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
+    const BlockModel& block = blocks[at(b)];
+    const BlockState& state = states[at(b)];
+    const DrawnSurface& surface = surfaces[at(b)];
+    const int first = static_cast<int>(grid.points.size());
+    for (const Vector3& point : surface.points) {
+      const PointMotion motion = block.motion_of(state, point);
+      grid.points.push_back(motion.place);
+      append(displacement, motion.displacement);
+      append(velocity, motion.velocity);
+      if (fields.stress) append_stress(stress, motion.stress);
+    }
+    for (const DrawnSurface::Cell& cell : surface.cells) {
+      std::vector<int> points;
+      for (const int point : cell.points) points.push_back(first + point);
+      grid.add_cell(cell.type, points);
+      block_of_cell.push_back(b);
+      order_of_cell.push_back(block.fixed() ? 0 : block.order());
+      face_of_cell.push_back(cell.face);
+    }
+  }
+  if (fields.displacement)
+    grid.point_data.push_back({"displacement", 3, {"x", "y", "z"}, std::move(displacement)});
+  if (fields.velocity) grid.point_data.push_back({"velocity", 3, {"x", "y", "z"}, std::move(velocity)});
+  if (fields.stress) {
+    grid.point_data.push_back({"stress", 6, {"xx", "yy", "zz", "xy", "yz", "xz"}, std::move(stress)});
+  }
+  grid.cell_data.push_back({"block", 1, {}, std::move(block_of_cell)});
+  grid.cell_data.push_back({"order", 1, {}, std::move(order_of_cell)});
+  grid.cell_data.push_back({"face", 1, {}, std::move(face_of_cell)});
+  return grid;
+}
+
+UnstructuredGrid contact_frame(const Simulation& simulation) {
+  UnstructuredGrid grid;
+  std::vector<double> gap;
+  std::vector<double> area;
+  std::vector<double> normal;
+  std::vector<double> force;
+  std::vector<double> traction;
+  std::array<std::vector<std::int32_t>, 4> numbers;  // type, state, block_a, block_b
+  for (const PairRecord& pair : simulation.contacts()) {
+    for (std::size_t k = 0; k < pair.points.size(); ++k) {
+      const ContactPoint& point = pair.points[k];
+      const PointResponse& response = pair.responses[k];
+      const int index = static_cast<int>(grid.points.size());
+      grid.points.emplace_back(0.5 * (point.place_a + point.place_b));
+      grid.add_cell(VtkCellType::vertex, std::array{index});
+      gap.push_back(pair.gaps[k]);
+      area.push_back(point.area);
+      append(normal, point.normal);
+      const Vector3 whole = response.force[0] * point.normal + response.force[1] * point.tangent_1 +
+                            response.force[2] * point.tangent_2;
+      append(force, whole);
+      append(traction, whole / point.area);
+      numbers[0].push_back(static_cast<std::int32_t>(point.type));
+      numbers[1].push_back(static_cast<std::int32_t>(response.state));
+      numbers[2].push_back(pair.a);
+      numbers[3].push_back(pair.b);
+    }
+  }
+  grid.point_data.push_back({"gap", 1, {}, std::move(gap)});
+  grid.point_data.push_back({"area", 1, {}, std::move(area)});
+  grid.point_data.push_back({"normal", 3, {"x", "y", "z"}, std::move(normal)});
+  grid.point_data.push_back({"force", 3, {"x", "y", "z"}, std::move(force)});
+  grid.point_data.push_back({"traction", 3, {"x", "y", "z"}, std::move(traction)});
+  grid.point_data.push_back({"type", 1, {}, std::move(numbers[0])});
+  grid.point_data.push_back({"state", 1, {}, std::move(numbers[1])});
+  grid.point_data.push_back({"block_a", 1, {}, std::move(numbers[2])});
+  grid.point_data.push_back({"block_b", 1, {}, std::move(numbers[3])});
+  return grid;
+}
+
+ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation)
+    : folder_(emptied(std::move(folder))),
+      output_(scene.output),
+      measures_(find_measures(scene)),
+      surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
+      history_(folder_ / "history.csv", history_columns(measures_)),
+      blocks_(folder_ / "blocks.pvd"),
+      contacts_(folder_ / "contacts.pvd"),
+      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
+  contact_rows_.write(contact_columns);
+  add_step(simulation);
+}
+
+ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+                           const ResultFolderState& state)
+    : folder_(std::move(folder)),
+      output_(scene.output),
+      measures_(find_measures(scene)),
+      surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
+      history_(
+          HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), state.last_row_step)),
+      blocks_(folder_ / "blocks.pvd", state.block_frames),
+      contacts_(folder_ / "contacts.pvd", state.contact_frames),
+      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
+      last_row_step_(state.last_row_step),
+      last_frame_step_(state.last_frame_step),
+      intervals_written_(state.intervals_written) {
+  if (contact_rows_.size() < state.contact_bytes) {
+    throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
+                                         contact_rows_.path().string(), contact_rows_.size(),
+                                         state.contact_bytes));
+  }
+  contact_rows_.truncate(state.contact_bytes);
+  std::set<std::filesystem::path> kept;
+  for (const auto* frames : {&state.block_frames, &state.contact_frames}) {
+    for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
+  }
+  remove_frames_but(folder_, kept);
+  add_step(simulation);
+}
+
+ResultFolderState ResultFolder::synced_state() {
+  check_in_place();
+  history_.sync();
+  contact_rows_.sync();
+  return {blocks_.frames(), contacts_.frames(), contact_rows_.size(),
+          last_row_step_,   last_frame_step_,   intervals_written_};
+}
+
+void ResultFolder::check_in_place() const {
+  history_.check_in_place();
+  contact_rows_.check_in_place();
+}
+
+void ResultFolder::add_step(const Simulation& simulation) {
+  check_in_place();
+  if (simulation.steps() % output_.history_every == 0) add_row(simulation);
+  if (!frame_is_due(simulation)) return;
+  add_frame(simulation);
+  if (!output_.every) ++intervals_written_;
+}
+
+void ResultFolder::add_end(const Simulation& simulation) {
+  check_in_place();
+  add_row(simulation);
+  add_frame(simulation);
+}
+
+bool ResultFolder::frame_is_due(const Simulation& simulation) const {
+  if (simulation.steps() == last_frame_step_) return false;
+  if (output_.every) return simulation.steps() % *output_.every == 0;
+  // Half a step early is as near as half a step late.
+  const double due = intervals_written_ * output_.interval.value_or(0.0);
+  return simulation.time() + 0.5 * simulation.report().step >= due;
+}
+
+void ResultFolder::add_row(const Simulation& simulation) {
+  if (simulation.steps() == last_row_step_) return;
+  history_.append(simulation.steps(), history_row(simulation, measures_));
+  last_row_step_ = simulation.steps();
+}
+
+void ResultFolder::add_frame(const Simulation& simulation) {
+  if (simulation.steps() == last_frame_step_) return;
+  const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
+  const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
+  write_vtu(folder_ / blocks,
+            block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields));
+  write_vtu(folder_ / contacts, contact_frame(simulation));
+  blocks_.add_frame(simulation.time(), blocks);
+  try {
+    contacts_.add_frame(simulation.time(), contacts);
+  } catch (...) {
+    blocks_.drop_last();
+    throw;
+  }
+  try {
+    add_contact_rows(simulation);
+  } catch (...) {
+    contacts_.drop_last();
+    blocks_.drop_last();
+    throw;
+  }
+  last_frame_step_ = simulation.steps();
+}
+
+void ResultFolder::add_contact_rows(const Simulation& simulation) {
+  std::string rows;
+  for (const PairRecord& pair : simulation.contacts()) {
+    std::array<int, 3> count = {0, 0, 0};
+    double area = 0.0;
+    Vector3 normal = Vector3::Zero();
+    Vector3 shear = Vector3::Zero();
+    for (std::size_t k = 0; k < pair.points.size(); ++k) {
+      const ContactPoint& point = pair.points[k];
+      const PointResponse& response = pair.responses[k];
+      // A point that is open at the end may have pushed in the step.
+      if (response.state != ContactState::open) {
+        ++count[static_cast<std::size_t>(point.type)];
+        area += point.area;
+      }
+      normal += response.force[0] * point.normal;
+      shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
+    }
+    rows += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", simulation.steps(),
+                        simulation.time(), quote_csv_field(simulation.blocks()[at(pair.a)].name()),
+                        quote_csv_field(simulation.blocks()[at(pair.b)].name()), count[0], count[1], count[2],
+                        area, normal.x(), normal.y(), normal.z(), shear.x(), shear.y(), shear.z(), pair.work);
+  }
+  contact_rows_.write(rows);
+}
+
+}  // namespace ashlar

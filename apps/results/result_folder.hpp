@@ -1,0 +1,102 @@
+// The result folder of a run: history.csv, contacts.csv, frames for ParaView and summary.json.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/results/drawn_surface.hpp"
+#include "apps/results/history_writer.hpp"
+#include "apps/results/pvd_writer.hpp"
+#include "apps/results/vtu_writer.hpp"
+#include "apps/scene/scene.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+/// A material point whose motion goes into the history.
+struct MeasuredPoint {
+  std::string name;
+  int block;
+  Vector3 point;  ///< reference coordinates, m
+};
+
+/// Names of the columns of history.csv, the step first; stresses of measured points (sxx, syy, szz, sxy, syz,
+/// sxz; Pa, tension positive) last.
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures);
+
+/// The values after the step, in the order of history_columns.
+[[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
+                                              const std::vector<MeasuredPoint>& measures);
+
+/// All blocks in a state. Point data: those of displacement, velocity and stress (xx, yy, zz, xy, yz, xz)
+/// that are asked for. Cell data: block, order and face.
+[[nodiscard]] UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks,
+                                           const std::vector<BlockState>& states,
+                                           const std::vector<DrawnSurface>& surfaces,
+                                           const SceneOutput::Fields& fields);
+
+/// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
+/// blocks.
+[[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
+
+/// How far the files are; a checkpoint holds it.
+struct ResultFolderState {
+  std::vector<PvdFrame> block_frames;
+  std::vector<PvdFrame> contact_frames;
+  std::uint64_t contact_bytes = 0;  ///< in contacts.csv
+  int last_row_step = -1;           ///< in history.csv
+  int last_frame_step = -1;
+  int intervals_written = 0;
+};
+
+/// Writes everything but the summary and the checkpoint; files of frames are in `frames/`. Errors are
+/// std::runtime_error with path and reason.
+class ResultFolder {
+ public:
+  /// Removes the results of an earlier run in the folder but for its checkpoint, which the first one of this
+  /// run replaces, and adds the simulation's present step.
+  /// @param folder that the program has claimed (folder_claim.hpp)
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation);
+
+  /// Goes on in the folder of an earlier run: what was written after `state` was taken is dropped, and what
+  /// could not be written of the step then is made good.
+  /// @param simulation as it was then
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+               const ResultFolderState& state);
+
+  /// Called after every accepted step. What fails to be written is not in state() either.
+  /// @throws std::runtime_error also if a table is not there any more
+  void add_step(const Simulation& simulation);
+  /// Adds row and frame of the end of a run, which are there whether they are due or not. A run that goes on
+  /// from a checkpoint before drops them.
+  void add_end(const Simulation& simulation);
+
+  /// Waits until the tables are on the disk; a checkpoint counts on them.
+  [[nodiscard]] ResultFolderState synced_state();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+  [[nodiscard]] int frames() const { return static_cast<int>(blocks_.frames().size()); }
+
+ private:
+  [[nodiscard]] bool frame_is_due(const Simulation& simulation) const;
+  void check_in_place() const;
+  void add_row(const Simulation& simulation);
+  void add_frame(const Simulation& simulation);
+  void add_contact_rows(const Simulation& simulation);
+
+  std::filesystem::path folder_;
+  SceneOutput output_;
+  std::vector<MeasuredPoint> measures_;
+  std::vector<DrawnSurface> surfaces_;
+  HistoryWriter history_;
+  PvdWriter blocks_;
+  PvdWriter contacts_;
+  OutputFile contact_rows_;
+  int last_row_step_ = -1;
+  int last_frame_step_ = -1;
+  int intervals_written_ = 0;  ///< output.interval: frames due by time so far
+};
+
+}  // namespace ashlar

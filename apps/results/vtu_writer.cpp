@@ -1,0 +1,177 @@
+#include "apps/results/vtu_writer.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/xml_text.hpp"
+
+namespace ashlar {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the files are declared little-endian");
+static_assert(sizeof(Vector3) == 3 * sizeof(double), "points are written as they lie in memory");
+
+// VTK's own block size; a reader unpacks the data block by block.
+constexpr std::size_t kBlockBytes = std::size_t{1} << 15;
+// Coordinates and stresses hardly compress: more effort costs four times the time for a few per cent.
+constexpr int kCompressionLevel = Z_BEST_SPEED;
+
+void append_uint64(std::string& bytes, std::uint64_t number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+// Appends the array as vtkZLibDataCompressor expects it: number of blocks, bytes of a block, bytes of the
+// last block if that is shorter (else 0), compressed bytes of each block, then the compressed blocks.
+void append_compressed(std::string& bytes, std::span<const std::byte> data) {
+  const std::size_t block_count = (data.size() + kBlockBytes - 1) / kBlockBytes;
+  std::string blocks;
+  append_uint64(bytes, block_count);
+  append_uint64(bytes, kBlockBytes);
+  append_uint64(bytes, data.size() % kBlockBytes);
+  for (std::size_t start = 0; start < data.size(); start += kBlockBytes) {
+    const auto block = data.subspan(start, std::min(kBlockBytes, data.size() - start));
+    uLongf size = compressBound(block.size());
+    const std::size_t old_size = blocks.size();
+    blocks.resize(old_size + size);
+    if (compress2(reinterpret_cast<Bytef*>(blocks.data() + old_size), &size,
+                  reinterpret_cast<const Bytef*>(block.data()), block.size(), kCompressionLevel) != Z_OK) {
+      throw std::runtime_error("zlib cannot compress a block of a .vtu file: out of memory");
+    }
+    blocks.resize(old_size + size);
+    append_uint64(bytes, size);
+  }
+  bytes += blocks;
+}
+
+// The two halves of the file, filled array by array: the XML elements name places in the appended bytes.
+struct VtuText {
+  std::string elements;
+  std::string appended;
+
+  template <class T>
+  void add_array(std::string_view type, std::string_view attributes, std::span<const T> values) {
+    elements += fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
+                            attributes, appended.size());
+    append_compressed(appended, std::as_bytes(values));
+  }
+
+  void add_array(const DataArray& array) {
+    std::string attributes =
+        fmt::format("Name=\"{}\" NumberOfComponents=\"{}\"", escape_xml(array.name), array.components);
+    for (std::size_t i = 0; i < array.component_names.size(); ++i) {
+      attributes += fmt::format(" ComponentName{}=\"{}\"", i, escape_xml(array.component_names[i]));
+    }
+    if (const auto* reals = std::get_if<std::vector<double>>(&array.values)) {
+      add_array<double>("Float64", attributes, *reals);
+    } else {
+      add_array<std::int32_t>("Int32", attributes, std::get<std::vector<std::int32_t>>(array.values));
+    }
+  }
+};
+
+void check_arrays(const std::vector<DataArray>& arrays, std::size_t tuples, std::string_view where) {
+  std::set<std::string_view> names;
+  for (const DataArray& array : arrays) {
+    const auto complain = [&](std::string_view what) {
+      throw std::invalid_argument(fmt::format("{} array '{}': {}", where, array.name, what));
+    };
+    if (!names.insert(array.name).second) complain("the name is used twice");
+    if (array.components < 1) complain("fewer than one component");
+    if (array.components > most_components)
+      complain(fmt::format("{} components, {} at most", array.components, most_components));
+    const auto components = static_cast<std::size_t>(array.components);
+    if (!array.component_names.empty() && array.component_names.size() != components) {
+      complain(fmt::format("{} component names for {} components", array.component_names.size(), components));
+    }
+    const std::size_t size = std::visit([](const auto& values) { return values.size(); }, array.values);
+    if (size != tuples * components) {
+      complain(fmt::format("{} values, {} x {} needed", size, tuples, components));
+    }
+  }
+}
+
+void check_cells(const UnstructuredGrid& grid) {
+  if (grid.offsets.size() != grid.types.size()) {
+    throw std::invalid_argument(
+        fmt::format("{} cell offsets for {} cell types", grid.offsets.size(), grid.types.size()));
+  }
+  int start = 0;
+  for (const int end : grid.offsets) {
+    if (end < start) throw std::invalid_argument(fmt::format("cell offset {} after {}", end, start));
+    start = end;
+  }
+  if (static_cast<std::size_t>(start) != grid.connectivity.size()) {
+    throw std::invalid_argument(
+        fmt::format("the cells end at {}, the connectivity at {}", start, grid.connectivity.size()));
+  }
+  for (const int point : grid.connectivity) {
+    if (point < 0 || static_cast<std::size_t>(point) >= grid.points.size()) {
+      throw std::invalid_argument(fmt::format("a cell names point {} of {}", point, grid.points.size()));
+    }
+  }
+}
+
+void add_data(VtuText& text, std::string_view tag, const std::vector<DataArray>& arrays) {
+  text.elements += fmt::format("      <{}>\n", tag);
+  for (const DataArray& array : arrays) text.add_array(array);
+  text.elements += fmt::format("      </{}>\n", tag);
+}
+
+}  // namespace
+
+void UnstructuredGrid::add_cell(VtkCellType type, std::span<const int> cell_points) {
+  connectivity.insert(connectivity.end(), cell_points.begin(), cell_points.end());
+  offsets.push_back(static_cast<int>(connectivity.size()));
+  types.push_back(type);
+}
+
+void validate(const UnstructuredGrid& grid) {
+  check_cells(grid);
+  check_arrays(grid.point_data, grid.points.size(), "point");
+  check_arrays(grid.cell_data, grid.types.size(), "cell");
+}
+
+std::string to_vtu(const UnstructuredGrid& grid) {
+  validate(grid);
+  VtuText text;
+  add_data(text, "PointData", grid.point_data);
+  add_data(text, "CellData", grid.cell_data);
+  text.elements += "      <Points>\n";
+  const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
+  text.add_array<double>("Float64", "Name=\"Points\" NumberOfComponents=\"3\"",
+                         {coordinates, 3 * grid.points.size()});
+  text.elements += "      </Points>\n      <Cells>\n";
+  text.add_array<int>("Int32", "Name=\"connectivity\"", grid.connectivity);
+  text.add_array<int>("Int32", "Name=\"offsets\"", grid.offsets);
+  text.add_array<VtkCellType>("UInt8", "Name=\"types\"", grid.types);
+  text.elements += "      </Cells>\n";
+
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+      "  <UnstructuredGrid>\n"
+      "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+      "{}"
+      "    </Piece>\n"
+      "  </UnstructuredGrid>\n"
+      "  <AppendedData encoding=\"raw\">\n"
+      "_{}\n"
+      "  </AppendedData>\n"
+      "</VTKFile>\n",
+      grid.points.size(), grid.types.size(), text.elements, text.appended);
+}
+
+void write_vtu(const std::filesystem::path& path, const UnstructuredGrid& grid) {
+  write_file_atomically(path, to_vtu(grid), Durability::process);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,325 @@
+#include "apps/run/build_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <set>
+#include <type_traits>
+
+#include "apps/run/initial_state.hpp"
+#include "apps/scene/joint_table.hpp"
+#include "apps/scene/support_history.hpp"
+#include "apps/scene/turned_supports.hpp"
+#include "solver/run/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+template <class Where>
+BlockPlace place_of(const Where& where) {
+  if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};
+  return std::get<Vector3>(where);
+}
+
+BlockDefinition define_block(const LoadedScene& loaded, std::size_t index) {
+  const Scene& scene = loaded.scene;
+  const SceneBlock& block = scene.block[index];
+  BlockDefinition definition;
+  definition.name = block.name;
+  definition.shape = loaded.shapes[index];
+  definition.solid = block.translate.isZero(0.0) ? loaded.shapes[index]
+                                                 : std::make_shared<const Polyhedron>(loaded.solids[index]);
+  definition.order = block.order;
+  definition.fixed = block.fixed;
+  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
+    definition.formulation = Formulation::incremental;
+    definition.sub_face_levels = scene.contact.subdivisions.value_or(definition.sub_face_levels);
+    for (const SceneMeasure& measure : scene.measure) {
+      if (measure.block == block.name) definition.followed.push_back(measure.point);
+    }
+  }
+  if (const SceneMaterial* material = find_material(scene, block.material)) {
+    definition.material = {material->density, material->young_modulus, material->poisson_ratio,
+                           material->elasticity == SceneMaterial::Elasticity::linear
+                               ? Elasticity::linear
+                               : Elasticity::st_venant_kirchhoff};
+  }
+  for (const SceneFix& fix : block.fix) {
+    definition.supports.push_back({place_of(fix.where), fix.components, support_history(fix)});
+  }
+  for (const SceneLoad& load : block.load) {
+    History history;
+    for (const auto& point : load.history) {
+      history.times.push_back(point.time);
+      history.values.push_back(point.factor);
+    }
+    definition.loads.push_back(
+        {place_of(load.where), load.kind == SceneLoad::Kind::traction, load.vector, std::move(history)});
+  }
+  return definition;
+}
+
+Integrator integrator_of(SceneAnalysis::Integrator integrator) {
+  switch (integrator) {
+    case SceneAnalysis::Integrator::dda:
+      return Integrator::dda;
+    case SceneAnalysis::Integrator::average_acceleration:
+      return Integrator::average_acceleration;
+    case SceneAnalysis::Integrator::generalized_alpha:
+      return Integrator::generalized_alpha;
+  }
+  return Integrator::dda;
+}
+
+SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>& blocks, int threads,
+                               std::vector<AutomaticChoice>& choices) {
+  const AutomaticRatios ratios;
+  SimulationSettings settings;
+  settings.integrator = integrator_of(scene.analysis.integrator);
+  settings.spectral_radius = scene.analysis.spectral_radius;
+  settings.mass_damping = scene.analysis.mass_damping;
+  settings.time_step = scene.analysis.time_step;
+  settings.gravity = scene.analysis.gravity;
+  settings.area_springs = scene.contact.springs == SceneContact::Springs::area;
+  settings.curved_surface = scene.contact.surface == SceneContact::Surface::curved;
+  settings.threads = threads;
+
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const BlockModel& block : blocks) smallest = std::min(smallest, block_size(block));
+  const auto choose = [&](const auto& given, auto automatic, const char* key, const char* unit) {
+    if (given) return static_cast<double>(*given);
+    choices.push_back({key, static_cast<double>(automatic), unit});
+    return static_cast<double>(automatic);
+  };
+  settings.contact_distance =
+      choose(scene.contact.distance, ratios.distance * smallest, "contact.distance", "m");
+  settings.contact_angle =
+      choose(scene.contact.angle, ratios.angle_degrees, "contact.angle", "deg") * std::numbers::pi / 180.0;
+  settings.augmented = has_multipliers(scene);
+  if (settings.augmented) {
+    if (!scene.contact.augmented) choices.push_back({"contact.augmented", true, ""});
+    settings.penetration_tolerance =
+        choose(scene.contact.penetration_tolerance, ratios.penetration_tolerance * settings.contact_distance,
+               "contact.penetration_tolerance", "m");
+  }
+  settings.allowed_depth = scene.contact.allowed_depth.value_or(0.0);
+  const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
+    return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
+  });
+  // Springs at corners alone would not feel what bends between them.
+  settings.subdivisions = scene.contact.subdivisions.value_or(curved && !settings.area_springs ? 1 : 0);
+  if (curved && !scene.contact.subdivisions) {
+    settings.chord_tolerance = choose(scene.contact.chord_tolerance, ratios.chord_tolerance * smallest,
+                                      "contact.chord_tolerance", "m");
+  }
+  return settings;
+}
+
+/// Laws between blocks.
+class JointLaws {
+ public:
+  JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks,
+            std::shared_ptr<const JointTable> table, std::vector<AutomaticChoice>& choices)
+      : area_(scene.contact.springs == SceneContact::Springs::area),
+        multipliers_(has_multipliers(scene)),
+        asked_for_(scene.contact.augmented.value_or(false)),
+        table_(std::move(table)) {
+    source_.reserve(blocks.size());
+    for (const BlockModel& block : blocks) source_.push_back(stiffness_source(block));
+    if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
+  }
+
+  JointLaw operator()(int a, int b) const {
+    return law(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+  }
+
+ private:
+  [[nodiscard]] JointLaw law(std::size_t a, std::size_t b) const {
+    const SceneJointLaw given = table_->law_between(a, b);
+    JointLaw result;
+    result.area_springs = area_;
+    result.normal_stiffness = given.normal_stiffness
+                                  ? *given.normal_stiffness
+                                  : automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
+    result.rigid = !given.normal_stiffness;
+    result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
+    result.shear_stiffness =
+        given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
+    result.friction = std::tan(given.friction_angle * std::numbers::pi / 180.0);
+    result.cohesion = given.cohesion;
+    result.tensile_strength = given.tensile_strength;
+    return result;
+  }
+
+  /// Two blocks, or one, of each kind: equal blocks that the same globs match have the same joints.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> kinds_of_blocks(const Scene& scene) const {
+    std::vector<std::vector<std::size_t>> globs(source_.size());
+    for (std::size_t joint = 0; joint < scene.joint.size(); ++joint) {
+      for (const std::size_t side : {0U, 1U}) {
+        // What matches every block tells none apart.
+        if (table_->matched(joint, side).size() == source_.size()) continue;
+        for (const std::size_t block : table_->matched(joint, side)) globs[block].push_back(2 * joint + side);
+      }
+    }
+    std::map<std::pair<std::vector<std::size_t>, StiffnessSource>, std::vector<std::size_t>> kinds;
+    for (std::size_t k = 0; k < source_.size(); ++k) {
+      std::vector<std::size_t>& blocks = kinds[{std::move(globs[k]), source_[k]}];
+      if (blocks.size() < 2) blocks.push_back(k);
+    }
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& [kind, blocks] : kinds) result.push_back(std::move(blocks));
+    return result;
+  }
+
+  /// The softest and the stiffest pair whose stiffness is left to the program.
+  void note_choices(const std::vector<std::vector<std::size_t>>& kinds,
+                    std::vector<AutomaticChoice>& choices) const {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (std::size_t m = 0; m < kinds.size(); ++m) {
+      for (std::size_t n = m; n < kinds.size(); ++n) {
+        const std::size_t a = kinds[m].front(), b = kinds[n].back();
+        if (a == b || (source_[a].fixed && source_[b].fixed)) continue;
+        const double stiffness = automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
+        if (stiffness >= least && stiffness <= most) continue;
+        if (table_->law_between(a, b).normal_stiffness) continue;
+        least = std::min(least, stiffness);
+        most = std::max(most, stiffness);
+      }
+    }
+    const char* unit = area_ ? "Pa/m" : "N/m";
+    if (most > 0.0) {
+      choices.push_back({"contact.normal_stiffness (softest pair)", least, unit});
+      if (most > least) choices.push_back({"contact.normal_stiffness (stiffest pair)", most, unit});
+    }
+  }
+
+  bool area_;
+  bool multipliers_;
+  bool asked_for_;  ///< for all joints, whatever stiffness they are given
+  AutomaticRatios ratios_;
+  std::shared_ptr<const JointTable> table_;
+  std::vector<StiffnessSource> source_;  ///< (#blocks)
+};
+
+/// Calls visit(a, b) for each pair of blocks, a < b, that a joint matches until it returns false.
+template <class Visit>
+void for_each_pair(const JointTable& table, std::size_t joint, Visit visit) {
+  for (const std::size_t first : table.matched(joint, 0)) {
+    for (const std::size_t second : table.matched(joint, 1)) {
+      if (first == second) continue;
+      if (!visit(std::min(first, second), std::max(first, second))) return;
+    }
+  }
+}
+
+/// Pairs that a joint ties, sorted.
+std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, const JointTable& table,
+                                                            const std::vector<BlockModel>& blocks) {
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    if (!scene.joint[k].tied.value_or(false)) continue;
+    for_each_pair(table, k, [&](std::size_t a, std::size_t b) {
+      if (!(blocks[a].fixed() && blocks[b].fixed())) pairs.insert({a, b});
+      return true;
+    });
+  }
+  std::erase_if(pairs, [&](const auto& pair) { return !table.law_between(pair.first, pair.second).tied; });
+  return {pairs.begin(), pairs.end()};
+}
+
+/// Whether a later [[joint]] of the blocks that one ties unties all of them.
+bool is_untied(const JointTable& table, std::size_t joint) {
+  bool left_any = false;
+  for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
+    left_any = table.law_between(a, b).tied;
+    return !left_any;
+  });
+  return table.matches_a_pair(joint) && !left_any;
+}
+
+/// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key, one
+/// that later ones undo a warning.
+void tie_joints(const Scene& scene, const JointTable& table, Simulation& simulation,
+                Diagnostics& diagnostics) {
+  const AutomaticRatios ratios;
+  const std::vector<BlockModel>& blocks = simulation.blocks();
+  std::vector<bool> ties(scene.joint.size(), false);
+  for (const auto& [a, b] : tied_pairs(scene, table, blocks)) {
+    if (!simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
+                               automatic_tie_stiffness(blocks[a], blocks[b], ratios)))
+      continue;
+    for (const std::size_t joint : table.joints_between(a, b)) ties[joint] = true;
+  }
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    const SceneJoint& joint = scene.joint[k];
+    if (!joint.tied.value_or(false) || ties[k]) continue;
+    if (is_untied(table, k)) {
+      diagnostics.warning(scene.places.key(fmt::format("joint.{}.tied", k)),
+                          "tied has no effect: a later [[joint]] of the same blocks unties them");
+      continue;
+    }
+    diagnostics.error(
+        scene.places.key(fmt::format("joint.{}.tied", k)),
+        fmt::format("tied blocks without a common face ({}, {}), blocks are tied over faces that "
+                    "lie in one plane and overlap",
+                    joint.blocks[0], joint.blocks[1]));
+  }
+}
+
+}  // namespace
+
+std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
+                                                Diagnostics& diagnostics, Preparation* preparation) {
+  const Scene& scene = loaded.scene;
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions;
+  BlockPartsLibrary parts;
+  for (std::size_t k = 0; k < scene.block.size(); ++k) {
+    const SceneBlock& block = scene.block[k];
+    if (preparation != nullptr)
+      preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
+    try {
+      blocks.emplace_back(define_block(loaded, k), parts);
+    } catch (const OrderTooHigh& error) {
+      diagnostics.error(
+          scene.places.value(fmt::format("block.{}.order", k)),
+          fmt::format(
+              "order is too high for the shape of block {} in double precision ({}), at most {} is allowed",
+              block.name, block.order, error.highest_safe_order));
+    } catch (const std::exception& error) {
+      diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
+                        fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));
+    }
+    motions.push_back({block.velocity, block.angular_velocity});
+  }
+  if (!diagnostics.good()) return std::nullopt;
+  warn_of_turned_supports(scene, blocks, diagnostics);
+  if (preparation != nullptr) preparation->phase("surfaces and neighbours of all blocks");
+  std::vector<AutomaticChoice> choices;
+  const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
+  const auto table = std::make_shared<const JointTable>(scene);
+  JointLaws laws(scene, blocks, table, choices);
+  BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
+                        std::move(choices),
+                        parts.size(),
+                        {}};
+  try {
+    tie_joints(scene, *table, built.simulation, diagnostics);
+  } catch (const std::invalid_argument& error) {
+    diagnostics.error(scene.places.key("analysis.formulation"), error.what());
+  }
+  if (!diagnostics.good()) return std::nullopt;
+  if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
+    built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);
+    if (!diagnostics.good()) return std::nullopt;
+  }
+  return built;
+}
+
+}  // namespace ashlar

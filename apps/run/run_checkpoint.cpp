@@ -1,0 +1,120 @@
+#include "apps/run/run_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/scene/scene_json.hpp"
+#include "solver/run/byte_archive.hpp"
+
+namespace ashlar {
+
+template <class Archive>
+static void visit_members(Archive& archive, PvdFrame& frame) {
+  archive(frame.time, frame.file);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ResultFolderState& state) {
+  archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_row_step,
+          state.last_frame_step, state.intervals_written);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, RunSeconds& seconds) {
+  archive(seconds.total, seconds.setup, seconds.output);
+}
+
+namespace {
+
+constexpr std::string_view magic = "ashlar checkpoint\n";
+constexpr std::uint32_t layout_version = 10;
+
+/// What follows the magic line; the payload follows it.
+struct Header {
+  std::uint32_t version = layout_version;
+  std::uint64_t scene = 0;
+  std::uint64_t payload_hash = 0;
+};
+
+}  // namespace
+
+std::uint64_t scene_hash(const LoadedScene& loaded) {
+  nlohmann::ordered_json json = to_json(loaded.scene);
+  for (const char* key : {"end_time", "memory_limit"}) json["analysis"].erase(key);
+  json.erase("title");
+  std::uint64_t hash = hash_bytes(json.dump());
+  for (const Polyhedron& solid : loaded.solids) {
+    ByteWriter writer;
+    writer(solid.mesh().points, solid.mesh().triangles);
+    hash = hash_bytes(writer.take(), hash);
+  }
+  ByteWriter records;
+  for (const SceneBlock& block : loaded.scene.block) {
+    for (const SceneFix& fix : block.fix) {
+      for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)
+        records(fix.history[n].time, fix.history[n].value);
+    }
+    for (const SceneLoad& load : block.load) {
+      for (std::size_t n = 0; load.file && n < load.history.size(); ++n)
+        records(load.history[n].time, load.history[n].factor);
+    }
+  }
+  return hash_bytes(records.take(), hash);
+}
+
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint) {
+  ByteWriter payload;
+  payload(to_bytes(checkpoint.simulation), checkpoint.folder, checkpoint.seconds);
+  const std::string bytes = payload.take();
+  ByteWriter header;
+  header(layout_version, hash, hash_bytes(bytes));
+  const std::string content = std::string(magic) + header.take() + bytes;
+  write_file_atomically(path, content, Durability::power);
+  return content.size();
+}
+
+RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
+  std::ifstream input(path, std::ios::binary);
+  if (!input) throw CheckpointError("no checkpoint to resume from, run without --resume first");
+  if (std::filesystem::is_directory(path)) throw CheckpointError("not a checkpoint but a folder");
+  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
+  if (!bytes.starts_with(magic)) throw CheckpointError("not a checkpoint of this program");
+  ByteReader reader(std::string_view(bytes).substr(magic.size()));
+  try {
+    Header header;
+    reader(header.version, header.scene, header.payload_hash);
+    if (header.version != layout_version) {
+      throw CheckpointError(fmt::format(
+          "checkpoint of another version of the program (layout {}), layout {} is needed: run with "
+          "--force to start anew",
+          header.version, layout_version));
+    }
+    const std::size_t start =
+        magic.size() + sizeof header.version + sizeof header.scene + sizeof header.payload_hash;
+    if (hash_bytes(std::string_view(bytes).substr(start)) != header.payload_hash) {
+      throw CheckpointError("checkpoint is damaged, run with --force to start anew");
+    }
+    if (header.scene != hash) {
+      throw OtherSceneError(
+          "checkpoint of another scene, the scene, mesh files and --set options the run was started with are "
+          "needed; only analysis.end_time may differ");
+    }
+    RunCheckpoint checkpoint;
+    std::string snapshot;
+    reader(snapshot, checkpoint.folder, checkpoint.seconds);
+    checkpoint.simulation = snapshot_from_bytes(snapshot);
+    return checkpoint;
+  } catch (const CheckpointError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw CheckpointError(
+        fmt::format("checkpoint is damaged ({}), run with --force to start anew", error.what()));
+  }
+}
+
+}  // namespace ashlar

@@ -1,0 +1,46 @@
+// The file `checkpoint` of a result folder: what `ashlar run --resume` goes on from.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+
+#include "apps/results/result_folder.hpp"
+#include "apps/run/run_summary.hpp"
+#include "apps/scene/scene_loading.hpp"
+#include "solver/run/checkpoint.hpp"
+
+namespace ashlar {
+
+/// A run between two steps.
+struct RunCheckpoint {
+  SimulationSnapshot simulation;
+  ResultFolderState folder;
+  RunSeconds seconds;
+};
+
+/// Why a run cannot go on: no checkpoint, a damaged one, or one of another scene. what() reads as a message
+/// to the user.
+struct CheckpointError : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+/// That of another scene.
+struct OtherSceneError : CheckpointError {
+  using CheckpointError::CheckpointError;
+};
+
+/// Of the scene as used: every key with defaults and overrides, and the points and triangles of every block,
+/// so that a changed mesh file is noticed, and so are records. analysis.end_time is left out, as a run may go
+/// on beyond its end, and what no result depends on: title, analysis.memory_limit.
+[[nodiscard]] std::uint64_t scene_hash(const LoadedScene& loaded);
+
+/// Replaces the file as a whole; it outlives a power failure. @return its bytes
+/// @throws std::runtime_error with path and reason
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint);
+
+/// @param hash of the scene that is to go on. @throws CheckpointError
+[[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash);
+
+}  // namespace ashlar

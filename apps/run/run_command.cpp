@@ -1,0 +1,503 @@
+#include "apps/run/run_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <string_view>
+
+#include "apps/command_line.hpp"
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/input_file.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/results/result_folder.hpp"
+#include "apps/run/checkpoint_schedule.hpp"
+#include "apps/run/folder_claim.hpp"
+#include "apps/run/initial_state.hpp"
+#include "apps/run/interrupt_guard.hpp"
+#include "apps/run/loose_blocks.hpp"
+#include "apps/run/progress.hpp"
+#include "apps/run/run_checkpoint.hpp"
+#include "apps/run/run_summary.hpp"
+#include "apps/run/scene_difference.hpp"
+#include "apps/run/space_reserve.hpp"
+#include "apps/scene/base_motion.hpp"
+#include "apps/scene/scene_json.hpp"
+#include "apps/view/view_file.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr const char* checkpoint_name = "checkpoint";
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+ProgressState progress_of(const Simulation& simulation) {
+  const StepReport& report = simulation.report();
+  return {simulation.steps(), simulation.time(), report.step, report.locked + report.sliding,
+          report.iterations};
+}
+
+std::filesystem::path result_folder_of(const RunOptions& options) {
+  if (options.out) return *options.out;
+  if (options.scene == "-") return "stdin.out";
+  return options.scene.stem().string() + ".out";
+}
+
+int exit_status_of(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+    case RunStatus::equilibrium:
+    case RunStatus::moving:  // a mechanism found is an answer
+      return exit_status::done;
+    case RunStatus::failed:
+    case RunStatus::not_converged:
+      return exit_status::failed;
+    case RunStatus::interrupted:
+      return exit_status::interrupted;
+  }
+  return exit_status::failed;
+}
+
+/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2"
+std::string describe_motion(const Simulation& simulation) {
+  std::string text = "no equilibrium:";
+  const char* separator = " ";
+  for (const MovingBlock& moving : simulation.moving_blocks()) {
+    const auto& [x, y, z] =
+        std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
+    text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
+                        simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
+    separator = "; ";
+  }
+  return text;
+}
+
+/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
+std::string describe_displaced(const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const auto& [block, distance] : displaced_blocks(simulation)) {
+    names.push_back(fmt::format("block {} by {:.3g} m",
+                                simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
+  }
+  return names.empty()
+             ? ""
+             : fmt::format("equilibrium, but far from where they were placed: {}", first_names(names));
+}
+
+/// A run from its first step, or from a checkpoint, to its end.
+class Run {
+ public:
+  /// @param interval s between checkpoints; empty: growing, see CheckpointSchedule
+  Run(const LoadedScene& loaded, BuiltSimulation built, const FolderClaim& claim,
+      const std::optional<RunCheckpoint>& earlier, std::optional<double> interval)
+      : scene_(loaded.scene),
+        hash_(scene_hash(loaded)),
+        built_(std::move(built)),
+        claim_(claim),
+        interval_(interval),
+        reserve_(claim.folder()),
+        folder_(earlier ? ResultFolder(claim.folder(), scene_, built_.simulation, earlier->folder)
+                        : ResultFolder(claim.folder(), scene_, built_.simulation)) {
+    if (earlier) earlier_seconds_ = earlier->seconds;
+  }
+
+  /// Steps until the end, an interrupt or a failure. @param start wall time at which the program began, s
+  RunStatus go(double start, bool quiet, std::ostream& err) {
+    seconds_.setup = seconds_now() - start;
+    ProgressLine progress(scene_.analysis.end_time, quiet, err);
+    RunStatus status = RunStatus::failed;
+    try {
+      save(start);
+      const bool is_static = scene_.analysis.type == SceneAnalysis::Type::statics;
+      status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
+      // Before the last frame, which a run that goes on has only if it is due.
+      save(start);
+      if (status == RunStatus::completed) status = audited();
+      folder_.add_end(built_.simulation);
+    } catch (const std::exception& error) {
+      status = saved_after(error, start);
+    }
+    progress.finish();
+    return summarised(status, start);
+  }
+
+  [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
+  /// Why the run failed or where it was interrupted, or what moves.
+  [[nodiscard]] const std::string& message() const { return message_; }
+  /// Why the state that the run ended in is not saved; empty: it is.
+  [[nodiscard]] const std::string& unsaved() const { return unsaved_; }
+
+ private:
+  RunStatus take_steps(double start, ProgressLine& progress) {
+    Simulation& simulation = built_.simulation;
+    const double end_time = scene_.analysis.end_time;
+    CheckpointSchedule schedule(interval_, seconds_now());
+    while (!simulation.reached(end_time)) {
+      if (InterruptGuard::interrupted()) return interrupted_here();
+      StepStatus status = StepStatus::accepted;
+      try {
+        status = simulation.step(end_time);
+      } catch (const std::exception& error) {
+        return failed_in_step(error);
+      }
+      if (status != StepStatus::accepted) {
+        const Rejection& last = simulation.rejections().back();
+        message_ = fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
+                               simulation.steps() + 1, simulation.time(), last.step, reason_of(last));
+        return RunStatus::failed;
+      }
+      record_step(start, schedule, progress);
+    }
+    return RunStatus::completed;
+  }
+
+  /// Whether blocks are where they may be at the end. After the run is saved: one that goes on has no end
+  /// here.
+  RunStatus audited() {
+    Simulation& simulation = built_.simulation;
+    const auto deep = simulation.audit();
+    if (!deep) return RunStatus::completed;
+    message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
+                           simulation.time(), description_of(*deep));
+    return RunStatus::failed;
+  }
+
+  RunStatus find_equilibrium(double start, ProgressLine& progress) {
+    Simulation& simulation = built_.simulation;
+    CheckpointSchedule schedule(interval_, seconds_now());
+    while (!InterruptGuard::interrupted()) {
+      const int before = simulation.steps();
+      StaticStatus status = StaticStatus::balancing;
+      try {
+        status = simulation.static_step(scene_.analysis.end_time);
+      } catch (const std::exception& error) {
+        return failed_in_step(error);
+      }
+      if (simulation.steps() > before) record_step(start, schedule, progress);
+      switch (status) {
+        case StaticStatus::balancing:
+          continue;
+        case StaticStatus::equilibrium:
+          message_ = describe_displaced(simulation);
+          return RunStatus::equilibrium;
+        case StaticStatus::moving:
+          message_ = describe_motion(simulation);
+          return RunStatus::moving;
+        case StaticStatus::not_converged:
+          message_ = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
+                                 simulation.steps(), simulation.time());
+          return RunStatus::not_converged;
+      }
+    }
+    return interrupted_here();
+  }
+
+  /// Why a step was rejected, with the blocks and the place where that is known.
+  [[nodiscard]] std::string reason_of(const Rejection& rejection) const {
+    const auto& fault = built_.simulation.fault();
+    if (!fault || fault->reason != rejection.reason) return to_string(rejection.reason);
+    return fmt::format("{}: {}", to_string(fault->reason), description_of(*fault));
+  }
+
+  [[nodiscard]] std::string description_of(const StateFault& fault) const {
+    const auto name = [&](int block) {
+      return built_.simulation.blocks()[static_cast<std::size_t>(block)].name();
+    };
+    if (fault.reason != RejectionReason::too_deep) return fmt::format("block {}", name(fault.blocks[0]));
+    return fmt::format(
+        "block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
+        name(fault.blocks[0]), name(fault.blocks[1]), fault.depth, fault.place.x(), fault.place.y(),
+        fault.place.z(), fault.allowed);
+  }
+
+  /// What no check of the scene foresaw: the state is that before the step.
+  RunStatus failed_in_step(const std::exception& error) {
+    message_ = fmt::format("step {} at t = {:.9g} s cannot be taken: {}", built_.simulation.steps() + 1,
+                           built_.simulation.time(), error.what());
+    return RunStatus::failed;
+  }
+
+  RunStatus interrupted_here() {
+    message_ = fmt::format("interrupted after step {}", built_.simulation.steps());
+    if (scene_.analysis.type == SceneAnalysis::Type::dynamic)
+      message_ +=
+          fmt::format(" at t = {:.9g} s of {:.9g} s", built_.simulation.time(), scene_.analysis.end_time);
+    return RunStatus::interrupted;
+  }
+
+  void record_step(double start, CheckpointSchedule& schedule, ProgressLine& progress) {
+    const double before = seconds_now();
+    claim_.check();
+    folder_.add_step(built_.simulation);
+    progress.update(progress_of(built_.simulation));
+    if (schedule.due(before)) {
+      save(start);
+      schedule.saved(seconds_now());
+    }
+    seconds_.output += seconds_now() - before;
+  }
+
+  void save(double start) {
+    write_state(start);
+    // The next state, which may have more contacts, and the summary fit in beside the state that is there.
+    constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
+    reserve_.hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
+  }
+
+  void write_state(double start) {
+    claim_.check();
+    state_bytes_ =
+        write_checkpoint(folder_.path() / checkpoint_name, hash_,
+                         {built_.simulation.snapshot(), folder_.synced_state(), seconds_until_now(start)});
+  }
+
+  /// After results could not be written, e.g. on a full disk: saves the state in the space that was kept.
+  RunStatus saved_after(const std::exception& error, double start) {
+    message_ = fmt::format("results of step {} at t = {:.9g} s could not be written: {}",
+                           built_.simulation.steps(), built_.simulation.time(), error.what());
+    reserve_.release();
+    try {
+      write_state(start);
+    } catch (const std::exception& fault) {
+      unsaved_ = fault.what();
+    }
+    return RunStatus::failed;
+  }
+
+  RunStatus summarised(RunStatus status, double start) {
+    const auto write = [&] {
+      claim_.check();
+      const auto summary =
+          run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
+      write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n",
+                            Durability::process);
+    };
+    try {
+      write();
+    } catch (const std::exception& error) {
+      status = RunStatus::failed;
+      if (message_.empty()) message_ = fmt::format("the summary could not be written: {}", error.what());
+      reserve_.release();
+      try {
+        write();
+      } catch (const std::exception& fault) {
+        if (unsaved_.empty()) unsaved_ = fault.what();
+      }
+    }
+    return status;
+  }
+
+  [[nodiscard]] RunSeconds seconds_until_now(double start) const {
+    return {earlier_seconds_.total + seconds_now() - start, earlier_seconds_.setup + seconds_.setup,
+            earlier_seconds_.output + seconds_.output};
+  }
+
+  const Scene& scene_;
+  std::uint64_t hash_;
+  BuiltSimulation built_;
+  const FolderClaim& claim_;
+  std::optional<double> interval_;
+  SpaceReserve reserve_;
+  ResultFolder folder_;
+  std::uintmax_t scene_bytes_ = json_text(to_json(scene_), 2).size();  ///< in the summary
+  std::uintmax_t state_bytes_ = 0;                                     ///< of the last checkpoint
+  RunSeconds earlier_seconds_;
+  RunSeconds seconds_;
+  std::string message_;
+  std::string unsaved_;
+};
+
+/// "; changed: KEY (was A, is B), ..." from the summary of the run before; empty if it has none or says
+/// nothing else.
+std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
+  constexpr std::size_t most_shown = 5;
+  nlohmann::ordered_json summary;
+  try {
+    summary = parse_json(whole_file(folder / "summary.json"));
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  if (!summary.is_object() || !summary.contains("scene")) return {};
+  std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
+  if (keys.empty()) return {};
+  const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
+  keys.resize(keys.size() - hidden);
+  return fmt::format("; changed: {}{}", fmt::join(keys, ", "),
+                     hidden > 0 ? fmt::format(" and {} more", hidden) : "");
+}
+
+/// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
+std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
+                                             Diagnostics& diagnostics) {
+  const std::filesystem::path path = folder / checkpoint_name;
+  try {
+    return read_checkpoint(path, scene_hash(loaded));
+  } catch (const OtherSceneError& error) {
+    diagnostics.error({path.string()}, error.what() + changed_keys(folder, loaded.scene));
+    return std::nullopt;
+  } catch (const CheckpointError& error) {
+    diagnostics.error({path.string()}, error.what());
+    return std::nullopt;
+  }
+}
+
+void tell_choices(const BuiltSimulation& built, std::ostream& err) {
+  for (const AutomaticChoice& choice : built.choices) {
+    const auto* number = std::get_if<double>(&choice.value);
+    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
+                                     : fmt::format("{}", std::get<bool>(choice.value));
+    err << fmt::format("chosen: {} = {}\n", choice.key, value);
+  }
+  if (!built.as_placed.empty())
+    err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
+                       first_names(built.as_placed));
+}
+
+/// Blocks that are farther in each other than contact that does not give way would be.
+void warn_of_depth(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.01;
+  const DeepestPoint& deepest = simulation.deepest();
+  if (!(deepest.share > ordinary)) return;
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  err << fmt::format(
+      "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
+      "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
+      "apart\n",
+      name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+}
+
+/// Multipliers stop what lands by impulses without friction, which the next steps make up for where blocks
+/// stay together.
+void warn_of_friction(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.02;
+  const double excess = simulation.sliding_friction().excess();
+  if (!(std::abs(excess) > ordinary)) return;
+  err << fmt::format(
+      "ashlar: warning: where blocks slid on multipliers, {:.3g} of the friction has acted that "
+      "Coulomb's law makes of their normal forces, as they part and meet again from step to step: a larger "
+      "time_step, or "
+      "augmented = false, whose friction is exact\n",
+      1.0 + excess);
+}
+
+void tell_end(RunStatus status, const Run& run, const std::filesystem::path& folder, bool quiet,
+              std::ostream& err) {
+  const std::string& message = run.message();
+  if (!run.unsaved().empty()) {
+    err << fmt::format("ashlar: error: {}; the last state could not be saved: {}\n", message, run.unsaved());
+    return;
+  }
+  switch (status) {
+    case RunStatus::failed:
+      err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message, folder.string());
+      break;
+    case RunStatus::not_converged:
+      err << fmt::format("ashlar: error: {}; the last state is in {}\n", message, folder.string());
+      break;
+    case RunStatus::interrupted:
+      err << fmt::format("ashlar: {}; the state is saved in {}, the same command with --resume goes on\n",
+                         message, folder.string());
+      break;
+    case RunStatus::moving:
+      if (!quiet) err << message << '\n';
+      break;
+    case RunStatus::equilibrium:
+      if (!quiet) err << (message.empty() ? "equilibrium" : message) << '\n';
+      break;
+    case RunStatus::completed:
+      break;
+  }
+}
+
+/// The folder for this run alone. @return null: refused, and told why
+std::unique_ptr<FolderClaim> claim_folder(const std::filesystem::path& folder, const RunOptions& options,
+                                          std::ostream& err) {
+  const ClaimPurpose purpose = options.resume  ? ClaimPurpose::resume
+                               : options.force ? ClaimPurpose::replacement
+                                               : ClaimPurpose::new_run;
+  try {
+    auto claim = std::make_unique<FolderClaim>(folder, purpose);
+    if (!claim->unlocked().empty()) {
+      err << fmt::format(
+          "ashlar: warning: {} cannot be locked ({}): a second run into it would not be noticed\n",
+          folder.string(), claim->unlocked());
+    }
+    return claim;
+  } catch (const ClaimRefused& refused) {
+    err << "ashlar: error: " << refused.what() << '\n';
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options, std::ostream& err) {
+  const double start = seconds_now();
+  const std::filesystem::path folder = result_folder_of(options);
+  Diagnostics diagnostics;
+  std::optional<LoadedScene> loaded;
+  std::optional<BuiltSimulation> built;
+  {
+    Preparation preparation(options.quiet, err);
+    loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
+    if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics, &preparation);
+    if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+      refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+  }
+  // Where there is nothing to go on from, nothing is made.
+  if (built && options.resume && !std::filesystem::exists(folder / checkpoint_name))
+    (void)find_checkpoint(folder, *loaded, diagnostics);
+  diagnostics.print(err);
+  if (!diagnostics.good()) return exit_status::bad_input;
+  const std::unique_ptr<FolderClaim> claim = claim_folder(folder, options, err);
+  if (!claim) return exit_status::bad_input;
+  std::optional<RunCheckpoint> earlier;
+  if (options.resume) {
+    Diagnostics faults;
+    earlier = find_checkpoint(folder, *loaded, faults);
+    faults.print(err);
+    if (!faults.good()) return exit_status::bad_input;
+    built->simulation.restore(earlier->simulation);
+  }
+  if (!options.quiet) {
+    tell_choices(*built, err);
+    err << to_string(loaded->cost, loaded->scene.block.size()) << '\n';
+    for (const std::string& line : motion_left(loaded->scene)) err << line << '\n';
+  }
+  if (starts_from_statics(loaded->scene) && !earlier) {
+    const StaticStart statics = start_in_statics(built->simulation);
+    if (!statics.message.empty())
+      err << fmt::format("ashlar: {}: {}\n", statics.failed ? "error" : "note", statics.message);
+    if (statics.failed) return exit_status::failed;
+  }
+  const InterruptGuard guard;
+  std::optional<Run> started;
+  try {
+    started.emplace(*loaded, std::move(*built), *claim, earlier, options.checkpoint);
+  } catch (const std::exception& error) {
+    // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
+    err << "ashlar: error: " << error.what() << '\n';
+    return exit_status::bad_input;
+  }
+  Run& run = *started;
+  const RunStatus status = run.go(start, options.quiet, err);
+  tell_end(status, run, folder, options.quiet, err);
+  warn_of_depth(run.simulation(), err);
+  warn_of_friction(run.simulation(), err);
+  if (options.view) {
+    (void)write_view_file(folder, folder / "view.html");
+    if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());
+  }
+  return exit_status_of(status);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,13 @@
+// Reading one [[block]] of a scene: its shape, placing, supports and loads.
+#pragma once
+
+#include "apps/scene/scene.hpp"
+#include "apps/scene/toml_table_reader.hpp"
+
+namespace ashlar {
+
+/// Faults go to the table's diagnostics. A shape that is missing, given twice, faulty or not placed well is
+/// left empty; points and planes that are faulty are not finite.
+[[nodiscard]] SceneBlock read_block(TomlTableReader& table);
+
+}  // namespace ashlar

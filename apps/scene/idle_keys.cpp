@@ -1,0 +1,75 @@
+#include "apps/scene/idle_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace ashlar {
+namespace {
+
+class IdleKeys {
+ public:
+  IdleKeys(const Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
+
+  /// Warns if the key was given. @param path as in ScenePlaces. @param reason what leaves it without effect
+  void warn(const std::string& path, const std::string& reason) {
+    if (!scene_.places.contains(path)) return;
+    diagnostics_.warning(scene_.places.key(path),
+                         fmt::format("{} has no effect: {}", path.substr(path.rfind('.') + 1), reason));
+  }
+
+ private:
+  const Scene& scene_;
+  Diagnostics& diagnostics_;
+};
+
+void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
+  const SceneAnalysis& analysis = scene.analysis;
+  if (analysis.type == SceneAnalysis::Type::statics) {
+    for (const char* key : {"analysis.integrator", "analysis.spectral_radius", "analysis.mass_damping"})
+      keys.warn(key, "a static analysis has no motion in time");
+    if (analysis.initial_state == SceneAnalysis::InitialState::statics)
+      keys.warn("analysis.initial_state", "a static analysis starts from where blocks are placed");
+  } else if (analysis.integrator != SceneAnalysis::Integrator::generalized_alpha) {
+    keys.warn("analysis.spectral_radius", "only integrator = \"generalized-alpha\" has one");
+  }
+  if (!has_multipliers(scene)) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
+}
+
+void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
+  const bool is_static = scene.analysis.type == SceneAnalysis::Type::statics;
+  for (std::size_t k = 0; k < scene.block.size(); ++k) {
+    const SceneBlock& block = scene.block[k];
+    const auto path = [&](const char* key) { return fmt::format("block.{}.{}", k, key); };
+    if (block.fixed) keys.warn(path("order"), "a fixed block does not deform");
+    if (is_static && !block.velocity.isZero(0.0))
+      keys.warn(path("velocity"), "a static analysis has no motion in time");
+    if (is_static && !block.angular_velocity.isZero(0.0))
+      keys.warn(path("angular_velocity"), "a static analysis has no motion in time");
+  }
+}
+
+/// A joint that ties two blocks by their names. Globs may also match pairs that a later joint unties.
+void warn_of_ties(const Scene& scene, IdleKeys& keys) {
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    const SceneJoint& joint = scene.joint[k];
+    const auto is_glob = [](const std::string& name) {
+      return name.find_first_of("*?[") != std::string::npos;
+    };
+    if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
+    for (const char* key :
+         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength"})
+      keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
+  }
+}
+
+}  // namespace
+
+void warn_of_idle_keys(const Scene& scene, Diagnostics& diagnostics) {
+  IdleKeys keys(scene, diagnostics);
+  warn_of_analysis(scene, keys);
+  warn_of_blocks(scene, keys);
+  warn_of_ties(scene, keys);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,60 @@
+#include "apps/scene/joint_table.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+#include "apps/scene/name_pattern.hpp"
+
+namespace ashlar {
+
+JointTable::JointTable(const Scene& scene) : scene_(scene), listed_(scene.block.size()) {
+  std::map<std::string, std::vector<std::size_t>> by_name;
+  for (std::size_t k = 0; k < scene.block.size(); ++k) by_name[scene.block[k].name].push_back(k);
+  const auto matched_by = [&](const std::string& pattern) {
+    const auto [place, is_new] = blocks_of_.emplace(pattern, std::vector<std::size_t>{});
+    if (!is_new) return &place->second;
+    // A name without glob letters matches itself alone.
+    if (pattern.find_first_of("*?[\\") == std::string::npos) {
+      const auto found = by_name.find(pattern);
+      if (found != by_name.end()) place->second = found->second;
+    } else {
+      for (std::size_t k = 0; k < scene.block.size(); ++k)
+        if (pattern_matches(pattern, scene.block[k].name)) place->second.push_back(k);
+    }
+    return &place->second;
+  };
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    for (const std::string& pattern : scene.joint[k].blocks) matched_.push_back(matched_by(pattern));
+    const std::size_t rarer = matched(k, 0).size() <= matched(k, 1).size() ? 0 : 1;
+    for (const std::size_t block : matched(k, rarer)) listed_[block].push_back(k);
+  }
+}
+
+bool JointTable::matches(std::size_t joint, std::size_t side, std::size_t block) const {
+  return std::binary_search(matched(joint, side).begin(), matched(joint, side).end(), block);
+}
+
+std::vector<std::size_t> JointTable::joints_between(std::size_t a, std::size_t b) const {
+  std::vector<std::size_t> candidates;
+  std::set_union(listed_[a].begin(), listed_[a].end(), listed_[b].begin(), listed_[b].end(),
+                 std::back_inserter(candidates));
+  std::erase_if(candidates, [&](std::size_t joint) {
+    return !(matches(joint, 0, a) && matches(joint, 1, b)) && !(matches(joint, 0, b) && matches(joint, 1, a));
+  });
+  return candidates;
+}
+
+SceneJointLaw JointTable::law_between(std::size_t a, std::size_t b) const {
+  SceneJointLaw law = scene_.contact.law;
+  for (const std::size_t joint : joints_between(a, b)) override_law(law, scene_.joint[joint]);
+  return law;
+}
+
+bool JointTable::matches_a_pair(std::size_t joint) const {
+  const std::vector<std::size_t>&first = matched(joint, 0), &second = matched(joint, 1);
+  if (first.empty() || second.empty()) return false;
+  return first.size() > 1 || second.size() > 1 || first.front() != second.front();
+}
+
+}  // namespace ashlar

@@ -1,0 +1,38 @@
+// The ranges that numbers of a scene are held to, with the words by which they are explained to users.
+#pragma once
+
+#include <limits>
+
+#include "geometry/exact/coordinate_limit.hpp"
+
+namespace ashlar {
+
+/// Numbers that are allowed and the words for them ("a number > 0").
+struct NumberRange {
+  double low;
+  double high;
+  bool low_allowed;
+  bool high_allowed;
+  const char* words;
+
+  [[nodiscard]] bool contains(double value) const {
+    return (low_allowed ? value >= low : value > low) && (high_allowed ? value <= high : value < high);
+  }
+};
+
+namespace range {
+
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+inline constexpr NumberRange any_number = {-no_limit, no_limit, false, false, "a number"};
+inline constexpr NumberRange positive = {0.0, no_limit, false, false, "a number > 0"};
+inline constexpr NumberRange positive_length = {0.0, largest_coordinate, false, true,
+                                                "a number > 0 and <= 1e150"};
+inline constexpr NumberRange not_negative = {0.0, no_limit, true, false, "a number >= 0"};
+inline constexpr NumberRange zero_to_one = {0.0, 1.0, true, true, "a number from 0 to 1"};
+inline constexpr NumberRange zero_to_below_half = {0.0, 0.5, true, false, "a number >= 0 and < 0.5"};
+inline constexpr NumberRange zero_to_45 = {0.0, 45.0, true, true, "a number of degrees from 0 to 45"};
+inline constexpr NumberRange zero_to_below_90 = {0.0, 90.0, true, false, "a number of degrees >= 0 and < 90"};
+
+}  // namespace range
+}  // namespace ashlar

@@ -1,0 +1,65 @@
+#include "apps/scene/scene.hpp"
+
+#include <algorithm>
+
+#include "apps/scene/name_pattern.hpp"
+
+namespace ashlar {
+
+void override_law(SceneJointLaw& law, const SceneJoint& joint) {
+  law.normal_stiffness = joint.normal_stiffness.value_or(law.normal_stiffness);
+  law.shear_stiffness = joint.shear_stiffness.value_or(law.shear_stiffness);
+  law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
+  law.cohesion = joint.cohesion.value_or(law.cohesion);
+  law.tensile_strength = joint.tensile_strength.value_or(law.tensile_strength);
+  law.tied = joint.tied.value_or(law.tied);
+}
+
+SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, const std::string& block_b) {
+  SceneJointLaw law = scene.contact.law;
+  for (const SceneJoint& joint : scene.joint) {
+    if (pattern_matches_pair(joint.blocks, block_a, block_b)) override_law(law, joint);
+  }
+  return law;
+}
+
+const char* history_key(const SceneFix& fix) {
+  switch (fix.record) {
+    case MotionRecord::displacement:
+    case MotionRecord::smooth_displacement:
+      return "displacement_history";
+    case MotionRecord::velocity:
+      return "velocity_history";
+    case MotionRecord::acceleration:
+      return "acceleration_history";
+  }
+  return "displacement_history";
+}
+
+bool starts_from_statics(const Scene& scene) {
+  return scene.analysis.type == SceneAnalysis::Type::dynamic &&
+         scene.analysis.initial_state == SceneAnalysis::InitialState::statics;
+}
+
+bool has_multipliers(const Scene& scene) {
+  if (scene.contact.augmented) return *scene.contact.augmented;
+  const bool given = scene.contact.law.gives_stiffness();
+  const auto any_joint = [&](const auto& is_so) {
+    return std::any_of(scene.joint.begin(), scene.joint.end(), [&](const SceneJoint& joint) {
+      return is_so(joint.normal_stiffness) || is_so(joint.shear_stiffness);
+    });
+  };
+  using Stiffness = std::optional<std::optional<double>>;
+  if (scene.analysis.type == SceneAnalysis::Type::statics)
+    return !given || any_joint([](const Stiffness& stiffness) { return stiffness && !*stiffness; });
+  return starts_from_statics(scene) && !given &&
+         !any_joint([](const Stiffness& stiffness) { return stiffness && *stiffness; });
+}
+
+const SceneMaterial* find_material(const Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.material.begin(), scene.material.end(),
+                                  [&](const SceneMaterial& material) { return material.name == name; });
+  return found == scene.material.end() ? nullptr : &*found;
+}
+
+}  // namespace ashlar

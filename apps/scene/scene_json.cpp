@@ -1,0 +1,196 @@
+#include "apps/scene/scene_json.hpp"
+
+#include "apps/scene/scene_names.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Vector3& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+template <typename Number>
+Json or_auto(const std::optional<Number>& number) {
+  return number ? Json(*number) : Json("auto");
+}
+
+Json to_json(const SceneAnalysis& analysis) {
+  return {{"type", name_of(analysis_type_names, analysis.type)},
+          {"end_time", analysis.end_time},
+          {"time_step", analysis.time_step},
+          {"integrator", name_of(integrator_names, analysis.integrator)},
+          {"spectral_radius", analysis.spectral_radius},
+          {"formulation", name_of(formulation_names, analysis.formulation)},
+          {"initial_state", name_of(initial_state_names, analysis.initial_state)},
+          {"gravity", to_json(analysis.gravity)},
+          {"solver", name_of(solver_names, analysis.solver)},
+          {"mass_damping", analysis.mass_damping},
+          {"memory_limit", or_auto(analysis.memory_limit)}};
+}
+
+Json to_json(const SceneContact& contact, bool augmented) {
+  Json json = {{"springs", name_of(springs_names, contact.springs)},
+               {"surface", name_of(surface_names, contact.surface)},
+               {"normal_stiffness", or_auto(contact.law.normal_stiffness)},
+               {"shear_stiffness", or_auto(contact.law.shear_stiffness)},
+               {"friction_angle", contact.law.friction_angle},
+               {"cohesion", contact.law.cohesion},
+               {"tensile_strength", contact.law.tensile_strength},
+               {"distance", or_auto(contact.distance)},
+               {"angle", or_auto(contact.angle)}};
+  if (contact.subdivisions)
+    json["subdivisions"] = *contact.subdivisions;
+  else
+    json["chord_tolerance"] = or_auto(contact.chord_tolerance);
+  json["augmented"] = augmented;
+  json["penetration_tolerance"] = or_auto(contact.penetration_tolerance);
+  json["allowed_depth"] = or_auto(contact.allowed_depth);
+  return json;
+}
+
+Json to_json(const SceneJoint& joint) {
+  Json json = {{"blocks", joint.blocks}};
+  if (joint.normal_stiffness) json["normal_stiffness"] = or_auto(*joint.normal_stiffness);
+  if (joint.shear_stiffness) json["shear_stiffness"] = or_auto(*joint.shear_stiffness);
+  if (joint.friction_angle) json["friction_angle"] = *joint.friction_angle;
+  if (joint.cohesion) json["cohesion"] = *joint.cohesion;
+  if (joint.tensile_strength) json["tensile_strength"] = *joint.tensile_strength;
+  if (joint.tied) json["tied"] = *joint.tied;
+  return json;
+}
+
+Json to_json(const SceneMaterial& material) {
+  return {{"name", material.name},
+          {"density", material.density},
+          {"young_modulus", material.young_modulus},
+          {"poisson_ratio", material.poisson_ratio},
+          {"elasticity", name_of(elasticity_names, material.elasticity)}};
+}
+
+struct ShapeToJson {
+  Json& json;
+
+  void operator()(std::monostate) const {}
+  void operator()(const SceneBox& box) const {
+    json["box"] = {{"min", to_json(box.min)}, {"max", to_json(box.max)}};
+  }
+  void operator()(const SceneMesh& mesh) const {
+    json["mesh"] = {{"file", mesh.file.string()}, {"scale", mesh.scale}};
+  }
+  void operator()(const SceneHull& hull) const {
+    Json points = Json::array();
+    for (const Vector3& point : hull.points) points.push_back(to_json(point));
+    json["hull"] = {{"points", points}};
+  }
+  void operator()(const SceneSphere& sphere) const {
+    json["sphere"] = {
+        {"center", to_json(sphere.center)}, {"radius", sphere.radius}, {"subdivisions", sphere.subdivisions}};
+  }
+};
+
+void add_where(Json& json, const std::variant<ScenePlane, Vector3>& where) {
+  if (const Vector3* point = std::get_if<Vector3>(&where)) {
+    json["point"] = to_json(*point);
+    return;
+  }
+  const ScenePlane& plane = std::get<ScenePlane>(where);
+  json["plane"] = {{"point", to_json(plane.point)}, {"normal", to_json(plane.normal)}};
+}
+
+Json to_json(const SceneRecord& record) {
+  return {{"file", record.file.string()},
+          {"time", record.time},
+          {"values", record.values},
+          {"scale", record.scale}};
+}
+
+Json to_json(const SceneFix& fix) {
+  Json json = Json::object();
+  add_where(json, fix.where);
+  json["components"] = Json::array();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (fix.components[axis]) json["components"].push_back(std::string(1, "xyz"[axis]));
+  if (fix.record == MotionRecord::smooth_displacement) json["interpolation"] = "cubic";
+  if (fix.file) {
+    json[history_key(fix)] = to_json(*fix.file);
+    return json;
+  }
+  for (const auto& [time, value] : fix.history)
+    json[history_key(fix)].push_back({time, value.x(), value.y(), value.z()});
+  return json;
+}
+
+Json to_json(const SceneLoad& load) {
+  Json json = Json::object();
+  add_where(json, load.where);
+  json[load.kind == SceneLoad::Kind::traction ? "traction" : "force"] = to_json(load.vector);
+  if (load.file) {
+    json["history"] = to_json(*load.file);
+    return json;
+  }
+  for (const SceneLoad::Factor& factor : load.history)
+    json["history"].push_back({factor.time, factor.factor});
+  return json;
+}
+
+Json to_json(const SceneBlock& block);
+Json to_json(const SceneMeasure& measure);
+
+template <typename Entry>
+Json list_to_json(const std::vector<Entry>& entries) {
+  Json json = Json::array();
+  for (const Entry& entry : entries) json.push_back(to_json(entry));
+  return json;
+}
+
+Json to_json(const SceneBlock& block) {
+  Json json = {{"name", block.name}};
+  if (!block.material.empty()) json["material"] = block.material;
+  json["order"] = block.order;
+  std::visit(ShapeToJson{json}, block.shape);
+  if (block.rotate)
+    json["rotate"] = {{"axis", to_json(block.rotate->axis)},
+                      {"angle", block.rotate->angle},
+                      {"about", to_json(block.rotate->about)}};
+  json["translate"] = to_json(block.translate);
+  json["velocity"] = to_json(block.velocity);
+  json["angular_velocity"] = to_json(block.angular_velocity);
+  json["fixed"] = block.fixed;
+  if (!block.fix.empty()) json["fix"] = list_to_json(block.fix);
+  if (!block.load.empty()) json["load"] = list_to_json(block.load);
+  return json;
+}
+
+Json to_json(const SceneMeasure& measure) {
+  return {{"name", measure.name}, {"block", measure.block}, {"point", to_json(measure.point)}};
+}
+
+Json to_json(const SceneOutput& output) {
+  Json json = Json::object();
+  if (output.every) json["every"] = *output.every;
+  if (output.interval) json["interval"] = *output.interval;
+  json["history_every"] = output.history_every;
+  json["fields"] = Json::array();
+  for (const auto& [name, member] : field_names)
+    if (output.fields.*member) json["fields"].push_back(name);
+  json["curved"] = output.curved;
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Scene& scene) {
+  Json json = {{"title", scene.title},
+               {"analysis", to_json(scene.analysis)},
+               {"contact", to_json(scene.contact, has_multipliers(scene))}};
+  if (!scene.joint.empty()) json["joint"] = list_to_json(scene.joint);
+  json["material"] = list_to_json(scene.material);
+  json["block"] = list_to_json(scene.block);
+  if (!scene.measure.empty()) json["measure"] = list_to_json(scene.measure);
+  json["output"] = to_json(scene.output);
+  return json;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,46 @@
+#include "apps/scene/scene_loading.hpp"
+
+#include "apps/scene/available_features.hpp"
+#include "apps/scene/base_motion.hpp"
+#include "apps/scene/doubtful_keys.hpp"
+#include "apps/scene/idle_keys.hpp"
+#include "apps/scene/initial_overlap.hpp"
+#include "apps/scene/scene_checks.hpp"
+#include "apps/scene/scene_limits.hpp"
+#include "apps/scene/scene_reader.hpp"
+#include "apps/scene/scene_solids.hpp"
+#include "apps/scene/soft_blocks.hpp"
+
+namespace ashlar {
+
+std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
+                                      const std::vector<std::string>& overrides, Diagnostics& diagnostics,
+                                      Preparation* preparation) {
+  const auto phase = [&](const char* words) {
+    if (preparation != nullptr) preparation->phase(words);
+  };
+  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}, {}};
+  check_references(loaded.scene, diagnostics);
+  check_availability(loaded.scene, diagnostics);
+  // Nothing of a scene that is too large is built.
+  if (!check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics)) return std::nullopt;
+  std::vector<std::optional<Polyhedron>> solids =
+      build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
+  check_placement(loaded.scene, solids, diagnostics);
+  check_limits(loaded.scene, solids, diagnostics);
+  warn_of_mesh_units(loaded.scene, solids, diagnostics);
+  phase("overlaps of blocks");
+  check_initial_overlap(loaded.scene, solids, diagnostics);
+  if (!diagnostics.good()) return std::nullopt;
+  phase("sizes of the scene");
+  loaded.cost = estimate_cost(loaded.scene, &solids);
+  if (!check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
+  warn_of_idle_keys(loaded.scene, diagnostics);
+  warn_of_doubtful_keys(loaded.scene, diagnostics);
+  warn_of_jumping_supports(loaded.scene, diagnostics);
+  warn_of_soft_blocks(loaded.scene, solids, diagnostics);
+  for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
+  return loaded;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,36 @@
+// From a scene file and its overrides to a checked scene with its solids: what `run` and `check` start from.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/scene/cost_estimate.hpp"
+#include "apps/scene/diagnostics.hpp"
+#include "apps/scene/preparation.hpp"
+#include "apps/scene/scene.hpp"
+#include "geometry/solid/polyhedron.hpp"
+
+namespace ashlar {
+
+struct LoadedScene {
+  Scene scene;
+  std::vector<Polyhedron> solids;  ///< one per scene.block, placed
+  /// One per scene.block, before it was translated; equal ones are one.
+  std::vector<std::shared_ptr<const Polyhedron>> shapes;
+  CostEstimate cost;
+};
+
+/// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
+/// soft_blocks.hpp, idle_keys.hpp.
+/// @param overrides "key.path=value" each, as given to --set, applied in order.
+/// @param preparation is told what is at work, if there is one.
+/// @return nothing if the scene has any error; all of them are then in diagnostics. Writes no file.
+[[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
+                                                    const std::vector<std::string>& overrides,
+                                                    Diagnostics& diagnostics,
+                                                    Preparation* preparation = nullptr);
+
+}  // namespace ashlar

@@ -1,0 +1,59 @@
+// The words of the scene format for each choice, in the order in which they are listed to users.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "apps/scene/scene.hpp"
+
+namespace ashlar {
+
+template <typename Choice, std::size_t count>
+using ChoiceNames = std::array<std::pair<const char*, Choice>, count>;
+
+inline constexpr ChoiceNames<SceneAnalysis::Type, 2> analysis_type_names = {
+    {{"dynamic", SceneAnalysis::Type::dynamic}, {"static", SceneAnalysis::Type::statics}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Integrator, 3> integrator_names = {
+    {{"dda", SceneAnalysis::Integrator::dda},
+     {"average-acceleration", SceneAnalysis::Integrator::average_acceleration},
+     {"generalized-alpha", SceneAnalysis::Integrator::generalized_alpha}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Formulation, 2> formulation_names = {
+    {{"total", SceneAnalysis::Formulation::total}, {"incremental", SceneAnalysis::Formulation::incremental}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::InitialState, 3> initial_state_names = {
+    {{"as-placed", SceneAnalysis::InitialState::as_placed},
+     {"equilibrium", SceneAnalysis::InitialState::equilibrium},
+     {"static", SceneAnalysis::InitialState::statics}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Solver, 4> solver_names = {
+    {{"auto", SceneAnalysis::Solver::automatic},
+     {"cholmod", SceneAnalysis::Solver::cholmod},
+     {"cg", SceneAnalysis::Solver::cg},
+     {"dual", SceneAnalysis::Solver::dual}}};
+
+inline constexpr ChoiceNames<SceneContact::Springs, 2> springs_names = {
+    {{"area", SceneContact::Springs::area}, {"point", SceneContact::Springs::point}}};
+
+inline constexpr ChoiceNames<SceneContact::Surface, 2> surface_names = {
+    {{"curved", SceneContact::Surface::curved}, {"flat", SceneContact::Surface::flat}}};
+
+inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
+    {{"linear", SceneMaterial::Elasticity::linear},
+     {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};
+
+inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 3> field_names = {
+    {{"displacement", &SceneOutput::Fields::displacement},
+     {"velocity", &SceneOutput::Fields::velocity},
+     {"stress", &SceneOutput::Fields::stress}}};
+
+/// The word for a choice.
+template <typename Choice, std::size_t count>
+[[nodiscard]] constexpr const char* name_of(const ChoiceNames<Choice, count>& names, Choice choice) {
+  for (const auto& [name, value] : names)
+    if (value == choice) return name;
+  return "";
+}
+
+}  // namespace ashlar

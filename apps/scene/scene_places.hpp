@@ -1,0 +1,38 @@
+// Where each key of a scene was written, so that a fault found long after reading still points at its line.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "apps/scene/diagnostics.hpp"
+
+namespace ashlar {
+
+/// Places of the keys that were given (defaults have none). A key is named by its path: tables and keys
+/// joined by dots, entries of arrays of tables by their 0-based index: "analysis.time_step",
+/// "block.0.fix.1.plane".
+class ScenePlaces {
+ public:
+  /// Both places of one key: of its name and of its value. A [[table]] header is the place of its entry.
+  struct KeyPlaces {
+    Place key;
+    Place value;
+  };
+
+  void record(const std::string& path, KeyPlaces places) { places_[path] = std::move(places); }
+  [[nodiscard]] bool contains(const std::string& path) const { return places_.contains(path); }
+  /// Place of the key's name, or of the innermost table around it that was given; the scene's start if none
+  /// was.
+  [[nodiscard]] Place key(const std::string& path) const { return find(path).key; }
+  /// Same for the key's value.
+  [[nodiscard]] Place value(const std::string& path) const { return find(path).value; }
+  /// All given keys by path.
+  [[nodiscard]] const std::map<std::string, KeyPlaces>& all() const { return places_; }
+
+ private:
+  [[nodiscard]] KeyPlaces find(std::string path) const;
+
+  std::map<std::string, KeyPlaces> places_;  ///< "" is the start of the scene
+};
+
+}  // namespace ashlar

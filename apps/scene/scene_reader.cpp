@@ -1,0 +1,215 @@
+#include "apps/scene/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+#include "apps/scene/block_reader.hpp"
+#include "apps/scene/scene_names.hpp"
+#include "apps/scene/scene_overrides.hpp"
+#include "apps/scene/toml_faults.hpp"
+#include "apps/scene/toml_table_reader.hpp"
+
+namespace ashlar {
+namespace {
+
+void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
+  table.read_choice("type", analysis.type, analysis_type_names);
+  table.read_number("end_time", analysis.end_time, range::positive);
+  table.read_number("time_step", analysis.time_step, range::positive);
+  table.read_choice("integrator", analysis.integrator, integrator_names);
+  table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
+  table.read_choice("formulation", analysis.formulation, formulation_names);
+  table.read_choice("initial_state", analysis.initial_state, initial_state_names);
+  table.read_vector("gravity", analysis.gravity);
+  table.read_choice("solver", analysis.solver, solver_names);
+  table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
+  table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
+}
+
+bool has_history(const SceneBlock& block) {
+  return std::any_of(block.fix.begin(), block.fix.end(),
+                     [](const SceneFix& fix) { return !fix.history.empty(); }) ||
+         std::any_of(block.load.begin(), block.load.end(),
+                     [](const SceneLoad& load) { return !load.history.empty(); });
+}
+
+// A static analysis of constant loads has no use for times.
+void complete_times(TomlTableReader& table, Scene& scene) {
+  SceneAnalysis& analysis = scene.analysis;
+  const bool timeless = analysis.type == SceneAnalysis::Type::statics &&
+                        std::none_of(scene.block.begin(), scene.block.end(), has_history);
+  if (!timeless) {
+    table.require("end_time");
+    table.require("time_step");
+    return;
+  }
+  if (!table.given("end_time")) analysis.end_time = std::max(default_static_end_time, analysis.time_step);
+  if (!table.given("time_step")) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
+}
+
+void read_contact(TomlTableReader table, SceneContact& contact) {
+  table.read_choice("springs", contact.springs, springs_names);
+  table.read_choice("surface", contact.surface, surface_names);
+  table.read_number_or_auto("normal_stiffness", contact.law.normal_stiffness, range::positive);
+  table.read_number_or_auto("shear_stiffness", contact.law.shear_stiffness, range::positive);
+  table.read_number("friction_angle", contact.law.friction_angle, range::zero_to_below_90);
+  table.read_number("cohesion", contact.law.cohesion, range::not_negative);
+  table.read_number("tensile_strength", contact.law.tensile_strength, range::not_negative);
+  table.read_number_or_auto("distance", contact.distance, range::positive);
+  table.read_number_or_auto("angle", contact.angle, range::zero_to_45);
+  table.read_number_or_auto("chord_tolerance", contact.chord_tolerance, range::positive);
+  table.read_integer("subdivisions", contact.subdivisions, 0, 8);
+  bool augmented = false;
+  if (table.read_bool("augmented", augmented)) contact.augmented = augmented;
+  table.read_number_or_auto("penetration_tolerance", contact.penetration_tolerance, range::positive);
+  table.read_number_or_auto("allowed_depth", contact.allowed_depth, range::positive);
+  if (contact.chord_tolerance && contact.subdivisions)
+    table.error_at_key("subdivisions",
+                       fmt::format("subdivisions beside chord_tolerance ({}), only one of both "
+                                   "is allowed",
+                                   *contact.subdivisions));
+}
+
+// A stiffness of a joint tells "not given" from "auto".
+void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::optional<double>>& result) {
+  std::optional<double> stiffness;
+  if (table.read_number_or_auto(key, stiffness, range::positive)) result.emplace(stiffness);
+}
+
+SceneJoint read_joint(TomlTableReader& table) {
+  SceneJoint joint;
+  std::vector<std::string> blocks;
+  table.require("blocks");
+  if (table.read_texts("blocks", blocks)) {
+    if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
+      table.error_at_value(
+          "blocks",
+          "joint names no block (\"\"), the name of a [[block]] or a glob that matches one is needed");
+    else if (blocks.size() == 2)
+      joint.blocks = {blocks[0], blocks[1]};
+    else
+      table.error_at_value("blocks", fmt::format("blocks has the wrong length ({} entries), two block names "
+                                                 "are needed",
+                                                 blocks.size()));
+  }
+  read_stiffness(table, "normal_stiffness", joint.normal_stiffness);
+  read_stiffness(table, "shear_stiffness", joint.shear_stiffness);
+  table.read_number("friction_angle", joint.friction_angle, range::zero_to_below_90);
+  table.read_number("cohesion", joint.cohesion, range::not_negative);
+  table.read_number("tensile_strength", joint.tensile_strength, range::not_negative);
+  bool tied = false;
+  if (table.read_bool("tied", tied)) joint.tied = tied;
+  return joint;
+}
+
+SceneMaterial read_material(TomlTableReader& table) {
+  SceneMaterial material;
+  for (const char* key : {"name", "density", "young_modulus", "poisson_ratio"}) table.require(key);
+  table.read_name("name", material.name);
+  table.read_number("density", material.density, range::positive);
+  table.read_number("young_modulus", material.young_modulus, range::positive);
+  table.read_number("poisson_ratio", material.poisson_ratio, range::zero_to_below_half);
+  table.read_choice("elasticity", material.elasticity, elasticity_names);
+  return material;
+}
+
+SceneMeasure read_measure(TomlTableReader& table) {
+  SceneMeasure measure;
+  // Not finite until read, so that no later check is made on a point that is not there.
+  measure.point.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (const char* key : {"name", "block", "point"}) table.require(key);
+  table.read_name("name", measure.name);
+  table.read_name("block", measure.block);
+  table.read_place("point", measure.point);
+  return measure;
+}
+
+void read_output(TomlTableReader table, SceneOutput& output) {
+  const bool every_given = table.given("every"), interval_given = table.given("interval");
+  table.read_integer("every", output.every, 1, std::numeric_limits<int>::max());
+  table.read_number("interval", output.interval, range::positive);
+  if (every_given && interval_given)
+    table.error_at_key("interval", "interval beside every (both given), only one of both is allowed");
+  if (!every_given && !interval_given) output.every = default_frame_distance;
+  table.read_integer("history_every", output.history_every, 1, std::numeric_limits<int>::max());
+  table.read_bool("curved", output.curved);
+  std::vector<std::string> fields;
+  if (!table.read_words("fields", fields, field_names)) return;
+  for (const auto& [name, member] : field_names)
+    output.fields.*member = std::find(fields.begin(), fields.end(), name) != fields.end();
+}
+
+void read_tables(TomlTableReader top, Scene& scene) {
+  top.read_text("title", scene.title);
+  TomlTableReader analysis = top.table_or_empty("analysis");
+  read_analysis(analysis, scene.analysis);
+  read_contact(top.table_or_empty("contact"), scene.contact);
+  scene.joint = top.read_tables("joint", read_joint);
+  scene.material = top.read_tables("material", read_material);
+  scene.block = top.read_tables("block", read_block);
+  scene.measure = top.read_tables("measure", read_measure);
+  read_output(top.table_or_empty("output"), scene.output);
+  complete_times(analysis, scene);
+  if (scene.block.empty()) top.error_at_table("no block (0), at least one [[block]] is needed");
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
+  Scene scene;
+  scene.file = file;
+  const Place start{file.string(), 1, 1};
+  scene.places.record("", {start, start});
+  try {
+    toml::table document = parse_toml(text, start.origin);
+    apply_overrides(document, overrides, diagnostics);
+    TomlReading reading(start.origin, diagnostics, scene.places);
+    read_tables(TomlTableReader(reading, document, "", ""), scene);
+    reading.report_unknown_keys();
+  } catch (const toml::parse_error& error) {
+    const toml::source_position& position = error.source().begin;
+    diagnostics.error({start.origin, static_cast<int>(position.line), static_cast<int>(position.column)},
+                      malformed_toml(text, error));
+  }
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 Diagnostics& diagnostics) {
+  std::error_code ignored;
+  std::string reason;
+  if (file == "-") {
+    std::ostringstream input;
+    input << std::cin.rdbuf();
+    return parse_scene(input.str(), "(standard input)", overrides, diagnostics);
+  }
+  if (std::filesystem::is_directory(file, ignored)) reason = "is a folder";
+  // Some devices have no end.
+  if (std::filesystem::is_character_file(file, ignored)) reason = "is a device";
+  std::ifstream stream;
+  std::ostringstream text;
+  if (reason.empty()) {
+    stream.open(file, std::ios::binary);
+    // An empty file sets failbit on the output stream only.
+    if (stream) text << stream.rdbuf();
+    if (!stream.is_open() || stream.bad()) reason = std::strerror(errno);
+  }
+  if (!reason.empty()) {
+    diagnostics.error({file.string(), 1, 1},
+                      fmt::format("scene file cannot be read ({}), a readable TOML file is needed", reason));
+    Scene none;
+    none.file = file;
+    return none;
+  }
+  return parse_scene(text.str(), file, overrides, diagnostics);
+}
+
+}  // namespace ashlar

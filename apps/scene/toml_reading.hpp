@@ -1,0 +1,63 @@
+// What the readers of all tables of one TOML document share: places, faults, and which keys are known. Every
+// key that a reader asks for becomes a known one; those that nobody asked for are reported at the end, with
+// the nearest known one.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <filesystem>
+#include <list>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "apps/scene/diagnostics.hpp"
+#include "apps/scene/scene_places.hpp"
+
+namespace ashlar {
+
+/// One document being read.
+class TomlReading {
+ public:
+  /// What is known of one table: its content, its path, and the keys asked for so far.
+  struct KnownTable {
+    const toml::table* table;
+    std::string path;  ///< as in ScenePlaces
+    std::string name;  ///< path without indices, as in a header: "block.fix"; "" is the top
+    std::set<std::string> keys;
+  };
+
+  /// @param file name under which the document was parsed; nodes of any other source are taken as arguments.
+  TomlReading(std::string file, Diagnostics& diagnostics, ScenePlaces& places)
+      : file_(std::move(file)), diagnostics_(diagnostics), places_(places) {}
+
+  [[nodiscard]] Place place(const toml::source_region& region) const;
+  /// Registers a table; places of its keys are recorded.
+  KnownTable& add_table(const toml::table& table, std::string path, std::string name);
+  void record_place(const std::string& path, const toml::node& node);
+  void error(const toml::node& node, std::string message);
+  void error(Place place, std::string message) { diagnostics_.error(std::move(place), std::move(message)); }
+  [[nodiscard]] const ScenePlaces& places() const { return places_; }
+  [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
+  /// That relative paths of the document are relative to.
+  [[nodiscard]] std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
+
+  /// One error for each key of a registered table that was never asked for. A key known in another table only
+  /// is said to belong there: TOML makes it easy to write a key below the wrong header.
+  void report_unknown_keys();
+
+ private:
+  std::string file_;
+  Diagnostics& diagnostics_;
+  ScenePlaces& places_;
+  std::list<KnownTable> tables_;  // readers keep references
+};
+
+/// Parses a document as toml::parse does. @throws toml::parse_error, also where a dotted key has more than a
+/// thousand parts: every part is a nested table, and the parser's recursion would exhaust the stack
+[[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view origin);
+
+/// A value as shown in a message: short ones as TOML, long ones by their kind.
+[[nodiscard]] std::string describe(const toml::node& node);
+
+}  // namespace ashlar

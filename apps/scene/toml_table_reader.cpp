@@ -1,0 +1,356 @@
+#include "apps/scene/toml_table_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/scene/nearest_name.hpp"
+#include "apps/scene/toml_faults.hpp"
+#include "geometry/exact/coordinate_limit.hpp"
+
+namespace ashlar {
+
+std::string TomlTableReader::path(std::string_view key) const {
+  return known_.path.empty() ? std::string(key) : fmt::format("{}.{}", known_.path, key);
+}
+
+std::string TomlTableReader::child_name(std::string_view key) const {
+  return known_.name.empty() ? std::string(key) : fmt::format("{}.{}", known_.name, key);
+}
+
+const toml::node* TomlTableReader::find(std::string_view key) {
+  known_.keys.emplace(key);
+  return known_.table->get(key);
+}
+
+void TomlTableReader::require(std::string_view key) {
+  if (given(key)) return;
+  const std::string where = known_.name.empty() ? "the top of the file" : known_.name;
+  reading_.error(reading_.places().key(known_.path),
+                 fmt::format("missing key ({}), {} needs it", key, where));
+}
+
+void TomlTableReader::error_at_table(std::string message) {
+  reading_.error(reading_.places().key(known_.path), std::move(message));
+}
+
+void TomlTableReader::error_at_key(std::string_view key, std::string message) {
+  reading_.error(reading_.places().key(path(key)), std::move(message));
+}
+
+void TomlTableReader::error_at_value(std::string_view key, std::string message) {
+  reading_.error(reading_.places().value(path(key)), std::move(message));
+}
+
+void TomlTableReader::wrong_type(const toml::node& node, std::string_view key, std::string_view words,
+                                 std::string_view hint) {
+  reading_.error(node,
+                 fmt::format("{} has the wrong type ({}), {} is needed{}", key, describe(node), words, hint));
+}
+
+std::optional<double> TomlTableReader::finite_number(const toml::node& node, std::string_view key,
+                                                     std::string_view words) {
+  if (!node.is_number()) {
+    const auto* text = node.as_string();
+    wrong_type(node, key, words, text == nullptr ? "" : number_hint(**text));
+    return std::nullopt;
+  }
+  const double value = *node.value<double>();
+  if (std::isfinite(value)) return value;
+  reading_.error(node, fmt::format("{} is not finite ({}), {} is needed", key, describe(node), words));
+  return std::nullopt;
+}
+
+bool TomlTableReader::read_bool(std::string_view key, bool& result) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  if (!node->is_boolean()) {
+    wrong_type(*node, key, "true or false");
+    return false;
+  }
+  result = **node->as_boolean();
+  return true;
+}
+
+bool TomlTableReader::read_text(std::string_view key, std::string& result) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  if (!node->is_string()) {
+    wrong_type(*node, key, "a text in quotes");
+    return false;
+  }
+  result = **node->as_string();
+  return true;
+}
+
+bool TomlTableReader::read_name(std::string_view key, std::string& result) {
+  std::string name;
+  if (!read_text(key, name)) return false;
+  const auto control = [](unsigned char letter) { return letter < ' '; };
+  if (name.empty() || std::any_of(name.begin(), name.end(), control)) {
+    error_at_value(
+        key, fmt::format("{} cannot be used as a name ({}), a text of one line, not empty, is needed", key,
+                         describe(*known_.table->get(key))));
+    return false;
+  }
+  result = std::move(name);
+  return true;
+}
+
+bool TomlTableReader::read_number(std::string_view key, double& result, const NumberRange& range) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  const std::optional<double> value = finite_number(*node, key, range.words);
+  if (!value) return false;
+  if (!range.contains(*value)) {
+    reading_.error(*node,
+                   fmt::format("{} is out of range ({}), {} is needed", key, describe(*node), range.words));
+    return false;
+  }
+  result = *value;
+  return true;
+}
+
+bool TomlTableReader::read_number(std::string_view key, std::optional<double>& result,
+                                  const NumberRange& range) {
+  double value = 0.0;
+  if (!read_number(key, value, range)) return false;
+  result = value;
+  return true;
+}
+
+bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<double>& result,
+                                          const NumberRange& range) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  if (const auto* text = node->as_string(); text && **text == "auto") {
+    result.reset();
+    return true;
+  }
+  const std::string words = fmt::format("{} or \"auto\"", range.words);
+  return read_number(key, result,
+                     {range.low, range.high, range.low_allowed, range.high_allowed, words.c_str()});
+}
+
+bool TomlTableReader::read_integer(std::string_view key, int& result, int low, int high) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  const std::string words = high == std::numeric_limits<int>::max()
+                                ? fmt::format("a whole number of at least {}", low)
+                                : fmt::format("a whole number from {} to {}", low, high);
+  const auto* integer = node->as_integer();
+  if (!integer) {
+    wrong_type(*node, key, words);
+    return false;
+  }
+  if (**integer < low || **integer > high) {
+    reading_.error(*node, fmt::format("{} is out of range ({}), {} is needed", key, **integer, words));
+    return false;
+  }
+  result = static_cast<int>(**integer);
+  return true;
+}
+
+bool TomlTableReader::read_integer(std::string_view key, std::optional<int>& result, int low, int high) {
+  int value = 0;
+  if (!read_integer(key, value, low, high)) return false;
+  result = value;
+  return true;
+}
+
+std::optional<std::size_t> TomlTableReader::read_word(std::string_view key,
+                                                      const std::vector<std::string>& words) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  return find_word(*node, key, words);
+}
+
+std::optional<std::size_t> TomlTableReader::find_word(const toml::node& node, std::string_view key,
+                                                      const std::vector<std::string>& words) {
+  const std::string all = fmt::format("\"{}\"", fmt::join(words, "\", \""));
+  const auto* text = node.as_string();
+  if (!text) {
+    wrong_type(node, key, fmt::format("one of {}", all));
+    return std::nullopt;
+  }
+  const auto found = std::find(words.begin(), words.end(), **text);
+  if (found != words.end()) return found - words.begin();
+  reading_.error(node, fmt::format("unknown {} ({}), {}one of {} is needed", key, describe(node),
+                                   guess(**text, words, "\""), all));
+  return std::nullopt;
+}
+
+bool TomlTableReader::read_words_among(std::string_view key, std::vector<std::string>& result,
+                                       const std::vector<std::string>& words) {
+  const toml::array* array = find_array(key, fmt::format("an array of \"{}\"", fmt::join(words, "\", \"")));
+  if (!array) return false;
+  std::vector<std::string> found;
+  for (const toml::node& entry : *array) {
+    const std::optional<std::size_t> index = find_word(entry, key, words);
+    if (!index) continue;
+    const std::string& word = words[*index];
+    if (std::find(found.begin(), found.end(), word) != found.end())
+      reading_.error(entry, fmt::format("{} names something twice (\"{}\"), once is enough", key, word));
+    else
+      found.push_back(word);
+  }
+  if (found.size() != array->size()) return false;
+  result = std::move(found);
+  return true;
+}
+
+const toml::array* TomlTableReader::find_array(std::string_view key, const std::string& words) {
+  const toml::node* node = find(key);
+  if (!node) return nullptr;
+  if (!node->is_array()) wrong_type(*node, key, words);
+  return node->as_array();
+}
+
+std::optional<std::vector<double>> TomlTableReader::read_row(const toml::node& node, std::string_view key,
+                                                             std::size_t width, std::string_view words) {
+  const toml::array* array = node.as_array();
+  if (!array) {
+    wrong_type(node, key, words);
+    return std::nullopt;
+  }
+  if (array->size() != width) {
+    reading_.error(
+        node, fmt::format("{} has the wrong length ({} entries), {} is needed", key, array->size(), words));
+    return std::nullopt;
+  }
+  std::vector<double> row;
+  for (const toml::node& entry : *array)
+    if (const std::optional<double> value = finite_number(entry, key, "a number")) row.push_back(*value);
+  if (row.size() != width) return std::nullopt;
+  return row;
+}
+
+bool TomlTableReader::read_vector(std::string_view key, Vector3& result) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  const auto row = read_row(*node, key, 3, "[x, y, z]");
+  if (!row) return false;
+  result = Vector3((*row)[0], (*row)[1], (*row)[2]);
+  return true;
+}
+
+bool TomlTableReader::check_place(const toml::node& node, std::string_view key, const Vector3& place) {
+  for (const double coordinate : place) {
+    if (!is_too_far(coordinate)) continue;
+    reading_.error(
+        node, fmt::format("{} has a coordinate that is too large ({:g} m), -1e150 to 1e150 is needed", key,
+                          coordinate));
+    return false;
+  }
+  return true;
+}
+
+bool TomlTableReader::read_place(std::string_view key, Vector3& result) {
+  Vector3 place;
+  if (!read_vector(key, place) || !check_place(*find(key), key, place)) return false;
+  result = place;
+  return true;
+}
+
+bool TomlTableReader::read_places(std::string_view key, std::vector<Vector3>& result, std::size_t minimum) {
+  std::vector<std::vector<double>> rows;
+  if (!read_rows(key, rows, 3, minimum, "[x, y, z]")) return false;
+  const toml::array& entries = *find(key)->as_array();
+  std::vector<Vector3> places;
+  for (const auto& row : rows) {
+    places.emplace_back(row[0], row[1], row[2]);
+    if (!check_place(entries[places.size() - 1], key, places.back())) return false;
+  }
+  result = std::move(places);
+  return true;
+}
+
+bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result) {
+  const toml::array* array = find_array(key, "an array of texts");
+  if (!array) return false;
+  std::vector<std::string> texts;
+  for (const toml::node& entry : *array) {
+    if (const auto* text = entry.as_string())
+      texts.push_back(**text);
+    else
+      wrong_type(entry, key, "a text in quotes");
+  }
+  if (texts.size() != array->size()) return false;
+  result = std::move(texts);
+  return true;
+}
+
+bool TomlTableReader::read_rows(std::string_view key, std::vector<std::vector<double>>& result,
+                                std::size_t width, std::size_t minimum, const char* words, const char* form) {
+  const toml::array* array = find_array(key, fmt::format("an array of {}{}", words, form));
+  if (!array) return false;
+  if (array->size() < minimum) {
+    reading_.error(*array, fmt::format("{} has too few entries ({}), at least {} of {} are needed", key,
+                                       array->size(), minimum, words));
+    return false;
+  }
+  std::vector<std::vector<double>> rows;
+  for (const toml::node& entry : *array)
+    if (auto row = read_row(entry, key, width, words)) rows.push_back(std::move(*row));
+  if (rows.size() != array->size()) return false;
+  result = std::move(rows);
+  return true;
+}
+
+bool TomlTableReader::read_history(std::string_view key, std::vector<std::vector<double>>& result,
+                                   std::size_t width, const char* words, const char* form) {
+  std::vector<std::vector<double>> rows;
+  if (!read_rows(key, rows, width, 1, words, form)) return false;
+  const toml::array& entries = *find(key)->as_array();
+  bool increasing = true;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i][0] > rows[i - 1][0]) continue;
+    increasing = false;
+    reading_.error(entries[i],
+                   fmt::format("time in {} does not increase ({} after {}), each entry must be later than "
+                               "the one before",
+                               key, rows[i][0], rows[i - 1][0]));
+  }
+  if (increasing) result = std::move(rows);
+  return increasing;
+}
+
+std::optional<TomlTableReader> TomlTableReader::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_table()) {
+    wrong_type(*node, key, "a table");
+    return std::nullopt;
+  }
+  return TomlTableReader(reading_, *node->as_table(), path(key), child_name(key));
+}
+
+TomlTableReader TomlTableReader::table_or_empty(std::string_view key) {
+  static const toml::table empty;
+  if (auto given_table = table(key)) return *given_table;
+  return {reading_, empty, path(key), child_name(key)};
+}
+
+std::vector<std::optional<TomlTableReader>> TomlTableReader::tables(std::string_view key) {
+  const std::string name = child_name(key);
+  const toml::array* array = find_array(key, fmt::format("a list of tables, each headed [[{}]],", name));
+  std::vector<std::optional<TomlTableReader>> result;
+  if (!array) return result;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const toml::node& entry = *array->get(i);
+    const std::string entry_path = fmt::format("{}.{}", path(key), i);
+    if (!entry.is_table()) {
+      wrong_type(entry, key, "a table");
+      result.emplace_back();
+      continue;
+    }
+    reading_.record_place(entry_path, entry);
+    result.emplace_back(std::in_place, reading_, *entry.as_table(), entry_path, name);
+  }
+  return result;
+}
+
+}  // namespace ashlar

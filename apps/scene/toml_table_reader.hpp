@@ -1,0 +1,129 @@
+// Reading one TOML table key by key. Every fault goes to the diagnostics with its place, and a value is only
+// ever handed out after its type, range and finiteness are checked.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "apps/scene/number_ranges.hpp"
+#include "apps/scene/toml_reading.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// One table. Each read_... leaves its result untouched if the key is absent or faulty, and returns whether a
+/// good value was read.
+class TomlTableReader {
+ public:
+  /// @param path,name see TomlReading::KnownTable. @param table outlives the reader.
+  TomlTableReader(TomlReading& reading, const toml::table& table, std::string path, std::string name)
+      : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {}
+
+  [[nodiscard]] const std::string& path() const { return known_.path; }
+  [[nodiscard]] const std::string& name() const { return known_.name; }
+  [[nodiscard]] std::string path(std::string_view key) const;
+  /// Whether the key is there, good or not. Makes it a known one.
+  [[nodiscard]] bool given(std::string_view key) { return find(key) != nullptr; }
+  /// The table that the key holds, null if it holds none. Makes it a known one.
+  [[nodiscard]] const toml::table* table_at(std::string_view key) {
+    const toml::node* node = find(key);
+    return node == nullptr ? nullptr : node->as_table();
+  }
+  [[nodiscard]] TomlReading& reading() { return reading_; }
+  /// Reports a missing key at the table's place.
+  void require(std::string_view key);
+  void error_at_table(std::string message);
+  void error_at_key(std::string_view key, std::string message);
+  void error_at_value(std::string_view key, std::string message);
+
+  bool read_bool(std::string_view key, bool& result);
+  bool read_text(std::string_view key, std::string& result);
+  /// A text of at least one character and no control characters (tabs, line breaks).
+  bool read_name(std::string_view key, std::string& result);
+  bool read_number(std::string_view key, double& result, const NumberRange& range);
+  bool read_number(std::string_view key, std::optional<double>& result, const NumberRange& range);
+  /// "auto" makes the result empty.
+  bool read_number_or_auto(std::string_view key, std::optional<double>& result, const NumberRange& range);
+  bool read_integer(std::string_view key, int& result, int low, int high);
+  bool read_integer(std::string_view key, std::optional<int>& result, int low, int high);
+  bool read_vector(std::string_view key, Vector3& result);
+  /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
+  bool read_place(std::string_view key, Vector3& result);
+  bool read_texts(std::string_view key, std::vector<std::string>& result);
+  /// An array of rows of `width` finite numbers each, at least `minimum` of them. @param words for a row.
+  bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
+                 std::size_t minimum, const char* words, const char* form = "");
+  /// Rows of three coordinates, as read_rows and read_place.
+  bool read_places(std::string_view key, std::vector<Vector3>& result, std::size_t minimum);
+  /// Rows whose first number is a time, which must increase from row to row. @param form words for what else
+  /// the key may hold
+  bool read_history(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
+                    const char* words, const char* form = "");
+
+  /// One of several words.
+  template <typename Names, typename Choice>
+  bool read_choice(std::string_view key, Choice& result, const Names& names) {
+    std::vector<std::string> words;
+    words.reserve(std::size(names));
+    for (const auto& [word, choice] : names) words.emplace_back(word);
+    const std::optional<std::size_t> index = read_word(key, words);
+    if (index) result = names[*index].second;
+    return index.has_value();
+  }
+
+  /// An array of some of several words, each at most once.
+  template <typename Names>
+  bool read_words(std::string_view key, std::vector<std::string>& result, const Names& names) {
+    std::vector<std::string> words;
+    words.reserve(std::size(names));
+    for (const auto& [word, choice] : names) words.emplace_back(word);
+    return read_words_among(key, result, words);
+  }
+
+  /// A table; an absent or faulty one is none.
+  [[nodiscard]] std::optional<TomlTableReader> table(std::string_view key);
+  /// A table; an absent or faulty one reads as empty, so that its keys are known all the same.
+  [[nodiscard]] TomlTableReader table_or_empty(std::string_view key);
+  /// What `read` makes of each entry of an array of tables. An entry that is no table is a fault and an
+  /// untouched result, so that indices stay; none if absent or no array.
+  template <typename Entry>
+  [[nodiscard]] std::vector<Entry> read_tables(std::string_view key, Entry (*read)(TomlTableReader&)) {
+    std::vector<Entry> entries;
+    for (std::optional<TomlTableReader>& table : tables(key))
+      entries.push_back(table ? read(*table) : Entry());
+    return entries;
+  }
+
+ private:
+  /// Null where an entry is no table.
+  [[nodiscard]] std::vector<std::optional<TomlTableReader>> tables(std::string_view key);
+  [[nodiscard]] const toml::node* find(std::string_view key);
+  [[nodiscard]] std::optional<std::size_t> read_word(std::string_view key,
+                                                     const std::vector<std::string>& words);
+  bool read_words_among(std::string_view key, std::vector<std::string>& result,
+                        const std::vector<std::string>& words);
+  [[nodiscard]] std::optional<std::size_t> find_word(const toml::node& node, std::string_view key,
+                                                     const std::vector<std::string>& words);
+  [[nodiscard]] const toml::array* find_array(std::string_view key, const std::string& words);
+  [[nodiscard]] std::optional<double> finite_number(const toml::node& node, std::string_view key,
+                                                    std::string_view words);
+  [[nodiscard]] std::optional<std::vector<double>> read_row(const toml::node& node, std::string_view key,
+                                                            std::size_t width, std::string_view words);
+  /// Reports the first coordinate that is too large, at the node. @return whether there is none
+  bool check_place(const toml::node& node, std::string_view key, const Vector3& place);
+  [[nodiscard]] std::string child_name(std::string_view key) const;
+  /// @param hint what else to say of the value
+  void wrong_type(const toml::node& node, std::string_view key, std::string_view words,
+                  std::string_view hint = "");
+
+  TomlReading& reading_;
+  TomlReading::KnownTable& known_;
+};
+
+}  // namespace ashlar

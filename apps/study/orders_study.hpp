@@ -1,0 +1,17 @@
+// Error and cost of one block against its order.
+#pragma once
+
+#include "apps/study/study.hpp"
+
+namespace ashlar {
+
+/// Two problems for n = 1, 2, ...: the cantilever 8 x 3 x 1 under its own weight, whose clamped edges are
+/// singular, and a notched block under the body force and tractions of a given smooth displacement,
+/// polynomial times exponential. By problem and order: unknowns, relative error (of the tip; in the energy
+/// norm), seconds.
+[[nodiscard]] StudyResult study_orders();
+
+/// The same, orders up to a given one, at least 5; the promise is held to the largest order only.
+[[nodiscard]] StudyResult study_orders_to(int most_order);
+
+}  // namespace ashlar

@@ -1,0 +1,33 @@
+// What studies have in common: a table that is printed and written as CSV, a picture, and findings.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/study/log_log_plot.hpp"
+
+namespace ashlar {
+
+/// What a study found.
+struct StudyResult {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;  ///< (#rows, #columns)
+  LogLogPlot plot;
+  std::vector<std::string> findings;  ///< sentences
+  bool holds = true;                  ///< false if a finding contradicts what is promised
+};
+
+/// A study of the program; each is one file, x_study.{hpp,cpp}, and one line in study_command.cpp.
+struct Study {
+  const char* name;
+  const char* description;
+  StudyResult (*run)();
+};
+
+/// The table as CSV.
+[[nodiscard]] std::string table_csv(const StudyResult& result);
+/// The table for reading, columns aligned, numbers with four digits.
+[[nodiscard]] std::string table_text(const StudyResult& result);
+
+}  // namespace ashlar

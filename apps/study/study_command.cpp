@@ -1,0 +1,102 @@
+#include "apps/study/study_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/run/folder_claim.hpp"
+#include "apps/scene/nearest_name.hpp"
+#include "apps/study/conditioning_study.hpp"
+#include "apps/study/contact_study.hpp"
+#include "apps/study/orders_study.hpp"
+#include "apps/study/stability_study.hpp"
+#include "apps/study/sub_face_study.hpp"
+#include "apps/view/headless_browser.hpp"
+#include "apps/view/svg_picture.hpp"
+
+namespace ashlar {
+namespace {
+
+// In the order in which --help lists them.
+const std::array<Study, 5> studies = {
+    {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
+      study_sub_faces},
+     {"orders", "error, unknowns and time of one block against its order", study_orders},
+     {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning},
+     {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps", study_contact},
+     {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
+      study_stability}}};
+
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  list.reserve(studies.size());
+  for (const Study& study : studies) list.emplace_back(study.name);
+  return list;
+}
+
+/// The picture as PNG beside the SVG; without a browser, or with one that fails, the SVG alone has to do.
+/// @return what to tell the user
+std::string make_png(const std::string& svg, const std::filesystem::path& picture) {
+  const auto browser = find_browser();
+  if (!browser) return "no PNG beside it: there is no chromium in PATH, and ASHLAR_BROWSER is not set";
+  try {
+    const std::string png = png_of_svg(*browser, svg, plot_width, plot_height);
+    write_file_atomically(picture, png, Durability::process);
+    return "picture: " + picture.string();
+  } catch (const std::exception& error) {
+    return fmt::format("no PNG beside it: {}", error.what());
+  }
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const auto* study = std::find_if(studies.begin(), studies.end(),
+                                   [&](const Study& candidate) { return candidate.name == options.name; });
+  if (study == studies.end()) {
+    err << fmt::format("ashlar: error: unknown study ({}), {}one of {} is needed\n", options.name,
+                       guess(options.name, names()), fmt::join(names(), ", "));
+    return exit_status::bad_input;
+  }
+  const std::filesystem::path folder = options.folder.value_or(options.name + ".study");
+  std::optional<FolderClaim> claim;
+  try {
+    claim.emplace(folder, ClaimPurpose::addition);
+  } catch (const ClaimRefused& refused) {
+    err << "ashlar: error: " << refused.what() << '\n';
+    return exit_status::bad_input;
+  }
+  const StudyResult result = study->run();
+  const std::filesystem::path table = folder / (options.name + ".csv");
+  const std::filesystem::path picture = folder / (options.name + ".svg");
+  write_file_atomically(table, table_csv(result), Durability::process);
+  const std::string svg = to_svg(result.plot);
+  write_file_atomically(picture, svg, Durability::process);
+  out << table_text(result);
+  for (const std::string& finding : result.findings) out << finding << '\n';
+  out << fmt::format("table: {}\npicture: {}\n", table.string(), picture.string());
+  out << make_png(svg, folder / (options.name + ".png")) << '\n';
+  return result.holds ? exit_status::done : exit_status::failed;
+}
+
+void declare_study_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("study", "Measure error against cost; writes a table and a picture");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<StudyOptions>();
+  std::string list = "Study:";
+  for (const Study& study : studies) list += fmt::format("\n  {}: {}", study.name, study.description);
+  command->add_option("NAME", options->name, list)->required()->type_name("");
+  command->add_option("--out", options->folder, "Result folder (default: NAME.study)")->type_name("DIR");
+  command->callback(
+      [options, &context] { context.status = study_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,52 @@
+// Hertz's contact: a sphere pressed onto a rigid plane, as graded tied blocks.
+//
+// By symmetry a quarter of the lower half of the sphere is enough. Boxes around the contact point, each shell
+// of seven about twice as far out as the last, are cut to the sphere: polynomials of low order far from the
+// contact, of high order in the one block that holds the contact patch. The sphere's surface in that block is
+// a polyhedron with corners on the sphere, facets of side h lie up to h^2/(8 R) inside it.
+//
+// Formulas (Hertz 1882), E* = E/(1 - nu^2):
+//     a^3 = 3 F R/(4 E*)    approach = a^2/R    p(r) = p0 sqrt(1 - (r/a)^2),  p0 = 3 F/(2 pi a^2)
+#pragma once
+
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+/// What is pressed, and how it is divided.
+struct HertzSphere {
+  double radius = 0.1;          ///< m
+  double force = 1000.0;        ///< N
+  double young_modulus = 70e9;  ///< Pa
+  double poisson_ratio = 0.3;
+
+  int shells = 6;
+  double inner_size = 1.1e-3;  ///< m, side of the block with the contact patch: a little more than a
+  int inner_order = 6;
+  int near_order = 5;       ///< of the blocks around it
+  int far_order = 3;        ///< of the others
+  int facets = 6;           ///< along the sides of the inner block
+  double stiffness = 2e15;  ///< Pa/m; the springs give way by p0/stiffness. Point springs: times the inner
+                            ///< block's area over the corners of its facets, N/m
+  bool area_springs = true;
+  bool curved_surface = true;
+
+  [[nodiscard]] double contact_radius() const;  ///< a, m
+  [[nodiscard]] double approach() const;        ///< m
+  [[nodiscard]] double peak_pressure() const;   ///< p0, Pa
+};
+
+/// What came out. Of the whole sphere, not of a quarter.
+struct HertzContact {
+  bool equilibrium = false;
+  double force = 0.0;          ///< N, sum of the contact forces
+  double radius = 0.0;         ///< m, of a circle of the area under pressure
+  double approach = 0.0;       ///< m, of the sphere's center to the plane
+  double peak_pressure = 0.0;  ///< Pa, from the force within a third of the formula's radius
+  int unknowns = 0;
+};
+
+/// @throws std::runtime_error if the blocks cannot be tied
+[[nodiscard]] HertzContact press(const HertzSphere& sphere);
+
+}  // namespace ashlar

@@ -1,0 +1,82 @@
+// Verification cases: what `ashlar verify` runs. Each compares numbers of this program with references that
+// do not come from it: formulas, or values computed independently.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/verify/placement.hpp"
+
+namespace ashlar {
+
+/// One comparison.
+struct VerificationCheck {
+  std::string what;
+  double measured;
+  double reference;
+  double error;      ///< as compared with the tolerance: relative to the reference, or absolute
+  double tolerance;  ///< error <= tolerance passes
+  [[nodiscard]] bool passed() const { return error <= tolerance; }
+};
+
+/// |measured - reference| / |reference|.
+[[nodiscard]] VerificationCheck check_relative(std::string what, double measured, double reference,
+                                               double tolerance);
+/// |measured - reference|.
+[[nodiscard]] VerificationCheck check_absolute(std::string what, double measured, double reference,
+                                               double tolerance);
+
+/// A named case.
+class VerificationCase {
+ public:
+  using Run = std::vector<VerificationCheck> (*)();
+  using RunPlaced = std::vector<VerificationCheck> (*)(const Placement&);
+
+  /// A case that has one place, because its supports hold single components.
+  constexpr VerificationCase(const char* case_name, const char* text, Run function)
+      : name(case_name), description(text), run_(function) {}
+  /// A case whose scene can be turned and moved; what it measures must stay the same.
+  constexpr VerificationCase(const char* case_name, const char* text, RunPlaced function)
+      : name(case_name), description(text), run_placed_(function) {}
+
+  const char* name;
+  const char* description;
+
+  [[nodiscard]] std::vector<VerificationCheck> run() const { return run_ ? run_() : run_placed_({}); }
+  [[nodiscard]] bool can_be_placed() const { return run_placed_ != nullptr; }
+  /// Of a case that can be placed.
+  [[nodiscard]] std::vector<VerificationCheck> run_placed(const Placement& placement) const {
+    return run_placed_(placement);
+  }
+
+ private:
+  Run run_ = nullptr;
+  RunPlaced run_placed_ = nullptr;
+};
+
+/// Kinematics, integration, conservation.
+[[nodiscard]] std::span<const VerificationCase> kinematics_cases();
+/// One block, by order.
+[[nodiscard]] std::span<const VerificationCase> one_block_cases();
+/// Contact springs at rest.
+[[nodiscard]] std::span<const VerificationCase> contact_spring_cases();
+/// Friction on slopes.
+[[nodiscard]] std::span<const VerificationCase> slope_cases();
+/// Stacks, columns and arches.
+[[nodiscard]] std::span<const VerificationCase> stack_cases();
+/// Solids that are not convex.
+[[nodiscard]] std::span<const VerificationCase> non_convex_cases();
+/// Hertz's contact.
+[[nodiscard]] std::span<const VerificationCase> hertz_cases();
+/// Impacts, waves and rocking.
+[[nodiscard]] std::span<const VerificationCase> impact_cases();
+/// Supports that move.
+[[nodiscard]] std::span<const VerificationCase> support_cases();
+/// The paper's example.
+[[nodiscard]] std::span<const VerificationCase> falling_block_cases();
+
+/// All of them, in the order of the list.
+[[nodiscard]] std::vector<VerificationCase> all_verification_cases();
+
+}  // namespace ashlar

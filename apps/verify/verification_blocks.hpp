@@ -1,0 +1,40 @@
+// Blocks and small measurements that verification cases share.
+#pragma once
+
+#include <memory>
+
+#include "geometry/solid/shapes.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+[[nodiscard]] inline BlockDefinition define_block(Polyhedron solid, const Material& material, int order) {
+  BlockDefinition definition;
+  definition.name = "block";
+  definition.solid = std::make_shared<const Polyhedron>(std::move(solid));
+  definition.material = material;
+  definition.order = order;
+  return definition;
+}
+
+/// One block without contacts.
+[[nodiscard]] inline Simulation lone_block(BlockDefinition definition, const InitialMotion& motion,
+                                           const SimulationSettings& settings) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(definition));
+  return {std::move(blocks), {motion}, [](int, int) { return JointLaw{}; }, settings};
+}
+
+/// A non-convex solid: the box 2 x 2 x 1 with a notch 1 x 1 x 1 at its corner (2, 2).
+[[nodiscard]] Polyhedron notched_block();
+
+/// A convex solid without symmetry.
+[[nodiscard]] Polyhedron skew_hull();
+
+/// Displacement of a material point.
+[[nodiscard]] inline Vector3 displacement(const BlockModel& block, const Eigen::MatrixX3d& position,
+                                          const Vector3& point) {
+  return (position - block.basis().identity_map()).transpose() * block.basis().values(point);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,107 @@
+#include "apps/verify/verification_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/run/automatic.hpp"
+
+namespace ashlar {
+
+int ContactScene::add(BlockDefinition block, const InitialMotion& motion) {
+  blocks_.emplace_back(placed(std::move(block), placement_));
+  motions_.push_back(placed(motion, placement_));
+  return static_cast<int>(blocks_.size()) - 1;
+}
+
+int ContactScene::add_fixed(Polyhedron solid) {
+  BlockDefinition block = define_block(std::move(solid), {}, 1);
+  block.fixed = true;
+  return add(std::move(block));
+}
+
+Simulation ContactScene::build() {
+  SimulationSettings turned = settings;
+  turned.gravity = placement_.direction(settings.gravity);
+  Simulation simulation(
+      std::exchange(blocks_, {}), std::exchange(motions_, {}), [same = law](int, int) { return *same; },
+      turned);
+  const std::vector<BlockModel>& blocks = simulation.blocks();
+  for (const auto& [a, b] : std::exchange(ties_, {})) {
+    const double stiffness =
+        automatic_tie_stiffness(blocks[static_cast<std::size_t>(a)], blocks[static_cast<std::size_t>(b)]);
+    if (!simulation.tie_blocks(a, b, stiffness))
+      throw std::invalid_argument("tied blocks have no common face");
+  }
+  return simulation;
+}
+
+void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction) {
+  const AutomaticRatios ratios;
+  scene.settings.augmented = true;
+  scene.settings.contact_distance = ratios.distance * size;
+  scene.settings.contact_angle = ratios.angle_degrees * std::numbers::pi / 180.0;
+  scene.settings.chord_tolerance = ratios.chord_tolerance * size;
+  scene.settings.subdivisions = 0;
+  scene.settings.penetration_tolerance = ratios.penetration_tolerance * scene.settings.contact_distance;
+  scene.law->normal_stiffness = ratios.normal_stiffness * young_modulus / size;
+  scene.law->shear_stiffness = ratios.shear_to_normal_stiffness * scene.law->normal_stiffness;
+  scene.law->friction = friction;
+  scene.law->rigid = true;
+}
+
+Eigen::Matrix3d slope(double degrees) {
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, Vector3::UnitY()).toRotationMatrix();
+}
+
+Polyhedron hull_of(const std::vector<Vector3>& points) {
+  return Polyhedron(make_convex_hull(points));
+}
+
+double tangent_of(double degrees) {
+  return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+void tie_all(Simulation& simulation) {
+  const std::vector<BlockModel>& blocks = simulation.blocks();
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!blocks[a].fixed() && !blocks[b].fixed())
+        simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
+                              automatic_tie_stiffness(blocks[a], blocks[b]));
+    }
+  }
+}
+
+void take_step(Simulation& simulation, double end_time) {
+  if (simulation.step(end_time) != StepStatus::accepted)
+    throw std::runtime_error("a step could not be taken");
+}
+
+void run_until(Simulation& simulation, double time) {
+  while (!simulation.reached(time)) take_step(simulation, time);
+}
+
+StaticStatus find_equilibrium(Simulation& simulation, double time) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(time);
+  return status;
+}
+
+VerificationCheck check_status(std::string what, Simulation& simulation, StaticStatus expected) {
+  return check_absolute(std::move(what), find_equilibrium(simulation) == expected ? 1.0 : 0.0, 1.0, 0.0);
+}
+
+VerificationCheck check_energy(std::string what, const Simulation& simulation) {
+  const double most = std::max(simulation.largest_step_residual(), simulation.ledger().refound_gained);
+  return check_absolute(std::move(what), most / simulation.largest_energy(), 0.0, 1e-8);
+}
+
+Vector3 centroid(const Simulation& simulation, int block) {
+  const auto index = static_cast<std::size_t>(block);
+  return simulation.states()[index].position.row(0) / std::sqrt(simulation.blocks()[index].basis().volume());
+}
+
+}  // namespace ashlar

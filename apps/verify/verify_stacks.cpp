@@ -1,0 +1,187 @@
+// Cases of several blocks at rest on each other: stack of books, toppling columns, arch.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "apps/verify/verification_contacts.hpp"
+#include "solver/run/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+const Material stiff_rock{2500.0, 1e11, 0.2};
+
+/// Four equal blocks, each farther out than the one below; in the stack that just holds, the k-th from the
+/// top is L/(2k) farther out than the one below it.
+Simulation book_stack(double share, const Placement& placement) {
+  ContactScene scene(placement);
+  scene.settings.area_springs = false;
+  *scene.law = {1e8, 1e8, tangent_of(40), 0.0, 0.0, false};
+  scene.add_fixed(Polyhedron(make_box({-2, -1, -1}, {0, 2, 0})));
+  double x = 0.0;
+  for (int k = 4; k >= 1; --k) {
+    x += share / (2.0 * k);
+    const double z = 0.2 * (4 - k);
+    scene.add(define_block(Polyhedron(make_box({x - 1.0, 0, z}, {x, 0.5, z + 0.2})), stiff_rock, 1));
+  }
+  return scene.build();
+}
+
+std::vector<VerificationCheck> book_stack_case(const Placement& placement) {
+  Simulation holds = book_stack(0.99, placement);
+  Simulation falls = book_stack(1.01, placement);
+  return {check_status("holds at 0.99 of the overhang", holds, StaticStatus::equilibrium),
+          check_status("falls at 1.01", falls, StaticStatus::moving)};
+}
+
+/// Largest way of a centroid in a time.
+double farthest_in(Simulation& simulation, double time) {
+  std::vector<Vector3> start;
+  start.reserve(simulation.blocks().size());
+  for (int k = 0; k < static_cast<int>(simulation.blocks().size()); ++k)
+    start.push_back(centroid(simulation, k));
+  run_until(simulation, simulation.time() + time);
+  double farthest = 0.0;
+  for (std::size_t k = 0; k < start.size(); ++k)
+    farthest = std::max(farthest, (centroid(simulation, static_cast<int>(k)) - start[k]).norm());
+  return farthest;
+}
+
+/// Half circle of `count` equal voussoirs with straight sides on two fixed blocks: their inner and outer
+/// corners lie on the circles of radius R -+ t/2, R = 10 m, joints are radial.
+/// @param ratio t / R
+Simulation arch(int count, double ratio, const Placement& placement) {
+  constexpr double mean_radius = 10.0;
+  constexpr double depth = 2.0;
+  const double t = ratio * mean_radius;
+  const Material rock{2500.0, 1e10, 0.2};
+  ContactScene scene(placement);
+  const auto joint = [&](int k, std::vector<Vector3>& points) {
+    const double angle = std::numbers::pi * k / count;
+    for (const double radius : {mean_radius - 0.5 * t, mean_radius + 0.5 * t}) {
+      for (const double y : {0.0, depth})
+        points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+    }
+  };
+  double size = 0.0;
+  for (int k = 0; k < count; ++k) {
+    std::vector<Vector3> points;
+    joint(k, points);
+    joint(k + 1, points);
+    BlockDefinition block = define_block(hull_of(points), rock, 1);
+    if (k == 0) size = block_size(BlockModel(block));
+    scene.add(std::move(block));
+  }
+  for (const double side : {-mean_radius, mean_radius})
+    scene.add_fixed(Polyhedron(make_box({side - 2.0, -1.0, -2.0}, {side + 2.0, depth + 1.0, 0})));
+  choose_as_for_statics(scene, size, rock.young_modulus, tangent_of(60));
+  scene.settings.time_step = 5e-3;
+  return scene.build();
+}
+
+/// Least thicknesses of rigid voussoirs. What stands in the static analysis does not move in the second after
+/// it. What falls there starts as placed; it has gone millimetres after 1 s, as next to nothing sets it off.
+std::vector<VerificationCheck> arch_case(const Placement& placement) {
+  std::vector<VerificationCheck> checks;
+  for (const auto& [count, least] : {std::pair{8, 0.09997}, std::pair{27, 0.10672}}) {
+    for (const double share : {1.01, 0.99}) {
+      const bool stands = share > 1.0;
+      const std::string name = fmt::format("N = {} at {} of the least thickness", count, share);
+      Simulation simulation = arch(count, share * least, placement);
+      const StaticStatus expected = stands ? StaticStatus::equilibrium : StaticStatus::moving;
+      const bool found = simulation.start_from_statics() == expected;
+      checks.push_back(check_absolute(fmt::format("{}: {}", name, stands ? "equilibrium" : "moving"),
+                                      found ? 1.0 : 0.0, 1.0, 0.0));
+      const double way = farthest_in(simulation, 1.0);
+      checks.push_back(stands ? check_absolute(fmt::format("{}: way in 1 s, m", name), way, 0.0, 1e-5)
+                              : check_absolute(fmt::format("{}: more than 1 mm in 1 s", name),
+                                               way > 1e-3 ? 1.0 : 0.0, 1.0, 0.0));
+    }
+  }
+  return checks;
+}
+
+/// Walls b x h x 1 on a fixed floor under uniform pressure on one side: with weight W per length they turn
+/// over at W b / h^2.
+std::vector<VerificationCheck> overturning_case(const Placement& placement) {
+  struct Wall {
+    double b, h;
+    int order;
+  };
+  const Material rock{2500.0, 1e10, 0.2};
+  std::vector<VerificationCheck> checks;
+  for (const auto& [b, h, order] : {Wall{1, 4, 1}, Wall{1, 4, 2}, Wall{0.5, 3, 1}, Wall{2, 3, 2}}) {
+    for (const double share : {0.998, 1.002}) {
+      ContactScene scene(placement);
+      scene.add_fixed(Polyhedron(make_box({-b, -1, -1}, {2 * b, 2, 0})));
+      BlockDefinition wall = define_block(Polyhedron(make_box({0, 0, 0}, {b, 1, h})), rock, order);
+      const double pressure = share * rock.density * 9.81 * b * b / h;
+      wall.loads.push_back({Plane{{0, 0, 0}, Vector3::UnitX()}, true, {pressure, 0, 0}, {}});
+      scene.add(std::move(wall));
+      choose_as_for_statics(scene, std::cbrt(b * h), rock.young_modulus, tangent_of(60));
+      Simulation simulation = scene.build();
+      const bool stands = share < 1.0;
+      checks.push_back(check_status(fmt::format("wall {} x {} of order {} at {} of the pressure: {}", b, h,
+                                                order, share, stands ? "equilibrium" : "moving"),
+                                    simulation, stands ? StaticStatus::equilibrium : StaticStatus::moving));
+    }
+  }
+  return checks;
+}
+
+/// Goodman and Bray's columns: 16 columns on a stepped base that dips 30 degrees. In the frame of the base,
+/// column n = 1 to 16 from the toe stands on [10 (n-1), 10 n], each step 1 m higher; heights grow by 4 m up
+/// to the tenth column and fall by 6.2 m beyond.
+ContactScene columns(const Placement& placement) {
+  ContactScene scene(placement);
+  scene.settings.area_springs = false;
+  // A face that rises towards positive x'.
+  const Placement raised{slope(-30)};
+  double height = 0.0;
+  for (int n = 1; n <= 16; ++n) {
+    height += n <= 10 ? 4.0 : -6.2;
+    const double x = 10.0 * (n - 1), base = n - 1.0;
+    scene.add_fixed(placed(Polyhedron(make_box({x, -5, base - 5}, {x + 10, 15, base})), raised));
+    scene.add(define_block(placed(Polyhedron(make_box({x, 0, base}, {x + 10, 10, base + height})), raised),
+                           {25e3 / 9.81, 1e10, 0.2}, 1));
+  }
+  return scene;
+}
+
+/// From equilibrium, as the full weight put on at once would set the columns in motion.
+std::vector<VerificationCheck> goodman_bray(const Placement& placement) {
+  ContactScene scene = columns(placement);
+  const std::shared_ptr<JointLaw> law = scene.law;
+  *law = {1e11, 1e11, tangent_of(39.5), 0.0, 0.0, false};
+  scene.settings.time_step = 5e-3;
+  Simulation simulation = scene.build();
+  std::vector<VerificationCheck> checks = {
+      check_status("equilibrium at phi 39.5", simulation, StaticStatus::equilibrium)};
+  checks.push_back(check_absolute("way in 1 s at phi 39.5, m", farthest_in(simulation, 1.0), 0.0, 1e-4));
+  // Driving and friction forces now differ by some percent, which moves columns by more than this in 1 s.
+  law->friction = tangent_of(36.5);
+  const double way = farthest_in(simulation, 1.0);
+  checks.push_back(check_absolute("more than 0.1 m in 1 s at phi 36.5", way > 0.1 ? 1.0 : 0.0, 1.0, 0.0));
+  return checks;
+}
+
+constexpr VerificationCase cases[] = {
+    {"goodman-bray", "toppling columns on a stepped base", goodman_bray},
+    {"arch", "semicircular arches of 8 and 27 voussoirs at their least thickness, at rest and in motion",
+     arch_case},
+    {"overturning-limit", "walls pressed on one side", overturning_case},
+    {"book-stack", "four blocks at their largest overhang", book_stack_case},
+};
+
+}  // namespace
+
+std::span<const VerificationCase> stack_cases() {
+  return cases;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,172 @@
+#include "apps/view/picture_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <ostream>
+#include <vector>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/base64.hpp"
+#include "apps/results/scratch_folder.hpp"
+#include "apps/view/headless_browser.hpp"
+#include "apps/view/view_file.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Numbers between separators; empty if the text is anything else.
+template <class T>
+std::vector<T> numbers_of(std::string_view text, char separator) {
+  std::vector<T> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    T number{};
+    const auto [next, error] = std::from_chars(at, end, number);
+    if (error != std::errc{}) return {};
+    numbers.push_back(number);
+    if (next == end) return numbers;
+    if (*next != separator) return {};
+    at = next + 1;
+  }
+}
+
+std::string check_size(const std::string& text) {
+  const std::vector<int> size = numbers_of<int>(text, 'x');
+  const auto fits = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
+  if (size.size() == 2 && fits(size[0]) && fits(size[1])) return "";
+  return fmt::format("size ({}), WIDTHxHEIGHT with 16 to 8192 pixels each is needed", text);
+}
+
+bool is_vector(const std::vector<double>& numbers) {
+  return numbers.size() == 3 &&
+         std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+std::string check_direction(const std::string& text) {
+  const std::vector<double> direction = numbers_of<double>(text, ',');
+  const bool good = is_vector(direction) && direction != std::vector(3, 0.0);
+  return good ? "" : fmt::format("direction ({}), x,y,z, not all zero, is needed", text);
+}
+
+std::string check_point(const std::optional<std::string>& text) {
+  if (!text || is_vector(numbers_of<double>(*text, ','))) return "";
+  return fmt::format("point ({}), x,y,z is needed", *text);
+}
+
+std::string check_positive(std::string_view name, double value) {
+  return value > 0.0 && std::isfinite(value) ? ""
+                                             : fmt::format("{} ({}), more than 0 is needed", name, value);
+}
+
+/// What follows # in the page's address; view_page.js reads it.
+std::string wishes(const PictureOptions& options, std::size_t frame) {
+  std::string text = fmt::format("picture&frame={}&size={}&from={}&color={}&zoom={}&scale={}", frame,
+                                 options.size, options.from, options.color, options.zoom, options.scale);
+  text += "&contacts=" + options.contacts;
+  if (options.no_arrows) text += "&arrows=none";
+  if (options.at) text += "&at=" + *options.at;
+  if (options.frame_range) text += "&range=frame";
+  return text;
+}
+
+int make_picture(const PictureOptions& options, const std::filesystem::path& browser, std::ostream& out,
+                 std::ostream& err) {
+  const ScratchFolder scratch;
+  const std::filesystem::path view = scratch.path() / "view.html";
+  const auto complain = [&](const std::string& what, int status) {
+    err << "ashlar: error: " << what << '\n';
+    return status;
+  };
+  ViewReport report;
+  try {
+    ViewOptions wanted;
+    wanted.frame = options.frame;
+    report = write_view_file(options.folder, view, wanted);
+  } catch (const std::exception& error) {
+    return complain(error.what(), exit_status::bad_input);
+  }
+  const std::size_t frame = options.frame.value_or(report.frames - 1);
+  const std::string page = loaded_page(browser, scratch.path(), view, wishes(options, frame),
+                                       std::chrono::duration<double>(options.time_limit));
+  if (const auto fault = left_text(page, "fault")) return complain(*fault, exit_status::bad_input);
+  const auto picture = left_text(page, "picture");
+  if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
+  write_file_atomically(options.picture, from_base64(*picture), Durability::process);
+  out << fmt::format("picture: {} (frame {} of 0 to {})\n", options.picture.string(), frame,
+                     report.frames - 1);
+  return exit_status::done;
+}
+
+}  // namespace
+
+int picture_command(const PictureOptions& options, std::ostream& out, std::ostream& err) {
+  for (const std::string& fault :
+       {check_size(options.size), check_direction(options.from), check_point(options.at),
+        check_positive("zoom", options.zoom), check_positive("scale", options.scale),
+        check_positive("time limit", options.time_limit)}) {
+    if (fault.empty()) continue;
+    err << "ashlar: error: " << fault << '\n';
+    return exit_status::bad_input;
+  }
+  if (options.picture.empty()) {
+    err << "ashlar: error: a picture without a name (\"\"), a name is needed\n";
+    return exit_status::bad_input;
+  }
+  if (const std::string suffix = CLI::detail::to_lower(options.picture.extension().string());
+      !suffix.empty() && suffix != ".png") {
+    err << fmt::format("ashlar: error: pictures are PNG files ({}), a name that ends with .png is needed\n",
+                       options.picture.string());
+    return exit_status::bad_input;
+  }
+  const auto browser = find_browser();
+  if (!browser) {
+    err << "ashlar: error: no chromium in PATH, which draws the picture; install it or set ASHLAR_BROWSER\n";
+    return exit_status::failed;
+  }
+  return make_picture(options, *browser, out, err);
+}
+
+void declare_picture_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("picture", "Draw one frame of a run as a PNG, without a display");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<PictureOptions>();
+  command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
+  command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")
+      ->type_name("N")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max(), ">= 0"));
+  command->add_option("--size", options->size, "Pixels (default: " + options->size + ")")->type_name("WxH");
+  command->add_option("--from", options->from, "Direction to the eye (default: " + options->from + ")")
+      ->type_name("X,Y,Z");
+  command->add_option("--color", options->color, "Colour by (default: displacement)")
+      ->type_name("FIELD")
+      ->check(CLI::IsMember({"displacement", "velocity", "von_mises", "pressure", "stress_xx", "stress_yy",
+                             "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order"}));
+  command->add_flag("--frame-range", options->frame_range,
+                    "Colours over the values of this frame (default: of the whole run)");
+  command->add_option("--at", options->at, "Point looked at (default: the middle of all blocks)")
+      ->type_name("X,Y,Z");
+  command->add_option("--zoom", options->zoom, "How much nearer than to see all (default: 1)")
+      ->type_name("F");
+  command->add_option("--scale", options->scale, "Displacements times (default: 1)")->type_name("F");
+  command->add_option("--contacts", options->contacts, "Points by state, type or none (default: state)")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"state", "type", "none"}));
+  command->add_flag("--no-arrows", options->no_arrows,
+                    "Contacts without their forces, as where there are more than 500");
+  command->add_option("--time-limit", options->time_limit, "Seconds for the browser (default: 120)")
+      ->type_name("S");
+  command->add_option("-o,--out", options->picture, "PNG to write")->required()->type_name("FILE");
+  command->callback(
+      [options, &context] { context.status = picture_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,36 @@
+#include "apps/view/view_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <ostream>
+
+#include "apps/view/view_file.hpp"
+
+namespace ashlar {
+
+int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostream& err) {
+  const std::filesystem::path page = options.page.value_or(options.folder / "view.html");
+  try {
+    const ViewReport report = write_view_file(options.folder, page);
+    out << fmt::format("view: {} ({} of {} frames, {:.1f} MB); open it in a browser\n", page.string(),
+                       report.frames_kept, report.frames, 1e-6 * static_cast<double>(report.bytes));
+    return exit_status::done;
+  } catch (const std::runtime_error& error) {
+    err << "ashlar: error: " << error.what() << '\n';
+    return exit_status::bad_input;
+  }
+}
+
+void declare_view_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command = program.add_subcommand("view", "Write the results of a run as a page for the browser");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<ViewCommandOptions>();
+  command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
+  command->add_option("-o,--out", options->page, "Page to write (default: DIR/view.html)")->type_name("FILE");
+  command->callback(
+      [options, &context] { context.status = view_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,49 @@
+// The point of a solid's surface nearest to a given point, exactly.
+//
+// A tree of boxes and floating lower and upper bounds of the distance to single triangles leave the few
+// triangles that can be nearest. For each of them exact signs tell which corner, side or inner part has its
+// nearest point: the merged feature of the solid. If more than one feature is left their distances are
+// compared in rational numbers. Nothing is decided on a rounded distance.
+#pragma once
+
+#include <memory>
+
+#include "geometry/convex/contact_region.hpp"
+#include "geometry/solid/polyhedron.hpp"
+
+namespace ashlar {
+
+enum class PointPlace { outside, on_surface, inside };
+
+struct ClosestPoint {
+  Vector3 point;                  ///< m, correctly rounded
+  double squared_distance = 0.0;  ///< m^2, correctly rounded
+  /// What has the point in its relative interior: corner (dimension 0, index: the point of the mesh), edge or
+  /// face of the Polyhedron. Of several that are equally near the one of lowest dimension, then lowest index;
+  /// of several points of one face or edge there is only one nearest.
+  ContactFeature feature;
+  PointPlace place = PointPlace::outside;  ///< of the given point
+};
+
+/// A solid made ready for questions; keeps a copy of it. Constant after construction: questions may be asked
+/// from many threads.
+class ClosestPointFinder {
+ public:
+  explicit ClosestPointFinder(Polyhedron solid);
+  ~ClosestPointFinder();
+  ClosestPointFinder(ClosestPointFinder&&) noexcept;
+  ClosestPointFinder& operator=(ClosestPointFinder&&) noexcept;
+
+  [[nodiscard]] const Polyhedron& solid() const;
+  /// @param x finite. @throws std::invalid_argument if it is not.
+  [[nodiscard]] ClosestPoint find(const Vector3& x) const;
+  /// The same without rational numbers: of features that are as near but for rounding any one may be the
+  /// answer.
+  [[nodiscard]] ClosestPoint find_any(const Vector3& x) const;
+
+ private:
+  class Surface;
+  std::unique_ptr<const Surface> surface_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,389 @@
+#include "geometry/contacts/motion_check.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "geometry/any_solid/triangle_distance.hpp"
+#include "geometry/boxes/box_pairs.hpp"
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A point on its way.
+struct Path {
+  Vector3 start;
+  Vector3 step;
+  [[nodiscard]] Vector3 at(double share) const { return start + share * step; }
+};
+
+Path path_of(const MovingSurface& s, int point) {
+  return {s.start->point(point), s.end->point(point) - s.start->point(point)};
+}
+
+Box swept_box(const MovingSurface& s, std::span<const int> points) {
+  Box box;
+  for (const int point : points) {
+    box.include(s.start->point(point));
+    box.include(s.end->point(point));
+  }
+  return box;
+}
+
+/// Bernstein coefficients over the step of (p - a) . ((b - a) x (c - a)): products of linear functions.
+std::array<double, 4> signed_volume(const Path& p, const Path& a, const Path& b, const Path& c) {
+  const auto difference = [](const Path& x, const Path& y) {
+    return std::array<Vector3, 2>{x.start - y.start, x.start + x.step - y.start - y.step};
+  };
+  const auto u = difference(p, a), v = difference(b, a), w = difference(c, a);
+  std::array<double, 4> sums{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      for (std::size_t k = 0; k < 2; ++k) sums[i + j + k] += u[i].dot(v[j].cross(w[k]));
+    }
+  }
+  return {sums[0], sums[1] / 3.0, sums[2] / 3.0, sums[3]};
+}
+
+/// Least coefficient of a cubic over the part of the step from a share on.
+double least_after(std::array<double, 4> cubic, double share) {
+  for (std::size_t step = 1; step < 4; ++step) {
+    for (std::size_t k = 0; k + step < 4; ++k) cubic[k] += share * (cubic[k + 1] - cubic[k]);
+  }
+  return *std::min_element(cubic.begin(), cubic.end());
+}
+
+/// Shares of two segments (a, b) and (c, d) where they are nearest to each other.
+std::array<double, 2> nearest_shares(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+  const Vector3 u = b - a, v = d - c, r = a - c;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+  const double determinant = uu * vv - uv * uv;
+  double s = determinant > 0.0 ? std::clamp((uv * v.dot(r) - vv * u.dot(r)) / determinant, 0.0, 1.0) : 0.0;
+  const double t = vv > 0.0 ? std::clamp((uv * s + v.dot(r)) / vv, 0.0, 1.0) : 0.0;
+  s = uu > 0.0 ? std::clamp((uv * t - u.dot(r)) / uu, 0.0, 1.0) : 0.0;
+  return {s, t};
+}
+
+/// A share of the step before which two features are farther apart than `near`; none if they are so to its
+/// end.
+/// @param distance_at by share. @param speed fastest approach, m per step
+template <class Distance>
+std::optional<double> first_touch(Distance distance_at, double speed, double near) {
+  constexpr int most_advances = 64;  // then the share reached is a safe answer too
+  double share = 0.0;
+  for (int advance = 0; advance < most_advances; ++advance) {
+    const double distance = distance_at(share);
+    if (distance <= near) return share;
+    if (!(speed * (1.0 - share) > distance - near)) return std::nullopt;
+    share += (distance - 0.5 * near) / speed;
+    if (share >= 1.0) return std::nullopt;
+  }
+  return share;
+}
+
+/// Where a contact is known, and between which faces: near both of two points or convex polygons.
+struct KnownPlace {
+  int face_a;
+  int face_b;
+  std::array<std::vector<Vector3>, 2> outlines;
+};
+
+double distance_to_place(const Vector3& p, const std::vector<Vector3>& outline) {
+  double least = (p - outline[0]).norm();
+  for (std::size_t k = 1; k + 1 < outline.size(); ++k)
+    least = std::min(least, distance_to_triangle(p, {outline[0], outline[k], outline[k + 1]}));
+  return least;
+}
+
+/// Of the segment from `start` to `end`.
+double distance_to_place(const Vector3& start, const Vector3& end, const std::vector<Vector3>& outline) {
+  if (outline.size() == 1) return (closest_on_segment(outline[0], start, end) - outline[0]).norm();
+  double least = std::min(distance_to_place(start, outline), distance_to_place(end, outline));
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vector3& corner = outline[k];
+    const Vector3& next = outline[(k + 1) % outline.size()];
+    const auto [s, t] = nearest_shares(start, end, corner, next);
+    least = std::min(least, (start + s * (end - start) - corner - t * (next - corner)).norm());
+  }
+  return least;
+}
+
+std::vector<KnownPlace> places_of(const PlacedSurface& a, const PlacedSurface& b, const PairContacts& known) {
+  std::vector<KnownPlace> places;
+  const auto face = [](const PlacedSurface& s, int cell) { return s.surface().cells[at(cell)].face; };
+  const auto corners = [](const PlacedSurface& s, int cell) {
+    std::vector<Vector3> result;
+    for (const int corner : s.surface().cells[at(cell)].corners) result.push_back(s.point(corner));
+    return result;
+  };
+  for (const CellOverlap& overlap : known.overlaps) {
+    places.push_back({face(a, overlap.cell_a),
+                      face(b, overlap.cell_b),
+                      {corners(a, overlap.cell_a), corners(b, overlap.cell_b)}});
+  }
+  for (const VertexContact& contact : known.vertices) {
+    const Vector3& place = contact.vertex_of_a ? a.point(contact.point) : b.point(contact.point);
+    const int of_a = contact.vertex_of_a ? contact.own_cell : contact.cell;
+    const int of_b = contact.vertex_of_a ? contact.cell : contact.own_cell;
+    places.push_back({face(a, of_a), face(b, of_b), {{{place}, {place}}}});
+  }
+  for (const EdgeContact& contact : known.edges) {
+    const auto& ends = contact.of_a.ends;
+    const Vector3 place = a.point(ends[0]) + contact.of_a.along * (a.point(ends[1]) - a.point(ends[0]));
+    places.push_back({face(a, contact.of_a.cell), face(b, contact.of_b.cell), {{{place}, {place}}}});
+  }
+  return places;
+}
+
+/// A point, a side or a cell with what surrounds it.
+struct Feature {
+  std::vector<int> points;
+  int cell;                           ///< one that has it
+  std::vector<int> faces;             ///< a contact of one of these stands for it
+  Vector3 outward = Vector3::Zero();  ///< of a side: sum of the normals beside it
+};
+
+/// All points, sides and cells of a surface that a motion check looks at.
+struct Features {
+  std::vector<Feature> points;
+  std::vector<Feature> sides;
+  std::vector<Feature> cells;
+};
+
+void sort_out(std::vector<int>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+Features features_near(const MovingSurface& moving, const Box& around) {
+  const SubFaceSurface& surface = moving.start->surface();
+  std::vector<std::vector<int>> faces_at(surface.points.size());
+  std::vector<int> cell_at(surface.points.size(), -1);
+  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
+    for (const int corner : surface.cells[c].corners) {
+      faces_at[at(corner)].push_back(surface.cells[c].face);
+      if (cell_at[at(corner)] < 0) cell_at[at(corner)] = static_cast<int>(c);
+    }
+  }
+  for (auto& faces : faces_at) sort_out(faces);
+  Features features;
+  const auto add = [&](std::vector<Feature>& list, Feature feature) {
+    if (swept_box(moving, feature.points).meets(around)) list.push_back(std::move(feature));
+  };
+  for (std::size_t p = 0; p < surface.points.size(); ++p) {
+    if (cell_at[p] >= 0 && (surface.divided || surface.vertex_of_point[p] >= 0))
+      add(features.points, {{static_cast<int>(p)}, cell_at[p], faces_at[p]});
+  }
+  // The faces beside a side, and those at its ends that are across a convex edge of these.
+  const auto add_side = [&](int start, int end, const std::array<int, 2>& cells) {
+    const std::array<int, 2> beside = {surface.cells[at(cells[0])].face, surface.cells[at(cells[1])].face};
+    Feature side{{start, end}, cells[0], {beside.begin(), beside.end()}};
+    for (const int point : side.points) {
+      for (const int face : faces_at[at(point)]) {
+        const auto& joined = surface.convex_neighbours[at(face)];
+        if (std::any_of(beside.begin(), beside.end(),
+                        [&](int own) { return std::binary_search(joined.begin(), joined.end(), own); }))
+          side.faces.push_back(face);
+      }
+    }
+    sort_out(side.faces);
+    side.outward = moving.start->normal(cells[0]) + moving.start->normal(cells[1]);
+    add(features.sides, std::move(side));
+  };
+  for (const SurfaceEdge& edge : surface.edges) {
+    if (edge.convex) add_side(edge.ends[0], edge.ends[1], edge.cells);
+  }
+  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
+    const SurfaceCell& cell = surface.cells[c];
+    Feature feature{cell.corners, static_cast<int>(c), surface.convex_neighbours[at(cell.face)]};
+    feature.faces.push_back(cell.face);
+    add(features.cells, std::move(feature));
+    for (std::size_t k = 0; surface.divided && k < 3; ++k) {
+      const int start = cell.corners[k];
+      const int end = cell.corners[(k + 1) % 3];
+      if (cell.rim[k] < 0 && start < end) add_side(start, end, {static_cast<int>(c), static_cast<int>(c)});
+    }
+  }
+  return features;
+}
+
+/// Finds the touches of one pair of surfaces.
+class MotionCheck {
+ public:
+  MotionCheck(const MovingSurface& a, const MovingSurface& b, const PairContacts& known,
+              const MotionLimits& limits)
+      : a_(a), b_(b), limits_(limits), known_(places_of(*a.start, *b.start, known)) {}
+
+  std::vector<Touch> run() {
+    const double near = limits_.tolerance;
+    const Features of_a = features_near(a_, all(b_).grown(near));
+    const Features of_b = features_near(b_, all(a_).grown(near));
+    check_points(of_a.points, of_b.cells, true);
+    check_points(of_b.points, of_a.cells, false);
+    for (const auto& [i, j] : meeting_boxes(boxes(a_, of_a.sides, near), boxes(b_, of_b.sides, 0.0)))
+      check_sides(of_a.sides[at(i)], of_b.sides[at(j)]);
+    return std::move(touches_);
+  }
+
+ private:
+  static Box all(const MovingSurface& s) {
+    Box box = s.start->box();
+    box.include(s.end->box());
+    return box;
+  }
+
+  static std::vector<Box> boxes(const MovingSurface& s, const std::vector<Feature>& features, double margin) {
+    std::vector<Box> result;
+    result.reserve(features.size());
+    for (const Feature& feature : features) result.push_back(swept_box(s, feature.points).grown(margin));
+    return result;
+  }
+
+  /// Whether a known contact of two features is where one of them is at the start or the end of the step.
+  /// @param moved the point or side of surface s among them
+  [[nodiscard]] bool is_known(const Feature& of_a, const Feature& of_b, const Feature& moved,
+                              const MovingSurface& s) const {
+    const auto has = [](const std::vector<int>& faces, int face) {
+      return std::find(faces.begin(), faces.end(), face) != faces.end();
+    };
+    const Path first = path_of(s, moved.points.front()), last = path_of(s, moved.points.back());
+    const auto is_near = [&](const Vector3& start, const Vector3& end, const KnownPlace& place) {
+      return std::all_of(place.outlines.begin(), place.outlines.end(), [&](const auto& outline) {
+        return distance_to_place(start, end, outline) <= limits_.reach;
+      });
+    };
+    return std::any_of(known_.begin(), known_.end(), [&](const KnownPlace& place) {
+      return has(of_a.faces, place.face_a) && has(of_b.faces, place.face_b) &&
+             (is_near(first.at(0.0), last.at(0.0), place) || is_near(first.at(1.0), last.at(1.0), place));
+    });
+  }
+
+  void check_points(const std::vector<Feature>& points, const std::vector<Feature>& cells, bool point_of_a) {
+    const MovingSurface& with_point = point_of_a ? a_ : b_;
+    const MovingSurface& with_cell = point_of_a ? b_ : a_;
+    for (const auto& [i, j] :
+         meeting_boxes(boxes(with_point, points, limits_.tolerance), boxes(with_cell, cells, 0.0))) {
+      const Feature& point = points[at(i)];
+      const Feature& cell = cells[at(j)];
+      if (point_of_a ? is_known(point, cell, point, a_) : is_known(cell, point, point, b_)) continue;
+      const Path p = path_of(with_point, point.points[0]);
+      const Path first = path_of(with_cell, cell.points[0]);
+      for (std::size_t k = 1; k + 1 < cell.points.size(); ++k) {
+        const std::array<Path, 3> corners = {first, path_of(with_cell, cell.points[k]),
+                                             path_of(with_cell, cell.points[k + 1])};
+        if (const auto share = enters(p, corners)) {
+          add_vertex(with_point, point, with_cell, cell, point_of_a, *share);
+          break;
+        }
+      }
+    }
+  }
+
+  /// When a point that is outside a triangle's plane at the start may get through it.
+  [[nodiscard]] std::optional<double> enters(const Path& p, const std::array<Path, 3>& corners) const {
+    const auto volume = signed_volume(p, corners[0], corners[1], corners[2]);
+    const auto doubled_area = [&](double share) {
+      return (corners[1].at(share) - corners[0].at(share))
+          .cross(corners[2].at(share) - corners[0].at(share))
+          .norm();
+    };
+    const double allowed = limits_.tolerance * std::min(doubled_area(0.0), doubled_area(1.0));
+    if (volume[0] < -allowed || *std::min_element(volume.begin(), volume.end()) >= -allowed)
+      return std::nullopt;
+    double speed = 0.0;
+    for (const Path& corner : corners) speed = std::max(speed, (p.step - corner.step).norm());
+    const auto distance = [&](double share) {
+      return distance_to_triangle(p.at(share),
+                                  {corners[0].at(share), corners[1].at(share), corners[2].at(share)});
+    };
+    const auto share = first_touch(distance, speed, 0.25 * limits_.tolerance);
+    if (share && least_after(volume, *share) >= -allowed) return std::nullopt;
+    return share;
+  }
+
+  void add_vertex(const MovingSurface& with_point, const Feature& point, const MovingSurface& with_cell,
+                  const Feature& cell, bool point_of_a, double share) {
+    const PlacedSurface& surface = *with_cell.start;
+    const double gap = surface.normal(cell.cell).dot(with_point.start->point(point.points[0]) -
+                                                     surface.point(cell.points[0]));
+    touches_.push_back({share, VertexContact{point_of_a, point.points[0], point.cell, cell.cell, gap,
+                                             tributary_area(with_point.start->surface(), {point.cell})}});
+  }
+
+  /// Whether two sides that start beside each other diverge by less than the tolerance there. They meet at
+  /// their ends, which go through the cells beside the other one; where their own lines cross, and on which
+  /// side of each other they start, is rounding.
+  [[nodiscard]] bool start_parallel(const std::array<Path, 2>& a, const std::array<Path, 2>& b) const {
+    const Vector3 u = a[1].start - a[0].start;
+    const Vector3 v = b[1].start - b[0].start;
+    return u.cross(v).norm() <= limits_.tolerance * std::max(u.norm(), v.norm());
+  }
+
+  void check_sides(const Feature& of_a, const Feature& of_b) {
+    if (is_known(of_a, of_b, of_a, a_) && is_known(of_a, of_b, of_b, b_)) return;
+    const std::array<Path, 2> a = {path_of(a_, of_a.points[0]), path_of(a_, of_a.points[1])};
+    const std::array<Path, 2> b = {path_of(b_, of_b.points[0]), path_of(b_, of_b.points[1])};
+    const auto across = [&](double share) {
+      return Vector3((a[1].at(share) - a[0].at(share)).cross(b[1].at(share) - b[0].at(share)));
+    };
+    if (start_parallel(a, b)) return;
+    // The volume is positive while b is ahead of a along u x v; apart are the two where that leads into b.
+    auto volume = signed_volume(b[0], a[0], a[1], b[1]);
+    const double sign = across(0.0).dot(of_a.outward - of_b.outward) < 0.0 ? -1.0 : 1.0;
+    for (double& coefficient : volume) coefficient *= sign;
+    const double allowed = limits_.tolerance * std::min(across(0.0).norm(), across(1.0).norm());
+    if (volume[0] < -allowed || *std::min_element(volume.begin(), volume.end()) >= -allowed) return;
+    double speed = 0.0;
+    for (const Path& p : a) {
+      for (const Path& q : b) speed = std::max(speed, (p.step - q.step).norm());
+    }
+    const auto shares = [&](double share) {
+      return nearest_shares(a[0].at(share), a[1].at(share), b[0].at(share), b[1].at(share));
+    };
+    const auto place = [](const std::array<Path, 2>& side, double along, double share) {
+      return Vector3(side[0].at(share) + along * (side[1].at(share) - side[0].at(share)));
+    };
+    const auto distance = [&](double share) {
+      const auto [s, t] = shares(share);
+      return (place(a, s, share) - place(b, t, share)).norm();
+    };
+    const auto share = first_touch(distance, speed, 0.25 * limits_.tolerance);
+    if (!share || least_after(volume, *share) >= -allowed) return;
+    const auto [s, t] = shares(*share);
+    // An end of one that meets the other goes through a cell beside it: which sides of a corner cross there
+    // is rounding.
+    const auto is_end = [&](const std::array<Path, 2>& side, double along) {
+      const double length = (side[1].at(*share) - side[0].at(*share)).norm();
+      return std::min(along, 1.0 - along) * length <= 0.25 * limits_.tolerance;
+    };
+    if (is_end(a, s) || is_end(b, t)) return;
+    const Vector3 normal = -sign * across(*share).normalized();
+    const Vector3 apart = place(a, s, 0.0) - place(b, t, 0.0);
+    touches_.push_back({*share, EdgeContact{{{of_a.points[0], of_a.points[1]}, of_a.cell, s},
+                                            {{of_b.points[0], of_b.points[1]}, of_b.cell, t},
+                                            normal,
+                                            normal.dot(apart),
+                                            std::min(tributary_area(a_.start->surface(), {of_a.cell}),
+                                                     tributary_area(b_.start->surface(), {of_b.cell}))}});
+  }
+
+  const MovingSurface a_;
+  const MovingSurface b_;
+  const MotionLimits limits_;
+  std::vector<KnownPlace> known_;
+  std::vector<Touch> touches_;
+};
+
+}  // namespace
+
+std::vector<Touch> find_touches(const MovingSurface& a, const MovingSurface& b, const PairContacts& known,
+                                const MotionLimits& limits) {
+  return MotionCheck(a, b, known, limits).run();
+}
+
+}  // namespace ashlar

@@ -1,0 +1,159 @@
+#include "geometry/mesh/polygon_triangulation.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <stdexcept>
+
+namespace ashlar {
+namespace {
+
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+
+// The corners that are left make a ring; those of them that are not strictly convex, which are all that can
+// lie in an ear, make a second list.
+class EarClipper {
+ public:
+  EarClipper(const std::vector<Vector3>& points, std::span<const int> corners, std::size_t& tests_left)
+      : tests_left_(tests_left) {
+    Vector3 normal = Vector3::Zero();
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Vector3& a = points[corners[0]];
+      normal += (points[corners[i - 1]] - a).cross(points[corners[i]] - a);
+    }
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    int u = (axis + 1) % 3;
+    int v = (axis + 2) % 3;
+    if (normal[axis] < 0.0) std::swap(u, v);
+    const int count = static_cast<int>(corners.size());
+    for (int i = 0; i < count; ++i) {
+      const int c = corners[i];
+      ring_.push_back({c, Point(points[c][u], points[c][v]), (i + count - 1) % count, (i + 1) % count});
+    }
+    for (int i = 0; i < count; ++i) mark(i);
+  }
+
+  void run(std::vector<std::array<int, 3>>& triangles) {
+    std::size_t left = ring_.size();
+    std::size_t refused = 0;
+    int candidate = 1;
+    int first = 0;  // of those left, in the order given
+    while (left > 3 && refused < left) {
+      const int next = ring_[candidate].next;
+      if (!is_ear(candidate)) {
+        candidate = next;
+        ++refused;
+        continue;
+      }
+      emit(candidate, triangles);
+      if (candidate == first) first = next;
+      remove(candidate);
+      candidate = next;
+      --left;
+      refused = 0;
+    }
+    for (int i = ring_[first].next; ring_[i].next != first; i = ring_[i].next) {
+      triangles.push_back({ring_[first].corner, ring_[i].corner, ring_[ring_[i].next].corner});
+    }
+  }
+
+ private:
+  struct Corner {
+    int corner;
+    Point place;
+    int before;
+    int next;
+    bool convex = true;  // strictly
+    int before_not_convex = none;
+    int next_not_convex = none;
+  };
+  static constexpr int none = -1;
+
+  void mark(int i) {
+    Corner& corner = ring_[i];
+    const bool convex = CGAL::orientation(ring_[corner.before].place, corner.place,
+                                          ring_[corner.next].place) == CGAL::COUNTERCLOCKWISE;
+    if (convex == corner.convex) return;
+    if (convex)
+      unlist(i);
+    else
+      list(i);
+    corner.convex = convex;
+  }
+
+  void list(int i) {
+    ring_[i].before_not_convex = none;
+    ring_[i].next_not_convex = first_not_convex_;
+    if (first_not_convex_ != none) ring_[first_not_convex_].before_not_convex = i;
+    first_not_convex_ = i;
+  }
+
+  void unlist(int i) {
+    const int before = ring_[i].before_not_convex;
+    const int next = ring_[i].next_not_convex;
+    (before == none ? first_not_convex_ : ring_[before].next_not_convex) = next;
+    if (next != none) ring_[next].before_not_convex = before;
+  }
+
+  // An ear, which is convex.
+  void remove(int i) {
+    const int before = ring_[i].before;
+    const int next = ring_[i].next;
+    ring_[before].next = next;
+    ring_[next].before = before;
+    mark(next);
+    mark(before);
+  }
+
+  [[nodiscard]] bool is_ear(int i) {
+    if (!ring_[i].convex) return false;
+    const Point& a = ring_[ring_[i].before].place;
+    const Point& b = ring_[i].place;
+    const Point& c = ring_[ring_[i].next].place;
+    for (int k = first_not_convex_; k != none; k = ring_[k].next_not_convex) {
+      if (tests_left_ == 0) throw std::length_error("polygons with too many corners");
+      --tests_left_;
+      const Point& p = ring_[k].place;
+      if (p != a && p != b && p != c && CGAL::orientation(a, b, p) != CGAL::CLOCKWISE &&
+          CGAL::orientation(b, c, p) != CGAL::CLOCKWISE && CGAL::orientation(c, a, p) != CGAL::CLOCKWISE)
+        return false;
+    }
+    return true;
+  }
+
+  void emit(int i, std::vector<std::array<int, 3>>& triangles) const {
+    triangles.push_back({ring_[ring_[i].before].corner, ring_[i].corner, ring_[ring_[i].next].corner});
+  }
+
+  std::vector<Corner> ring_;  // by index, those cut off too
+  int first_not_convex_ = none;
+  std::size_t& tests_left_;
+};
+
+}  // namespace
+
+void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int> corners,
+                         std::vector<std::array<int, 3>>& triangles, std::size_t& tests_left) {
+  if (corners.size() == 3) {
+    triangles.push_back({corners[0], corners[1], corners[2]});
+    return;
+  }
+  const bool finite =
+      std::all_of(corners.begin(), corners.end(), [&points](int c) { return points[c].allFinite(); });
+  if (finite) {
+    EarClipper(points, corners, tests_left).run(triangles);
+    return;
+  }
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    triangles.push_back({corners[0], corners[i], corners[i + 1]});
+  }
+}
+
+void append_fan(std::vector<int> loop, std::vector<std::array<int, 3>>& triangles) {
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k) triangles.push_back({loop[0], loop[k], loop[k + 1]});
+}
+
+}  // namespace ashlar

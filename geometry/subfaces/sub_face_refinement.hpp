@@ -1,0 +1,136 @@
+// Sub-faces of a block that curves: triangles of its faces, divided where and as long as the certified chord
+// error asks for it (theory.md section 6.2).
+//
+// Triangles of the mesh are bisected at their longest side in reference coordinates, neighbours along with
+// them, so that the division stays conforming and its angles bounded. A triangle is divided while the bound
+// of its chord error (bernstein_triangle.hpp) exceeds the tolerance and some neighbour is in its reach; it is
+// joined again once the bound falls below half the tolerance or nothing is in reach any more. Since
+// everything is in reference coordinates, dividing and joining lose nothing.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "geometry/subfaces/bernstein_triangle.hpp"
+#include "geometry/subfaces/sub_face_surface.hpp"
+
+namespace ashlar {
+
+/// Where the faces of a block are to be divided, and how finely.
+struct DivisionDemand {
+  double chord_tolerance;           ///< m, > 0; infinity: no division
+  std::span<const Box> neighbours;  ///< along AdaptiveSurface's axes: only cells that meet one are divided
+};
+
+/// A cell's true, curved shape.
+struct CellShape {
+  Box box;             ///< contains the curved patch
+  double chord_bound;  ///< BernsteinTriangle::chord_bound, m
+};
+
+/// Changes with every update.
+class AdaptiveSurface {
+ public:
+  /// More cells than this, or more bisections of one triangle, are not made; chord_bound() then tells what
+  /// was reached.
+  static constexpr int max_cells = 1 << 15;
+  static constexpr int max_bisections = 24;
+
+  /// @param solid must outlive this. @param order of the block's motion, 1 to BernsteinForm::max_order
+  /// @param levels uniform levels (0 to 8) the adaptive division starts from
+  /// @param axes (3, 3), orthonormal columns, of the boxes that decide what is in reach: a scene that is
+  /// turned along with its axes is divided as before
+  AdaptiveSurface(const Polyhedron& solid, int order, int levels,
+                  const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+
+  /// Reference coordinates of the points whose current positions an update needs, m.
+  [[nodiscard]] const std::vector<Vector3>& domain_points() const { return domain_points_; }
+
+  /// Takes the block's present shape. @param values (3, #domain_points), current positions, m
+  void move(const Eigen::Ref<const Eigen::Matrix3Xd>& values);
+  /// Contains the curved surface, as moved last; along the axes.
+  [[nodiscard]] const Box& box() const { return box_; }
+
+  /// Divides and joins as demanded of the present shape. @return true if the cells changed
+  bool divide(const DivisionDemand& demand);
+
+  [[nodiscard]] const SubFaceSurface& surface() const { return surface_; }
+  /// (#cells), as of the last division.
+  [[nodiscard]] const std::vector<CellShape>& cell_shapes() const { return cell_shapes_; }
+  /// The curved patch of a cell, as of the last division.
+  [[nodiscard]] const BernsteinTriangle& patch(int cell) const;
+  /// Largest of all cells, m, as of the last division.
+  [[nodiscard]] double chord_bound() const;
+
+  /// What chord_bound() would be of the present cells in another shape. @param values as for move()
+  [[nodiscard]] double chord_bound_in(const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
+
+  /// How far any surface point can have gone between two shapes, m, from above. @param before, after as for
+  /// move()
+  [[nodiscard]] double motion_bound(const Eigen::Ref<const Eigen::Matrix3Xd>& before,
+                                    const Eigen::Ref<const Eigen::Matrix3Xd>& after) const;
+
+  /// Bounds of the magnitudes of polynomials of the surface's order anywhere on it.
+  /// @param values (#domain_points, k) of k polynomials. @return (k)
+  [[nodiscard]] Eigen::RowVectorXd largest_values(const Eigen::MatrixXd& values) const;
+
+  /// The triangles that are divided for their own sake: all that a division depends on beside the shape and
+  /// the demand. To be given to another surface of the same solid, order and levels before its next division.
+  [[nodiscard]] std::vector<std::uint64_t> wanted() const;
+  void set_wanted(const std::vector<std::uint64_t>& wanted) { remembered_ = {wanted.begin(), wanted.end()}; }
+
+ private:
+  struct Node {
+    int face;
+    std::array<int, 3> corners;   ///< points; numbered as in the node's patch
+    std::array<int, 3> rim;       ///< by side
+    std::uint64_t path;           ///< name: the root and the halves taken from there
+    std::array<int, 2> children;  ///< -1: a leaf
+    int longest;                  ///< the side it is cut at
+    int bisections;               ///< from the root
+    bool wanted;                  ///< cut for its own sake, not for a neighbour's
+  };
+
+  [[nodiscard]] Node make_node(int face, const std::array<int, 3>& corners, const std::array<int, 3>& rim,
+                               std::uint64_t path, int bisections) const;
+  [[nodiscard]] bool needs_division(const Node& node, const BernsteinTriangle& patch, double tolerance,
+                                    const DivisionDemand& demand) const;
+  [[nodiscard]] bool division_fits(const DivisionDemand& demand);
+  void divide_anew(const DivisionDemand& demand);
+  void divide_to(double tolerance, const DivisionDemand& demand);
+  void cut(int node);
+  void cut_with_neighbours(int node);
+  [[nodiscard]] std::vector<BernsteinTriangle> root_patches(
+      const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
+  /// The chord bound of a node's patch.
+  [[nodiscard]] static double bound_of(const Node& node, const BernsteinTriangle& patch);
+  /// Patches of all nodes. @param of_roots theirs
+  [[nodiscard]] std::vector<BernsteinTriangle> placed_patches(
+      const std::vector<BernsteinTriangle>& of_roots) const;
+  [[nodiscard]] std::vector<int> list_leaves() const;
+  void take_leaves(std::vector<int> leaves);
+
+  const Polyhedron* solid_;
+  const BernsteinForm* form_;
+  Eigen::Matrix3d axes_;
+  std::vector<Vector3> domain_points_;
+  std::vector<Vector3> points_;  ///< those of the roots first
+  std::size_t root_points_ = 0;
+  std::map<std::array<int, 2>, int> midpoints_;  ///< by the ends of a side
+  std::vector<Node> nodes_;                      ///< roots first
+  std::vector<BernsteinTriangle> patches_;       ///< by node
+  std::vector<BernsteinTriangle> root_patches_;
+  std::map<std::array<int, 2>, int> leaf_of_side_;  ///< directed side of a leaf, while dividing
+  int root_count_ = 0;
+  int leaf_count_ = 0;
+  std::vector<int> leaves_;             ///< in the order of the cells
+  std::set<std::uint64_t> remembered_;  ///< wanted nodes of the division before
+  SubFaceSurface surface_;
+  std::vector<CellShape> cell_shapes_;
+  Box box_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,235 @@
+// Nodes are eigenvalues of the Jacobi matrix of the three-term recurrence (Golub and Welsch 1969), modified
+// in its last row for rules with prescribed ends (Golub 1973); weights are squared first components of the
+// eigenvectors.
+#include "mechanics/basis/quadrature.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace ashlar {
+namespace {
+
+/// Recurrence coefficients on [-1, 1] for the weight (1 - x)^alpha, alpha 0 or 1.
+double diagonal(int k, int alpha) {
+  if (alpha == 0) return 0.0;
+  return -1.0 / ((2.0 * k + 1.0) * (2.0 * k + 3.0));
+}
+double squared_off_diagonal(int k, int alpha) {  // k >= 1
+  const double n = k;
+  if (alpha == 0) return n * n / (4.0 * n * n - 1.0);
+  return n * (n + 1.0) / ((2.0 * n + 1.0) * (2.0 * n + 1.0));
+}
+
+SegmentRule from_jacobi_matrix(const Eigen::VectorXd& main, const Eigen::VectorXd& off, double total) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
+  eigen.computeFromTridiagonal(main, off);
+  SegmentRule rule;
+  for (Eigen::Index k = 0; k < main.size(); ++k) {
+    rule.points.push_back(0.5 * (1.0 + eigen.eigenvalues()[k]));
+    rule.weights.push_back(total * eigen.eigenvectors()(0, k) * eigen.eigenvectors()(0, k));
+  }
+  return rule;
+}
+
+/// Solves (J - x I) y = e_last for the leading part of the Jacobi matrix. @return last component of y
+double last_of_shifted_solve(const Eigen::VectorXd& main, const Eigen::VectorXd& off, double x) {
+  const Eigen::Index n = main.size();
+  Eigen::MatrixXd shifted = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    shifted(k, k) = main[k] - x;
+    if (k + 1 < n) shifted(k, k + 1) = shifted(k + 1, k) = off[k];
+  }
+  return shifted.partialPivLu().solve(Eigen::VectorXd::Unit(n, n - 1))[n - 1];
+}
+
+void fill_recurrence(int count, int alpha, Eigen::VectorXd& main, Eigen::VectorXd& off) {
+  main.resize(count);
+  off.resize(std::max(count - 1, 0));
+  for (int k = 0; k < count; ++k) {
+    main[k] = diagonal(k, alpha);
+    if (k > 0) off[k - 1] = std::sqrt(squared_off_diagonal(k, alpha));
+  }
+}
+
+}  // namespace
+
+SegmentRule gauss_legendre(int count) {
+  Eigen::VectorXd main;
+  Eigen::VectorXd off;
+  fill_recurrence(count, 0, main, off);
+  return from_jacobi_matrix(main, off, 1.0);
+}
+
+SegmentRule gauss_lobatto(int count) {
+  Eigen::VectorXd main;
+  Eigen::VectorXd off;
+  fill_recurrence(count, 0, main, off);
+  if (count == 2) {
+    off[0] = 1.0;
+  } else {
+    const double left = last_of_shifted_solve(main.head(count - 1), off.head(count - 2), -1.0);
+    const double right = last_of_shifted_solve(main.head(count - 1), off.head(count - 2), 1.0);
+    // last diagonal a and squared off-diagonal b with  a - b left = -1,  a - b right = 1
+    const double squared = 2.0 / (left - right);
+    main[count - 1] = -1.0 + squared * left;
+    off[count - 2] = std::sqrt(squared);
+  }
+  SegmentRule rule = from_jacobi_matrix(main, off, 1.0);
+  rule.points.front() = 0.0;
+  rule.points.back() = 1.0;
+  return rule;
+}
+
+SegmentRule radau_for_triangles(int count) {
+  Eigen::VectorXd main;
+  Eigen::VectorXd off;
+  fill_recurrence(count, 1, main, off);
+  if (count == 1) return {{0.0}, {0.5}};
+  const double left = last_of_shifted_solve(main.head(count - 1), off.head(count - 2), -1.0);
+  main[count - 1] = -1.0 + off[count - 2] * off[count - 2] * left;
+  SegmentRule rule = from_jacobi_matrix(main, off, 0.5);
+  rule.points.front() = 0.0;
+  return rule;
+}
+
+namespace {
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+using Corners = std::vector<Eigen::Vector2d>;
+
+/// Takes the flattest corner out of a polygon if it is nearly straight. @return it between its neighbours
+std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon) {
+  constexpr double nearly_straight = 1e-3;  // height of a corner over the line between its neighbours
+  // Corners that are as flat but for rounding: the first.
+  constexpr double less = 1.0 - 1e-6;
+  const std::size_t corners = polygon.size();
+  if (corners <= 3) return std::nullopt;
+  double least = nearly_straight;
+  std::optional<std::size_t> flattest;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Eigen::Vector2d& before = polygon[(k + corners - 1) % corners];
+    const Eigen::Vector2d line = polygon[(k + 1) % corners] - before;
+    const double height = std::abs(cross(line, polygon[k] - before));
+    if (!(height < (flattest ? less : 1.0) * least * line.squaredNorm())) continue;
+    least = height / line.squaredNorm();
+    flattest = k;
+  }
+  if (!flattest) return std::nullopt;
+  const std::array<Eigen::Vector2d, 3> corner{polygon[(*flattest + corners - 1) % corners],
+                                              polygon[*flattest], polygon[(*flattest + 1) % corners]};
+  polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(*flattest));
+  return corner;
+}
+
+void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, PolygonRule& rule) {
+  const double area = 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!(area > 0.0)) return;
+  const TriangleRule triangle = triangle_rule(degree);
+  for (std::size_t k = 0; k < triangle.weights.size(); ++k) {
+    const Vector3& share = triangle.barycentric[k];
+    rule.points.emplace_back(share[0] * corners[0] + share[1] * corners[1] + share[2] * corners[2]);
+    rule.weights.push_back(triangle.weights[k] * area);
+  }
+}
+
+/// Triangles from the centroid to the sides. Slivers that are no higher than rounding moves corners have
+/// none: their centroid might be anywhere.
+void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
+  constexpr double sliver = 1e-13;  // of the squared length, some hundred rounding errors
+  const std::size_t corners = polygon.size();
+  double doubled_area = 0.0;
+  double squared_length = 0.0;
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  for (std::size_t k = 1; k + 1 < corners; ++k) {
+    const Eigen::Vector2d a = polygon[k] - polygon[0];
+    const Eigen::Vector2d b = polygon[k + 1] - polygon[0];
+    const double part = cross(a, b);
+    squared_length = std::max({squared_length, a.squaredNorm(), b.squaredNorm()});
+    doubled_area += part;
+    centroid += part * (a + b) / 3.0;
+  }
+  if (!(doubled_area > sliver * squared_length)) return;
+  centroid = polygon[0] + centroid / doubled_area;
+
+  const SegmentRule inward = radau_for_triangles((degree + 3) / 2);
+  const SegmentRule along = gauss_lobatto((degree + 4) / 2);
+  const std::size_t rays = along.points.size() - 1;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Eigen::Vector2d& start = polygon[k];
+    const Eigen::Vector2d& end = polygon[(k + 1) % corners];
+    const Eigen::Vector2d& before = polygon[(k + corners - 1) % corners];
+    const double area = cross(start - centroid, end - centroid);
+    const double area_before = cross(before - centroid, start - centroid);
+    for (std::size_t v = 0; v < rays; ++v) {
+      const Eigen::Vector2d rim = start + along.points[v] * (end - start);
+      const double share = v == 0 ? along.weights.front() * area + along.weights.back() * area_before
+                                  : along.weights[v] * area;
+      if (!(share > 0.0)) continue;  // of corners that are one
+      for (std::size_t u = 0; u < inward.points.size(); ++u) {
+        rule.points.emplace_back(rim + inward.points[u] * (centroid - rim));
+        rule.weights.push_back(inward.weights[u] * share);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree) {
+  PolygonRule rule;
+  if (polygon.size() < 3) return rule;
+  Corners rest = polygon;
+  while (const auto corner = take_flat_corner(rest)) add_triangle(*corner, degree, rule);
+  add_fan(rest, degree, rule);
+  return rule;
+}
+
+TriangleRule triangle_rule(int degree) {
+  const SegmentRule outer = gauss_legendre(degree / 2 + 2);
+  const SegmentRule inner = gauss_legendre(degree / 2 + 1);
+  TriangleRule rule;
+  for (std::size_t i = 0; i < outer.points.size(); ++i) {
+    const double u = outer.points[i];
+    for (std::size_t j = 0; j < inner.points.size(); ++j) {
+      const double v = inner.points[j];
+      rule.barycentric.emplace_back(1.0 - u, u * (1.0 - v), u * v);
+      rule.weights.push_back(2.0 * u * outer.weights[i] * inner.weights[j]);
+    }
+  }
+  return rule;
+}
+
+VolumeRule volume_rule(const TriangleMesh& mesh, const Vector3& apex, int degree) {
+  // A point of the tetrahedron is apex + u (p - apex), p on the triangle; u^2 of the Jacobian takes two
+  // degrees.
+  const SegmentRule height = gauss_legendre(degree / 2 + 2);
+  const TriangleRule base = triangle_rule(degree);
+  VolumeRule rule;
+  for (const auto& [i, j, k] : mesh.triangles) {
+    const Vector3 a = mesh.points[static_cast<std::size_t>(i)] - apex;
+    const Vector3 b = mesh.points[static_cast<std::size_t>(j)] - apex;
+    const Vector3 c = mesh.points[static_cast<std::size_t>(k)] - apex;
+    const double half_determinant = 0.5 * a.dot(b.cross(c));
+    if (half_determinant == 0.0) continue;
+    for (std::size_t n = 0; n < base.weights.size(); ++n) {
+      const Vector3& l = base.barycentric[n];
+      const Vector3 side = l[0] * a + l[1] * b + l[2] * c;
+      for (std::size_t m = 0; m < height.points.size(); ++m) {
+        const double u = height.points[m];
+        rule.points.emplace_back(apex + u * side);
+        rule.weights.push_back(half_determinant * u * u * base.weights[n] * height.weights[m]);
+      }
+    }
+  }
+  return rule;
+}
+
+}  // namespace ashlar

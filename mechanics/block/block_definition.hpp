@@ -1,0 +1,40 @@
+// Everything a user says about a block.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geometry/solid/polyhedron.hpp"
+#include "mechanics/material/material.hpp"
+#include "mechanics/supports/loads.hpp"
+#include "mechanics/supports/supports.hpp"
+
+namespace ashlar {
+
+/// What coordinates the polynomials of a block are in (theory.md section 1).
+enum class Formulation {
+  total,        ///< the reference configuration for ever: rigid motion is exact
+  incremental,  ///< those of the step's start, the paper's: kept as a baseline, see incremental_block.hpp
+};
+
+/// A block before it is modelled.
+struct BlockDefinition {
+  std::string name;
+  std::shared_ptr<const Polyhedron> solid;  ///< placed reference shape, m
+  /// The solid before it was translated, m, see block_parts.hpp; null: the solid
+  std::shared_ptr<const Polyhedron> shape = nullptr;
+  Material material;
+  int order = 1;
+  bool fixed = false;  ///< never moves, has no unknowns; material is not used
+  std::vector<BlockSupport> supports;
+  std::vector<Load> loads;
+
+  /// Fixed blocks are total whatever this says.
+  Formulation formulation = Formulation::total;
+  // Of the incremental formulation only:
+  int sub_face_levels = 2;        ///< 0 to 8, uniform levels of the fixed division of a block of order >= 2
+  std::vector<Vector3> followed;  ///< material points beyond those of the sub-faces whose motion is wanted
+};
+
+}  // namespace ashlar

@@ -1,0 +1,93 @@
+// Equilibrium of one block whose supports hold it: one linear solve, or, for St.-Venant-Kirchhoff elasticity,
+// loads applied in parts with a Newton iteration each that goes downhill in the potential energy  E(q) - F .
+// q.
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/block/block_model.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr int load_parts = 8;
+constexpr int max_iterations = 200;  ///< of one part
+constexpr int max_halvings = 30;
+/// Of the load: when an iteration has ended, and when it has if it gets no nearer.
+constexpr double force_tolerance = 1e-12;
+constexpr double stalled_tolerance = 1e-9;
+
+/// Direction that goes down in energy: Newton's, or without the stress's part where that is not convex.
+std::optional<Eigen::VectorXd> newton_direction(const BlockModel& block, const Eigen::MatrixX3d& position,
+                                                const ElasticResponse& elastic,
+                                                const Eigen::VectorXd& residual) {
+  for (const bool positive : {false, true}) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(block.tangent(position, elastic, positive));
+    if (factor.info() == Eigen::Success) return factor.solve(residual);
+  }
+  return std::nullopt;
+}
+
+/// Brings a block to equilibrium under a force. @param y unknowns, from a guess to the answer
+bool balance(const BlockModel& block, const Eigen::VectorXd& force, double rounding, Eigen::VectorXd& y) {
+  const auto place = [&](const Eigen::VectorXd& unknowns) {
+    return Eigen::MatrixX3d(block.basis().identity_map() + block.space().expand(unknowns));
+  };
+  ElasticResponse elastic = block.elastic(place(y));
+  double before = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const Eigen::VectorXd residual = force - block.space().restrict(elastic.force);
+    const auto direction = newton_direction(block, place(y), elastic, residual);
+    if (!direction) return false;
+    const double slope = residual.dot(*direction);
+    const double left = residual.norm();
+    const bool last = left <= force_tolerance * force.norm() + rounding ||
+                      (left <= stalled_tolerance * force.norm() && left > 0.5 * before);
+    before = left;
+    double share = 1.0;
+    const double start = elastic.energy - force.dot(y);
+    for (int halving = 0; halving < max_halvings; ++halving, share *= 0.5) {
+      const Eigen::VectorXd next = y + share * *direction;
+      elastic = block.elastic(place(next));
+      // Near the end the gain drowns in rounding, but less force is left.
+      const bool enough = start - (elastic.energy - force.dot(next)) >= 0.1 * share * slope ||
+                          (force - block.space().restrict(elastic.force)).norm() <= 0.5 * left;
+      if (last || enough) break;
+    }
+    y += share * *direction;
+    if (last) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, double time) const {
+  if (fixed()) return basis_.identity_map();
+  if (!space().held()) return std::nullopt;
+  Eigen::VectorXd force = space().restrict(external_force(gravity, time));
+  if (form_) force -= space().restrict(elastic(basis_.identity_map()).force);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns());
+  if (material().elasticity == Elasticity::linear) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(parts_->reduced_stiffness);
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    y = factor.solve(force);
+    y += factor.solve(force - parts_->reduced_stiffness * y);
+  } else {
+    for (int part = 1; part <= load_parts; ++part) {
+      if (!balance(*this, force * part / load_parts, force_rounding(), y)) return std::nullopt;
+    }
+  }
+  return Eigen::MatrixX3d(basis_.identity_map() + space().expand(y));
+}
+
+double BlockModel::force_rounding() const {
+  // The mean position drops out of the force exactly, so only the linear coefficients carry rounding errors.
+  Eigen::MatrixX3d size = basis_.identity_map().cwiseAbs();
+  size.row(0).setZero();
+  const Eigen::VectorXd reduced = space().restrict(size);
+  return 8.0 * std::numeric_limits<double>::epsilon() *
+         (tangent(Eigen::Matrix3d::Identity()).cwiseAbs() * reduced.cwiseAbs()).norm();
+}
+
+}  // namespace ashlar

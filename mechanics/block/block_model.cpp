@@ -1,0 +1,200 @@
+#include "mechanics/block/block_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "mechanics/basis/field_moments.hpp"
+
+namespace ashlar {
+namespace {
+
+std::shared_ptr<const IncrementalForm> form_of(const BlockDefinition& definition) {
+  if (definition.fixed || definition.formulation == Formulation::total) return nullptr;
+  return std::make_shared<const IncrementalForm>(definition);
+}
+
+}  // namespace
+
+BlockModel::BlockModel(BlockDefinition definition)
+    : BlockModel([&] {
+        BlockPartsLibrary library;
+        return BlockModel(std::move(definition), library);
+      }()) {}
+
+BlockModel::BlockModel(BlockDefinition definition, BlockPartsLibrary& library)
+    : BlockModel([&] {
+        const auto form = form_of(definition);
+        if (!form) {
+          const auto found = library.find(definition);
+          return BlockModel(std::move(definition), nullptr, {}, found);
+        }
+        CarriedShape start = form->start();
+        BlockDefinition now = form->definition_at(start);
+        const auto found = library.find(now);
+        return BlockModel(std::move(now), form, std::move(start), found);
+      }()) {}
+
+BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form,
+                       CarriedShape carried, const BlockPartsLibrary::Found& found)
+    : definition_(std::move(definition)),
+      basis_(found.basis),
+      parts_(found.parts),
+      form_(std::move(form)),
+      carried_(std::move(carried)) {
+  if (fixed()) return;
+  motion_ = SupportMotion(solid(), basis_, definition_.supports);
+  for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
+}
+
+BlockModel BlockModel::with_order(int order) const {
+  if (fixed() || form_)
+    throw std::invalid_argument("only a moving block of the total formulation changes order");
+  BlockDefinition definition = definition_;
+  definition.order = order;
+  return BlockModel(std::move(definition));
+}
+
+BlockModel BlockModel::with_shape(CarriedShape shape) const {
+  BlockDefinition now = form_->definition_at(shape);
+  BlockPartsLibrary library;
+  const auto found = library.find(now);
+  return {std::move(now), form_, std::move(shape), found};
+}
+
+CarriedBlock BlockModel::carried_on(const Eigen::MatrixX3d& position) const {
+  const Eigen::MatrixX3d change = position - basis_.identity_map();
+  CarriedShape shape = carried_;
+  const auto move = [&](std::vector<Vector3>& points) {
+    if (points.empty()) return;
+    const Eigen::MatrixX3d motion = basis_.values(points) * change;
+    for (std::size_t k = 0; k < points.size(); ++k) points[k] += motion.row(static_cast<Eigen::Index>(k));
+  };
+  move(shape.points);
+  move(shape.followed);
+  CarriedBlock next{with_shape(std::move(shape)), {}};
+  Vector3 shift = next.model.basis().centroid() - basis_.centroid();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!space().free_along(axis)) shift[axis] = 0.0;
+  }
+  next.re_expansion = re_expansion(basis_, next.model.basis(), shift);
+  next.model.carried_.stress =
+      next.re_expansion * (carried_.stress + added_stress(basis_, material(), change));
+  return next;
+}
+
+Eigen::MatrixX3d CarriedBlock::taken_over(const Eigen::MatrixX3d& field) const {
+  const Eigen::MatrixX3d moved = re_expansion * field;
+  return model.space().expand(model.space().restrict(moved));
+}
+
+BlockState BlockModel::initial_state() const {
+  return {basis_.identity_map(), Eigen::MatrixX3d::Zero(basis_.size(), 3)};
+}
+
+Eigen::MatrixX3d BlockModel::rigid_velocity(const Vector3& velocity, const Vector3& angular_velocity) const {
+  Eigen::Matrix3d spin;
+  for (int k = 0; k < 3; ++k) spin.col(k) = angular_velocity.cross(Vector3::Unit(k));
+  return space().expand(space().restrict(basis_.linear_field(velocity, spin)));
+}
+
+Eigen::MatrixX3d BlockModel::external_force(const Vector3& gravity, double time) const {
+  Eigen::MatrixX3d force = load_force(time);
+  // integral of phi_a dV is sqrt(V) for a = 0 and zero for the others
+  force.row(0) += material().density * std::sqrt(basis_.volume()) * gravity.transpose();
+  return force;
+}
+
+Eigen::MatrixX3d BlockModel::load_force(double time) const {
+  Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(basis_.size(), 3);
+  for (std::size_t k = 0; k < loads_.size(); ++k) force += definition_.loads[k].history.at(time) * loads_[k];
+  return force;
+}
+
+Eigen::MatrixX3d BlockModel::prescribed_change(const Eigen::MatrixX3d& position, double from,
+                                               double to) const {
+  if (!driven()) return {};
+  if (form_) return motion_.at(to) - motion_.at(from);
+  // From where the supports are, so that rounding does not add up over steps.
+  const Eigen::MatrixX3d displacement = position - basis_.identity_map();
+  return motion_.at(to) - (displacement - space().expand(space().restrict(displacement)));
+}
+
+Eigen::MatrixX3d BlockModel::prescribed_velocity(const Eigen::MatrixX3d& change, double from,
+                                                 double step) const {
+  if (motion_.has_velocity()) return motion_.velocity(from, step);
+  return change / step;
+}
+
+bool BlockModel::loads_change_between(double start, double end) const {
+  if (motion_.changes_between(start, end)) return true;
+  return std::any_of(definition_.loads.begin(), definition_.loads.end(),
+                     [&](const Load& load) { return load.history.changes_between(start, end); });
+}
+
+ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
+  if (parts_->large) return parts_->large->respond(position);
+  if (form_)
+    return incremental_response(basis_, material(), carried_.stress, position - basis_.identity_map());
+  return elastic_response(parts_->stiffness, parts_->mean_gradients, basis_.identity_map(), position,
+                          corotational());
+}
+
+Eigen::MatrixX3d BlockModel::unstrained(const Eigen::MatrixX3d& position) const {
+  if (!space().can_turn()) return basis_.identity_map();
+  const Eigen::Matrix3d gradient = position.transpose() * parts_->mean_gradients;
+  return basis_.identity_map() * polar_decomposition(gradient).rotation.transpose();
+}
+
+Eigen::MatrixXd BlockModel::tangent(const Eigen::Matrix3d& rotation) const {
+  return corotational() ? space().restrict(rotated_stiffness(parts_->stiffness, rotation))
+                        : parts_->reduced_stiffness;
+}
+
+Eigen::MatrixXd BlockModel::tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
+                                    bool positive) const {
+  return parts_->large ? space().restrict(parts_->large->tangent(position, positive))
+                       : tangent(elastic.rotation);
+}
+
+Vector3 BlockModel::momentum(const BlockState& state) const {
+  return material().density * std::sqrt(basis_.volume()) * state.velocity.row(0).transpose();
+}
+
+Vector3 BlockModel::angular_momentum(const BlockState& state) const {
+  return material().density * integral_of_cross(state.position, state.velocity);
+}
+
+double BlockModel::kinetic_energy(const BlockState& state) const {
+  return 0.5 * material().density * state.velocity.squaredNorm();
+}
+
+double BlockModel::gravity_energy(const BlockState& state, const Vector3& gravity) const {
+  return -material().density * std::sqrt(basis_.volume()) * state.position.row(0).dot(gravity);
+}
+
+Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point) const {
+  if (fixed()) return Eigen::Matrix3d::Zero();
+  if (form_) {
+    const Eigen::MatrixX3d change = state.position - basis_.identity_map();
+    return incremental_stress(basis_, carried_.stress + added_stress(basis_, material(), change), point);
+  }
+  if (parts_->large)
+    return st_venant_kirchhoff_stress(material(), state.position.transpose() * basis_.gradients(point));
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  if (corotational())
+    rotation = polar_decomposition(state.position.transpose() * parts_->mean_gradients).rotation;
+  const Eigen::MatrixX3d deformation = state.position * rotation - basis_.identity_map();
+  return linear_stress(material(), deformation.transpose() * basis_.gradients(point), rotation);
+}
+
+PointMotion BlockModel::motion_of(const BlockState& state, const Vector3& reference) const {
+  const Vector3& start = form_ ? form_->place(carried_, reference) : reference;
+  const Eigen::VectorXd phi = basis_.values(start);
+  const Vector3 moved = (state.position - basis_.identity_map()).transpose() * phi;
+  return {form_ ? Vector3(start + moved) : Vector3(state.position.transpose() * phi),
+          moved + (start - reference), state.velocity.transpose() * phi, stress(state, start)};
+}
+
+}  // namespace ashlar

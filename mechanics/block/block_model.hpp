@@ -1,0 +1,158 @@
+// A block: what never changes (BlockModel) and what a step changes (BlockState). A step is a function of
+// both.
+//
+//   x(X, t) = sum_a phi_a(X) q_a(t)      theory.md section 1
+// In the total formulation X is the placed, undeformed block. In the incremental one X is the block at the
+// start of the step: each step has a model of its own (carried_on), with q at the identity map in between.
+// Coefficient arrays are (p, 3), see elasticity.hpp.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mechanics/basis/basis.hpp"
+#include "mechanics/block/block_definition.hpp"
+#include "mechanics/block/block_parts.hpp"
+#include "mechanics/block/incremental_block.hpp"
+#include "mechanics/material/elasticity.hpp"
+#include "mechanics/material/st_venant_kirchhoff.hpp"
+#include "mechanics/supports/support_motion.hpp"
+#include "mechanics/supports/supports.hpp"
+
+namespace ashlar {
+
+/// Coefficients of position and velocity.
+struct BlockState {
+  Eigen::MatrixX3d position;  ///< q, m^5/2
+  Eigen::MatrixX3d velocity;  ///< dq/dt
+};
+
+/// A material point in some state.
+struct PointMotion {
+  Vector3 place;           ///< m
+  Vector3 displacement;    ///< from the placed, undeformed block, m
+  Vector3 velocity;        ///< m/s
+  Eigen::Matrix3d stress;  ///< Cauchy, Pa, tension positive
+};
+
+struct CarriedBlock;
+
+/// Constant after construction.
+class BlockModel {
+ public:
+  /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
+  /// load_coefficients and IncrementalForm do
+  explicit BlockModel(BlockDefinition definition);
+  /// The same, sharing what it can with other blocks made with the library.
+  BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
+
+  /// The same block of the total formulation with another order. @throws std::invalid_argument for a fixed or
+  /// incremental one
+  [[nodiscard]] BlockModel with_order(int order) const;
+
+  /// Null for blocks of the total formulation.
+  [[nodiscard]] const IncrementalForm* incremental() const { return form_.get(); }
+  /// Of an incremental block, at the start of the step.
+  [[nodiscard]] const CarriedShape& carried() const { return carried_; }
+  /// The model of the next step of an incremental block. @param position at the end of this one
+  /// @throws std::exception if the shape can be no block any more
+  [[nodiscard]] CarriedBlock carried_on(const Eigen::MatrixX3d& position) const;
+  /// An incremental block with another shape.
+  [[nodiscard]] BlockModel with_shape(CarriedShape shape) const;
+
+  [[nodiscard]] const std::string& name() const { return definition_.name; }
+  [[nodiscard]] const Polyhedron& solid() const { return *definition_.solid; }
+  [[nodiscard]] const Material& material() const { return definition_.material; }
+  [[nodiscard]] bool fixed() const { return definition_.fixed; }
+  [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
+  [[nodiscard]] int order() const { return basis_.order(); }
+  [[nodiscard]] const PolynomialBasis& basis() const { return basis_; }
+  /// What it shares with equal blocks.
+  [[nodiscard]] const std::shared_ptr<const BlockParts>& parts() const { return parts_; }
+  [[nodiscard]] const AdmissibleSpace& space() const { return parts_->space; }
+  /// 0 for fixed blocks.
+  [[nodiscard]] int unknowns() const { return fixed() ? 0 : space().unknowns(); }
+  /// True if the frame of linear elasticity turns with the block (theory.md section 4).
+  [[nodiscard]] bool corotational() const { return !form_ && space().can_turn(); }
+  [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
+
+  /// Undeformed and at rest.
+  [[nodiscard]] BlockState initial_state() const;
+  /// Coefficients of the velocity field  velocity + angular_velocity x (X - centroid), restricted to what
+  /// supports allow.
+  [[nodiscard]] Eigen::MatrixX3d rigid_velocity(const Vector3& velocity,
+                                                const Vector3& angular_velocity) const;
+  /// Equilibrium of a block whose supports leave no rigid motion under gravity and its loads at a time,
+  /// contacts off; of an incremental block that of a step, which ends a little off it. Empty if the supports
+  /// leave a rigid motion, or a St.-Venant-Kirchhoff block under its load finds none.
+  [[nodiscard]] std::optional<Eigen::MatrixX3d> equilibrium(const Vector3& gravity, double time) const;
+
+  /// Gravity and loads at a time. @return (p, 3), N m^-3/2
+  [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
+  /// Loads without gravity. @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
+  /// True if a support of the block moves.
+  [[nodiscard]] bool driven() const { return motion_.moves(); }
+  /// What supports add to the position between two times, beside the motion of the unknowns. @param position
+  /// at the first one. @return (p, 3), orthogonal to all motions of the unknowns; empty if not driven
+  [[nodiscard]] Eigen::MatrixX3d prescribed_change(const Eigen::MatrixX3d& position, double from,
+                                                   double to) const;
+  /// Velocity that supports prescribe at the end of a step. @param change prescribed_change of the step
+  /// @param step s, > 0. @return (p, 3); only if driven
+  [[nodiscard]] Eigen::MatrixX3d prescribed_velocity(const Eigen::MatrixX3d& change, double from,
+                                                     double step) const;
+  /// Whether any load or support may differ between two times.
+  [[nodiscard]] bool loads_change_between(double start, double end) const;
+  /// Energy, force and frame of a configuration.
+  [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
+  /// A block of the total formulation without strain, turned as it is but in the place where it was made.
+  /// @param position (p, 3). @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d unstrained(const Eigen::MatrixX3d& position) const;
+  /// Tangent Z' R K R' Z of the internal force in the unknowns; of St.-Venant-Kirchhoff blocks the one of the
+  /// undeformed block, turned. @return (unknowns, unknowns)
+  [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::Matrix3d& rotation) const;
+
+  /// Tangent of the internal force at a configuration, in the unknowns. @param elastic its response
+  /// @param positive leave out what may make it indefinite. @return (unknowns, unknowns), symmetric
+  [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
+                                        bool positive = false) const;
+  /// Size of the rounding errors of the internal force of a block at rest, in the norm of the unknowns.
+  [[nodiscard]] double force_rounding() const;
+
+  /// Momentum and angular momentum about the origin, kg m/s and kg m^2/s.
+  [[nodiscard]] Vector3 momentum(const BlockState& state) const;
+  [[nodiscard]] Vector3 angular_momentum(const BlockState& state) const;
+  /// 1/2 rho |v|^2, J.
+  [[nodiscard]] double kinetic_energy(const BlockState& state) const;
+  /// -m g . x_centroid, J.
+  [[nodiscard]] double gravity_energy(const BlockState& state, const Vector3& gravity) const;
+  /// Cauchy stress at a material point, Pa, tension positive.
+  [[nodiscard]] Eigen::Matrix3d stress(const BlockState& state, const Vector3& point) const;
+  /// What a point of the placed, undeformed block does. @param reference m; of an incremental block one of
+  /// those that IncrementalForm::place knows
+  [[nodiscard]] PointMotion motion_of(const BlockState& state, const Vector3& reference) const;
+
+ private:
+  BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form, CarriedShape carried,
+             const BlockPartsLibrary::Found& found);
+
+  BlockDefinition definition_;
+  PolynomialBasis basis_;
+  std::shared_ptr<const BlockParts> parts_;
+  SupportMotion motion_;
+  std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
+  std::shared_ptr<const IncrementalForm> form_;
+  CarriedShape carried_;
+};
+
+/// The next step of an incremental block.
+struct CarriedBlock {
+  BlockModel model;
+  Eigen::MatrixXd re_expansion;  ///< (p, p)
+
+  /// A velocity or acceleration taken over, within what the supports allow. @param field (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d taken_over(const Eigen::MatrixX3d& field) const;
+};
+
+}  // namespace ashlar

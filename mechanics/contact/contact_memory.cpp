@@ -1,0 +1,187 @@
+#include "mechanics/contact/contact_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ashlar {
+namespace {
+
+double largest_area_of(const std::vector<ContactMemory::Entry>& entries) {
+  double largest = 0.0;
+  for (const ContactMemory::Entry& entry : entries) largest = std::max(largest, entry.area);
+  return largest;
+}
+
+double area_of(const std::vector<ContactMemory::Entry>& entries) {
+  return std::accumulate(entries.begin(), entries.end(), 0.0,
+                         [](double sum, const ContactMemory::Entry& entry) { return sum + entry.area; });
+}
+
+/// A tangential vector in another tangent plane, its length kept.
+Vector3 turned(const Vector3& vector, const Vector3& normal) {
+  const Vector3 flat = vector - normal.dot(vector) * normal;
+  const double length = flat.norm();
+  return length > 0.0 ? Vector3(vector.norm() / length * flat) : flat;
+}
+
+}  // namespace
+
+ContactMemory::ContactMemory(std::vector<Entry> entries, std::vector<PressureCut> cuts, double deepest,
+                             const SpringEnergy& held, double bulge)
+    : entries_(std::move(entries)),
+      cuts_(std::move(cuts)),
+      deepest_(deepest),
+      bulge_(bulge),
+      held_(held),
+      squared_reach_(area_of(entries_)),
+      largest_area_(largest_area_of(entries_)) {}
+
+ContactMemory::Places ContactMemory::places() const {
+  const auto count = static_cast<Eigen::Index>(entries_.size());
+  Places places{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    places.of_a.col(k) = entries_[static_cast<std::size_t>(k)].material_a;
+    places.of_b.col(k) = entries_[static_cast<std::size_t>(k)].material_b;
+  }
+  return places;
+}
+
+std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& point, const Places& places,
+                                                        bool same_faces) const {
+  constexpr double least_cosine = 0.5;
+  constexpr double too_far = std::numeric_limits<double>::infinity();
+  // One of the two is carried along where a contact slides: the vertex, or the slave's point.
+  Eigen::RowVectorXd squared_distances =
+      (places.of_a.colwise() - point.material_a)
+          .colwise()
+          .squaredNorm()
+          .cwiseMin((places.of_b.colwise() - point.material_b).colwise().squaredNorm());
+  constexpr double sliver = 1e-6;  // of the largest area: where such points lie is known badly
+  double least_squared = too_far;
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const Entry& entry = entries_[k];
+    double& squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
+    if (entry.area < sliver * largest_area_) squared_distance = too_far;
+    if (same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
+                   : entry.normal.dot(point.normal) < least_cosine)
+      squared_distance = too_far;
+    least_squared = std::min(least_squared, squared_distance);
+  }
+  if (!(least_squared <= squared_reach_)) return std::nullopt;
+  // Old points on one place, as on the cut between two cells, are equally far.
+  const double blur = 1e-6 * std::sqrt(squared_reach_);
+  const double farthest = 1.5 * (std::sqrt(least_squared) + blur) - blur;
+  Found found;
+  PointMemory& result = found.memory;
+  int sources = 0;
+  double sum = 0.0;
+  double intact = 0.0;
+  double in_level = 0.0;
+  double most = 0.0;
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    const double squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
+    if (squared_distance > farthest * farthest) continue;
+    // Points without any area, on one place, are as good as each other.
+    const double weight = farthest > 0.0 ? farthest - std::sqrt(squared_distance) : 1.0;
+    const PointMemory& memory = entries_[k].memory;
+    found.only_source = ++sources == 1 ? static_cast<int>(k) : -1;
+    if (weight > most) result.state = memory.state;
+    most = std::max(most, weight);
+    sum += weight;
+    result.slip += weight * memory.slip;
+    if (memory.in_level) {
+      result.level_slip += weight * memory.level_slip;
+      in_level += weight;
+    }
+    result.compression += weight * memory.compression;
+    result.normal_multiplier += weight * memory.normal_multiplier;
+    result.shear_multiplier += weight * memory.shear_multiplier;
+    result.unrubbed += weight * memory.unrubbed;
+    if (memory.intact) intact += weight;
+  }
+  // A bond halfway between a whole and a broken one is broken, whatever rounding says.
+  result.intact = intact > (0.5 + 1e-6) * sum;
+  result.slip /= sum;
+  result.in_level = in_level > 0.0;
+  if (result.in_level) result.level_slip /= in_level;
+  result.compression /= sum;
+  result.normal_multiplier /= sum;
+  result.shear_multiplier /= sum;
+  result.unrubbed /= sum;
+  return found;
+}
+
+std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& points, double bond_distance,
+                                               bool keep_forces) const {
+  std::vector<PointMemory> result;
+  result.reserve(points.size());
+  const Places old = places();
+  std::vector<int> sources;
+  std::vector<int> taken(entries_.size(), 0);
+  for (const ContactPoint& point : points) {
+    PointMemory fresh;
+    fresh.intact = point.gap <= bond_distance;
+    std::optional<Found> found = near(point, old, true);
+    const bool same_faces = found.has_value();
+    if (!found) found = near(point, old, false);
+    sources.push_back(found ? found->only_source : -1);
+    if (sources.back() >= 0) ++taken[static_cast<std::size_t>(sources.back())];
+    if (!found) {
+      result.push_back(fresh);
+      continue;
+    }
+    PointMemory& memory = found->memory;
+    memory.slip = turned(memory.slip, point.normal);
+    memory.level_slip = turned(memory.level_slip, point.normal);
+    memory.shear_multiplier = turned(memory.shear_multiplier, point.normal);
+    memory.intact = memory.intact && same_faces;
+    result.push_back(memory);
+  }
+  for (std::size_t k = 0; keep_forces && k < points.size(); ++k) {
+    if (sources[k] < 0 || taken[static_cast<std::size_t>(sources[k])] != 1 || points[k].area == 0.0) continue;
+    const double ratio = entries_[static_cast<std::size_t>(sources[k])].area / points[k].area;
+    result[k].normal_multiplier *= ratio;
+    result[k].shear_multiplier *= ratio;
+  }
+  return result;
+}
+
+void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
+                          double deepest, const SpringEnergy& held, double bulge,
+                          std::vector<PressureCut> cuts) {
+  entries_.clear();
+  entries_.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    entries_.push_back({points[k].material_a, points[k].material_b, points[k].face_a, points[k].face_b,
+                        points[k].normal, points[k].area, memory[k]});
+  }
+  cuts_ = std::move(cuts);
+  deepest_ = deepest;
+  bulge_ = bulge;
+  held_ = held;
+  squared_reach_ = area_of(entries_);
+  largest_area_ = largest_area_of(entries_);
+}
+
+void ContactMemory::start_level() {
+  for (Entry& entry : entries_) {
+    entry.memory.level_slip = entry.memory.slip;
+    entry.memory.in_level = entry.memory.state != ContactState::open;
+  }
+}
+
+void ContactMemory::carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved) {
+  for (Entry& entry : entries_) {
+    Vector3& material = of_a ? entry.material_a : entry.material_b;
+    material = moved(material);
+  }
+  for (PressureCut& cut : cuts_) {
+    if (cut.of_a != of_a) continue;
+    cut.start = moved(cut.start);
+    cut.end = moved(cut.end);
+  }
+}
+
+}  // namespace ashlar

@@ -1,0 +1,342 @@
+#include "mechanics/contact/contact_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geometry/index.hpp"
+#include "mechanics/basis/quadrature.hpp"
+#include "mechanics/contact/overlap_outline.hpp"
+
+namespace ashlar {
+namespace {
+
+const SurfaceCell& cell_of(const ContactBody& body, int cell) {
+  return body.placed->surface().cells[at(cell)];
+}
+
+const Vector3& reference_point(const ContactBody& body, int point) {
+  return body.placed->surface().points[at(point)];
+}
+
+/// The affine map from places seen along a direction to reference points of a flat cell.
+class CellMap {
+ public:
+  CellMap(const ContactBody& body, int cell, const ViewFrame& frame) {
+    const auto& corners = cell_of(body, cell).corners;
+    const auto place = [&](std::size_t k) { return frame.project(body.placed->point(corners[k])); };
+    // The widest of the triangles at the first corner spans the cell's plane best.
+    double widest = 0.0;
+    const Eigen::Vector2d first = place(0);
+    std::size_t best = 1;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+      const Eigen::Vector2d u = place(k) - first;
+      const Eigen::Vector2d v = place(k + 1) - first;
+      const double area = std::abs(u.x() * v.y() - u.y() * v.x());
+      if (area > widest) {
+        widest = area;
+        best = k;
+      }
+    }
+    Eigen::Matrix2d sides;
+    sides << place(best) - first, place(best + 1) - first;
+    Eigen::Matrix<double, 3, 2> reference_sides;
+    reference_sides << reference_point(body, corners[best]) - reference_point(body, corners[0]),
+        reference_point(body, corners[best + 1]) - reference_point(body, corners[0]);
+    Eigen::Matrix<double, 3, 2> placed_sides;
+    placed_sides << body.placed->point(corners[best]) - body.placed->point(corners[0]),
+        body.placed->point(corners[best + 1]) - body.placed->point(corners[0]);
+    const Eigen::Matrix2d inverse = sides.inverse();
+    first_ = first;
+    reference_ = reference_point(body, corners[0]);
+    reference_slope_ = reference_sides * inverse;
+    placed_ = body.placed->point(corners[0]);
+    placed_slope_ = placed_sides * inverse;
+  }
+  [[nodiscard]] Vector3 reference(const Eigen::Vector2d& place) const {
+    return reference_ + reference_slope_ * (place - first_);
+  }
+  [[nodiscard]] Vector3 placed(const Eigen::Vector2d& place) const {
+    return placed_ + placed_slope_ * (place - first_);
+  }
+  /// Where the point of the cell's plane that is nearest to a reference point is seen.
+  [[nodiscard]] Eigen::Vector2d place(const Vector3& reference) const {
+    const Eigen::Matrix2d squares = reference_slope_.transpose() * reference_slope_;
+    return first_ + squares.inverse() * (reference_slope_.transpose() * (reference - reference_));
+  }
+
+ private:
+  Eigen::Vector2d first_;
+  Vector3 reference_;
+  Vector3 placed_;
+  Eigen::Matrix<double, 3, 2> reference_slope_;
+  Eigen::Matrix<double, 3, 2> placed_slope_;
+};
+
+struct Foot {
+  Vector3 material;
+  Vector3 place;
+  Vector3 normal;  ///< outward of the body it is on
+};
+
+/// Closest point of a face's polynomial surface to a point, by Gauss-Newton in the face's plane from a start
+/// on it. For an affine block it is exact after one step; else the contraction per step is gap times
+/// curvature, and the step limit only cuts what is below rounding.
+Foot closest_point(const ContactBody& body, int face, const Vector3& start, const Vector3& target) {
+  const PolynomialBasis& basis = body.model->basis();
+  const ViewFrame plane(start, body.model->solid().faces()[at(face)].normal);
+  Eigen::Matrix<double, 3, 2> directions;
+  directions << plane.e1, plane.e2;
+  Foot foot{start, Vector3::Zero(), Vector3::Zero()};
+  constexpr int step_limit = 8;
+  const double smallest = 1e-14 * (body.placed->box().high - body.placed->box().low).norm();
+  for (int step = 0; step <= step_limit; ++step) {
+    foot.place = body.state->position.transpose() * basis.values(foot.material);
+    const Eigen::Matrix<double, 3, 2> tangents =
+        body.state->position.transpose() * (basis.gradients(foot.material) * directions);
+    foot.normal = tangents.col(0).cross(tangents.col(1)).normalized();
+    const Eigen::Matrix2d metric = tangents.transpose() * tangents;
+    const Eigen::Vector2d change = metric.inverse() * (tangents.transpose() * (target - foot.place));
+    if (step == step_limit || (tangents * change).norm() <= smallest) break;
+    foot.material += directions * change;
+  }
+  return foot;
+}
+
+Vector3 true_place(const ContactBody& body, const Vector3& material) {
+  return body.state->position.transpose() * body.model->basis().values(material);
+}
+
+void complete(ContactPoint& point) {
+  const ViewFrame frame(Vector3::Zero(), point.normal);
+  point.tangent_1 = frame.e1;
+  point.tangent_2 = frame.e2;
+  point.gap = point.normal.dot(point.place_a - point.place_b);
+}
+
+/// Puts the foot of the slave's point on the master's true surface.
+void set_foot(ContactPoint& point, const ContactBody& master, int face, bool master_is_a) {
+  const Foot foot = closest_point(master, face, master_is_a ? point.material_a : point.material_b,
+                                  master_is_a ? point.place_b : point.place_a);
+  (master_is_a ? point.material_a : point.material_b) = foot.material;
+  (master_is_a ? point.place_a : point.place_b) = foot.place;
+  point.normal = master_is_a ? Vector3(-foot.normal) : foot.normal;
+}
+
+/// Makes the contact points of two cells that face each other.
+class OverlapPoints {
+ public:
+  OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap, bool master_is_a,
+                bool curved)
+      : a_(a),
+        b_(b),
+        overlap_(overlap),
+        master_is_a_(master_is_a),
+        curved_(curved),
+        map_a_(a, overlap.cell_a, overlap.frame),
+        map_b_(b, overlap.cell_b, overlap.frame) {}
+
+  [[nodiscard]] ContactPoint at_place(const Eigen::Vector2d& place, double area) const {
+    ContactPoint point{};
+    point.type = ContactPointType::face_face;
+    point.face_a = cell_of(a_, overlap_.cell_a).face;
+    point.face_b = cell_of(b_, overlap_.cell_b).face;
+    point.material_a = map_a_.reference(place);
+    point.material_b = map_b_.reference(place);
+    point.area = area;
+    if (curved_) {
+      point.place_a = true_place(a_, point.material_a);
+      point.place_b = true_place(b_, point.material_b);
+      set_foot(point, master_is_a_ ? a_ : b_, master_is_a_ ? point.face_a : point.face_b, master_is_a_);
+    } else {
+      point.place_a = map_a_.placed(place);
+      point.place_b = map_b_.placed(place);
+      point.normal =
+          master_is_a_ ? Vector3(-a_.placed->normal(overlap_.cell_a)) : b_.placed->normal(overlap_.cell_b);
+    }
+    complete(point);
+    return point;
+  }
+  /// The map of the cell of a, or of b.
+  [[nodiscard]] const CellMap& map(bool of_a) const { return of_a ? map_a_ : map_b_; }
+
+ private:
+  const ContactBody& a_;
+  const ContactBody& b_;
+  const CellOverlap& overlap_;
+  bool master_is_a_;
+  bool curved_;
+  CellMap map_a_;
+  CellMap map_b_;
+};
+
+bool is_affine(const ContactBody& body) {
+  return body.model->fixed() || body.model->order() == 1;
+}
+
+/// A remembered cut as seen in an overlap. @param map of the block's cell that it is remembered in
+PressureEnd seen(const PressureCut& cut, const CellMap& map) {
+  const Eigen::Vector2d start = map.place(cut.start);
+  const Eigen::Vector2d along = map.place(cut.end) - start;
+  return {start, {-along.y(), along.x()}};
+}
+
+PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool of_a, const CellMap& map,
+                       double length) {
+  const Eigen::Vector2d along = length * Eigen::Vector2d(end.open.y(), -end.open.x()).normalized();
+  return {overlap.cell_a, overlap.cell_b, of_a, map.reference(end.point), map.reference(end.point + along)};
+}
+
+/// Where an overlap is to be cut, if at all. @param points of the rule on all of it
+std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<Eigen::Vector2d>& outline,
+                                  const PolygonRule& rule, const std::vector<ContactPoint>& points,
+                                  const OverlapPoints& make, double rounding,
+                                  const std::vector<PressureCut>& known) {
+  std::vector<double> gaps;
+  gaps.reserve(points.size());
+  for (const ContactPoint& point : points) gaps.push_back(point.gap);
+  const auto cut = std::find_if(known.begin(), known.end(), [&](const PressureCut& one) {
+    return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
+  });
+  std::optional<PressureEnd> last;
+  if (cut != known.end()) last = seen(*cut, make.map(cut->of_a));
+  return end_of_pressure(outline, rule, gaps, rounding, last);
+}
+
+/// Area springs: a quadrature rule on every cell overlap, or on both of its parts where pressure ends inside.
+void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
+                      bool master_is_a, const ContactPointSettings& settings,
+                      const std::vector<PressureCut>& known, ContactPoints& result) {
+  // A uniform pressure acts on every function exactly, however coarse the division is.
+  const int degree = std::max({2, a.model->order(), b.model->order()});
+  const std::vector<Eigen::Vector2d> outline =
+      outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed));
+  const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
+  std::vector<ContactPoint> points;
+  const auto add_points = [&](const PolygonRule& rule) {
+    for (std::size_t k = 0; k < rule.points.size(); ++k)
+      points.push_back(make.at_place(rule.points[k], rule.weights[k]));
+  };
+  const PolygonRule whole = polygon_rule(outline, degree);
+  add_points(whole);
+  // Where flat sub-faces of blocks that bend part is not where their pressure ends.
+  const bool true_gaps = !settings.multipliers && (settings.curved || (is_affine(a) && is_affine(b)));
+  std::optional<PressureEnd> end;
+  if (true_gaps)
+    end = cut_of(overlap, outline, whole, points, make, coordinate_rounding(*a.placed, *b.placed), known);
+  if (end) {
+    points.clear();
+    add_points(polygon_rule(part_under_pressure(outline, *end), degree));
+    add_points(polygon_rule(part_without_pressure(outline, *end), degree));
+    result.cuts.push_back(
+        remembered(*end, overlap, !master_is_a, make.map(!master_is_a), std::sqrt(area_of(outline))));
+  }
+  result.points.insert(result.points.end(), points.begin(), points.end());
+}
+
+/// Point springs: one at every vertex of the faces' overlap polygon, with an equal share of its area.
+void add_point_springs(const ContactBody& a, const ContactBody& b, const FaceOverlap& face,
+                       const std::vector<CellOverlap>& overlaps, bool master_is_a,
+                       const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
+  const bool divided = a.placed->surface().divided || b.placed->surface().divided;
+  const FaceOutline outline = outline_of(face, overlaps, divided, outline_tolerance(*a.placed, *b.placed));
+  const double area = outline.area / static_cast<double>(outline.corners.size());
+  for (const FaceOverlapPoint& point : outline.corners) {
+    const CellOverlap& overlap = overlaps[at(point.overlap)];
+    points.push_back(OverlapPoints(a, b, overlap, master_is_a, settings.curved)
+                         .at_place(overlap.corners[at(point.corner)].place, area));
+  }
+}
+
+void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact& contact,
+                const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
+  const ContactBody& with_vertex = contact.vertex_of_a ? a : b;
+  const ContactBody& with_cell = contact.vertex_of_a ? b : a;
+  const Vector3& normal = with_cell.placed->normal(contact.cell);
+  const Vector3 place = with_vertex.placed->point(contact.point);
+  const Vector3 foot = place - contact.gap * normal;
+  const ViewFrame frame(foot, normal);
+  const int face = cell_of(with_cell, contact.cell).face;
+  const int own_face = cell_of(with_vertex, contact.own_cell).face;
+  ContactPoint point{};
+  point.type = ContactPointType::vertex_face;
+  point.face_a = contact.vertex_of_a ? own_face : face;
+  point.face_b = contact.vertex_of_a ? face : own_face;
+  const Vector3 foot_material = CellMap(with_cell, contact.cell, frame).reference(Eigen::Vector2d::Zero());
+  point.material_a = contact.vertex_of_a ? reference_point(a, contact.point) : foot_material;
+  point.material_b = contact.vertex_of_a ? foot_material : reference_point(b, contact.point);
+  point.place_a = contact.vertex_of_a ? place : foot;
+  point.place_b = contact.vertex_of_a ? foot : place;
+  point.area = contact.area;
+  if (settings.curved) {
+    set_foot(point, with_cell, face, !contact.vertex_of_a);
+  } else {
+    point.normal = contact.vertex_of_a ? normal : Vector3(-normal);
+  }
+  complete(point);
+  points.push_back(point);
+}
+
+/// The point of a side in the material, and where it is.
+struct SidePoint {
+  Vector3 material;
+  Vector3 place;
+};
+
+SidePoint side_point(const ContactBody& body, const CrossedSide& side, bool curved) {
+  const auto between = [&](const Vector3& start, const Vector3& end) {
+    return Vector3(start + side.along * (end - start));
+  };
+  SidePoint point;
+  point.material = between(reference_point(body, side.ends[0]), reference_point(body, side.ends[1]));
+  point.place = curved ? true_place(body, point.material)
+                       : between(body.placed->point(side.ends[0]), body.placed->point(side.ends[1]));
+  return point;
+}
+
+void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& contact,
+              const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
+  const SidePoint on_a = side_point(a, contact.of_a, settings.curved);
+  const SidePoint on_b = side_point(b, contact.of_b, settings.curved);
+  ContactPoint point{};
+  point.type = ContactPointType::edge_edge;
+  point.face_a = cell_of(a, contact.of_a.cell).face;
+  point.face_b = cell_of(b, contact.of_b.cell).face;
+  point.material_a = on_a.material;
+  point.material_b = on_b.material;
+  point.place_a = on_a.place;
+  point.place_b = on_b.place;
+  point.normal = contact.normal;
+  point.area = contact.area;
+  complete(point);
+  points.push_back(point);
+}
+
+}  // namespace
+
+std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state) {
+  const Eigen::MatrixX3d places = phi * state.position;
+  std::vector<Vector3> points;
+  points.reserve(static_cast<std::size_t>(places.rows()));
+  for (Eigen::Index k = 0; k < places.rows(); ++k) points.emplace_back(places.row(k));
+  return points;
+}
+
+ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
+                             const std::vector<bool>& masters, const ContactPointSettings& settings,
+                             const std::vector<PressureCut>& known) {
+  ContactPoints result;
+  if (settings.area_springs) {
+    for (std::size_t n = 0; n < contacts.overlaps.size(); ++n)
+      add_area_springs(a, b, contacts.overlaps[n], masters[n], settings, known, result);
+  } else {
+    for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
+      add_point_springs(a, b, face, contacts.overlaps, masters[at(face.cells.front())], settings,
+                        result.points);
+  }
+  for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
+  for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
+  return result;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,75 @@
+// From contacts to contact points: every contact becomes point-to-face contacts, a material point of block a
+// and one of block b with the outward unit normal of b's surface between them (theory.md sections 6.4, 6.5
+// and 7).
+//
+// Per area, the points of a face-face contact are a quadrature rule on the overlap of each pair of cells, one
+// on each of its parts where it is in part open (pressure_end.hpp; not where flat sub-faces stand for blocks
+// that bend, nor with multipliers). Per point (the paper's springs) they are the vertices of the faces'
+// overlap polygon (overlap_vertices.hpp). Isolated vertices and edge crossings carry a tributary area.
+//
+// With curved surfaces, the point on the master block is the closest one on its true polynomial surface, so
+// that x_a - x_b is along the normal; with flat surfaces both points stay on their sub-face planes.
+#pragma once
+
+#include <vector>
+
+#include "geometry/contacts/contact_search.hpp"
+#include "geometry/contacts/overlap_vertices.hpp"
+#include "mechanics/block/block_model.hpp"
+#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/pressure_end.hpp"
+
+namespace ashlar {
+
+/// How a contact point came about.
+enum class ContactPointType { face_face, vertex_face, edge_edge };
+
+/// A block with its surface and its present state.
+struct ContactBody {
+  const BlockModel* model;
+  const BlockState* state;
+  const PlacedSurface* placed;
+};
+
+/// One point-to-face contact between blocks a and b.
+struct ContactPoint {
+  ContactPointType type;
+  int face_a;  ///< faces of the polyhedra that meet here
+  int face_b;
+  Vector3 material_a;  ///< reference coordinates, m
+  Vector3 material_b;
+  Vector3 place_a;  ///< current coordinates, m
+  Vector3 place_b;
+  Vector3 normal;     ///< unit, out of b
+  Vector3 tangent_1;  ///< with normal and tangent_2 a right-handed orthonormal frame
+  Vector3 tangent_2;
+  double gap;   ///< n . (x_a - x_b), m
+  double area;  ///< m^2
+};
+
+/// How contact points are made.
+struct ContactPointSettings {
+  bool area_springs = true;
+  bool curved = true;
+  /// Multipliers leave next to no gap where they press, which then does not tell where pressure ends.
+  bool multipliers = false;
+};
+
+/// Current positions of a surface's points. @return (#surface.points), m
+[[nodiscard]] std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state);
+
+/// Of a pair of blocks.
+struct ContactPoints {
+  std::vector<ContactPoint> points;
+  std::vector<PressureCut> cuts;  ///< of overlaps that are in part open
+};
+
+/// All contact points of a pair, in a fixed order. @param masters whether a is the master, on whose surface
+/// feet and normals are taken, in each of the overlaps (contact_master.hpp). @param known cuts of the step
+/// before
+[[nodiscard]] ContactPoints contact_points(const ContactBody& a, const ContactBody& b,
+                                           const PairContacts& contacts, const std::vector<bool>& masters,
+                                           const ContactPointSettings& settings,
+                                           const std::vector<PressureCut>& known);
+
+}  // namespace ashlar

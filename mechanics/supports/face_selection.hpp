@@ -1,0 +1,48 @@
+// Faces that a user names by a plane, and quadrature over them.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "geometry/solid/polyhedron.hpp"
+
+namespace ashlar {
+
+/// A plane as the user wrote it; the length and side of its normal do not matter.
+struct Plane {
+  Vector3 point = Vector3::Zero();    ///< m
+  Vector3 normal = Vector3::UnitZ();  ///< not zero
+};
+
+/// Faces by their indices in the solid.
+struct FaceList {
+  std::vector<int> faces;
+};
+
+/// Where a support or a load is: all faces in a plane, one material point, or faces by index. Reference
+/// coordinates, m.
+using BlockPlace = std::variant<Plane, Vector3, FaceList>;
+
+/// How far a plane or point may be from the solid it is meant for, in parts of the diagonal of the solid's
+/// box: users write decimals, and a rotated block's corners are rounded.
+inline constexpr double placement_tolerance = 1e-6;
+
+/// That distance in m.
+[[nodiscard]] double allowed_offset(const Polyhedron& solid);
+
+/// Indices of the faces all of whose corners lie in the plane, increasing. Empty if there is none.
+/// @throws std::invalid_argument if the normal is zero or not finite
+[[nodiscard]] std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane);
+
+/// Faces that a place stands for, none for a point. @throws std::invalid_argument as faces_in_plane, or if an
+/// index is not one of a face
+[[nodiscard]] std::vector<int> faces_at(const Polyhedron& solid, const BlockPlace& place);
+
+/// Points (m) with weights (m^2) that integrate polynomials of a degree exactly over some faces.
+struct SurfaceRule {
+  std::vector<Vector3> points;
+  std::vector<double> weights;
+};
+[[nodiscard]] SurfaceRule surface_rule(const Polyhedron& solid, const std::vector<int>& faces, int degree);
+
+}  // namespace ashlar

@@ -1,0 +1,36 @@
+// Tractions and forces on one block, with their histories in time. Gravity: BlockModel::external_force.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "mechanics/basis/basis.hpp"
+#include "mechanics/supports/face_selection.hpp"
+
+namespace ashlar {
+
+/// A factor over time: linear between the points, constant before the first and after the last; 1 if there
+/// are none.
+struct History {
+  std::vector<double> times;   ///< s, increasing
+  std::vector<double> values;  ///< same number
+  [[nodiscard]] double at(double time) const;
+  /// Whether the factor may differ between two times.
+  [[nodiscard]] bool changes_between(double start, double end) const;
+};
+
+/// A load that keeps its direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N)
+/// spread evenly over them, or a force (N) at a material point.
+struct Load {
+  BlockPlace where;      ///< reference coordinates, m
+  bool traction = true;  ///< of a plane: Pa; false: N in all
+  Vector3 vector = Vector3::Zero();
+  History history;
+};
+
+/// Work-conjugate coefficients: integral of C' f. @return (p, 3) at factor 1
+/// @throws std::invalid_argument if a plane holds no face of the solid, or a traction is given for a point
+[[nodiscard]] Eigen::MatrixX3d load_coefficients(const Polyhedron& solid, const PolynomialBasis& basis,
+                                                 const Load& load);
+
+}  // namespace ashlar

@@ -1,0 +1,430 @@
+#include "solver/contact/contact_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/boxes/box_pairs.hpp"
+#include "geometry/index.hpp"
+#include "geometry/solid/rounded_convexity.hpp"
+#include "mechanics/contact/overlap_outline.hpp"
+#include "solver/contact/hidden_sides.hpp"
+#include "solver/contact/open_faces.hpp"
+#include "solver/parallel_for.hpp"
+
+namespace ashlar {
+namespace {
+
+double area_of_triangle(const TriangleMesh& mesh, const std::array<int, 3>& corners) {
+  const Vector3& start = mesh.points[at(corners[0])];
+  return 0.5 * (mesh.points[at(corners[1])] - start).cross(mesh.points[at(corners[2])] - start).norm();
+}
+
+double surface_area(const Polyhedron& solid) {
+  double area = 0.0;
+  for (const auto& triangle : solid.mesh().triangles) area += area_of_triangle(solid.mesh(), triangle);
+  return area;
+}
+
+/// Axes that turn with the scene, for boxes that then do so too: what they leave out, and the division of
+/// faces, must not depend on how a scene lies. Along the largest face and its longest side, as most of a
+/// scene is likely to be.
+Eigen::Matrix3d axes_of(const std::vector<BlockModel>& blocks) {
+  // Faces and sides that are equal but for rounding: the first.
+  constexpr double larger = 1.0 + 1e-9;
+  double most_area = 0.0;
+  Vector3 normal = Vector3::UnitZ();
+  Vector3 side = Vector3::UnitX();
+  for (const BlockModel& block : blocks) {
+    const auto& points = block.solid().mesh().points;
+    for (const PolyhedronFace& face : block.solid().faces()) {
+      double area = 0.0;
+      for (const int triangle : face.triangles)
+        area += area_of_triangle(block.solid().mesh(), block.solid().mesh().triangles[at(triangle)]);
+      if (area <= larger * most_area) continue;
+      most_area = area;
+      normal = face.normal;
+      double longest = 0.0;
+      const auto& loop = face.loops.front();
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vector3 along = points[at(loop[(k + 1) % loop.size()])] - points[at(loop[k])];
+        if (along.norm() <= larger * longest) continue;
+        longest = along.norm();
+        side = along;
+      }
+    }
+  }
+  Eigen::Matrix3d axes;
+  axes.col(2) = normal;
+  axes.col(1) = normal.cross(side).normalized();
+  axes.col(0) = axes.col(1).cross(normal);
+  return axes;
+}
+
+/// Width of the slab across a direction between two surfaces: no two points of them are nearer, however they
+/// curve. Negative if the direction does not separate them.
+double slab_between(const PlacedSurface& a, const PlacedSurface& b, const Vector3& direction) {
+  const auto extreme = [&](const PlacedSurface& surface, double sign) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Vector3& point : surface.points()) most = std::max(most, sign * direction.dot(point));
+    return most;
+  };
+  const double size = std::max(a.box().high.cwiseAbs().maxCoeff(), b.box().high.cwiseAbs().maxCoeff()) +
+                      std::max(a.box().low.cwiseAbs().maxCoeff(), b.box().low.cwiseAbs().maxCoeff());
+  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * size;
+  return -extreme(b, -1.0) - extreme(a, 1.0) - a.largest_chord_bound() - b.largest_chord_bound() - rounding;
+}
+
+/// No two points of the true surfaces are nearer than this: the widest slab across an axis, the line between
+/// the middles or a face.
+double distance_bound(const PlacedSurface& a, const PlacedSurface& b) {
+  const Vector3 between = 0.5 * (b.box().low + b.box().high - a.box().low - a.box().high);
+  double bound = (a.box().low - b.box().high).cwiseMax(b.box().low - a.box().high).cwiseMax(0.0).norm();
+  if (between.norm() > 0.0) bound = std::max(bound, slab_between(a, b, between.normalized()));
+  for (int cell = 0; cell < static_cast<int>(a.surface().cells.size()); ++cell)
+    bound = std::max(bound, slab_between(a, b, a.normal(cell)));
+  for (int cell = 0; cell < static_cast<int>(b.surface().cells.size()); ++cell)
+    bound = std::max(bound, slab_between(a, b, -b.normal(cell)));
+  return bound;
+}
+
+/// Overlaps so thin that they have no contact points: whether faces beside each other have one is rounding,
+/// and must not say that they meet.
+void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairContacts& contacts) {
+  const double tolerance = outline_tolerance(a, b);
+  std::erase_if(contacts.overlaps, [tolerance](const CellOverlap& overlap) {
+    return outline_of(places_of(overlap), tolerance).empty();
+  });
+}
+
+}  // namespace
+
+ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings)
+    : settings_(settings),
+      axes_(axes_of(blocks)),
+      placed_(blocks.size()),
+      boxes_(blocks.size()),
+      box_paths_(blocks.size(), 0.0),
+      paths_(blocks.size(), 0.0),
+      checked_motion_(blocks.size(), 0.0) {
+  surfaces_.reserve(blocks.size());
+  std::map<const BlockParts*, std::size_t> first;  // of equal blocks
+  for (const BlockModel& block : blocks) {
+    const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
+    surfaces_.emplace_back(block, settings.subdivisions, axes_,
+                           is_first ? nullptr : &surfaces_[twin->second]);
+    moving_.push_back(!block.fixed());
+    thickness_.push_back(block.basis().volume() / surface_area(block.solid()));
+    convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
+  }
+}
+
+ExpectedMotion ContactFinder::expected_motion(const std::vector<BlockState>& states, double step) const {
+  const double fall = 0.5 * step * step * settings_.gravity.norm();
+  ExpectedMotion motion;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    const double speed = moving_[k] ? surfaces_[k].quick_motion_bound(states[k].velocity) : 0.0;
+    motion.loose.push_back(moving_[k] ? step * speed + fall : 0.0);
+  }
+  motion.closer = [this, &states, step, fall](int block) {
+    return moving_[at(block)] ? step * surfaces_[at(block)].largest_speed(states[at(block)]) + fall : 0.0;
+  };
+  return motion;
+}
+
+Box ContactFinder::loose_box(int block) const {
+  constexpr double everywhere = std::numeric_limits<double>::infinity();
+  const Box& box = boxes_[at(block)];
+  if (box.low.x() > box.high.x()) return {Vector3::Constant(-everywhere), Vector3::Constant(everywhere)};
+  return box.grown(paths_[at(block)] - box_paths_[at(block)]);
+}
+
+void ContactFinder::look_at(int block, const BlockState& state) {
+  surfaces_[at(block)].move(state);
+  boxes_[at(block)] = surfaces_[at(block)].box();
+  box_paths_[at(block)] = paths_[at(block)];
+}
+
+void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedMotion& motion) {
+  std::vector<Box> loose;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k)
+    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
+  std::vector<bool> near(surfaces_.size(), false);
+  const auto can_meet = [&](const PairKey& pair) {
+    return (moving_[at(pair[0])] || moving_[at(pair[1])]) && left_out_.count(pair) == 0;
+  };
+  for (const PairKey& pair : meeting_boxes(loose)) {
+    if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
+  }
+  std::vector<Box> boxes(surfaces_.size());
+  motion_.assign(surfaces_.size(), 0.0);
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    if (!near[k]) continue;
+    look_at(static_cast<int>(k), states[k]);
+    motion_[k] = motion.closer(static_cast<int>(k));
+    boxes[k] = boxes_[k].grown(motion_[k] + settings_.contact_distance);
+  }
+  candidates_.clear();
+  std::vector<std::vector<Box>> neighbours(surfaces_.size());
+  for (const PairKey& pair : meeting_boxes(boxes)) {
+    if (!can_meet(pair)) continue;
+    candidates_.push_back(pair);
+    neighbours[at(pair[0])].push_back(boxes[at(pair[1])]);
+    neighbours[at(pair[1])].push_back(boxes[at(pair[0])]);
+  }
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    placed_[k].reset();
+    if (!near[k]) continue;
+    if (surfaces_[k].divide({settings_.chord_tolerance, neighbours[k]})) ++counts_.divisions;
+    const std::size_t cells = surfaces_[k].surface().cells.size();
+    if (cells >= static_cast<std::size_t>(AdaptiveSurface::max_cells)) ++counts_.divisions_at_limit;
+    if (!neighbours[k].empty()) placed_[k] = surfaces_[k].placed();
+  }
+}
+
+bool ContactFinder::known_apart(const PairKey& pair, double reach) const {
+  const auto known = clearances_.find(pair);
+  if (known == clearances_.end()) return false;
+  const double gone = paths_[at(pair[0])] + paths_[at(pair[1])] - known->second.path;
+  return known->second.distance - gone > reach;
+}
+
+void ContactFinder::note_clearance(const PairKey& pair) {
+  const double bound = distance_bound(placed(pair[0]), placed(pair[1]));
+  // Rounding of sums of paths is far below a part in a million of the distance.
+  clearances_[pair] = {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
+}
+
+void ContactFinder::hide_fixed_sides() {
+  fixed_sides_.emplace();
+  std::vector<Box> boxes(surfaces_.size());
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    if (!moving_[k]) boxes[k] = box_of(surfaces_[k].surface().points).grown(settings_.contact_distance);
+  }
+  const ContactLimits flush{settings_.contact_distance, settings_.contact_distance, settings_.contact_angle};
+  for (const PairKey& pair : meeting_boxes(boxes)) {
+    const SubFaceSurface& a = surfaces_[at(pair[0])].surface();
+    const SubFaceSurface& b = surfaces_[at(pair[1])].surface();
+    const PairContacts contacts =
+        find_contacts(PlacedSurface(a, a.points), PlacedSurface(b, b.points), flush);
+    fixed_sides_->add(pair, contacts.overlaps, a, b, settings_.contact_distance);
+  }
+}
+
+void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
+                                  const std::vector<ContactLimits>& limits) {
+  hidden_.clear();
+  hidden_sides_ = HiddenSides();
+  const bool any_inside = std::any_of(searched.begin(), searched.end(), [](const FoundContacts& pair) {
+    return std::any_of(pair.contacts.vertices.begin(), pair.contacts.vertices.end(),
+                       [](const VertexContact& contact) { return contact.gap < 0.0; });
+  });
+  if (!any_inside) return;
+  if (!fixed_sides_) hide_fixed_sides();
+  hidden_sides_ = *fixed_sides_;
+  for (const auto& [blocks, contacts] : searched) {
+    hidden_sides_.add(blocks, contacts.overlaps, placed(blocks[0]).surface(), placed(blocks[1]).surface(),
+                      settings_.contact_distance);
+  }
+  if (hidden_sides_.empty()) return;
+  std::vector<std::size_t> again;
+  for (std::size_t k = 0; k < searched.size(); ++k) {
+    const auto& blocks = searched[k].blocks;
+    const auto& contacts = searched[k].contacts;
+    const HiddenPlaces places = hidden_sides_.of_pair(blocks);
+    const bool below =
+        std::any_of(contacts.vertices.begin(), contacts.vertices.end(), [&](const auto& contact) {
+          const PlacedSurface& with_cell = placed(blocks[contact.vertex_of_a ? 1 : 0]);
+          const PlacedSurface& with_vertex = placed(blocks[contact.vertex_of_a ? 0 : 1]);
+          const Vector3 foot =
+              with_vertex.point(contact.point) - contact.gap * with_cell.normal(contact.cell);
+          const auto& hides = contact.vertex_of_a ? places.of_b : places.of_a;
+          return contact.gap < 0.0 && hides(with_cell.surface().cells[at(contact.cell)].face, foot);
+        });
+    if (below) again.push_back(k);
+  }
+  parallel_for(settings_.threads, again.size(), [&](std::size_t n) {
+    auto& [blocks, contacts] = searched[again[n]];
+    const HiddenPlaces places = hidden_sides_.of_pair(blocks);
+    const DecisionCounts counts = contacts.counts;
+    contacts = find_contacts(placed(blocks[0]), placed(blocks[1]), limits[again[n]], &places);
+    contacts.counts.filter += counts.filter;
+    contacts.counts.exact += counts.exact;
+    leave_out_slivers(placed(blocks[0]), placed(blocks[1]), contacts);
+  });
+  for (const std::size_t k : again) hidden_.insert(searched[k].blocks);
+}
+
+void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
+                                        const std::function<double(int, int)>& deepest) {
+  std::map<PairKey, EntranceName> entrances;
+  std::vector<std::size_t> open;
+  std::vector<std::optional<ConvexSurface>> hulls(surfaces_.size());
+  for (std::size_t k = 0; k < searched.size(); ++k) {
+    auto& [blocks, contacts] = searched[k];
+    // Which of a hull's faces are hidden is not known there.
+    if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])] || hidden_.count(blocks) > 0) continue;
+    if (!contacts.overlaps.empty()) {
+      contacts.type = ContactType::face_face;
+      entrances.emplace(blocks, entrance_of_faces(contacts.overlaps.front()));
+      continue;
+    }
+    open.push_back(k);
+    for (const int block : blocks)
+      if (!hulls[at(block)]) hulls[at(block)].emplace(placed(block));
+  }
+  counts_.convex_pairs += open.size();
+  std::vector<std::optional<EntranceName>> settled(open.size());
+  parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
+    auto& [blocks, contacts] = searched[open[k]];
+    ContactHistory history;
+    if (const auto known = entrances_.find(blocks); known != entrances_.end())
+      history.entrance = known->second;
+    // What the last step has not left so deep was not met through that facet.
+    history.depth =
+        settings_.passing_share * settings_.contact_distance + 2.0 * deepest(blocks[0], blocks[1]);
+    history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
+    settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
+  });
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (settled[k]) entrances.emplace(searched[open[k]].blocks, *settled[k]);
+  entrances_ = std::move(entrances);
+}
+
+std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,
+                                               const ExpectedMotion& motion,
+                                               const std::function<double(int, int)>& deepest) {
+  place(states, motion);
+  const std::size_t all = surfaces_.size() * (surfaces_.size() - 1) / 2;
+  counts_.block_pairs_skipped += all - candidates_.size();
+  std::vector<FoundContacts> searched;
+  std::vector<ContactLimits> limits;
+  for (const PairKey& pair : candidates_) {
+    const double both = motion_[at(pair[0])] + motion_[at(pair[1])];
+    if (known_apart(pair, settings_.contact_distance + both)) {
+      ++counts_.block_pairs_far;
+      continue;
+    }
+    searched.push_back({pair, {}});
+    limits.push_back(
+        {settings_.contact_distance + both,
+         std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
+             2.0 * deepest(pair[0], pair[1]),
+         settings_.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});
+  }
+  counts_.block_pairs_tested += searched.size();
+  parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
+    const auto& [a, b] = searched[k].blocks;
+    searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
+    leave_out_slivers(placed(a), placed(b), searched[k].contacts);
+  });
+  search_hidden(searched, limits);
+  settle_convex_pairs(searched, deepest);
+  std::vector<FoundContacts> found;
+  for (FoundContacts& pair : searched) {
+    counts_.predicates.filter += pair.contacts.counts.filter;
+    counts_.predicates.exact += pair.contacts.counts.exact;
+    if (pair.contacts.empty()) {
+      note_clearance(pair.blocks);
+    } else {
+      clearances_.erase(pair.blocks);
+      found.push_back(std::move(pair));
+    }
+  }
+  return found;
+}
+
+std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockState>& before,
+                                                       const std::vector<BlockState>& after,
+                                                       const std::vector<FoundContacts>& found) {
+  const double tolerance = settings_.passing_share * settings_.contact_distance;
+  std::vector<Box> swept;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    checked_motion_[k] =
+        moving_[k] ? surfaces_[k].quick_motion_bound(after[k].position - before[k].position) : 0.0;
+    swept.push_back(loose_box(static_cast<int>(k)).grown(checked_motion_[k]));
+  }
+  const auto both = [&](const PairKey& pair) {
+    return checked_motion_[at(pair[0])] + checked_motion_[at(pair[1])];
+  };
+  std::vector<PairKey> pairs = meeting_boxes(swept);
+  std::erase_if(pairs, [&](const PairKey& pair) {
+    return left_out_.count(pair) > 0 || both(pair) <= tolerance || known_apart(pair, both(pair));
+  });
+  // What is left is looked at with the true surfaces and their true motion.
+  std::vector<std::vector<Vector3>> ends(surfaces_.size());
+  for (const PairKey& pair : pairs) {
+    for (const int block : pair) {
+      if (!ends[at(block)].empty()) continue;
+      if (!placed_[at(block)]) {
+        look_at(block, before[at(block)]);
+        placed_[at(block)] = surfaces_[at(block)].placed();
+      }
+      if (moving_[at(block)])
+        checked_motion_[at(block)] = surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
+      ends[at(block)] = surfaces_[at(block)].points(after[at(block)]);
+    }
+  }
+  std::erase_if(pairs, [&](const PairKey& pair) {
+    const Box of_a = boxes_[at(pair[0])].grown(checked_motion_[at(pair[0])]);
+    const Box of_b = boxes_[at(pair[1])].grown(checked_motion_[at(pair[1])]);
+    return both(pair) <= tolerance || known_apart(pair, both(pair)) || !of_a.meets(of_b);
+  });
+  counts_.motions_checked += pairs.size();
+  std::vector<std::vector<Touch>> touches(pairs.size());
+  parallel_for(settings_.threads, pairs.size(), [&](std::size_t k) {
+    const auto& [a, b] = pairs[k];
+    const PlacedSurface end_a(surfaces_[at(a)].surface(), ends[at(a)]);
+    const PlacedSurface end_b(surfaces_[at(b)].surface(), ends[at(b)]);
+    const auto known = std::lower_bound(
+        found.begin(), found.end(), pairs[k],
+        [](const FoundContacts& contacts, const PairKey& pair) { return contacts.blocks < pair; });
+    const bool in_contact = known != found.end() && known->blocks == pairs[k];
+    const MotionLimits limits{tolerance,
+                              settings_.contact_distance + checked_motion_[at(a)] + checked_motion_[at(b)]};
+    touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
+                              in_contact ? known->contacts : PairContacts{}, limits);
+    if (hidden_sides_.empty()) return;
+    const HiddenPlaces hidden = hidden_sides_.of_pair(pairs[k]);
+    turn_to_open_faces({&placed(a), &end_a}, {&placed(b), &end_b}, hidden, touches[k]);
+  });
+  std::vector<PassingBlocks> passing;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    for (const Touch& touch : touches[k]) passing.push_back({pairs[k], touch});
+  }
+  std::stable_sort(passing.begin(), passing.end(), [](const PassingBlocks& x, const PassingBlocks& y) {
+    return x.touch.share < y.touch.share;
+  });
+  return passing;
+}
+
+void ContactFinder::accept_motion() {
+  for (std::size_t k = 0; k < paths_.size(); ++k) paths_[k] += checked_motion_[k];
+}
+
+void ContactFinder::renew(int block, const BlockModel& model) {
+  surfaces_[at(block)] = BlockSurface(model, settings_.subdivisions, axes_);
+  placed_[at(block)].reset();
+  boxes_[at(block)] = Box{};
+  std::erase_if(clearances_,
+                [&](const auto& known) { return known.first[0] == block || known.first[1] == block; });
+}
+
+FinderState ContactFinder::state() const {
+  FinderState state{paths_, boxes_, box_paths_, clearances_, entrances_, {}, counts_};
+  for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.wanted());
+  return state;
+}
+
+void ContactFinder::restore(const FinderState& state) {
+  paths_ = state.paths;
+  boxes_ = state.boxes;
+  box_paths_ = state.box_paths;
+  clearances_ = state.clearances;
+  entrances_ = state.entrances;
+  for (std::size_t k = 0; k < surfaces_.size() && k < state.divisions.size(); ++k)
+    surfaces_[k].set_wanted(state.divisions[k]);
+  counts_ = state.counts;
+}
+
+}  // namespace ashlar

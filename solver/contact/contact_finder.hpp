@@ -1,0 +1,152 @@
+// Which blocks meet, where, and whether they would pass through each other: the bodies of a scene as geometry
+// sees them from step to step.
+//
+// Work is proportional to what changes: a block is not looked at while it cannot have come near another one,
+// pairs known to be apart are not searched again until they could have met, faces are divided only where they
+// curve and have a neighbour in reach.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "geometry/contacts/convex_search.hpp"
+#include "geometry/contacts/motion_check.hpp"
+#include "mechanics/block/block_surface.hpp"
+#include "solver/contact/hidden_sides.hpp"
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// The contacts of a pair of blocks (a < b) at the start of a step.
+struct FoundContacts {
+  std::array<int, 2> blocks;
+  PairContacts contacts;
+};
+
+/// Blocks that would pass through each other in a step.
+struct PassingBlocks {
+  std::array<int, 2> blocks;
+  Touch touch;
+};
+
+/// A pair of blocks that was found apart.
+struct Clearance {
+  double distance;  ///< m, at least, when it was found
+  double path;      ///< m, what both had gone until then
+};
+
+/// What was done and skipped.
+struct FinderCounts {
+  std::uint64_t block_pairs_tested = 0;   ///< whose surfaces were searched
+  std::uint64_t convex_pairs = 0;         ///< of them, convex solids that were classified as such
+  std::uint64_t block_pairs_skipped = 0;  ///< whose boxes cannot meet in the step
+  std::uint64_t block_pairs_far = 0;      ///< known to be too far apart to have met since the last search
+  std::uint64_t motions_checked = 0;      ///< pairs whose surfaces were followed through a step
+  std::uint64_t divisions = 0;            ///< times the sub-faces of a block changed
+  /// times a block had as many sub-faces as there may be, so that the chord tolerance may not be met
+  std::uint64_t divisions_at_limit = 0;
+  DecisionCounts predicates;
+};
+
+/// What a finder has beyond its blocks (checkpoint.hpp).
+struct FinderState {
+  std::vector<double> paths;
+  std::vector<Box> boxes;
+  std::vector<double> box_paths;
+  std::map<std::array<int, 2>, Clearance> clearances;
+  std::map<std::array<int, 2>, EntranceName> entrances;
+  std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
+  FinderCounts counts;
+};
+
+/// How far surface points of each block are expected to go in a step, m.
+struct ExpectedMotion {
+  std::vector<double> loose;          ///< (#blocks) from above, cheap
+  std::function<double(int)> closer;  ///< of a block that may be near another, at most `loose`
+};
+
+/// Keeps surfaces and clearances from step to step.
+class ContactFinder {
+ public:
+  /// @param blocks must outlive this and stay where they are
+  ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings);
+
+  /// All contacts within reach at the start of a step.
+  /// @param deepest largest penetration of a pair in the step before, m
+  [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
+                                                const ExpectedMotion& motion,
+                                                const std::function<double(int, int)>& deepest);
+  /// Looks for no contacts between two blocks from now on. @param a,b a < b
+  void leave_out(int a, int b) { left_out_.insert({a, b}); }
+  [[nodiscard]] bool leaves_out(int a, int b) const { return left_out_.count({a, b}) > 0; }
+  /// The surface of a block of a found pair.
+  [[nodiscard]] const PlacedSurface& placed(int block) const {
+    return placed_[static_cast<std::size_t>(block)].value();
+  }
+
+  /// Blocks that would pass through each other on the way from the last search to new states, features that
+  /// a found contact stands for left out; the earliest first.
+  [[nodiscard]] std::vector<PassingBlocks> check_motion(const std::vector<BlockState>& before,
+                                                        const std::vector<BlockState>& after,
+                                                        const std::vector<FoundContacts>& found);
+  /// Takes note that the motion checked last was accepted.
+  void accept_motion();
+  /// Starts anew with a block whose model is another one now. @param model at the place of the old one
+  void renew(int block, const BlockModel& model);
+  /// Takes over the coordinates of a new step of an incremental block.
+  void start_step(int block) { surfaces_[static_cast<std::size_t>(block)].start_step(); }
+
+  /// How far points on the blocks' surfaces go in a step under their present velocity and gravity.
+  /// @param states must outlive the result
+  [[nodiscard]] ExpectedMotion expected_motion(const std::vector<BlockState>& states, double step) const;
+  [[nodiscard]] const std::vector<BlockSurface>& surfaces() const { return surfaces_; }
+  [[nodiscard]] const FinderCounts& counts() const { return counts_; }
+
+  [[nodiscard]] FinderState state() const;
+  void restore(const FinderState& state);
+
+ private:
+  using PairKey = std::array<int, 2>;
+
+  /// Contains a block at the start of the step, from where it was seen last and what it has gone since.
+  [[nodiscard]] Box loose_box(int block) const;
+  void look_at(int block, const BlockState& state);
+  void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
+  [[nodiscard]] bool known_apart(const PairKey& pair, double reach) const;
+  void note_clearance(const PairKey& pair);
+  /// Searches pairs again in which a vertex is in a block below a hidden part of its face.
+  /// @param limits of the pairs
+  void search_hidden(std::vector<FoundContacts>& searched, const std::vector<ContactLimits>& limits);
+  /// Notes the faces of fixed blocks that lie on each other.
+  void hide_fixed_sides();
+  /// Completes the contacts of pairs of convex solids, with history.
+  void settle_convex_pairs(std::vector<FoundContacts>& searched,
+                           const std::function<double(int, int)>& deepest);
+
+  SimulationSettings settings_;
+  Eigen::Matrix3d axes_;      ///< of the boxes below
+  std::vector<bool> moving_;  ///< false for fixed blocks
+  std::set<PairKey> left_out_;
+  std::vector<double>
+      thickness_;  ///< volume over surface, m: a third of a ball's radius, half of a plate's thickness
+  std::vector<bool> convex_;  ///< convex solids whose faces stay flat
+  std::vector<BlockSurface> surfaces_;
+  std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
+  std::vector<Box> boxes_;              ///< true boxes when blocks were looked at last; empty: never
+  std::vector<double> box_paths_;       ///< what each block had gone until then, m
+  std::vector<PairKey> candidates_;     ///< pairs whose boxes can meet in the step
+  std::vector<double> motion_;          ///< expected in the step; 0 of blocks that are not near others
+  std::vector<double> paths_;           ///< what the fastest point of each block has gone so far at most, m
+  std::vector<double> checked_motion_;  ///< of the motion checked last
+  std::map<PairKey, Clearance> clearances_;
+  std::map<PairKey, EntranceName> entrances_;  ///< history of convex pairs that are near each other
+  std::optional<HiddenSides> fixed_sides_;     ///< of fixed blocks, found when first asked for
+  HiddenSides hidden_sides_;                   ///< at the last search; empty if no vertex was in a block
+  std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
+  FinderCounts counts_;
+};
+
+}  // namespace ashlar

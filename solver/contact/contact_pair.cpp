@@ -1,0 +1,531 @@
+#include "solver/contact/contact_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "mechanics/basis/field_moments.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Values of a block's functions at its material points. @return (#points, p), empty for fixed blocks
+Eigen::MatrixXd values_at(const BlockModel& model, const std::vector<ContactPoint>& points, bool of_a) {
+  if (model.fixed()) return {};
+  std::vector<Vector3> material;
+  material.reserve(points.size());
+  for (const ContactPoint& point : points) material.push_back(of_a ? point.material_a : point.material_b);
+  return model.basis().values(material);
+}
+
+/// Rows that give the motion of a block along the three directions of each contact point.
+Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactPoint>& points,
+                             const Eigen::MatrixXd& phi) {
+  if (model.fixed()) return {};
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd rows(3 * count, model.unknowns());
+  for (int direction = 0; direction < 3; ++direction) {
+    Eigen::MatrixX3d directions(count, 3);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const ContactPoint& point = points[static_cast<std::size_t>(k)];
+      directions.row(k) = direction == 0 ? point.normal : direction == 1 ? point.tangent_1 : point.tangent_2;
+    }
+    const Eigen::MatrixXd part = model.space().rows(phi, directions);
+    for (Eigen::Index k = 0; k < count; ++k) rows.row(3 * k + direction) = part.row(k);
+  }
+  return rows;
+}
+
+/// Coefficients of the gap of two tied blocks. @return (r, 3)
+Eigen::MatrixX3d tie_gap(const Tie& tie, const BlockState& a, const BlockState& b) {
+  return tie.a * a.position - tie.b * b.position;
+}
+
+std::vector<ContactPoint> tie_points(const Eigen::MatrixX3d& gap) {
+  std::vector<ContactPoint> points(static_cast<std::size_t>(gap.rows()));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    ContactPoint& point = points[k];
+    point.type = ContactPointType::face_face;
+    point.normal = Vector3::UnitX();
+    point.tangent_1 = Vector3::UnitY();
+    point.tangent_2 = Vector3::UnitZ();
+    point.place_a = gap.row(static_cast<Eigen::Index>(k));
+    point.place_b.setZero();
+    point.gap = point.place_a.x();
+    point.area = 1.0;
+  }
+  return points;
+}
+
+std::vector<PointMemory> tie_memory(const Eigen::MatrixX3d& gap) {
+  std::vector<PointMemory> memory(static_cast<std::size_t>(gap.rows()));
+  for (std::size_t k = 0; k < memory.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    memory[k].slip = {0.0, gap(row, 1), gap(row, 2)};
+    memory[k].state = ContactState::locked;
+    memory[k].intact = true;
+  }
+  return memory;
+}
+
+/// Springs in all directions that nothing breaks.
+JointLaw tie_law(double stiffness) {
+  JointLaw law;
+  law.normal_stiffness = law.shear_stiffness = stiffness;
+  // Far from any force, and its differences are numbers.
+  law.cohesion = 1e100;
+  law.tensile_strength = std::numeric_limits<double>::infinity();
+  return law;
+}
+
+SpringEnergy sum_of(const std::vector<PointResponse>& points) {
+  SpringEnergy sum;
+  for (const PointResponse& point : points) {
+    sum.normal += point.normal_energy;
+    sum.shear += point.shear_energy;
+  }
+  return sum;
+}
+
+/// Norm of the longest row.
+double largest_row(const Eigen::MatrixXd& rows) {
+  return rows.size() > 0 ? std::sqrt(rows.rowwise().squaredNorm().maxCoeff()) : 0.0;
+}
+
+bool is_free(const ContactBody& body) {
+  return !body.model->fixed() && body.model->space().free();
+}
+
+/// Position at the middle of the step. @param change of the coefficients, stacked
+Eigen::MatrixX3d middle_of(const Eigen::MatrixX3d& start, const Eigen::VectorXd& change) {
+  return start + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(change.data(), start.rows(), 3);
+}
+
+/// @param force stacked
+Vector3 torque_of(const Eigen::MatrixX3d& position, const Eigen::VectorXd& force) {
+  return integral_of_cross(position, Eigen::Map<const Eigen::MatrixX3d>(force.data(), position.rows(), 3));
+}
+
+/// Forces f_a = w x q_a that have no resultant and the given torque, stacked as the unknowns of a free block
+/// are. @param position coefficients
+Eigen::VectorXd turning_force(Eigen::MatrixX3d position, const Vector3& torque) {
+  // Only the first function has a mean, so that what is left of it turns about the centroid.
+  position.row(0).setZero();
+  const Vector3 w = unit_inertia(position).ldlt().solve(torque);
+  return turning_field(w, position).reshaped();
+}
+
+}  // namespace
+
+ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
+                         const JointLaw& law, const std::vector<ContactPoint>& points,
+                         std::vector<PointMemory> memory, std::vector<PressureCut> cuts)
+    : ContactPair(a, b, body_a, body_b, law, points, std::move(memory),
+                  values_at(*body_a.model, points, true), values_at(*body_b.model, points, false), nullptr) {
+  cuts_ = std::move(cuts);
+}
+
+ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
+                         double stiffness)
+    : ContactPair(a, b, body_a, body_b, tie_law(stiffness),
+                  tie_points(tie_gap(tie, *body_a.state, *body_b.state)),
+                  tie_memory(tie_gap(tie, *body_a.state, *body_b.state)), tie.a, tie.b, &tie) {}
+
+ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
+                         const JointLaw& law, std::vector<ContactPoint> points,
+                         std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
+                         const Eigen::MatrixXd& phi_b, const Tie* tie)
+    : a_(a),
+      b_(b),
+      points_(std::move(points)),
+      memory_(std::move(memory)),
+      rests_(points_.size(), 0.0),
+      start_(3, static_cast<Eigen::Index>(points_.size())),
+      rows_a_(contact_rows(*body_a.model, points_, phi_a)),
+      rows_b_(contact_rows(*body_b.model, points_, phi_b)),
+      tie_(tie),
+      rigid_(law.rigid || law.augmented || tie != nullptr),
+      area_springs_(law.area_springs),
+      // The forces of a tie are along the gap, so that they have no couple worth the name.
+      free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
+  if (free_pair_) {
+    // From where both are, so that the torques of opposite forces cancel far from the origin too.
+    const double volume_a = body_a.model->basis().volume();
+    const Vector3 origin = mean_of(body_a.state->position, volume_a);
+    position_a_ = from_point(body_a.state->position, volume_a, origin);
+    position_b_ = from_point(body_b.state->position, body_b.model->basis().volume(), origin);
+  }
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
+    if (law.augmented) {
+      const double scale = multiplier_scale(points_[k]);
+      const Vector3 shear = scale * memory_[k].shear_multiplier;
+      laws_[k].augmented = true;
+      laws_[k].normal_multiplier = scale * memory_[k].normal_multiplier;
+      laws_[k].shear_multiplier = {points_[k].tangent_1.dot(shear), points_[k].tangent_2.dot(shear)};
+    }
+    start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
+        points_[k].tangent_2.dot(memory_[k].slip);
+  }
+  respond_at_start();
+}
+
+void ContactPair::respond_at_start() {
+  start_responses_.clear();
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto start = start_.col(static_cast<Eigen::Index>(k));
+    start_responses_.push_back(point_response(laws_[k], start[0], start.tail<2>()));
+  }
+}
+
+bool ContactPair::can_be_bounded() const {
+  return !tied() && std::none_of(laws_.begin(), laws_.end(),
+                                 [](const PointLaw& law) { return law.augmented || law.tension > 0.0; });
+}
+
+void ContactPair::rest_at(std::vector<double> rests) {
+  rests_ = std::move(rests);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
+  respond_at_start();
+}
+
+void ContactPair::hold_where_found(double taken) {
+  taken_ = taken;
+  std::vector<double> rests;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    rests.push_back(laws_[k].tension > 0.0 ? points_[k].gap : std::min(0.0, points_[k].gap));
+  rest_at(std::move(rests));
+}
+
+void ContactPair::count_slip(const std::vector<Vector3>& moved) {
+  counts_slip_ = true;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto along = [&](const Vector3& vector) {
+      return Eigen::Vector2d(points_[k].tangent_1.dot(vector), points_[k].tangent_2.dot(vector));
+    };
+    PointMemory& memory = memory_[k];
+    if (!memory.in_level) memory.level_slip = -flat(k, along(moved[k]));
+    start_.col(static_cast<Eigen::Index>(k)).tail<2>() = along(memory.level_slip + moved[k]);
+  }
+  respond_at_start();
+}
+
+Vector3 ContactPair::flat(std::size_t k, const Eigen::Vector2d& along) const {
+  return along[0] * points_[k].tangent_1 + along[1] * points_[k].tangent_2;
+}
+
+Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
+  const Eigen::Vector2d slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
+  return counts_slip_ ? Eigen::Vector2d(slip - elastic_slip(laws_[k], start_responses_[k], slip))
+                      : Eigen::Vector2d::Zero();
+}
+
+bool ContactPair::bonded() const {
+  return !tied() && std::any_of(laws_.begin(), laws_.end(),
+                                [](const PointLaw& law) { return law.cohesion > 0.0 || law.tension > 0.0; });
+}
+
+void ContactPair::hold_bonds() {
+  holds_bonds_ = true;
+  const JointLaw bond = tie_law(1.0);
+  for (PointLaw& law : laws_) {
+    if (tied() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
+    law.cohesion = bond.cohesion;
+    if (law.tension > 0.0) law.tension = bond.tensile_strength;
+  }
+  respond_at_start();
+}
+
+double ContactPair::depth_found() const {
+  double depth = 0.0;
+  for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
+    if (laws_[k].tension == 0.0) depth = std::max(depth, -points_[k].gap);
+  }
+  return depth;
+}
+
+ContactPair ContactPair::moved_apart(double depth) const {
+  ContactPair pair = *this;
+  pair.start_.setZero();
+  pair.prescribed_.resize(3, 0);
+  const JointLaw bond = tie_law(1.0);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    PointLaw& law = pair.laws_[k];
+    const bool bonded = tied() || law.tension > 0.0;
+    law = {law.normal_stiffness, bonded ? law.shear_stiffness : 0.0, 0.0, bonded ? bond.cohesion : 0.0,
+           bonded ? bond.tensile_strength : 0.0};
+    law.augmented = !tied();
+    if (bonded) continue;
+    pair.rests_[k] = -depth;
+    pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap + depth;
+  }
+  pair.respond_at_start();
+  return pair;
+}
+
+void ContactPair::hold_at_most(const SpringEnergy& held) {
+  if (!can_be_bounded()) return;
+  std::vector<double> stiffnesses, gaps, remembered;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    stiffnesses.push_back(laws_[k].normal_stiffness);
+    gaps.push_back(points_[k].gap);
+    remembered.push_back(std::min(0.0, points_[k].gap + memory_[k].compression));
+  }
+  rest_at(rest_gaps(stiffnesses, gaps, remembered, held.normal));
+  // What friction does not bear is cut off in any case: where that is what makes the energies equal, their
+  // rounding must not choose.
+  double shear = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    auto slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
+    slip = borne_slip(laws_[k], start_responses_[k].force[0], slip);
+    shear += 0.5 * laws_[k].shear_stiffness * slip.squaredNorm();
+  }
+  if (shear > held.shear) start_.bottomRows<2>() *= std::sqrt(held.shear / shear);
+  respond_at_start();
+  // Also of points that are open to rounding only.
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_responses_[k].shear_energy =
+        0.5 * laws_[k].shear_stiffness * start_.col(static_cast<Eigen::Index>(k)).tail<2>().squaredNorm();
+}
+
+Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  Eigen::Matrix3Xd result = start_;
+  Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
+  if (rows_a_.cols() > 0) flat.noalias() += rows_a_ * ya;
+  if (rows_b_.cols() > 0) flat.noalias() -= rows_b_ * yb;
+  if (prescribed_.size() > 0) result += prescribed_;
+  return result;
+}
+
+void ContactPair::prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
+                            const Eigen::MatrixX3d& change_b) {
+  prescribed_.resize(3, 0);
+  if (change_a.size() == 0 && change_b.size() == 0) return;
+  prescribed_.setZero(3, start_.cols());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const ContactPoint& point = points_[k];
+    Vector3 motion = Vector3::Zero();
+    const auto row = static_cast<Eigen::Index>(k);
+    const auto values = [&](const BlockModel& block, const Vector3& material, bool of_a) -> Eigen::VectorXd {
+      if (tied()) return (of_a ? tie_->a : tie_->b).row(row).transpose();
+      return block.basis().values(material);
+    };
+    if (change_a.size() > 0) motion += change_a.transpose() * values(a, point.material_a, true);
+    if (change_b.size() > 0) motion -= change_b.transpose() * values(b, point.material_b, false);
+    prescribed_.col(static_cast<Eigen::Index>(k)) << point.normal.dot(motion), point.tangent_1.dot(motion),
+        point.tangent_2.dot(motion);
+  }
+}
+
+double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                   const std::vector<PointLaw>& laws) const {
+  double stiffness = 0.0;
+  for (const PointLaw& law : laws)
+    stiffness = std::max({stiffness, law.normal_stiffness, law.shear_stiffness});
+  const double row_a = largest_row(rows_a_);
+  const double row_b = largest_row(rows_b_);
+  return 2.0 * std::numeric_limits<double>::epsilon() * stiffness *
+         (row_a * row_a * ya.norm() + row_b * row_b * yb.norm());
+}
+
+double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                   const std::vector<PointLaw>& laws, const PairResponse& response) const {
+  const auto in_doubt = [](const PointResponse& point) {
+    return point.force[0] == 0.0 && point.tangent(0, 0) > 0.0;
+  };
+  if (std::none_of(response.points.begin(), response.points.end(), in_doubt)) return 0.0;
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const double gap = place(0, static_cast<Eigen::Index>(k));
+    if (in_doubt(response.points[k]))
+      sum += std::max(0.0, laws[k].normal_stiffness * gap - laws[k].normal_multiplier);
+  }
+  return std::max(largest_row(rows_a_), largest_row(rows_b_)) * sum;
+}
+
+double ContactPair::work(const PairResponse& response, const Eigen::VectorXd& ya,
+                         const Eigen::VectorXd& yb) const {
+  return (ya.size() > 0 ? ya.dot(response.total_on_a()) : 0.0) +
+         (yb.size() > 0 ? yb.dot(response.total_on_b()) : 0.0) + prescribed_work(response);
+}
+
+double ContactPair::spring_work(const PairResponse& response, const Eigen::VectorXd& ya,
+                                const Eigen::VectorXd& yb) const {
+  return (ya.size() > 0 ? ya.dot(response.force_on_a) : 0.0) +
+         (yb.size() > 0 ? yb.dot(response.force_on_b) : 0.0) + prescribed_work(response);
+}
+
+double ContactPair::prescribed_work(const PairResponse& response) const {
+  double work = 0.0;
+  for (Eigen::Index k = 0; k < prescribed_.cols(); ++k)
+    work += prescribed_.col(k).dot(response.means[static_cast<std::size_t>(k)].force);
+  return work;
+}
+
+PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
+                                  const std::vector<PointLaw>& laws) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  PairResponse response;
+  Eigen::VectorXd forces(place.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    if (averaged) {
+      const AveragedStep step =
+          averaged_step(laws[k], start_responses_[k], start_.col(column), place.col(column));
+      response.points.push_back(step.end);
+      response.means.push_back(step.mean);
+    } else {
+      const PointResponse end = point_response(laws[k], place(0, column), place.col(column).tail<2>());
+      response.points.push_back(end);
+      response.means.push_back(end_response(laws[k], end));
+    }
+    forces.segment<3>(3 * column) = response.means.back().force;
+  }
+  set_block_forces(forces, response);
+  if (free_pair_) {
+    const Eigen::MatrixX3d middle_a = middle_of(position_a_, ya);
+    const Eigen::MatrixX3d middle_b = middle_of(position_b_, yb);
+    const Vector3 couple =
+        torque_of(middle_a, response.force_on_a) + torque_of(middle_b, response.force_on_b);
+    response.turning_on_a = turning_force(middle_a, -0.5 * couple);
+    response.turning_on_b = turning_force(middle_b, -0.5 * couple);
+  }
+  return response;
+}
+
+void ContactPair::set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
+  if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
+  if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
+}
+
+ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
+  std::vector<Eigen::Index> active;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (!response.means[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
+  }
+  const auto gather = [&](const Eigen::MatrixXd& rows, bool times_tangent) {
+    Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(active.size()), rows.cols());
+    for (std::size_t n = 0; n < active.size(); ++n) {
+      const Eigen::Index k = active[n];
+      const auto target = static_cast<Eigen::Index>(3 * n);
+      if (times_tangent) {
+        result.middleRows<3>(target).noalias() =
+            response.means[static_cast<std::size_t>(k)].tangent * rows.middleRows<3>(3 * k);
+      } else {
+        result.middleRows<3>(target) = rows.middleRows<3>(3 * k);
+      }
+    }
+    return result;
+  };
+  Tangent tangent;
+  Eigen::MatrixXd scaled_b;
+  if (rows_b_.cols() > 0) {
+    scaled_b = gather(rows_b_, true);
+    tangent.bb = gather(rows_b_, false).transpose() * scaled_b;
+  }
+  if (rows_a_.cols() > 0) {
+    const Eigen::MatrixXd plain_a = gather(rows_a_, false);
+    tangent.aa = plain_a.transpose() * gather(rows_a_, true);
+    if (rows_b_.cols() > 0) tangent.ab = -(plain_a.transpose() * scaled_b);
+  }
+  return tangent;
+}
+
+Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response) {
+  Eigen::Matrix2Xd result(2, static_cast<Eigen::Index>(response.means.size()));
+  for (std::size_t k = 0; k < response.means.size(); ++k)
+    result.col(static_cast<Eigen::Index>(k)) = response.means[k].coupling;
+  return result;
+}
+
+void ContactPair::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da,
+                               const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
+                               Eigen::Ref<Eigen::VectorXd> to_b) const {
+  for (Eigen::Index k = 0; k < couplings.cols(); ++k) {
+    if (couplings.col(k).isZero(0.0)) continue;
+    double opening = 0.0;
+    if (da.size() > 0) opening += rows_a_.row(3 * k).dot(da);
+    if (db.size() > 0) opening -= rows_b_.row(3 * k).dot(db);
+    const Eigen::Vector2d force = opening * couplings.col(k);
+    if (da.size() > 0) to_a += rows_a_.middleRows<2>(3 * k + 1).transpose() * force;
+    if (db.size() > 0) to_b -= rows_b_.middleRows<2>(3 * k + 1).transpose() * force;
+  }
+}
+
+std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  std::vector<double> result;
+  for (Eigen::Index k = 0; k < place.cols(); ++k)
+    result.push_back(rests_[static_cast<std::size_t>(k)] + place(0, k));
+  return result;
+}
+
+std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
+                                                   const std::vector<PointLaw>& laws,
+                                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                                   double tearing_gap) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  std::vector<PointMemory> result;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const PointResponse& point = response.points[k];
+    const Eigen::Vector2d slip = place.col(static_cast<Eigen::Index>(k)).tail<2>();
+    const Eigen::Vector2d elastic = elastic_slip(laws[k], point, slip);
+    PointMemory memory;
+    memory.slip = flat(k, elastic);
+    memory.level_slip = memory_[k].level_slip;
+    memory.in_level = counts_slip_ && (memory_[k].in_level || point.state != ContactState::open ||
+                                       start_responses_[k].state != ContactState::open);
+    memory.compression = -place(0, static_cast<Eigen::Index>(k));
+    memory.state = point.state;
+    const bool open = point.state == ContactState::open;
+    const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension == 0.0
+                                             : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
+    const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
+    memory.intact = memory_[k].intact && (holds_bonds_ || (!torn && !sheared));
+    if (laws[k].augmented && point.state != ContactState::open) {
+      const Eigen::Vector2d shear = point.force.tail<2>();
+      const double scale = multiplier_scale(points_[k]);
+      memory.normal_multiplier = point.force[0] / scale;
+      memory.shear_multiplier = (shear[0] * points_[k].tangent_1 + shear[1] * points_[k].tangent_2) / scale;
+    }
+    result.push_back(memory);
+  }
+  return result;
+}
+
+double ContactPair::friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                  const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  const Eigen::Matrix3Xd place = relative(ya, yb);
+  double work = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const PointResponse& point = response.points[k];
+    // Means of points that are open at the end may have rubbed before.
+    if (point.state == ContactState::locked) continue;
+    const auto column = static_cast<Eigen::Index>(k);
+    const Eigen::Vector2d slip = place.col(column).tail<2>();
+    Eigen::Vector2d elastic = Eigen::Vector2d::Zero();
+    if (laws[k].augmented)
+      elastic = start_.col(column).tail<2>();
+    else if (point.state == ContactState::sliding)
+      elastic = elastic_slip(laws[k], point, slip) + slid_before(k);
+    work += response.means[k].force.tail<2>().dot(elastic - slip);
+  }
+  return work;
+}
+
+double ContactPair::start_energy() const {
+  return start_energies().total();
+}
+
+SpringEnergy ContactPair::start_energies() const {
+  return sum_of(start_responses_);
+}
+
+SpringEnergy ContactPair::energies(const PairResponse& response) {
+  return sum_of(response.points);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,246 @@
+// The contact of two blocks within one step: constant rows, and forces as a function of both blocks'
+// unknowns.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "mechanics/contact/contact_memory.hpp"
+#include "mechanics/contact/contact_points.hpp"
+#include "mechanics/contact/spring_energy.hpp"
+#include "mechanics/contact/tie.hpp"
+
+namespace ashlar {
+
+/// Response of all points of a pair over a step.
+struct PairResponse {
+  std::vector<PointResponse> points;  ///< at the end of the step
+  std::vector<MeanResponse> means;    ///< what acts in the equations of motion
+  Eigen::VectorXd force_on_a;         ///< of the springs, (unknowns of a)
+  Eigen::VectorXd force_on_b;         ///< (unknowns of b)
+  Eigen::VectorXd turning_on_a;  ///< that balances their couple, see ContactPair; empty unless both are free
+  Eigen::VectorXd turning_on_b;
+
+  [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, turning_on_a); }
+  [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, turning_on_b); }
+
+ private:
+  static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& turning) {
+    return turning.size() > 0 ? Eigen::VectorXd(force + turning) : force;
+  }
+};
+
+/// How points that push are stopped (velocity_contact.cpp).
+struct Stop {
+  double stiffness = 0.0;  ///< of a point against the inertia it feels, without unit
+  double inertia_a = 0.0;  ///< density over the step squared, kg/(m^3 s^2); of no use if fixed
+  double inertia_b = 0.0;
+  double allowed_way = 0.0;  ///< m: points that their force moves by less in a step count for little
+};
+
+/// The force of a point acts on a at x_a and on b at x_b, the true places of the material points. Where these
+/// differ, by the gap, because a slides on b within the step or because feet are taken on flat sub-faces, the
+/// two forces are a couple r x F, r = x_a - x_b at the middle of the step, which would change the angular
+/// momentum of two free blocks. Half of its opposite is then given to each of them as the forces of a rigid
+/// angular acceleration, which strain nothing.
+///
+/// Constant after construction. Points are linear in the unknowns within a step: with ya, yb the changes of
+/// the blocks' unknowns,  gap = g0 + n . (C_a ya - C_b yb)  and likewise the slip (theory.md section 7,
+/// where H = rows_a, Q = rows_b).
+class ContactPair {
+ public:
+  /// @param a,b indices of the blocks, used by the solver only. @param cuts that the points come from, to be
+  /// remembered
+  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
+              const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
+              std::vector<PressureCut> cuts = {});
+
+  /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
+  /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
+  /// @param stiffness Pa/m
+  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
+              double stiffness);
+  [[nodiscard]] bool tied() const { return tie_ != nullptr; }
+  /// Whether its springs only stand for what does not give way.
+  [[nodiscard]] bool rigid() const { return rigid_; }
+  /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
+  [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                      const std::vector<PointLaw>& laws) const;
+  /// Of points that are closed by rounding only: what their springs would pull across their gaps, in the same
+  /// norm. @param response to ya and yb
+  [[nodiscard]] double force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                      const std::vector<PointLaw>& laws, const PairResponse& response) const;
+
+  [[nodiscard]] int a() const { return a_; }
+  [[nodiscard]] int b() const { return b_; }
+  [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
+  [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
+
+  /// Laws of the points at the start of the step.
+  [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
+
+  /// @param averaged false: forces are those at the end of the step; true: see averaged_step
+  /// @param laws of the points, as an open-close iteration has them
+  [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
+                                     const std::vector<PointLaw>& laws) const;
+  [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                     bool averaged) const {
+    return respond(ya, yb, averaged, laws_);
+  }
+  /// Takes the springs to be at rest where, found anew, they hold no more than this (spring_energy.hpp);
+  /// elastic slip shrinks in proportion. Pairs with bonds that can take tension, and tied ones, stay as they
+  /// are, and so do pairs with multipliers.
+  void hold_at_most(const SpringEnergy& held);
+  /// Points with multipliers, which hold no energy, are held where they are found below the surface, bonds
+  /// also above it.
+  /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
+  void hold_where_found(double taken);
+  /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
+  /// point since the level began, m
+  void count_slip(const std::vector<Vector3>& moved);
+  /// Whether any point of a contact has cohesion or tensile strength.
+  [[nodiscard]] bool bonded() const;
+  /// Bonds neither tear nor slide whatever pulls, and none is lost in the step.
+  void hold_bonds();
+  /// What hold_where_found() was told.
+  [[nodiscard]] double taken() const { return taken_; }
+  /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.
+  [[nodiscard]] double depth_found() const;
+  /// The pair without friction and forces, for moving blocks apart: points push from a depth on, bonds and
+  /// ties hold blocks as they are to each other. @param depth m, >= 0
+  [[nodiscard]] ContactPair moved_apart(double depth) const;
+  [[nodiscard]] bool can_be_bounded() const;
+  /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
+  /// 3), empty: none
+  void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
+                 const Eigen::MatrixX3d& change_b);
+  /// Work of the contact forces on both blocks, on prescribed motion too, J.
+  [[nodiscard]] double work(const PairResponse& response, const Eigen::VectorXd& ya,
+                            const Eigen::VectorXd& yb) const;
+  /// Its part without that of what balances the couple, J.
+  [[nodiscard]] double spring_work(const PairResponse& response, const Eigen::VectorXd& ya,
+                                   const Eigen::VectorXd& yb) const;
+  /// Its part on prescribed motion, J.
+  [[nodiscard]] double prescribed_work(const PairResponse& response) const;
+
+  /// Spring energy at the start of the step, J.
+  [[nodiscard]] double start_energy() const;
+  [[nodiscard]] SpringEnergy start_energies() const;
+
+  /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed,
+  /// (na, nb).
+  struct Tangent {
+    Eigen::MatrixXd aa;
+    Eigen::MatrixXd ab;
+    Eigen::MatrixXd bb;
+  };
+  [[nodiscard]] Tangent tangent(const PairResponse& response) const;
+
+  /// -d (shear force) / d gap of every point (MeanResponse::coupling). @return (2, #)
+  [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response);
+  /// Adds to the forces of a and b what the couplings make of changes of the unknowns: the part of the
+  /// Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks.
+  void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
+                    Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
+
+  // velocity_contact.cpp
+  /// Whether any point pushes, or a bond of a contact holds.
+  [[nodiscard]] bool pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const;
+  /// Impulses per step, N, that stop points: along the normal where they push, along the surface too where
+  /// they are locked, and tied functions.
+  /// @param end at the end of the step. @param laws that gave it
+  /// @param ya,yb velocities of the unknowns times the step
+  /// @param let_go points whose force of the step is taken back
+  [[nodiscard]] PairResponse stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
+                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
+                                      const std::vector<bool>& let_go) const;
+  /// Lets friction of the step make up for impulses of the last one, which had none. @param step s, > 0
+  void rub_impulses(double step);
+  /// Of points with multipliers, the normal impulse that friction has still to count: what it did not in this
+  /// step, those at its end first, less what it counted too much. Locked points have nothing left of earlier
+  /// ones.
+  /// @param impulses of the points in their frames, over the step, N; @param step s
+  void remember_impulses(const PairResponse& response, const std::vector<PointLaw>& laws,
+                         const std::vector<Eigen::Vector3d>& impulses, double step,
+                         std::vector<PointMemory>& memory) const;
+
+  // slowed_slip.cpp
+  /// Forces against slip, N m/s: of each point that pushes and is deeper than `depth`, m, its normal force at
+  /// the start times its slip. Bonds have none.
+  /// @param ya,yb velocities of the unknowns
+  [[nodiscard]] PairResponse against_slip(double depth, const Eigen::VectorXd& ya,
+                                          const Eigen::VectorXd& yb) const;
+
+  // rigid_onset.cpp
+  /// The pair as blocks feel it that set off from rest: points that a response has closed are rigid, with
+  /// their forces as multipliers, those that it has opened never touch. Ties stay as they are.
+  /// @param laws that gave the response
+  /// @param reach m, >= 0: points that are found this far apart or less touch, without force
+  [[nodiscard]] ContactPair setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                        double reach) const;
+  /// Whether cohesion or tensile strength is lost in the step anywhere. @param memory after it
+  [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
+
+  // contact_pair.cpp
+  /// Gap of each point, m.
+  [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Memory after an accepted step. @param laws that gave the response
+  /// @param tearing_gap m, >= 0: cohesion without tensile strength lasts where a point opens no farther: of
+  /// points without pressure rounding must not say which have failed
+  [[nodiscard]] std::vector<PointMemory> memory_after(const PairResponse& response,
+                                                      const std::vector<PointLaw>& laws,
+                                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                                      double tearing_gap) const;
+  /// Work that sliding takes in the step, J, also of points that have opened in it; with multipliers, which
+  /// hold none, all that points take that slide.
+  [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                     const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Spring energy at the end of the step, J.
+  [[nodiscard]] static SpringEnergy energies(const PairResponse& response);
+
+ private:
+  /// With phi (#points, p) the values of the functions of a and b at the points.
+  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
+              std::vector<ContactPoint> points, std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
+              const Eigen::MatrixXd& phi_b, const Tie* tie);
+  [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
+    return area_springs_ ? point.area : 1.0;
+  }
+  void respond_at_start();
+  /// Trial slip at the start that no spring holds, of a load level, m.
+  [[nodiscard]] Eigen::Vector2d slid_before(std::size_t point) const;
+  /// A vector along the surface at a point.
+  [[nodiscard]] Vector3 flat(std::size_t point, const Eigen::Vector2d& along) const;
+  /// @param rests gap of each point at which its normal spring is at rest, m
+  void rest_at(std::vector<double> rests);
+  /// @param forces (3 #points)
+  void set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
+  /// Gap over the rest and trial slip of every point, linear in the changes. @return (3, #points)
+  [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+
+  int a_;
+  int b_;
+  std::vector<ContactPoint> points_;
+  std::vector<PointMemory> memory_;
+  std::vector<PressureCut> cuts_ = {};
+  std::vector<PointLaw> laws_;
+  std::vector<PointResponse> start_responses_;
+  std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
+  double taken_ = 0.0;
+  bool counts_slip_ = false;
+  bool holds_bonds_ = false;
+  Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
+  Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
+  Eigen::MatrixXd
+      rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed
+  Eigen::MatrixXd rows_b_;
+  const Tie* tie_;  ///< null for contacts
+  bool rigid_;
+  bool area_springs_;            ///< multipliers are remembered per area
+  bool free_pair_;               ///< nothing but the other block holds either
+  Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step from a point near, of free pairs
+  Eigen::MatrixX3d position_b_;
+};
+
+}  // namespace ashlar

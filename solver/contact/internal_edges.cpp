@@ -1,0 +1,207 @@
+#include "solver/contact/internal_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/contact/overlap_outline.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Cosines of 10 and 60 degrees.
+constexpr double faces_across = 0.985;
+constexpr double steep_sides = 0.5;
+constexpr double sides_along = 0.17;  // cosine of 80 degrees
+
+/// Largest cosine between a unit direction and any of some normals' lines.
+double largest_cosine(const Vector3& direction, const std::vector<Vector3>& normals) {
+  double largest = 0.0;
+  for (const Vector3& normal : normals) largest = std::max(largest, std::abs(normal.dot(direction)));
+  return largest;
+}
+
+/// What touches of a and of b.
+struct Touching {
+  std::vector<int> of_a;  ///< points
+  std::vector<int> of_b;
+  std::vector<Vector3> normals;  ///< of the cells that touch, of crossed edges the normal across them
+};
+
+const std::vector<int>& corners(const PlacedSurface& s, int cell) {
+  return s.surface().cells[static_cast<std::size_t>(cell)].corners;
+}
+
+Touching touching(const PlacedSurface& a, const PlacedSurface& b, const CellOverlap& overlap) {
+  return {corners(a, overlap.cell_a),
+          corners(b, overlap.cell_b),
+          {a.normal(overlap.cell_a), b.normal(overlap.cell_b)}};
+}
+
+Touching touching(const PlacedSurface& a, const PlacedSurface& b, const VertexContact& contact) {
+  const std::vector<int> vertex = {contact.point};
+  if (contact.vertex_of_a) return {vertex, corners(b, contact.cell), {b.normal(contact.cell)}};
+  return {corners(a, contact.cell), vertex, {a.normal(contact.cell)}};
+}
+
+Touching touching(const PlacedSurface& /*a*/, const PlacedSurface& /*b*/, const EdgeContact& contact) {
+  const auto ends = [](const CrossedSide& side) {
+    return std::vector<int>(side.ends.begin(), side.ends.end());
+  };
+  return {ends(contact.of_a), ends(contact.of_b), {contact.normal}};
+}
+
+/// The last of some points along a direction.
+struct Farthest {
+  double at = -std::numeric_limits<double>::infinity();
+  int point = -1;
+};
+
+Farthest farthest(const PlacedSurface& s, const std::vector<int>& points, const Vector3& direction) {
+  Farthest result;
+  for (const int point : points) {
+    const double at = s.point(point).dot(direction);
+    if (at > result.at) result = {at, point};
+  }
+  return result;
+}
+
+/// Whether a corner, or a point of an edge, ends a cell that faces a direction.
+bool ends_there(const PlacedSurface& s, int point, const Vector3& direction) {
+  const int vertex = s.surface().vertex_of_point[static_cast<std::size_t>(point)];
+  if (vertex < 0) return true;
+  const std::vector<int>& cells = s.surface().vertices[static_cast<std::size_t>(vertex)].cells;
+  return std::any_of(cells.begin(), cells.end(),
+                     [&](int cell) { return s.normal(cell).dot(direction) > sides_along; });
+}
+
+/// Whether all of b that touches is below all of a when a has moved along the way, and the blocks end there.
+template <class Contact>
+bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
+  const Vector3& direction = way.direction;
+  const Touching found = touching(a, b, contact);
+  if (largest_cosine(direction, found.normals) > (way.own ? steep_sides : faces_across)) return false;
+  const Farthest bottom = farthest(a, found.of_a, -direction);
+  const Farthest top = farthest(b, found.of_b, direction);
+  return bottom.at + top.at <= way.height &&
+         (way.own || (ends_there(a, bottom.point, -direction) && ends_there(b, top.point, direction)));
+}
+
+/// Whether a condition holds for any contact of a pair.
+template <class Condition>
+bool any_of(const PairContacts& contacts, const Condition& holds) {
+  const auto any = [&](const auto& some) { return std::any_of(some.begin(), some.end(), holds); };
+  return any(contacts.overlaps) || any(contacts.vertices) || any(contacts.edges);
+}
+
+}  // namespace
+
+WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
+  for (const auto& [blocks, pair] : memory) {
+    if (!(pair.deepest() > 0.0)) continue;
+    for (const ContactMemory::Entry& entry : pair.entries())
+      if (entry.memory.state != ContactState::open) add(blocks, entry.normal, pair.deepest());
+  }
+}
+
+void WaysOut::add(const std::array<int, 2>& blocks, const Vector3& normal, double depth) {
+  // Directions that differ by less than a third of a degree are one way.
+  constexpr double same_direction = 0.99998;
+  const double height = depth > 0.0 ? 2.0 * depth : depth;
+  const auto add_to = [&](int block, int other, const Vector3& direction) {
+    std::vector<OutOf>& known = ways_[block];
+    const bool there = std::any_of(known.begin(), known.end(), [&](const OutOf& way) {
+      return way.other == other && way.direction.dot(direction) >= same_direction && way.height >= height;
+    });
+    if (!there) known.push_back({other, direction, height});
+  };
+  add_to(blocks[0], blocks[1], normal);
+  add_to(blocks[1], blocks[0], -normal);
+}
+
+void WaysOut::add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
+                           const PairContacts& contacts) {
+  const double rounding = coordinate_rounding(a, b);
+  for (const CellOverlap& overlap : contacts.overlaps)
+    add(blocks, overlap.frame.w, rounding - *std::min_element(overlap.gaps.begin(), overlap.gaps.end()));
+  for (const VertexContact& contact : contacts.vertices) {
+    const PlacedSurface& with_cell = contact.vertex_of_a ? b : a;
+    const Vector3 normal = with_cell.normal(contact.cell);
+    const Vector3 apart =
+        (contact.vertex_of_a ? a : b).point(contact.point) - with_cell.corners(contact.cell)[0];
+    add(blocks, contact.vertex_of_a ? normal : Vector3(-normal), rounding - normal.dot(apart));
+  }
+}
+
+double WaysOut::sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const {
+  double highest = 0.0;
+  if (const auto known = ways_.find(block); known != ways_.end()) {
+    for (const OutOf& way : known->second) {
+      if (way.other != but && std::abs(way.direction.dot(direction)) > faces_across)
+        highest = std::max(highest, way.height);
+    }
+  }
+  return given_way ? highest + 2.0 * given_way(block, direction) : highest;
+}
+
+std::vector<WayOut> WaysOut::of_pair(int a, int b, const GivenWay& given_way) const {
+  std::vector<WayOut> ways;
+  const auto add = [&](int block, int side, double sign) {
+    const auto known = ways_.find(block);
+    if (known == ways_.end()) return;
+    for (const OutOf& way : known->second) {
+      const bool own = way.other == side;
+      const double supports = own ? 0.0
+                                  : sunk(way.other, block, way.direction, given_way) +
+                                        sunk(side, block, way.direction, given_way);
+      ways.push_back({sign * way.direction,
+                      way.height + supports,
+                      {std::min(block, way.other), std::max(block, way.other)},
+                      own});
+    }
+  };
+  add(a, b, 1.0);
+  add(b, a, -1.0);
+  return ways;
+}
+
+bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
+                     const std::function<const PlacedSurface&(int)>& placed,
+                     const GivenWay& given_way) const {
+  const auto pair = std::lower_bound(found.begin(), found.end(), way.out_of,
+                                     [](const FoundContacts& contacts, const std::array<int, 2>& blocks) {
+                                       return contacts.blocks < blocks;
+                                     });
+  if (pair == found.end() || pair->blocks != way.out_of) return false;
+  const PlacedSurface& a = placed(pair->blocks[0]);
+  const PlacedSurface& b = placed(pair->blocks[1]);
+  const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1], given_way);
+  const Vector3& direction = way.direction;
+  return any_of(pair->contacts, [&](const auto& contact) {
+    return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&
+           std::none_of(others.begin(), others.end(),
+                        [&](const WayOut& other) { return undoes(other, a, b, contact); });
+  });
+}
+
+void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
+                     const std::function<bool(const WayOut&)>& stands, PairContacts& contacts) {
+  for (const WayOut& way : ways) {
+    const auto undone = [&](const auto& contact) { return undoes(way, a, b, contact); };
+    // Asked before any is removed: the contacts may be among those that are looked at.
+    if (!any_of(contacts, undone) || !stands(way)) continue;
+    std::erase_if(contacts.overlaps, undone);
+    std::erase_if(contacts.vertices, undone);
+    std::erase_if(contacts.edges, undone);
+  }
+}
+
+bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
+             const std::function<bool(const WayOut&)>& stands, const Touch& touch) {
+  return std::any_of(ways.begin(), ways.end(), [&](const WayOut& way) {
+    return std::visit([&](const auto& contact) { return undoes(way, a, b, contact); }, touch.contact) &&
+           stands(way);
+  });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,81 @@
+// Contacts at seams: a block that slides from one block to the next has sunk into what it rests on, as
+// springs must give way to hold it, and so meets the side of the next one by as much. Such a contact is not
+// there for blocks that do not sink, and would stop or throw it.
+//
+// A contact is one of a seam if, when one of the two blocks moves out of what it was in at the end of the
+// last step, what touches of the two is on either side of a plane across that way, as an inclined side that
+// leads up from the rim of a sole and the edge of the next block are: the block would slide over the other.
+// It moves by twice the depth, as depths change within a step. Where what it lies on, or what it comes to,
+// has sunk into something else or has been pressed to less than its height, by as much more. Faces across the
+// way are what blocks rest on; they are none. A block that goes on beyond what touches, as below a corner at
+// the height of the other's rim, pushes.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "geometry/contacts/motion_check.hpp"
+#include "mechanics/contact/contact_memory.hpp"
+#include "solver/contact/contact_finder.hpp"
+
+namespace ashlar {
+
+/// A motion of a block a relative to a block b that takes either of them out of what it had sunk into.
+struct WayOut {
+  Vector3 direction;          ///< unit
+  double height;              ///< m; negative: it has as far to go until it touches
+  std::array<int, 2> out_of;  ///< the two blocks that were in each other, the lower number first
+  /// Whether they are a and b: only steep sides may then be of a seam, otherwise all that is not across the
+  /// way.
+  bool own;
+};
+
+/// By how much a block is shorter or longer along a unit direction than it is without load, m, >= 0.
+using GivenWay = std::function<double(int block, const Vector3& direction)>;
+
+/// Ways out of what each block had sunk into at the end of the last step.
+class WaysOut {
+ public:
+  WaysOut() = default;  ///< none
+  /// @param memory of pairs of blocks (a, b)
+  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
+  /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
+  /// negative: the gap between them
+  void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);
+  /// The same of all faces and vertices that lie or come to lie on a face.
+  void add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
+                    const PairContacts& contacts);
+  /// @param given_way empty: blocks are rigid
+  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b, const GivenWay& given_way) const;
+  /// Whether a block still lies on what a way leads out of, by a contact that no other way undoes: of two
+  /// flanks of a ridge that has hardly gone in, each is beside the way out of the other.
+  /// @param found contacts, ordered by blocks, with or without those of seams. @param placed surfaces of
+  /// blocks that have contacts
+  [[nodiscard]] bool stands(const WayOut& way, const std::vector<FoundContacts>& found,
+                            const std::function<const PlacedSurface&(int)>& placed,
+                            const GivenWay& given_way) const;
+
+ private:
+  struct OutOf {
+    int other;  ///< what the block was in
+    Vector3 direction;
+    double height;
+  };
+  /// Height of the highest of a block's ways out of any but another one, along a direction or against it, and
+  /// twice what the block itself has given way, m.
+  [[nodiscard]] double sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const;
+
+  std::map<int, std::vector<OutOf>> ways_;  ///< by block
+};
+
+/// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns
+/// @param stands which of them count
+void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
+                     const std::function<bool(const WayOut&)>& stands, PairContacts& contacts);
+
+/// Whether one of the ways undoes a touch.
+[[nodiscard]] bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
+                           const std::function<bool(const WayOut&)>& stands, const Touch& touch);
+
+}  // namespace ashlar

@@ -1,0 +1,38 @@
+// Which blocks lie on a face, and where: a block that spans several others lies on one surface, and the rims
+// between them are no ends of it (mechanics/contact/contact_master.hpp).
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "mechanics/contact/contact_master.hpp"
+#include "solver/contact/contact_finder.hpp"
+
+namespace ashlar {
+
+class CoveredFaces {
+ public:
+  /// @param found, placed must outlive this. @param placed surfaces of the blocks that have contacts
+  /// @param reach m, how far apart the blocks may be that make one surface
+  CoveredFaces(const std::vector<FoundContacts>& found,
+               const std::function<const PlacedSurface&(int)>& placed, double reach);
+
+  /// Whether another block than the one with the rim goes on behind it.
+  /// @param block that lies on the rim. @param with_rim the other one
+  [[nodiscard]] bool goes_on(int block, int with_rim, const RimPlace& rim) const;
+
+ private:
+  struct Cover {
+    int other;
+    const CellOverlap* overlap;
+    const PlacedSurface* a;
+    const PlacedSurface* b;
+  };
+  [[nodiscard]] bool goes_on(const Cover& cover, const RimPlace& rim) const;
+
+  std::map<std::array<int, 2>, std::vector<Cover>> of_faces_;  ///< by block and face
+  double reach_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,132 @@
+#include "solver/linear/sparse_cholesky.hpp"
+
+#include <cholmod.h>
+
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+// OpenBLAS would use all cores for small fronts and change the order of sums with their number. CHOLMOD would
+// start four threads for each of its loops, which take less time than that.
+extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
+extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
+
+namespace ashlar {
+
+struct SparseCholesky::Implementation {
+  cholmod_common common;
+  cholmod_factor* factor = nullptr;
+  SymmetricMatrix matrix;
+  bool factored = false;
+  FactorCounts counts;
+
+  Implementation() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+      if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+      if (omp_set_max_active_levels != nullptr) omp_set_max_active_levels(0);
+    });
+    cholmod_start(&common);
+    common.print = 0;
+    common.final_ll = 1;
+    common.supernodal = CHOLMOD_AUTO;
+  }
+  ~Implementation() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  cholmod_sparse view() {
+    cholmod_sparse sparse{};
+    sparse.nrow = sparse.ncol = static_cast<std::size_t>(matrix.size);
+    sparse.nzmax = matrix.values.size();
+    sparse.p = matrix.column_start.data();
+    sparse.i = matrix.rows.data();
+    sparse.x = matrix.values.data();
+    sparse.stype = -1;
+    sparse.itype = CHOLMOD_INT;
+    sparse.xtype = CHOLMOD_REAL;
+    sparse.dtype = CHOLMOD_DOUBLE;
+    sparse.sorted = 1;
+    sparse.packed = 1;
+    return sparse;
+  }
+
+  Eigen::VectorXd solve_once(const Eigen::VectorXd& right_side) {
+    cholmod_dense dense{};
+    dense.nrow = dense.nzmax = dense.d = static_cast<std::size_t>(right_side.size());
+    dense.ncol = 1;
+    dense.x = const_cast<double*>(right_side.data());
+    dense.xtype = CHOLMOD_REAL;
+    dense.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* solution = cholmod_solve(CHOLMOD_A, factor, &dense, &common);
+    if (solution == nullptr) throw std::bad_alloc();
+    Eigen::VectorXd result =
+        Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(solution->x), right_side.size());
+    cholmod_free_dense(&solution, &common);
+    return result;
+  }
+
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+    for (int column = 0; column < matrix.size; ++column) {
+      const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
+      const auto last = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column) + 1]);
+      for (std::size_t k = first; k < last; ++k) {
+        const int row = matrix.rows[k];
+        y[row] += matrix.values[k] * x[column];
+        if (row != column) y[column] += matrix.values[k] * x[row];
+      }
+    }
+    return y;
+  }
+};
+
+SparseCholesky::SparseCholesky() : implementation_(std::make_unique<Implementation>()) {}
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
+  Implementation& self = *implementation_;
+  const bool same_pattern = self.factor != nullptr && matrix.size == self.matrix.size &&
+                            matrix.column_start == self.matrix.column_start &&
+                            matrix.rows == self.matrix.rows;
+  if (same_pattern && self.factored && matrix.values == self.matrix.values) {
+    ++self.counts.factorizations_reused;
+    return FactorStatus::success;
+  }
+  self.factored = false;
+  self.matrix = matrix;
+  cholmod_sparse view = self.view();
+  if (!same_pattern) {
+    cholmod_free_factor(&self.factor, &self.common);
+    self.factor = cholmod_analyze(&view, &self.common);
+    if (self.factor == nullptr) return FactorStatus::out_of_memory;
+    ++self.counts.analyses;
+  }
+  cholmod_factorize(&view, self.factor, &self.common);
+  ++self.counts.factorizations;
+  if (self.common.status == CHOLMOD_NOT_POSDEF) return FactorStatus::not_positive_definite;
+  if (self.common.status < 0) return FactorStatus::out_of_memory;
+  self.factored = true;
+  return FactorStatus::success;
+}
+
+Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side, bool refined) {
+  Implementation& self = *implementation_;
+  if (!self.factored) throw std::logic_error("solve before a successful factorize");
+  ++self.counts.solves;
+  Eigen::VectorXd solution = self.solve_once(right_side);
+  if (!refined) return solution;
+  solution += self.solve_once(right_side - self.times(solution));
+  return solution;
+}
+
+const FactorCounts& SparseCholesky::counts() const {
+  return implementation_->counts;
+}
+
+}  // namespace ashlar

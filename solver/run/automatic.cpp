@@ -1,0 +1,33 @@
+#include "solver/run/automatic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ashlar {
+
+double block_size(const BlockModel& block) {
+  return std::cbrt(block.basis().volume());
+}
+
+StiffnessSource stiffness_source(const BlockModel& block) {
+  return {block_size(block), block.fixed() ? 0.0 : block.material().young_modulus, block.fixed()};
+}
+
+double automatic_normal_stiffness(const StiffnessSource& a, const StiffnessSource& b, bool area_springs,
+                                  const AutomaticRatios& ratios) {
+  // A fixed block is rigid, so the other one gives the modulus.
+  const double modulus =
+      std::min(a.fixed ? b.young_modulus : a.young_modulus, b.fixed ? a.young_modulus : b.young_modulus);
+  double size = std::min(a.size, b.size);
+  if (a.fixed != b.fixed) size = a.fixed ? b.size : a.size;
+  return ratios.normal_stiffness * modulus / size * (area_springs ? 1.0 : size * size);
+}
+
+double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b, const AutomaticRatios& ratios) {
+  const auto stiffness = [](const BlockModel& block) {
+    return block.fixed() ? 0.0 : block.material().young_modulus / block_size(block);
+  };
+  return ratios.tie_stiffness * std::max(stiffness(a), stiffness(b));
+}
+
+}  // namespace ashlar

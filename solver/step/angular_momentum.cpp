@@ -1,0 +1,94 @@
+#include "solver/step/angular_momentum.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
+#include "mechanics/basis/field_moments.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Coefficients of the position of a block from a point on.
+Eigen::MatrixX3d arms_of(const BlockModel& block, const BlockState& state, const Vector3& point) {
+  return from_point(state.position, block.basis().volume(), point);
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
+                                          const std::vector<std::array<int, 2>>& ties) {
+  UnionFind tied(blocks.size());
+  for (const auto& [a, b] : ties) tied.unite(a, b);
+  std::vector<std::vector<int>> sets(blocks.size());
+  std::vector<bool> free(blocks.size(), true);
+  for (int k = 0; k < static_cast<int>(blocks.size()); ++k) {
+    const BlockModel& block = blocks[at(k)];
+    const int set = tied.find(k);
+    sets[at(set)].push_back(k);
+    if (block.fixed() || block.supported() || block.incremental() != nullptr) free[at(set)] = false;
+  }
+  std::vector<std::vector<int>> result;
+  for (std::size_t set = 0; set < sets.size(); ++set)
+    if (free[set] && !sets[set].empty()) result.push_back(std::move(sets[set]));
+  return result;
+}
+
+Vector3 stray_angular_momentum(const BlockModel& block, const BlockState& before, const BlockState& after,
+                               const Eigen::MatrixX3d& known, double step, const Vector3& origin) {
+  const double density = block.material().density;
+  const Eigen::MatrixX3d place =
+      from_point(0.5 * (before.position + after.position), block.basis().volume(), origin);
+  const Eigen::MatrixX3d velocity = 0.5 * (before.velocity + after.velocity);
+  const Eigen::MatrixX3d uneven = after.position - before.position - step * velocity;
+  const Eigen::MatrixX3d unknown = density * (after.velocity - before.velocity) - step * known;
+  return integral_of_cross(place, unknown) + density * integral_of_cross(uneven, velocity);
+}
+
+Vector3 centroid_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                    const std::vector<BlockState>& states) {
+  double mass = 0.0;
+  Vector3 sum = Vector3::Zero();
+  for (const int k : body) {
+    mass += blocks[at(k)].mass();
+    sum += blocks[at(k)].mass() * mean_of(states[at(k)].position, blocks[at(k)].basis().volume());
+  }
+  return sum / mass;
+}
+
+Vector3 angular_momentum_of(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                            const std::vector<BlockState>& states) {
+  Vector3 sum = Vector3::Zero();
+  for (const int k : body) sum += blocks[at(k)].angular_momentum(states[at(k)]);
+  return sum;
+}
+
+double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& body,
+                const Vector3& angular_momentum, double limit, std::vector<BlockState>& states) {
+  const Vector3 centroid = centroid_of(blocks, body, states);
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const int k : body) {
+    inertia +=
+        blocks[at(k)].material().density * unit_inertia(arms_of(blocks[at(k)], states[at(k)], centroid));
+  }
+  // A moment that is lost in the rounding of the largest one, as that of a needle about its axis, takes none.
+  const Vector3 spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
+  // The kinetic energy is gained as  linear s + square s^2  with the share s of the spin.
+  double linear = 0.0;
+  const double square = 0.5 * spin.dot(angular_momentum);
+  for (const int k : body)
+    linear +=
+        blocks[at(k)].material().density *
+        spin.dot(integral_of_cross(arms_of(blocks[at(k)], states[at(k)], centroid), states[at(k)].velocity));
+  double share = 1.0;
+  if (linear + square > limit) {
+    const double root = std::sqrt(linear * linear + 4.0 * square * limit);
+    share = linear > 0.0 ? 2.0 * limit / (linear + root) : (root - linear) / (2.0 * square);
+  }
+  for (const int k : body)
+    states[at(k)].velocity += turning_field(share * spin, arms_of(blocks[at(k)], states[at(k)], centroid));
+  return share * (linear + share * square);
+}
+
+}  // namespace ashlar

@@ -1,0 +1,102 @@
+#include "solver/step/island.hpp"
+
+#include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
+#include "solver/step/open_close.hpp"
+
+namespace ashlar {
+
+IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std::vector<int>& sizes,
+                                          const std::vector<std::array<int, 2>>& pairs) {
+  auto found = entries_.find(key);
+  if (found == entries_.end())
+    found = entries_.emplace(key, Entry{BlockMatrix(sizes, pairs), SparseCholesky(), true}).first;
+  found->second.used = true;
+  return found->second;
+}
+
+void IslandSolvers::drop_unused() {
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    if (entry->second.used) {
+      entry->second.used = false;
+      ++entry;
+      continue;
+    }
+    dropped_ += entry->second.factor.counts();
+    entry = entries_.erase(entry);
+  }
+}
+
+FactorCounts IslandSolvers::counts() const {
+  FactorCounts sum = dropped_;
+  for (const auto& [key, entry] : entries_) sum += entry.factor.counts();
+  return sum;
+}
+
+Eigen::MatrixX3d BodyStep::motion() const {
+  Eigen::MatrixX3d sum = model->space().expand(change);
+  if (prescribed.size() > 0) sum += prescribed;
+  return sum;
+}
+
+std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {
+  UnionFind meeting(moving.size());
+  for (const ContactPair& pair : pairs)
+    if (moving[at(pair.a())] && moving[at(pair.b())]) meeting.unite(pair.a(), pair.b());
+  std::vector<Island> islands;
+  std::map<int, std::size_t> island_of_root;
+  for (int block = 0; block < static_cast<int>(moving.size()); ++block) {
+    if (!moving[at(block)]) continue;
+    const auto [place, added] = island_of_root.try_emplace(meeting.find(block), islands.size());
+    if (added) islands.emplace_back();
+    islands[place->second].bodies.push_back(block);
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const int block = moving[at(pairs[k].a())] ? pairs[k].a() : pairs[k].b();
+    islands[island_of_root.at(meeting.find(block))].pairs.push_back(static_cast<int>(k));
+  }
+  return islands;
+}
+
+std::vector<std::array<int, 2>> contacts_of(const Island& island, const std::vector<ContactPair>& pairs) {
+  std::vector<std::array<int, 2>> result;
+  for (const int index : island.pairs) {
+    const ContactPair& pair = pairs[at(index)];
+    if (!pair.tied()) result.push_back({pair.a(), pair.b()});
+  }
+  return result;
+}
+
+IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
+                                const std::vector<ContactPair>& pairs, SystemRole role,
+                                IslandSolvers& solvers) {
+  std::map<int, int> place;
+  std::vector<int> sizes;
+  std::vector<int> key = {static_cast<int>(role)};
+  for (const int body : island.bodies) {
+    place[body] = static_cast<int>(place.size());
+    sizes.push_back(bodies[at(body)].model->unknowns());
+    key.push_back(body);
+  }
+  std::vector<std::array<int, 2>> links;
+  for (const int pair : island.pairs) {
+    const auto a = place.find(pairs[at(pair)].a());
+    const auto b = place.find(pairs[at(pair)].b());
+    if (a == place.end() || b == place.end()) continue;
+    links.push_back({a->second, b->second});
+    key.insert(key.end(), {a->second, b->second});
+  }
+  return solvers.find(key, sizes, links);
+}
+
+IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                          const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                          const SimulationSettings& settings, IslandSolvers& solvers) {
+  IslandResult result;
+  IslandProblem problem(island, bodies, pairs, scheme, settings,
+                        solver_of(island, bodies, pairs, SystemRole::step, solvers));
+  iterate_open_close(problem, settings, result);
+  return result;
+}
+
+}  // namespace ashlar

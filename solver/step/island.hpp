@@ -1,0 +1,94 @@
+// Islands: sets of blocks that touch each other. Each is solved on its own by an open-close iteration
+// (open_close.hpp).
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "solver/contact/contact_pair.hpp"
+#include "solver/linear/block_matrix.hpp"
+#include "solver/settings.hpp"
+#include "solver/step/time_scheme.hpp"
+
+namespace ashlar {
+
+/// How an open-close iteration ended.
+enum class IslandStatus {
+  settled,
+  not_settled,            ///< not even the fallback balanced the forces: cut the step
+  not_positive_definite,  ///< the system could not be factorised: cut the step
+};
+
+/// One moving block within a step. Vectors are in the block's unknowns.
+struct BodyStep {
+  const BlockModel* model = nullptr;
+  const BlockState* state = nullptr;
+  Eigen::VectorXd free_change;     ///< where it goes without forces, see time_scheme.hpp
+  Eigen::VectorXd external_force;  ///< where the integrator takes it
+  double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
+  Eigen::VectorXd change;          ///< D, the result
+  double largest_force = 0.0;      ///< norm of the largest force that acts on it
+  ElasticResponse elastic;         ///< where the integrator takes it
+  Eigen::MatrixX3d prescribed;     ///< what supports that move add to the position, (p, 3); empty: nothing
+
+  /// Change of the position's coefficients at the present `change`. @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d motion() const;
+};
+
+/// Result of one island.
+struct IslandResult {
+  IslandStatus status = IslandStatus::settled;
+  int iterations = 0;                       ///< guesses that were balanced or found not to be
+  int fallbacks = 0;                        ///< times the fallback was needed
+  std::vector<PairResponse> responses;      ///< of the island's pairs, at the end of the step
+  std::vector<std::vector<PointLaw>> laws;  ///< of their points: broken joints, multipliers
+};
+
+/// Factorisations that are kept from step to step, by the blocks and pairs of an island.
+class IslandSolvers {
+ public:
+  struct Entry {
+    BlockMatrix matrix;
+    SparseCholesky factor;
+    bool used = true;
+  };
+  /// The solver of an island. @param key role, block indices, then pairs
+  [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,
+                            const std::vector<std::array<int, 2>>& pairs);
+  /// Forgets the solvers of islands that did not come up since the last call.
+  void drop_unused();
+  [[nodiscard]] FactorCounts counts() const;
+
+ private:
+  std::map<std::vector<int>, Entry> entries_;
+  FactorCounts dropped_;
+};
+
+/// An island: indices into the step's bodies and pairs.
+struct Island {
+  std::vector<int> bodies;  ///< increasing block indices
+  std::vector<int> pairs;   ///< indices of contact pairs
+};
+
+/// Islands of moving blocks; fixed blocks join nothing. @param moving (#blocks)
+[[nodiscard]] std::vector<Island> find_islands(const std::vector<bool>& moving,
+                                               const std::vector<ContactPair>& pairs);
+
+/// Pairs of blocks of an island's contacts, ties left out.
+[[nodiscard]] std::vector<std::array<int, 2>> contacts_of(const Island& island,
+                                                          const std::vector<ContactPair>& pairs);
+
+/// What a system is for; each keeps its own factor.
+enum class SystemRole { step, stop };
+/// The solver of an island's system.
+[[nodiscard]] IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
+                                              const std::vector<ContactPair>& pairs, SystemRole role,
+                                              IslandSolvers& solvers);
+
+/// Solves one island for the changes of its bodies' unknowns.
+/// @param bodies (#blocks), those of the island are read and their results written
+[[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                                        const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                                        const SimulationSettings& settings, IslandSolvers& solvers);
+
+}  // namespace ashlar

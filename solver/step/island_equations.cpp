@@ -1,0 +1,223 @@
+#include "solver/step/island_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/index.hpp"
+#include "solver/linear/gmres.hpp"
+
+namespace ashlar {
+
+IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies,
+                             const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                             const SimulationSettings& settings, IslandSolvers::Entry& solver)
+    : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme), solver_(solver) {
+  for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
+  for (const int pair : island.pairs) laws_.push_back(pairs[at(pair)].laws());
+}
+
+int IslandProblem::place(int block) const {
+  const auto found = place_.find(block);
+  return found == place_.end() ? -1 : found->second;
+}
+
+const ContactPair& IslandProblem::pair(std::size_t k) const {
+  return pairs_[at(island_.pairs[k])];
+}
+
+void IslandProblem::predict(FirstGuess guess) {
+  for (const int index : island_.bodies) {
+    BodyStep& body = bodies_[at(index)];
+    const double mass = scheme_.inertia * body.model->material().density;
+    body.change = body.free_change;
+    if (guess == FirstGuess::staying) body.change.setZero();
+    if (guess != FirstGuess::falling || scheme_.from_rest) continue;
+    body.change += scheme_.force_weight / mass * body.external_force;
+  }
+}
+
+/// Where the elastic force of a body is taken.
+Eigen::MatrixX3d IslandProblem::taken_at(const BodyStep& body) const {
+  return body.state->position + scheme_.end_share * body.motion();
+}
+
+void IslandProblem::respond() {
+  for (const int index : island_.bodies) {
+    BodyStep& body = bodies_[at(index)];
+    body.elastic = body.model->elastic(taken_at(body));
+  }
+  responses_.clear();
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    responses_.push_back(pair(k).respond(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change,
+                                         scheme_.mean_contacts, laws_[k]));
+  }
+}
+
+Balance IslandProblem::balance() const {
+  Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size),
+                 std::vector<double>(island_.bodies.size(), 0.0), 0.0};
+  std::vector<double> scale(island_.bodies.size(), 0.0);
+  std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
+  std::vector<double> in_doubt(island_.bodies.size(), 0.0);
+  const auto add = [&](int body, const Eigen::VectorXd& force) {
+    result.left.segment(solver_.matrix.offset(body), force.size()) += force;
+    scale[at(body)] = std::max(scale[at(body)], force.norm());
+  };
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    const BodyStep& body = bodies_[at(island_.bodies[k])];
+    const int place = static_cast<int>(k);
+    const double density = body.model->material().density;
+    add(place, scheme_.force_weight * body.external_force);
+    add(place, -scheme_.force_weight * body.model->space().restrict(body.elastic.force));
+    add(place, -density * scheme_.inertia * (body.change - body.free_change));
+  }
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    const int a = place(pair(k).a());
+    const int b = place(pair(k).b());
+    if (a >= 0) add(a, responses_[k].total_on_a());
+    if (b >= 0) add(b, responses_[k].total_on_b());
+    const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+    const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+    const double rounding = pair(k).force_rounding(ya, yb, laws_[k]);
+    const double doubt = pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k]);
+    for (const int body : {a, b}) {
+      if (body < 0) continue;
+      contact_rounding[at(body)] += rounding;
+      in_doubt[at(body)] += doubt;
+    }
+  }
+  const double tolerance =
+      scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    const double rounding = body.roundoff_force + contact_rounding[k] +
+                            std::min(in_doubt[k], settings_.doubt_share * scale[k]) +
+                            8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
+                                scheme_.inertia * (body.change.norm() + body.free_change.norm());
+    const double left =
+        result.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.change.size()).norm();
+    body.largest_force = scale[k];
+    if (left == 0.0) continue;
+    const double share = left / (tolerance * scale[k] + rounding);
+    // Numbers that overflowed have settled nothing, and no comparison with them may say so.
+    const bool finite = std::isfinite(share) && std::isfinite(scale[k]);
+    result.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
+    result.worst = std::max(result.worst, result.shares[k]);
+  }
+  return result;
+}
+
+Eigen::VectorXd IslandProblem::contact_forces() const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  const auto add = [&](int block, const Eigen::VectorXd& force) {
+    if (const int body = place(block); body >= 0)
+      sum.segment(solver_.matrix.offset(body), force.size()) += force;
+  };
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    add(pair(k).a(), responses_[k].total_on_a());
+    add(pair(k).b(), responses_[k].total_on_b());
+  }
+  return sum;
+}
+
+void IslandProblem::assemble(bool positive) {
+  BlockMatrix& matrix = solver_.matrix;
+  matrix.set_zero();
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    const BodyStep& body = bodies_[at(island_.bodies[k])];
+    if (scheme_.force_weight > 0.0) {
+      matrix.add_diagonal(static_cast<int>(k),
+                          scheme_.force_weight * scheme_.end_share *
+                              body.model->tangent(taken_at(body), body.elastic, positive));
+    }
+    matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
+  }
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    const ContactPair::Tangent tangent = pair(k).tangent(responses_[k]);
+    const int a = place(pair(k).a());
+    const int b = place(pair(k).b());
+    if (a >= 0) matrix.add_diagonal(a, tangent.aa);
+    if (b >= 0) matrix.add_diagonal(b, tangent.bb);
+    if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
+  }
+}
+
+FactorStatus IslandProblem::factorize() {
+  assemble(false);
+  const FactorStatus status = solver_.factor.factorize(solver_.matrix.matrix());
+  if (status != FactorStatus::not_positive_definite) return status;
+  // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
+  assemble(true);
+  return solver_.factor.factorize(solver_.matrix.matrix());
+}
+
+Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block) const {
+  const int place_of_block = place(block);
+  if (place_of_block < 0) return {};
+  return of_island.segment(solver_.matrix.offset(place_of_block), bodies_[at(block)].change.size());
+}
+
+Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool coupled) {
+  std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>> couplings;
+  for (std::size_t k = 0; coupled && k < pairs(); ++k) {
+    Eigen::Matrix2Xd found = ContactPair::sliding_couplings(responses_[k]);
+    if (!found.isZero(0.0)) couplings.emplace_back(k, std::move(found));
+  }
+  if (couplings.empty()) return solver_.factor.solve(right_side);
+  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
+    Eigen::VectorXd nothing;
+    for (const auto& [k, coupling] : couplings) {
+      const int a = place(pair(k).a());
+      const int b = place(pair(k).b());
+      const Eigen::VectorXd of_a = part(x, pair(k).a());
+      const Eigen::VectorXd of_b = part(x, pair(k).b());
+      pair(k).add_coupling(
+          coupling, of_a, of_b,
+          a < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
+                : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(a), of_a.size())),
+          b < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
+                : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(b), of_b.size())));
+    }
+    return x + solver_.factor.solve(force, false);
+  };
+  return gmres(times, solver_.factor.solve(right_side), settings_.krylov_tolerance,
+               settings_.krylov_iterations)
+      .x;
+}
+
+void IslandProblem::apply(const Eigen::VectorXd& change, double share) {
+  for (const int index : island_.bodies) bodies_[at(index)].change += share * part(change, index);
+}
+
+std::vector<Eigen::VectorXd> IslandProblem::guess() const {
+  std::vector<Eigen::VectorXd> result;
+  for (const int index : island_.bodies) result.push_back(bodies_[at(index)].change);
+  return result;
+}
+
+void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
+  for (std::size_t k = 0; k < guess.size(); ++k) bodies_[at(island_.bodies[k])].change = guess[k];
+}
+
+std::vector<ContactState> IslandProblem::states() const {
+  std::vector<ContactState> result;
+  for (const PairResponse& response : responses_) {
+    for (const PointResponse& point : response.points) result.push_back(point.state);
+  }
+  return result;
+}
+
+double IslandProblem::given(std::size_t k) const {
+  const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+  const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+  return pair(k).spring_work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
+}
+
+void IslandProblem::hand_over(IslandResult& result) {
+  result.responses = std::move(responses_);
+  result.laws = std::move(laws_);
+}
+
+}  // namespace ashlar

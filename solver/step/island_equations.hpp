@@ -1,0 +1,82 @@
+// The equations of one island within a step at a guess of the changes (time_scheme.hpp), and what an
+// open-close iteration does with them: evaluate, assemble, solve, move on.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "solver/step/island.hpp"
+
+namespace ashlar {
+
+/// What is left of the equations of motion.
+struct Balance {
+  Eigen::VectorXd left;        ///< N, in the island's unknowns
+  std::vector<double> shares;  ///< of what each body may lack, what is left on it
+  double worst = 0.0;          ///< the largest share; <= 1: settled
+  [[nodiscard]] bool settled() const { return worst <= 1.0; }
+};
+
+/// Where a body is taken to go first.
+enum class FirstGuess {
+  falling,   ///< free motion under the external forces
+  coasting,  ///< free motion under none
+  staying,   ///< it stays: what hardly moves in its contacts, whichever way it is vibrating
+};
+
+/// Owns the laws of the island's contact points while a step is solved: limits that are held, joints that
+/// break and multipliers change there. `pairs` below counts the island's pairs, not those of the step.
+class IslandProblem {
+ public:
+  IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
+                const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver);
+
+  void predict(FirstGuess guess);
+  /// Elastic and contact responses at the present guess.
+  void respond();
+  /// Takes responses that are not those of the laws. @param responses of the island's pairs
+  void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
+  [[nodiscard]] Balance balance() const;
+  /// Forces of the last responses alone, N, in the island's unknowns.
+  [[nodiscard]] Eigen::VectorXd contact_forces() const;
+  /// Assembles and factorises the symmetric part of the tangent at the last responses.
+  [[nodiscard]] FactorStatus factorize();
+  /// Change of the guess that the linearised equations ask for.
+  /// @param coupled with the dependence of friction on normal forces; without, the tangent is symmetric
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool coupled);
+  void apply(const Eigen::VectorXd& change, double share);
+
+  [[nodiscard]] std::vector<Eigen::VectorXd> guess() const;
+  void set_guess(const std::vector<Eigen::VectorXd>& guess);
+  /// States of all points at the last responses, in a fixed order.
+  [[nodiscard]] std::vector<ContactState> states() const;
+
+  [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
+  [[nodiscard]] const ContactPair& pair(std::size_t k) const;
+  [[nodiscard]] const std::vector<PairResponse>& responses() const { return responses_; }
+  [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
+  [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
+  [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
+  /// Work of a pair's contact on its blocks at the last responses, that of sliding left out, J.
+  [[nodiscard]] double given(std::size_t pair) const;
+  /// Moves responses and laws out, when the iteration has ended.
+  void hand_over(IslandResult& result);
+
+ private:
+  [[nodiscard]] int place(int block) const;
+  [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
+  void assemble(bool positive);
+  [[nodiscard]] Eigen::VectorXd part(const Eigen::VectorXd& of_island, int block) const;
+
+  const Island& island_;
+  std::vector<BodyStep>& bodies_;
+  const std::vector<ContactPair>& pairs_;
+  const SimulationSettings& settings_;
+  const TimeScheme& scheme_;
+  IslandSolvers::Entry& solver_;
+  std::map<int, int> place_;
+  std::vector<PairResponse> responses_;
+  std::vector<std::vector<PointLaw>> laws_;
+};
+
+}  // namespace ashlar

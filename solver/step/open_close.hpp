@@ -1,0 +1,36 @@
+// The open-close iteration of an island (theory.md section 8).
+//
+// The first guess of each body is that it falls, coasts or stays, whichever leaves it nearest to balance.
+//
+// First a semismooth Newton iteration: states, slip directions and elastic frames come from the last guess,
+// the linear system, friction's dependence on normal forces included, gives the next. It needs two to five
+// systems where states hardly change, and may go round in circles: Coulomb's law is no gradient. A set of
+// states that comes back after another one, or too many iterations, hands over to
+//
+// the fallback: with the bound of each point's shear force held (Tresca's law) the forces are the gradient of
+// a convex function of the changes: inertia and elastic energy, penalty springs, friction potentials that are
+// quadratic about no slip and linear beyond the bound. Newton with an exact line search converges to its one
+// minimum from anywhere. Then the bounds are set anew from the normal forces: a fixed-point iteration that
+// contracts for moderate friction and is extrapolated, from its last two changes, where it goes slowly, to
+// and fro, or away. Between two passes Newton may finish what has come near enough.
+//
+// Joints with tensile strength hold within these iterations whatever pulls; where the balanced pull exceeds
+// the strength the joints that are overstressed most break, for good, and the iteration goes on: there are no
+// more rounds than joints. Cohesion likewise lasts across gaps until a balance shows which points have
+// opened.
+//
+// Augmented contact starts each step with the forces of the last one as multipliers (Uzawa, one update a
+// step). What the forces change by is left to springs, each made as stiff as it takes to hold its point
+// within a quarter of settings.penetration_tolerance of where it was. A pair that would so give its blocks
+// more than it has taken from them starts from less force instead.
+#pragma once
+
+#include "solver/step/island_equations.hpp"
+
+namespace ashlar {
+
+/// Balances the equations of an island from the changes its bodies have. @param result gets status, counts,
+/// responses and laws; the bodies their changes
+void iterate_open_close(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result);
+
+}  // namespace ashlar

@@ -1,0 +1,214 @@
+// The reference of scenes in data/README.md says what the reader does.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "apps/scene/scene_json.hpp"
+#include "support/temporary_folder.hpp"
+#include "unit/apps/sample_scene.hpp"
+
+namespace ashlar::test {
+namespace {
+
+// Every table, each with the keys that have no default, and a block of each shape.
+const std::string least_scene = R"([analysis]
+end_time = 1
+time_step = 1
+[contact]
+[[joint]]
+blocks = ["A", "B"]
+[[material]]
+name = "rock"
+density = 1
+young_modulus = 1
+poisson_ratio = 0
+[[block]]
+name = "A"
+material = "rock"
+box = { min = [0, 0, 0], max = [1, 1, 1] }
+rotate = { axis = [0, 0, 1], angle = 0 }
+[[block.fix]]
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+[[block.load]]
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+traction = [0, 0, 0]
+[[block]]
+name = "B"
+material = "rock"
+mesh = { file = "b.off" }
+[[block]]
+name = "C"
+material = "rock"
+hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }
+[[block]]
+name = "D"
+material = "rock"
+sphere = { radius = 1 }
+[[measure]]
+name = "tip"
+block = "A"
+point = [0, 0, 0]
+[output]
+)";
+
+// The same with nothing in any table.
+const std::string empty_scene = R"(joint = [{}]
+material = [{}]
+measure = [{}]
+[[block]]
+box = {}
+rotate = {}
+[[block.fix]]
+plane = {}
+[[block.load]]
+plane = {}
+[[block]]
+mesh = {}
+[[block]]
+hull = {}
+[[block]]
+sphere = {}
+)";
+
+struct Row {
+  std::string value;
+  std::string fallback;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" `"), last = text.find_last_not_of(" `");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// "block.fix.point" and the like, from the rows `| `key` | value | default | meaning |` below headings
+// "### `[[block.fix]]`"; keys below another heading stand at the top of the file.
+std::map<std::string, Row> reference() {
+  std::map<std::string, Row> rows;
+  std::string table;
+  for (const std::string& line : lines_of(read_text(ASHLAR_DATA_DIR "/README.md"))) {
+    if (line.starts_with('#')) {
+      const std::size_t start = line.find('['), end = line.find(']');
+      table = start == std::string::npos ? "" : fmt::format("{}.", line.substr(start, end - start));
+      table.erase(0, table.find_first_not_of('['));
+    }
+    if (!line.starts_with("| `")) continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line.substr(1));
+    for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(trimmed(cell));
+    if (cells.size() == 4) rows[table + cells[0]] = {cells[1], cells[2]};
+  }
+  return rows;
+}
+
+std::string between(const std::string& text, const std::string& start, const std::string& end) {
+  const std::size_t found = text.find(start);
+  if (found == std::string::npos) return "";
+  const std::size_t from = found + start.size();
+  return text.substr(from, text.find(end, from) - from);
+}
+
+std::string joined(const std::string& table, const std::string& key) {
+  return table.empty() ? key : fmt::format("{}.{}", table, key);
+}
+
+// Every key that the reader knows.
+std::set<std::string> known_keys() {
+  std::string text = fmt::format("unknown = 0\n{}", least_scene);
+  for (const std::string header :
+       {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n", "[[block]]\n", "[[block.fix]]\n",
+        "[[block.load]]\n", "[[measure]]\n", "[output]\n"})
+    text.insert(text.find(header) + header.size(), "unknown = 0\n");
+  for (std::size_t at = 0; (at = text.find("{ ", at)) != std::string::npos; at += 2)
+    text.replace(at, 2, "{ unknown = 0, ");
+  std::set<std::string> keys;
+  for (const std::string& fault : reading_faults(text)) {
+    const std::string table = between(fault, "unknown key in ", " (unknown)");
+    std::istringstream list(between(fault, "known here: ", "\n"));
+    for (std::string key; std::getline(list, key, ',');) keys.insert(joined(table, trimmed(key)));
+  }
+  return keys;
+}
+
+TEST(SceneReference, NamesEveryKeyAndNoOther) {
+  const std::set<std::string> known = known_keys();
+  EXPECT_TRUE(known.contains("block.fix.plane.normal")) << "the reader was asked";
+  std::set<std::string> named;
+  for (const auto& [path, row] : reference())
+    for (std::string part = path; !part.empty();
+         part.erase(part.find('.') == std::string::npos ? 0 : part.rfind('.')))
+      named.insert(part);
+  EXPECT_EQ(named, known);
+}
+
+// "block.fix.point" as --set takes it: "block.0.fix.0.point".
+std::string path_in(std::string path, int block) {
+  for (const std::string list : {"joint.", "material.", "measure."})
+    if (path.starts_with(list)) path.insert(list.size(), "0.");
+  if (path.starts_with("block.")) path.insert(6, fmt::format("{}.", block));
+  for (const std::string list : {".fix.", ".load."})
+    if (const std::size_t at = path.find(list); at != std::string::npos) path.insert(at + list.size(), "0.");
+  return path;
+}
+
+TEST(SceneReference, ValuesAreInTheReadersWords) {
+  for (const auto& [path, row] : reference()) {
+    const std::string override = path_in(path, 0) + "={}";
+    const std::vector<std::string> faults = reading_faults(least_scene, {override});
+    const auto fault = std::find_if(faults.begin(), faults.end(), [&](const std::string& candidate) {
+      return candidate.find("the wrong type (a table), ") != std::string::npos;
+    });
+    ASSERT_NE(fault, faults.end()) << path;
+    EXPECT_EQ(row.value, between(*fault, "the wrong type (a table), ", " is needed")) << path;
+  }
+}
+
+TEST(SceneReference, RequiredIsWhatTheReaderMisses) {
+  std::set<std::string> missing = {"block.material"};  // of blocks that are not fixed
+  for (const std::string& fault : reading_faults(empty_scene)) {
+    const std::string key = between(fault, "missing key (", ")");
+    if (!key.empty()) missing.insert(joined(between(fault, key + "), ", " needs it"), key));
+  }
+  std::set<std::string> required;
+  for (const auto& [path, row] : reference())
+    if (row.fallback == "required") required.insert(path);
+  EXPECT_EQ(required, missing);
+}
+
+TEST(SceneReference, DefaultsAreTheReaders) {
+  Diagnostics diagnostics;
+  const nlohmann::json scene = to_json(parse_scene(least_scene, "s.toml", {}, diagnostics));
+  EXPECT_TRUE(diagnostics.good());
+  int compared = 0;
+  for (const auto& [path, row] : reference()) {
+    const nlohmann::json fallback = nlohmann::json::parse(row.fallback, nullptr, false);
+    if (fallback.is_discarded()) continue;  // words
+    bool found = false;
+    for (int block = 0; block < 4 && !found; ++block) {
+      std::string pointer = fmt::format("/{}", path_in(path, block));
+      std::replace(pointer.begin(), pointer.end(), '.', '/');
+      const nlohmann::json::json_pointer place(pointer);
+      found = scene.contains(place);
+      if (found) {
+        EXPECT_EQ(scene.at(place), fallback) << path;
+      }
+    }
+    EXPECT_TRUE(found) << path;
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+}
+
+}  // namespace
+}  // namespace ashlar::test

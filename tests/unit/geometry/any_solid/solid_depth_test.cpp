@@ -1,0 +1,125 @@
+#include "geometry/any_solid/solid_depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "geometry/boxes/box.hpp"
+#include "geometry/solid/shapes.hpp"
+#include "support/sample_solids.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double resolution = 1e-6;
+
+const SolidDepthFinder& cube() {
+  static const SolidDepthFinder finder(Polyhedron(make_box({0, 0, 0}, {10, 10, 10})));
+  return finder;
+}
+
+/// [0,2]x[0,1] and [0,1]x[1,2], z from 0 to 1: a reflex edge at x = y = 1.
+const SolidDepthFinder& ell() {
+  static const SolidDepthFinder finder(test_support::l_shaped_prism());
+  return finder;
+}
+
+double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+TEST(SolidDepth, APointInABoxIsAsDeepAsItsNearestFace) {
+  ASSERT_TRUE(cube().convex());
+  const auto depth = cube().of_point({3, 9, 5});
+  ASSERT_TRUE(depth);
+  EXPECT_DOUBLE_EQ(depth->depth, 1.0);
+  EXPECT_EQ(depth->way_out, Vector3(0, 1, 0));
+}
+
+TEST(SolidDepth, PointsOutsideAndOnTheSurfaceHaveNone) {
+  for (const auto* finder : {&cube(), &ell()}) {
+    EXPECT_FALSE(finder->of_point({-1, 0.5, 0.5}));
+    EXPECT_FALSE(finder->of_point({0.5, 0, 0.5}));
+    EXPECT_FALSE(finder->of_point({0, 0, 0}));
+  }
+  EXPECT_FALSE(ell().of_point({1.5, 1.5, 0.5}));
+}
+
+TEST(SolidDepth, BelowAReflexEdgeTheEdgeIsNearest) {
+  ASSERT_FALSE(ell().convex());
+  const auto depth = ell().of_point({0.9, 0.9, 0.5});
+  ASSERT_TRUE(depth);
+  EXPECT_NEAR(depth->depth, std::sqrt(0.02), 1e-15);
+  EXPECT_NEAR((depth->way_out - Vector3(1, 1, 0).normalized()).norm(), 0.0, 1e-14);
+}
+
+TEST(SolidDepth, ASegmentThroughAnEdgeOfABoxIsDeepestWhereBothFacesAreAsNear) {
+  // x = -1 + s and 10 - z = 3 - s are equal at s = 2.
+  const auto depth = cube().of_segment({-1, 5, 7}, {9, 5, 17}, resolution);
+  ASSERT_TRUE(depth);
+  EXPECT_NEAR(depth->depth, 1.0, 1e-14);
+  EXPECT_NEAR((depth->place - Vector3(1, 5, 9)).norm(), 0.0, 1e-13);
+}
+
+TEST(SolidDepth, ASegmentThatEndsInABoxIsDeepestThere) {
+  const auto depth = cube().of_segment({5, 5, 12}, {5, 5, 7}, resolution);
+  ASSERT_TRUE(depth);
+  EXPECT_NEAR(depth->depth, 3.0, 1e-14);
+}
+
+TEST(SolidDepth, SegmentsBesideASolidHaveNone) {
+  EXPECT_FALSE(cube().of_segment({-1, -1, 11}, {11, -1, 11}, resolution));
+  EXPECT_FALSE(ell().of_segment({1.2, 1.2, 0.5}, {3, 3, 0.5}, resolution));
+  double clearance = 0.0;
+  EXPECT_FALSE(ell().of_segment({1.5, 1.4, 0.5}, {1.5, 1.6, 0.5}, resolution, 0.0, &clearance));
+  EXPECT_GT(clearance, 0.0);
+  EXPECT_LE(clearance, 0.4);
+}
+
+TEST(SolidDepth, NothingIsFoundThatIsNotDeeperThanIsKnown) {
+  EXPECT_FALSE(cube().of_segment({5, 5, 12}, {5, 5, 7}, resolution, 3.5));
+  EXPECT_FALSE(ell().of_segment({0.5, 0.25, 0.5}, {1.5, 0.25, 0.5}, resolution, 0.3));
+}
+
+TEST(SolidDepth, ASegmentAlongAnLIsAsDeepAsItsMiddleLine) {
+  // At y = 0.75 the depth is min(x, 0.5, distance to the edge x = y = 1) on the way in from x = 0.
+  const auto depth = ell().of_segment({-0.5, 0.75, 0.5}, {2.5, 0.75, 0.5}, resolution);
+  ASSERT_TRUE(depth);
+  EXPECT_NEAR(depth->depth, 0.5, resolution);
+}
+
+TEST(SolidDepth, NoPointOfASegmentIsDeeperThanTheAnswer) {
+  std::mt19937_64 random(3);
+  for (const auto& [name, solid] : test_support::sample_solids()) {
+    const SolidDepthFinder finder(solid);
+    const Box box = box_of(solid.mesh().points);
+    const Vector3 size = box.high - box.low;
+    const auto point = [&] {
+      return Vector3(box.low +
+                     size.cwiseProduct(Vector3(1.4 * uniform(random) - 0.2, 1.4 * uniform(random) - 0.2,
+                                               1.4 * uniform(random) - 0.2)));
+    };
+    for (int trial = 0; trial < 20; ++trial) {
+      const Vector3 start = point(), end = point();
+      const double fine = 1e-4 * size.norm();
+      const auto depth = finder.of_segment(start, end, fine);
+      double sampled = 0.0;
+      for (int k = 0; k <= 200; ++k) {
+        if (const auto at = finder.of_point(start + (end - start) * k / 200.0))
+          sampled = std::max(sampled, at->depth);
+      }
+      EXPECT_LE(sampled, (depth ? depth->depth : 0.0) + fine + 1e-12) << name;
+      if (!depth) continue;
+      EXPECT_NEAR(finder.of_point(depth->place)->depth, depth->depth, 1e-9 * size.norm()) << name;
+    }
+  }
+}
+
+TEST(SolidDepth, NothingIsInABallThatIsClear) {
+  EXPECT_EQ(ell().clear_radius({0.5, 0.5, 0.5}), 0.0);
+  EXPECT_NEAR(ell().clear_radius({1.5, 1.25, 0.5}), 0.25, 1e-15);
+}
+
+}  // namespace
+}  // namespace ashlar

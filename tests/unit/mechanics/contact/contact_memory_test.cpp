@@ -1,0 +1,162 @@
+#include "mechanics/contact/contact_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace ashlar {
+namespace {
+
+constexpr double never = -std::numeric_limits<double>::infinity();
+
+ContactPoint point_at(const Vector3& material_a, const Vector3& material_b, int face_b,
+                      const Vector3& normal) {
+  ContactPoint point{};
+  point.type = ContactPointType::vertex_face;
+  point.face_a = 3;
+  point.face_b = face_b;
+  point.material_a = material_a;
+  point.material_b = material_b;
+  point.normal = normal.normalized();
+  point.area = 0.25;
+  return point;
+}
+
+PointMemory slipped(const Vector3& slip) {
+  PointMemory memory;
+  memory.slip = slip;
+  memory.state = ContactState::locked;
+  memory.intact = true;
+  return memory;
+}
+
+TEST(ContactMemory, SlipGoesWithAVertexOverAnEdgeThatIsNotSharpAndABondDoesNot) {
+  ContactMemory memory;
+  memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0, {});
+  // The same vertex, on a face that leans by 45 degrees about y: x turns into the plane, lengths stay.
+  const PointMemory next = memory.recall({point_at({0, 0, 1}, {1.01, 0, 0}, 8, {1, 0, 1})}, never)[0];
+  EXPECT_NEAR(next.slip.norm(), 5e-6, 1e-18);
+  EXPECT_NEAR(next.slip.dot(Vector3(1, 0, 1)), 0.0, 1e-18);
+  EXPECT_GT(next.slip.x(), 0.0);
+  EXPECT_EQ(next.state, ContactState::locked);
+  EXPECT_FALSE(next.intact);
+}
+
+TEST(ContactMemory, ASharpEdgeIsAnotherContact) {
+  ContactMemory memory;
+  memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0, {});
+  EXPECT_EQ(memory.recall({point_at({0, 0, 1}, {1, 0, -0.01}, 8, {1, 0, 0})}, never)[0].slip.norm(), 0.0);
+}
+
+TEST(ContactMemory, APointFarFromAllOldOnesStartsAnew) {
+  // One point of 0.25 m^2: it speaks for half a metre about it.
+  ContactMemory memory;
+  memory.store({point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})}, {slipped({1e-6, 0, 0})}, 0.0, {});
+  EXPECT_EQ(memory.recall({point_at({0.4, 0, 1}, {0.4, 0, 0}, 7, {0, 0, 1})}, never)[0].slip.x(), 1e-6);
+  const PointMemory far = memory.recall({point_at({0.6, 0, 1}, {0.6, 0, 0}, 7, {0, 0, 1})}, never)[0];
+  EXPECT_EQ(far.slip.norm(), 0.0);
+  EXPECT_EQ(far.state, ContactState::open);
+  EXPECT_FALSE(far.intact);
+}
+
+TEST(ContactMemory, ASlidingPointIsKnownByWhatItCarriesAlong) {
+  // Two vertices in a row slide by their distance: the second one is now where the first one was.
+  ContactMemory memory;
+  memory.store(
+      {point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1}), point_at({0.3, 0, 1}, {0.3, 0, 0}, 7, {0, 0, 1})},
+      {slipped({1e-6, 0, 0}), slipped({2e-6, 0, 0})}, 0.0, {});
+  const auto next = memory.recall(
+      {point_at({0, 0, 1}, {0.05, 0, 0}, 7, {0, 0, 1}), point_at({0.3, 0, 1}, {0.35, 0, 0}, 7, {0, 0, 1})},
+      never);
+  EXPECT_EQ(next[0].slip.x(), 1e-6);
+  EXPECT_EQ(next[1].slip.x(), 2e-6);
+  EXPECT_TRUE(next[0].intact && next[1].intact);
+}
+
+// A point that is new in the middle of four others has their mean, not that of the one that rounding calls
+// the nearest.
+TEST(ContactMemory, APointInTheMiddleOfOthersHasTheirMean) {
+  const std::vector<Vector3> corners = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  const std::vector<Vector3> slips = {{4e-6, 0, 0}, {0, 8e-6, 0}, {-4e-6, 0, 0}, {0, 4e-6, 0}};
+  for (const double off : {0.0, 1e-12, -1e-12}) {
+    std::vector<ContactPoint> points;
+    std::vector<PointMemory> memories;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      points.push_back(point_at(corners[k], corners[k], 7, {0, 0, 1}));
+      points.back().area = 1.0;
+      memories.push_back(slipped(slips[k]));
+      memories.back().compression = 1e-6 * static_cast<double>(k);
+    }
+    memories[3].intact = false;
+    ContactMemory memory;
+    memory.store(points, memories, 0.0, {});
+    const Vector3 middle{off, -off, 0};
+    const PointMemory mean = memory.recall({point_at(middle, middle, 7, {0, 0, 1})}, never)[0];
+    EXPECT_LT((mean.slip - Vector3(0, 3e-6, 0)).norm(), 1e-16) << off;
+    EXPECT_NEAR(mean.compression, 1.5e-6, 1e-16) << off;
+    EXPECT_TRUE(mean.intact);
+    // A crack that has taken half of them has reached the middle.
+    memories[2].intact = false;
+    memory.store(points, memories, 0.0, {});
+    EXPECT_FALSE(memory.recall({point_at(middle, middle, 7, {0, 0, 1})}, never)[0].intact) << off;
+  }
+}
+
+TEST(ContactMemory, SliversAreNotAsked) {
+  ContactMemory memory;
+  auto points = std::vector{point_at({0, 0, 0}, {0, 0, 0}, 7, {0, 0, 1}),
+                            point_at({0.1, 0, 0}, {0.1, 0, 0}, 7, {0, 0, 1})};
+  points[0].area = 1.0;
+  const auto slip_beside_area = [&](double area) {
+    points[1].area = area;
+    memory.store(points, {slipped({1e-6, 0, 0}), slipped({3e-6, 0, 0})}, 0.0, {});
+    return memory.recall({point_at({0.1, 0, 0}, {0.1, 0, 0}, 7, {0, 0, 1})}, never)[0].slip.x();
+  };
+  EXPECT_EQ(slip_beside_area(1e-3), 3e-6);
+  EXPECT_EQ(slip_beside_area(1e-8), 1e-6);
+}
+
+// Between two points, memory passes from one to the other without a jump; near one it is that one's.
+TEST(ContactMemory, MemoryPassesFromOnePointToTheNextWithoutAJump) {
+  ContactMemory memory;
+  auto points =
+      std::vector{point_at({0, 0, 0}, {0, 0, 0}, 7, {0, 0, 1}), point_at({1, 0, 0}, {1, 0, 0}, 7, {0, 0, 1})};
+  points[0].area = points[1].area = 1.0;
+  memory.store(points, {slipped({1e-6, 0, 0}), slipped({3e-6, 0, 0})}, 0.0, {});
+  const auto slip_at = [&](double x) {
+    return memory.recall({point_at({x, 0, 0}, {x, 0, 0}, 7, {0, 0, 1})}, never)[0].slip.x();
+  };
+  EXPECT_EQ(slip_at(0.39), 1e-6);
+  EXPECT_EQ(slip_at(0.61), 3e-6);
+  EXPECT_NEAR(slip_at(0.5), 2e-6, 1e-16);
+  // From one to the other within 0.2 m, nowhere three times as fast as on the way.
+  for (int k = 390; k < 610; ++k) {
+    const double x = 1e-3 * k;
+    EXPECT_GE(slip_at(x + 1e-3), slip_at(x) - 1e-20) << x;
+    EXPECT_LT(slip_at(x + 1e-3) - slip_at(x), 3e-8) << x;
+  }
+}
+
+TEST(ContactMemory, ForcesOfAPointThatGrowsAreKeptWhereTheyAreToBe) {
+  PointMemory pressed = slipped({0, 0, 0});
+  pressed.normal_multiplier = 8.0;  // Pa, on 0.25 m^2
+  pressed.shear_multiplier = {3.0, 0, 0};
+  ContactMemory memory;
+  memory.store({point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})}, {pressed}, 0.0, {});
+  ContactPoint grown = point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1});
+  grown.area = 0.5;
+  EXPECT_EQ(memory.recall({grown}, never)[0].normal_multiplier, 8.0);
+  EXPECT_EQ(memory.recall({grown}, never, true)[0].normal_multiplier, 4.0);
+  EXPECT_EQ(memory.recall({grown}, never, true)[0].shear_multiplier.x(), 1.5);
+  // One that became two would give its force twice.
+  EXPECT_EQ(memory.recall({grown, grown}, never, true)[1].normal_multiplier, 8.0);
+}
+
+TEST(ContactMemory, NewPointsAreBondedByTheirGap) {
+  const auto points = std::vector{point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})};
+  EXPECT_TRUE(ContactMemory().recall(points, 1e-3)[0].intact);
+  EXPECT_FALSE(ContactMemory().recall(points, never)[0].intact);
+}
+
+}  // namespace
+}  // namespace ashlar

@@ -1,0 +1,388 @@
+#include "mechanics/contact/joint_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "support/check_derivatives.hpp"
+
+namespace ashlar {
+namespace {
+
+const JointLaw law{2e9, 1e9, 0.5, 3e4, 2e4, true};
+
+TEST(JointLaw, OpensByGapOrTension) {
+  const PointLaw failed = point_law(law, 0.1, false);
+  EXPECT_EQ(point_response(failed, 1e-12, {0, 0}).state, ContactState::open);
+  EXPECT_EQ(point_response(failed, 0.0, {0, 0}).state, ContactState::locked);
+  const PointLaw intact = point_law(law, 0.1, true);  // T A = 2000 N at kn A = 2e8 N/m: 1e-5 m
+  EXPECT_EQ(point_response(intact, 0.99e-5, {0, 0}).state, ContactState::locked);
+  EXPECT_DOUBLE_EQ(point_response(intact, 0.5e-5, {0, 0}).force[0], -1000.0);
+  EXPECT_EQ(point_response(intact, 1.01e-5, {0, 0}).state, ContactState::open);
+}
+
+TEST(JointLaw, SlidesAtTheCoulombLimit) {
+  const PointLaw point = point_law(law, 0.1, false);
+  // N = 2e8 * 1e-5 = 2000 N, limit 1000 N, reached at a slip of 1000 / 1e8 = 1e-5 m.
+  EXPECT_EQ(point_response(point, -1e-5, {0.99e-5, 0}).state, ContactState::locked);
+  const Eigen::Vector2d slip(3e-5, 4e-5);
+  const PointResponse sliding = point_response(point, -1e-5, slip);
+  EXPECT_EQ(sliding.state, ContactState::sliding);
+  EXPECT_NEAR(sliding.force[1], -600.0, 1e-9);
+  EXPECT_NEAR(sliding.force[2], -800.0, 1e-9);
+  EXPECT_LT((elastic_slip(point, sliding, slip) - Eigen::Vector2d(0.6e-5, 0.8e-5)).norm(), 1e-18);
+  const PointLaw intact = point_law(law, 0.1, true);  // cohesion adds 3000 N
+  EXPECT_EQ(point_response(intact, -1e-5, {3.99e-5, 0}).state, ContactState::locked);
+  EXPECT_EQ(point_response(intact, -1e-5, {4.01e-5, 0}).state, ContactState::sliding);
+}
+
+TEST(JointLaw, RoundingDoesNotChooseTheState) {
+  JointLaw rounded = law;
+  rounded.rounding = 1e-14;
+  const PointLaw point = point_law(rounded, 0.1, false);
+  // In touch but for rounding: closed, without force.
+  for (const double gap : {-0.9e-14, 0.0, 0.9e-14}) {
+    const PointResponse touching = point_response(point, gap, {0, 0});
+    EXPECT_EQ(touching.state, ContactState::locked) << gap;
+    EXPECT_EQ(touching.force[0], std::max(0.0, -2e8 * gap));
+    EXPECT_EQ(touching.tangent(0, 0), 2e8);
+    EXPECT_EQ(touching.tangent(1, 1), 1e8);
+  }
+  EXPECT_EQ(point_response(point, 1.1e-14, {0, 0}).state, ContactState::open);
+  // At the limit of 1000 N but for rounding: locked, with the force of the limit.
+  for (const double slip : {1e-5 - 0.9e-14, 1e-5, 1e-5 + 0.9e-14}) {
+    const PointResponse held = point_response(point, -1e-5, {slip, 0});
+    EXPECT_EQ(held.state, ContactState::locked) << slip;
+    EXPECT_DOUBLE_EQ(held.force[1], -std::min(1000.0, 1e8 * slip));
+  }
+  EXPECT_EQ(point_response(point, -1e-5, {1e-5 + 1.1e-14, 0}).state, ContactState::sliding);
+  // Cohesion acts in touch, and as long as the gap may be rounding.
+  const PointLaw intact = point_law({2e9, 1e9, 0.5, 3e4, 0.0, true, false, 1e-14}, 0.1, true);
+  for (const double gap : {-0.9e-14, 0.9e-14})
+    EXPECT_NEAR(point_response(intact, gap, {1e-6, 0}).force[1], -100.0, 1e-9);
+  // A point in touch slides under its limit, and what friction gains where it is pressed is known.
+  for (const double gap : {-0.5e-14, 0.0, 0.5e-14}) {
+    const PointResponse sliding = point_response(point, gap, {3e-5, 0});
+    EXPECT_EQ(sliding.state, ContactState::sliding);
+    EXPECT_EQ(sliding_coupling(point, sliding), Eigen::Vector2d(-0.5 * 2e8, 0)) << gap;
+  }
+  const PointResponse apart = point_response(point, 1.1e-14, {3e-5, 0});
+  EXPECT_EQ(apart.state, ContactState::open);
+}
+
+TEST(JointLaw, ABridgedPointKeepsItsCohesionAcrossAGap) {
+  PointLaw point = point_law({2e9, 1e9, 0.5, 3e4, 0.0, true}, 0.1, true);  // c A = 3000 N, ks A = 1e8 N/m
+  point.bridged = true;
+  const PointResponse held = point_response(point, 1e-3, {0, 2e-5});
+  EXPECT_EQ(held.state, ContactState::locked);
+  EXPECT_LT((held.force - Eigen::Vector3d(0, 0, -2000)).norm(), 1e-9);
+  EXPECT_EQ(held.tangent(0, 0), 0.0);
+  const PointResponse sliding = point_response(point, 1e-3, {0, 5e-5});
+  EXPECT_EQ(sliding.state, ContactState::sliding);
+  EXPECT_LT((sliding.force - Eigen::Vector3d(0, 0, -3000)).norm(), 1e-9);
+  EXPECT_EQ(sliding_coupling(point, sliding), Eigen::Vector2d(0, 0));
+  // No jump where it opens.
+  const Eigen::Vector3d closed = point_response(point, -1e-15, {0, 5e-5}).force;
+  EXPECT_LT((point_response(point, 1e-15, {0, 5e-5}).force - closed).norm(), 1e-5);
+  // Nor over a step that starts in touch, where an open end would else leave it closed for no share of the
+  // step.
+  const PointResponse touching = point_response(point, 0.0, {0, 0});
+  for (const double gap : {-1e-15, 1e-15, 1e-3}) {
+    const AveragedStep step = averaged_step(point, touching, {0, 0, 0}, {gap, 0, 8e-5});
+    EXPECT_LT((step.mean.force - Eigen::Vector3d(0, 0, -3000)).norm(), 1e-5) << gap;
+  }
+  point.bridged = false;
+  EXPECT_EQ(point_response(point, 1e-15, {0, 5e-5}).state, ContactState::open);
+  EXPECT_EQ(averaged_step(point, touching, {0, 0, 0}, {1e-15, 0, 8e-5}).mean.force, Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(JointLaw, WhatHasNoFrictionIsNeverLocked) {
+  const PointLaw smooth = point_law({2e9, 1e9, 0.0, 0.0, 0.0, true, false, 1e-14}, 0.1, true);
+  for (const double slip : {0.9e-14, 1e-5}) {
+    const PointResponse response = point_response(smooth, -1e-5, {slip, 0});
+    EXPECT_EQ(response.state, ContactState::sliding);
+    EXPECT_TRUE(response.force.tail<2>().isZero(0.0));
+    EXPECT_TRUE((response.tangent.bottomRightCorner<2, 2>().isZero(0.0)));
+  }
+}
+
+TEST(JointLaw, AMeanForceHasNoKinkWhereGapsAreRounding) {
+  JointLaw rounded = law;
+  rounded.rounding = 1e-14;
+  rounded.tensile_strength = 0.0;
+  for (const bool intact : {false, true}) {
+    const PointLaw point = point_law(rounded, 0.1, intact);
+    const auto mean = [&](double from, double to) {
+      const PointResponse start = point_response(point, from, {0, 0});
+      return averaged_step(point, start, {from, 0, 0}, {to, 1e-7, 0}).mean;
+    };
+    // Opens from touch, closes to it, presses from it.
+    for (const auto& [from, to] : {std::array{0.0, 1e-6}, std::array{1e-6, 0.0}, std::array{0.0, -1e-6}}) {
+      const MeanResponse exact = mean(from, to);
+      for (const double error : {-0.9e-14, 0.9e-14}) {
+        const MeanResponse other = mean(from == 0.0 ? error : from, to == 0.0 ? error : to);
+        EXPECT_LT((other.force - exact.force).norm(), 1e-4) << from << " " << to;
+        EXPECT_TRUE(std::isfinite(other.limit));
+        EXPECT_NEAR(other.limit, exact.limit, 1e-3);
+      }
+    }
+    // What rounding has closed is closed for no share of a step to where it is open.
+    EXPECT_EQ(mean(0.9e-14, 1.1e-14).limit, 0.0);
+    EXPECT_EQ(mean(1.1e-14, 0.9e-14).limit, 0.0);
+  }
+}
+
+TEST(JointLaw, PointSpringsDoNotScaleWithArea) {
+  JointLaw per_point = law;
+  per_point.area_springs = false;
+  EXPECT_DOUBLE_EQ(point_law(per_point, 0.1, false).normal_stiffness, 2e9);
+  EXPECT_DOUBLE_EQ(point_law(law, 0.1, false).normal_stiffness, 2e8);
+}
+
+TEST(JointLaw, ForcesAreDerivativesOfTheEnergyAndTangentsOfTheForces) {
+  const PointLaw point = point_law(law, 0.1, false);
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(-2e-5, 0.4e-5, -0.3e-5), Eigen::Vector3d(-1e-6, 0, 0)}) {
+    const PointResponse response = point_response(point, place[0], place.tail<2>());
+    ASSERT_EQ(response.state, ContactState::locked);
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) {
+          return Eigen::VectorXd::Constant(1, point_response(point, x[0], x.tail<2>()).energy());
+        },
+        place, -response.force.transpose(), 1e-9, 1e-6);
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+          return point_response(point, x[0], x.tail<2>()).force;
+        },
+        place, -response.tangent, 1e-9, 1e-6);
+  }
+}
+
+TEST(JointLaw, SlidingTangentIsTheDerivativeAtConstantNormalForce) {
+  const PointLaw point = point_law(law, 0.1, false);
+  const Eigen::Vector2d slip(3e-5, -7e-5);
+  const PointResponse response = point_response(point, -1e-5, slip);
+  test_support::expect_derivative(
+      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        return point_response(point, -1e-5, x).force.tail<2>();
+      },
+      slip, -response.tangent.bottomRightCorner<2, 2>(), 1e-9, 1e-6);
+}
+
+TEST(JointLaw, CouplingIsWhatTheTangentLeavesOut) {
+  const PointLaw point = point_law(law, 0.1, false);
+  const Eigen::Vector3d place(-1e-5, 3e-5, -7e-5);
+  const PointResponse response = point_response(point, place[0], place.tail<2>());
+  Eigen::Matrix3d whole = response.tangent;
+  whole.col(0).tail<2>() += sliding_coupling(point, response);
+  test_support::expect_derivative(
+      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+        return point_response(point, x[0], x.tail<2>()).force;
+      },
+      place, -whole, 1e-9, 1e-6);
+  const PointResponse locked = point_response(point, -1e-5, {1e-6, 0});
+  EXPECT_TRUE(sliding_coupling(point, locked).isZero(0.0));
+}
+
+TEST(JointLaw, AHeldLimitActsWhateverTheNormalForce) {
+  PointLaw point = point_law(law, 0.1, false);
+  point.held_limit = 100.0;  // N, at ks A = 1e8 N/m reached at 1e-6 m
+  for (const double gap : {-1e-5, 1.0}) {
+    const PointResponse sliding = point_response(point, gap, {3e-5, 4e-5});
+    EXPECT_EQ(sliding.state, ContactState::sliding);
+    EXPECT_NEAR(sliding.force[0], gap < 0.0 ? 2000.0 : 0.0, 1e-9);
+    EXPECT_NEAR(sliding.force[1], -60.0, 1e-12);
+    EXPECT_NEAR(sliding.force[2], -80.0, 1e-12);
+    EXPECT_TRUE(sliding_coupling(point, sliding).isZero(0.0));
+    const PointResponse locked = point_response(point, gap, {0.9e-6, 0});
+    EXPECT_EQ(locked.state, ContactState::locked);
+    EXPECT_NEAR(locked.force[1], -90.0, 1e-12);
+  }
+  point.held_limit = 0.0;
+  EXPECT_EQ(point_response(point, 1.0, {3e-5, 4e-5}).state, ContactState::open);
+}
+
+TEST(JointLaw, MultipliersAddToTheSprings) {
+  PointLaw point = point_law(law, 0.1, false);
+  point.augmented = true;
+  point.normal_multiplier = 500.0;
+  point.shear_multiplier = {200.0, 0.0};
+  // N = 500 + 2000 N, limit 1250 N; shear 200 - 1e8 * 1e-6 = 100 N.
+  const PointResponse locked = point_response(point, -1e-5, {1e-6, 0});
+  EXPECT_EQ(locked.state, ContactState::locked);
+  EXPECT_NEAR(locked.force[0], 2500.0, 1e-9);
+  EXPECT_NEAR(locked.force[1], 100.0, 1e-9);
+  // N = 500 - 400 N across a gap of 2e-6 m.
+  EXPECT_NEAR(point_response(point, 2e-6, {1.5e-6, 0}).force[0], 100.0, 1e-9);
+  EXPECT_EQ(point_response(point, 2.6e-6, {0, 0}).state, ContactState::open);
+  const Eigen::Vector2d far(-5e-5, 0.0);
+  const PointResponse sliding = point_response(point, -1e-5, far);
+  EXPECT_EQ(sliding.state, ContactState::sliding);
+  EXPECT_NEAR(sliding.force[1], 1250.0, 1e-9);
+  EXPECT_EQ(sliding.energy() + locked.energy(), 0.0);
+  EXPECT_TRUE(elastic_slip(point, sliding, far).isZero(0.0));
+  EXPECT_TRUE(elastic_slip(point, locked, {1e-6, 0}).isZero(0.0));
+}
+
+TEST(JointLaw, ImpulsesCountInTheBoundOfTheShearForceAsFarAsTheNormalForceGoes) {
+  PointLaw point = point_law(law, 0.1, false);
+  point.augmented = true;
+  const Eigen::Vector2d far(-5e-5, 0.0);
+  const double normal = 2000.0, gap = -1e-5;
+  for (const auto& [impulse, counts] :
+       {std::array{300.0, 2300.0}, {-300.0, 1700.0}, {5000.0, 4000.0}, {-2500.0, 0.0}}) {
+    point.impulse_force = impulse;
+    const PointResponse sliding = point_response(point, gap, far);
+    EXPECT_EQ(sliding.state, ContactState::sliding) << impulse;
+    EXPECT_NEAR(sliding.force[0], normal, 1e-9);
+    EXPECT_NEAR(sliding.force[1], law.friction * counts, 1e-9) << impulse;
+    // By a force of 1e-3 N more.
+    const double less = 1e-3 / point.normal_stiffness;
+    const double change = point_response(point, gap - less, far).force[1] - sliding.force[1];
+    EXPECT_NEAR(change, less * sliding_coupling(point, sliding)[0], 1e-8) << impulse;
+  }
+  // What just touches does not rub.
+  EXPECT_EQ(point_response(point, 0.0, far).force[1], 0.0);
+}
+
+TEST(JointLaw, CohesionBearsSlipOnBothSidesOfTheSurface) {
+  const PointLaw point =
+      point_law({2e9, 1e9, 0.5, 1e4, 0.0, true}, 0.1, true);  // c A = 1000 N, ks A = 1e8 N/m
+  EXPECT_NEAR(borne_slip(point, 0.0, {3e-5, 4e-5})[1], 8e-6, 1e-18);
+  EXPECT_NEAR(borne_slip(point, 2000.0, {3e-5, 4e-5})[1], 1.6e-5, 1e-18);
+  EXPECT_EQ(borne_slip(point, 0.0, {6e-6, 0}), Eigen::Vector2d(6e-6, 0));
+  const PointLaw broken = point_law({2e9, 1e9, 0.5, 1e4, 0.0, true}, 0.1, false);
+  EXPECT_TRUE(borne_slip(broken, 0.0, {3e-5, 4e-5}).isZero(0.0));
+}
+
+TEST(JointLaw, MeanForceDoesExactlyTheWorkOfTheSpring) {
+  const PointLaw point = point_law(law, 0.1, false);
+  for (const auto& [g0, g1] :
+       {std::pair{1e-4, -3e-5}, {-3e-5, 1e-4}, {-2e-5, -7e-5}, {1e-4, 2e-4}, {0.0, -1e-5}}) {
+    const PointResponse start = point_response(point, g0, {0, 0});
+    const auto step_to = [&, from = g0](double to) {
+      return averaged_step(point, start, {from, 0, 0}, {to, 0, 0});
+    };
+    const PointResponse end = step_to(g1).end;
+    const MeanResponse mean = step_to(g1).mean;
+    EXPECT_NEAR(mean.force[0] * (g1 - g0), start.energy() - end.energy(),
+                1e-12 * (start.energy() + end.energy()));
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, step_to(x[0]).mean.force[0]); },
+        Eigen::VectorXd::Constant(1, g1), Eigen::MatrixXd::Constant(1, 1, -mean.tangent(0, 0)), 1e-9, 1e-5);
+    EXPECT_GE(mean.tangent(0, 0), 0.0);
+  }
+}
+
+// Whatever a point does in a step, locked, sliding, turning round, opening: its mean force never gives more
+// work than its springs' energy falls, and exactly as much where it stays locked.
+TEST(JointLaw, MeanForcesGiveNoWorkOfTheirOwn) {
+  std::mt19937_64 random(20261121);
+  const auto any = [&](double most) { return most * (0x1p-52 * static_cast<double>(random() >> 11U) - 1.0); };
+  int lossless = 0, slid = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    JointLaw joint = law;
+    joint.friction = trial % 3 == 0 ? 0.0 : std::abs(any(2.0));
+    joint.cohesion = trial % 4 == 0 ? std::abs(any(1e4)) : 0.0;
+    const PointLaw point = point_law(joint, 0.1, true);
+    PointLaw plain = point;
+    plain.tension = 0.0;
+    const double g0 = any(1e-5), g1 = any(1e-5);
+    const Eigen::Vector2d trial_slip(any(1e-5), any(1e-5)), way(any(3e-5), any(3e-5));
+    const PointResponse start = point_response(plain, g0, trial_slip);
+    const Eigen::Vector2d e0 = elastic_slip(plain, start, trial_slip);
+    const Eigen::Vector3d start_place(g0, e0.x(), e0.y());
+    const Eigen::Vector3d end_place(g1, e0.x() + way.x(), e0.y() + way.y());
+    const auto [end, mean] = averaged_step(plain, start, start_place, end_place);
+    const double work = mean.force[0] * (g1 - g0) + mean.force.tail<2>().dot(way);
+    const double lost = start.energy() - end.energy() - work;
+    const double scale = start.energy() + end.energy() + std::abs(work);
+    EXPECT_GE(lost, -1e-12 * scale) << trial;
+    const double limit = std::max(mean.force[0], 0.0) * plain.friction + plain.cohesion;
+    EXPECT_LE(mean.force.tail<2>().norm(), limit * (1.0 + 1e-12)) << trial;
+    if (end.state == ContactState::locked) {
+      EXPECT_LE(std::abs(lost), 1e-12 * scale) << trial;
+      ++lossless;
+    }
+    slid += end.state == ContactState::sliding ? 1 : 0;
+  }
+  EXPECT_GT(lossless, 100);
+  EXPECT_GT(slid, 1000);
+}
+
+TEST(JointLaw, MeanFrictionIsThatOfTheMeanNormalForce) {
+  // From no force to 2 N and back, as stiff contacts alternate: N tan(phi) over both steps, sliding on and
+  // on.
+  JointLaw joint = law;
+  joint.friction = 0.5;
+  joint.cohesion = joint.tensile_strength = 0.0;
+  const PointLaw point = point_law(joint, 0.1, false);
+  const double depth = 1e-5, normal = 0.5 * point.normal_stiffness * depth;
+  const Eigen::Vector2d way(3e-4, 4e-4);
+  const PointResponse free = point_response(point, 0.0, Eigen::Vector2d::Zero());
+  const AveragedStep in = averaged_step(point, free, {0, 0, 0}, {-depth, way.x(), way.y()});
+  EXPECT_NEAR(in.mean.force[0], normal, 1e-9 * normal);
+  EXPECT_NEAR((in.mean.force.tail<2>() + 0.5 * normal * way.normalized()).norm(), 0.0, 1e-9 * normal);
+  const PointResponse pressed = point_response(point, -depth, elastic_slip(point, in.end, way));
+  const Eigen::Vector2d slip = elastic_slip(point, in.end, way);
+  const AveragedStep out = averaged_step(point, pressed, {-depth, slip.x(), slip.y()},
+                                         {0.0, slip.x() + way.x(), slip.y() + way.y()});
+  EXPECT_NEAR(out.mean.force[0], normal, 1e-9 * normal);
+  EXPECT_NEAR((out.mean.force.tail<2>() + 0.5 * normal * way.normalized()).norm(), 0.0, 1e-9 * normal);
+}
+
+TEST(JointLaw, MeanCohesionIsThatOfTheTimeInContact) {
+  JointLaw joint = law;
+  joint.friction = joint.tensile_strength = 0.0;
+  const PointLaw point = point_law(joint, 0.1, true);
+  const Eigen::Vector2d way(3e-2, 4e-2);  // far beyond the limit
+  const auto mean = [&](double g0, double g1) {
+    return averaged_step(point, point_response(point, g0, {0, 0}), {g0, 0, 0}, {g1, way.x(), way.y()}).mean;
+  };
+  // From 1 deep to 3 above: a quarter of the time. From 3 above to 1 deep likewise.
+  for (const auto& [g0, g1, share] :
+       {std::tuple{-1e-5, 3e-5, 0.25}, {3e-5, -1e-5, 0.25}, {-1e-5, -3e-5, 1.0}, {1e-5, 3e-5, 0.0}}) {
+    EXPECT_NEAR((mean(g0, g1).force.tail<2>() + share * point.cohesion * way.normalized()).norm(), 0.0,
+                1e-12 * point.cohesion);
+    EXPECT_NEAR(mean(g0, g1).limit, share * point.cohesion, 1e-12 * point.cohesion);
+  }
+  // Blocks that are placed at the surface: the side of it that rounding puts them on does not matter.
+  for (const double g1 : {-1e-5, 1e-5}) {
+    EXPECT_NEAR((mean(1e-17, g1).force - mean(-1e-17, g1).force).norm(), 0.0, 1e-9 * point.cohesion);
+  }
+}
+
+TEST(JointLaw, MeanCouplingIsWhatTheMeanTangentLeavesOut) {
+  const PointLaw point = point_law(law, 0.1, false);
+  // Locked with much shear under much pressure, then little pressure: cut, whether it slides on or not.
+  const PointResponse start = point_response(point, -5e-5, {5e-5, 2e-5});
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(-1e-5, 9e-5, -7e-5), Eigen::Vector3d(-1e-5, 3e-6, 2e-6)}) {
+    const auto mean = [&](const Eigen::Vector3d& x) {
+      return averaged_step(point, start, {-5e-5, 5e-5, 2e-5}, x).mean;
+    };
+    Eigen::Matrix3d whole = mean(place).tangent;
+    whole.col(0).tail<2>() += mean(place).coupling;
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return mean(x).force; }, place, -whole, 1e-9,
+        1e-6);
+  }
+  // With cohesion, opening and closing.
+  JointLaw cohesive = law;
+  cohesive.tensile_strength = 0.0;
+  const PointLaw intact = point_law(cohesive, 0.1, true);
+  for (const auto& [g0, g1] : {std::pair{-2e-5, 3e-5}, {3e-5, -2e-5}}) {
+    const Eigen::Vector3d from(g0, 0.0, 0.0), to(g1, 9e-3, -7e-3);
+    const PointResponse at_start = point_response(intact, g0, {0, 0});
+    const auto mean = [&](const Eigen::Vector3d& x) { return averaged_step(intact, at_start, from, x).mean; };
+    Eigen::Matrix3d whole = mean(to).tangent;
+    whole.col(0).tail<2>() += mean(to).coupling;
+    test_support::expect_derivative(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return mean(x).force; }, to, -whole, 1e-9, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace ashlar

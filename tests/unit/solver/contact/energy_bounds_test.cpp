@@ -1,0 +1,89 @@
+#include "solver/contact/energy_bounds.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using Memory = std::map<std::array<int, 2>, ContactMemory>;
+
+/// A spring of 2 N/m and some depth, which holds its square.
+ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 0.0) {
+  static const BlockModel block(
+      test_support::block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {1, 1, 0}, 1));
+  const BlockState state = block.initial_state();
+  ContactPoint point{};
+  point.material_a = point.material_b = point.place_a = point.place_b = {0.5, 0.5, 0.0};
+  point.normal = Vector3::UnitZ();
+  point.tangent_1 = Vector3::UnitX();
+  point.tangent_2 = Vector3::UnitY();
+  point.gap = -depth;
+  point.area = 1.0;
+  PointMemory memory;
+  memory.intact = true;
+  const JointLaw law{2.0, 1.0, 0.5, 0.0, tensile_strength, true};
+  return {a, b, {&block, &state, nullptr}, {&block, &state, nullptr}, law, {point}, {memory}};
+}
+
+ContactMemory that_held(double normal, double shear = 0.0) {
+  return {{}, {}, 0.0, {normal, shear}, 0.0};
+}
+
+std::vector<double> normal_bounds(const std::vector<ContactPair>& pairs, const Memory& memory,
+                                  const std::vector<bool>& moving) {
+  std::vector<double> result;
+  for (const SpringEnergy& bound : energy_bounds(pairs, memory, moving)) result.push_back(bound.normal);
+  return result;
+}
+
+const std::vector<bool> all_move(4, true);
+
+TEST(EnergyBounds, AreWhatThePairHeldAndNothingOfANewOne) {
+  const std::vector<ContactPair> pairs = {pair_at_depth(0, 1, 3), pair_at_depth(2, 3, 1)};
+  const Memory memory = {{{0, 1}, that_held(4, 2)}};
+  const auto bounds = energy_bounds(pairs, memory, all_move);
+  ASSERT_EQ(bounds.size(), 2U);
+  EXPECT_EQ(bounds[0].normal, 4.0);
+  EXPECT_EQ(bounds[0].shear, 2.0);
+  // It has no block in common with the other one.
+  EXPECT_EQ(bounds[1].normal, 0.0);
+  EXPECT_EQ(bounds[1].shear, 0.0);
+}
+
+TEST(EnergyBounds, ABlockTakesAlongWhatItNoLongerHoldsElsewhere) {
+  const Memory memory = {{{0, 1}, that_held(6, 5)}};
+  // It has left 1: no more goes along than the 4 J that are needed, no more than the 6 J that there are.
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2)}, memory, all_move), (std::vector<double>{4}));
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 3)}, memory, all_move), (std::vector<double>{6}));
+  // Shear does not.
+  EXPECT_EQ(energy_bounds({pair_at_depth(0, 2, 3)}, memory, all_move)[0].shear, 0.0);
+  // 1 J of the 6 J is still held there; the first of the others takes 4 of the 5 J.
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 1), pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, memory,
+                          all_move),
+            (std::vector<double>{6, 4, 1}));
+  // All of it is: found deeper, it keeps its own.
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 3), pair_at_depth(0, 2, 2)}, memory, all_move),
+            (std::vector<double>{6, 0}));
+  // A pair that was known takes what is added to its own.
+  EXPECT_EQ(
+      normal_bounds({pair_at_depth(0, 2, 3)}, {{{0, 1}, that_held(6)}, {{0, 2}, that_held(1)}}, all_move),
+      (std::vector<double>{7}));
+}
+
+TEST(EnergyBounds, NothingGoesAlongWithAFixedBlock) {
+  const Memory memory = {{{0, 1}, that_held(6)}};
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2)}, memory, {false, true, true}), (std::vector<double>{0}));
+  EXPECT_EQ(normal_bounds({pair_at_depth(1, 2, 2)}, memory, {false, true, true}), (std::vector<double>{4}));
+}
+
+TEST(EnergyBounds, BondsNeitherGiveNorTake) {
+  const Memory memory = {{{0, 1}, that_held(6)}};
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 1, 10), pair_at_depth(0, 2, 2)}, memory, all_move),
+            (std::vector<double>{6, 0}));
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2, 10)}, memory, all_move), (std::vector<double>{0}));
+}
+
+}  // namespace
+}  // namespace ashlar

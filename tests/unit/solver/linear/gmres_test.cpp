@@ -1,0 +1,42 @@
+#include "solver/linear/gmres.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+namespace ashlar {
+namespace {
+
+TEST(Gmres, SolvesAnUnsymmetricSystem) {
+  // x = (1, -2, 3): the right side by hand.
+  Eigen::Matrix3d a;
+  a << 2, 1, 0, -1, 3, 1, 0, -2, 1;
+  const Eigen::Vector3d b(0, -4, 7);
+  const KrylovSolution solution =
+      gmres([&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return a * x; }, b, 1e-13, 3);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_LT((solution.x - Eigen::Vector3d(1, -2, 3)).norm(), 1e-12);
+}
+
+TEST(Gmres, NeedsAsManyIterationsAsTheMatrixIsAwayFromTheIdentity) {
+  // The identity and one dyad: two iterations, whatever the size.
+  const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
+  const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(50, 1.0, -0.5);
+  const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(50, -3.0, 2.0);
+  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return x + u * v.dot(x); };
+  const KrylovSolution solution = gmres(times, times(expected), 1e-12, 30);
+  EXPECT_TRUE(solution.converged);
+  EXPECT_EQ(solution.iterations, 2);
+  EXPECT_LT((solution.x - expected).norm(), 1e-11 * expected.norm());
+}
+
+TEST(Gmres, TellsThatASingularSystemHasNoSolution) {
+  const auto times = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return Eigen::Vector2d(x[0], 0.0); };
+  EXPECT_FALSE(gmres(times, Eigen::Vector2d(1, 1), 1e-10, 5).converged);
+  const KrylovSolution nothing = gmres(times, Eigen::Vector2d::Zero(), 1e-10, 5);
+  EXPECT_TRUE(nothing.converged);
+  EXPECT_EQ(nothing.x.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace ashlar

@@ -1,0 +1,139 @@
+#include "solver/run/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "geometry/solid/shapes.hpp"
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A bending block on an elastic one that is clamped at an end; it slides, and both are dented.
+Simulation make_simulation() {
+  const Material material{2000.0, 2e7, 0.25};
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(test_support::block_of(
+      "stone", Polyhedron(make_box(Vector3(0.5, 0.1, 0.502), Vector3(1.5, 0.9, 1.0))), material, 2));
+  BlockDefinition beam = test_support::block_of(
+      "beam", Polyhedron(make_box(Vector3(0.0, 0.0, 0.0), Vector3(2.0, 1.0, 0.5))), material, 2);
+  beam.supports.push_back({Plane{Vector3::Zero(), Vector3::UnitX()}, {true, true, true}});
+  blocks.emplace_back(std::move(beam));
+  const JointLaw law{1e9, 1e9, 0.2, 0.0, 0.0, true};
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  return {std::move(blocks),
+          {{Vector3(0.4, 0.0, -0.3), Vector3::Zero()}, {Vector3::Zero(), Vector3::Zero()}},
+          test_support::same_law(law),
+          settings};
+}
+
+constexpr double end_time = 1.0;
+constexpr int steps_before = 30;
+constexpr int steps_after = 30;
+
+void take_steps(Simulation& simulation, int count) {
+  for (int k = 0; k < count; ++k) ASSERT_EQ(simulation.step(end_time), StepStatus::accepted);
+}
+
+TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
+  Simulation straight = make_simulation();
+  take_steps(straight, steps_before);
+  ASSERT_GT(straight.report().locked + straight.report().sliding, 0) << "not cut in the middle of contact";
+  const std::string bytes = to_bytes(straight.snapshot());
+  take_steps(straight, steps_after);
+
+  Simulation resumed = make_simulation();
+  resumed.restore(snapshot_from_bytes(bytes));
+  EXPECT_EQ(to_bytes(resumed.snapshot()), bytes);
+  take_steps(resumed, steps_after);
+
+  SimulationSnapshot expected = straight.snapshot();
+  SimulationSnapshot reached = resumed.snapshot();
+  // Time is measured, and what is factorised anew is counted anew.
+  expected.seconds = reached.seconds;
+  expected.counts.factors = reached.counts.factors;
+  EXPECT_EQ(to_bytes(reached), to_bytes(expected));
+}
+
+TEST(Checkpoint, EverySnapshotMemberIsStored) {
+  SimulationSnapshot snapshot;
+  snapshot.clock = {0.1, 0.25, 14};
+  snapshot.next_step = 1e-300;
+  snapshot.steps = 7;
+  snapshot.states = {{Eigen::MatrixX3d::Constant(4, 3, -0.0), Eigen::MatrixX3d::Constant(4, 3, 2.5)}};
+  snapshot.memory = {{{0, 1},
+                      {{Vector3(1, 2, 3),
+                        Vector3(-1, -2, -3),
+                        4,
+                        5,
+                        Vector3(0, 0, 1),
+                        0.5,
+                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0, 26.0,
+                         Vector3(36, 37, 38), true}}},
+                      {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}},
+                      9,
+                      27,
+                      {24.0, 25.0}}};
+  snapshot.contact_work = {{{0, 1}, 10.0}};
+  snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
+  snapshot.counts.factors.solves = 13;
+  const SimulationSnapshot back = snapshot_from_bytes(to_bytes(snapshot));
+  EXPECT_EQ(back.clock.start, 0.1);
+  EXPECT_EQ(back.clock.step, 0.25);
+  EXPECT_EQ(back.clock.count, 14);
+  EXPECT_EQ(back.next_step, 1e-300);
+  EXPECT_EQ(back.steps, 7);
+  ASSERT_EQ(back.states.size(), 1U);
+  EXPECT_TRUE(std::signbit(back.states[0].position(3, 2)));
+  EXPECT_EQ(back.states[0].velocity(0, 1), 2.5);
+  ASSERT_EQ(back.memory.size(), 1U);
+  ASSERT_EQ(back.memory[0].entries.size(), 1U);
+  const ContactMemory::Entry& entry = back.memory[0].entries[0];
+  EXPECT_EQ(entry.material_a, Vector3(1, 2, 3));
+  EXPECT_EQ(entry.material_b, Vector3(-1, -2, -3));
+  EXPECT_EQ(entry.face_b, 5);
+  EXPECT_EQ(entry.normal, Vector3(0, 0, 1));
+  EXPECT_EQ(entry.area, 0.5);
+  EXPECT_EQ(entry.memory.normal_multiplier, 20.0);
+  EXPECT_EQ(entry.memory.shear_multiplier, Vector3(21, 22, 23));
+  EXPECT_EQ(entry.memory.slip, Vector3(6, 7, 8));
+  EXPECT_EQ(entry.memory.state, ContactState::sliding);
+  EXPECT_TRUE(entry.memory.intact);
+  EXPECT_EQ(entry.memory.unrubbed, 27.0);
+  EXPECT_EQ(entry.memory.compression, 26.0);
+  EXPECT_EQ(entry.memory.level_slip, Vector3(36, 37, 38));
+  EXPECT_TRUE(entry.memory.in_level);
+  ASSERT_EQ(back.memory[0].cuts.size(), 1U);
+  EXPECT_EQ(back.memory[0].cuts[0].cell_b, 29);
+  EXPECT_TRUE(back.memory[0].cuts[0].of_a);
+  EXPECT_EQ(back.memory[0].cuts[0].end, Vector3(33, 34, 35));
+  EXPECT_EQ(back.memory[0].deepest, 9.0);
+  EXPECT_EQ(back.memory[0].bulge, 27.0);
+  EXPECT_EQ(back.memory[0].held.normal, 24.0);
+  EXPECT_EQ(back.memory[0].held.shear, 25.0);
+  EXPECT_EQ(back.contact_work.at({0, 1}), 10.0);
+  ASSERT_EQ(back.rejections.size(), 1U);
+  EXPECT_EQ(back.rejections[0].reason, RejectionReason::not_positive_definite);
+  EXPECT_EQ(back.counts.factors.solves, 13U);
+}
+
+TEST(Checkpoint, BytesThatEndTooEarlyAreRefused) {
+  const std::string bytes = to_bytes(make_simulation().snapshot());
+  for (const std::size_t size : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1}) {
+    EXPECT_THROW((void)snapshot_from_bytes(bytes.substr(0, size)), std::runtime_error) << size;
+  }
+  EXPECT_THROW((void)snapshot_from_bytes(bytes + '\0'), std::runtime_error);
+}
+
+TEST(Checkpoint, SnapshotOfOtherBlocksIsRefused) {
+  Simulation simulation = make_simulation();
+  SimulationSnapshot snapshot = simulation.snapshot();
+  snapshot.states.pop_back();
+  EXPECT_THROW(simulation.restore(snapshot), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace ashlar
