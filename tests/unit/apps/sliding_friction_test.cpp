@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "run_fixture.hpp"
+#include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
 namespace {

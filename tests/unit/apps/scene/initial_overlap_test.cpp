@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "geometry/solid/shapes.hpp"
-#include "sample_scene.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/sample_solids.hpp"
+#include "unit/apps/sample_scene.hpp"
 
 namespace ashlar::test {
 namespace {
