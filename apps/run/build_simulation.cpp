@@ -243,18 +243,23 @@ bool is_untied(const JointTable& table, std::size_t joint) {
   return table.matches_a_pair(joint) && !left_any;
 }
 
-/// Ties every pair of blocks whose joint is tied; a [[joint]] that ties nothing is an error at its key, one
-/// that later ones undo a warning.
-void tie_joints(const Scene& scene, const JointTable& table, Simulation& simulation,
+/// Every pair of blocks whose joint is tied.
+std::vector<TieRequest> ties_of(const Scene& scene, const JointTable& table,
+                                const std::vector<BlockModel>& blocks) {
+  std::vector<TieRequest> ties;
+  for (const auto& [a, b] : tied_pairs(scene, table, blocks))
+    ties.push_back({static_cast<int>(a), static_cast<int>(b), automatic_tie_stiffness(blocks[a], blocks[b])});
+  return ties;
+}
+
+/// A [[joint]] that ties nothing is an error at its key, one that later ones undo a warning.
+void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& system,
                 Diagnostics& diagnostics) {
-  const AutomaticRatios ratios;
-  const std::vector<BlockModel>& blocks = simulation.blocks();
   std::vector<bool> ties(scene.joint.size(), false);
-  for (const auto& [a, b] : tied_pairs(scene, table, blocks)) {
-    if (!simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
-                               automatic_tie_stiffness(blocks[a], blocks[b], ratios)))
-      continue;
-    for (const std::size_t joint : table.joints_between(a, b)) ties[joint] = true;
+  for (const TiedBlocks& tie : system.ties()) {
+    for (const std::size_t joint :
+         table.joints_between(static_cast<std::size_t>(tie.a), static_cast<std::size_t>(tie.b)))
+      ties[joint] = true;
   }
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
@@ -305,15 +310,17 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
   const auto table = std::make_shared<const JointTable>(scene);
   JointLaws laws(scene, blocks, table, choices);
-  BuiltSimulation built{Simulation(std::move(blocks), std::move(motions), std::move(laws), settings),
+  const std::vector<TieRequest> ties = ties_of(scene, *table, blocks);
+  if (!ties.empty() && scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
+    diagnostics.error(scene.places.key("analysis.formulation"),
+                      "blocks of the incremental formulation cannot be tied");
+    return std::nullopt;
+  }
+  BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties),
                         std::move(choices),
                         parts.size(),
                         {}};
-  try {
-    tie_joints(scene, *table, built.simulation, diagnostics);
-  } catch (const std::invalid_argument& error) {
-    diagnostics.error(scene.places.key("analysis.formulation"), error.what());
-  }
+  check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
     built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);

@@ -132,8 +132,8 @@ Simulation put_together(const HertzSphere& sphere) {
   }
   const double wide = 1.5 * sphere.radius;
   scene.add_fixed(Polyhedron(make_box({-wide, -wide, -wide}, {wide, wide, 0})));
+  scene.tie_all();
   Simulation simulation = scene.build();
-  tie_all(simulation);
   return simulation;
 }
 

@@ -25,17 +25,30 @@ int ContactScene::add_fixed(Polyhedron solid) {
 Simulation ContactScene::build() {
   SimulationSettings turned = settings;
   turned.gravity = placement_.direction(settings.gravity);
+  std::vector<BlockModel> blocks = std::exchange(blocks_, {});
+  std::vector<TieRequest> ties;
+  for (const auto& [a, b] : std::exchange(ties_, {}))
+    ties.push_back(
+        {a, b,
+         automatic_tie_stiffness(blocks[static_cast<std::size_t>(a)], blocks[static_cast<std::size_t>(b)])});
   Simulation simulation(
-      std::exchange(blocks_, {}), std::exchange(motions_, {}), [same = law](int, int) { return *same; },
-      turned);
-  const std::vector<BlockModel>& blocks = simulation.blocks();
-  for (const auto& [a, b] : std::exchange(ties_, {})) {
-    const double stiffness =
-        automatic_tie_stiffness(blocks[static_cast<std::size_t>(a)], blocks[static_cast<std::size_t>(b)]);
-    if (!simulation.tie_blocks(a, b, stiffness))
+      std::move(blocks), std::exchange(motions_, {}), [same = law](int, int) { return *same; }, turned, ties);
+  const bool may_be_apart = std::exchange(all_tied_, false);
+  for (const TieRequest& tie : ties) {
+    if (!may_be_apart && !simulation.system().are_tied(tie.a, tie.b))
       throw std::invalid_argument("tied blocks have no common face");
   }
   return simulation;
+}
+
+void ContactScene::tie_all() {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      if (!blocks_[a].fixed() && !blocks_[b].fixed())
+        ties_.push_back({static_cast<int>(a), static_cast<int>(b)});
+    }
+  }
+  all_tied_ = true;
 }
 
 void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction) {
@@ -62,17 +75,6 @@ Polyhedron hull_of(const std::vector<Vector3>& points) {
 
 double tangent_of(double degrees) {
   return std::tan(degrees * std::numbers::pi / 180.0);
-}
-
-void tie_all(Simulation& simulation) {
-  const std::vector<BlockModel>& blocks = simulation.blocks();
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      if (!blocks[a].fixed() && !blocks[b].fixed())
-        simulation.tie_blocks(static_cast<int>(a), static_cast<int>(b),
-                              automatic_tie_stiffness(blocks[a], blocks[b]));
-    }
-  }
 }
 
 void take_step(Simulation& simulation, double end_time) {

@@ -29,6 +29,8 @@ class ContactScene {
   int add_fixed(Polyhedron solid);
   /// Bonds two blocks over their common faces, as stiffly as scenes do without being told. @param a,b a < b
   void tie(int a, int b) { ties_.push_back({a, b}); }
+  /// The same of all moving blocks so far that have common faces; between others no contacts are looked for.
+  void tie_all();
   /// The scene as far as it was put together; it is empty afterwards.
   /// @throws std::invalid_argument if blocks are to be tied that have no common face
   [[nodiscard]] Simulation build();
@@ -37,6 +39,7 @@ class ContactScene {
   std::vector<BlockModel> blocks_;
   std::vector<InitialMotion> motions_;
   std::vector<std::array<int, 2>> ties_;
+  bool all_tied_ = false;
   Placement placement_;
 };
 
@@ -53,9 +56,6 @@ void choose_as_for_statics(ContactScene& scene, double size, double young_modulu
 
 /// tan of an angle in degrees.
 [[nodiscard]] double tangent_of(double degrees);
-
-/// Bonds all moving blocks of a simulation that have common faces, as stiffly as scenes do.
-void tie_all(Simulation& simulation);
 
 /// Takes one step, not beyond a time. @throws std::runtime_error if it cannot be taken
 void take_step(Simulation& simulation, double end_time);

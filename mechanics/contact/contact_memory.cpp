@@ -165,6 +165,13 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   largest_area_ = largest_area_of(entries_);
 }
 
+void ContactMemory::drop_multipliers() {
+  for (Entry& entry : entries_) {
+    entry.memory.normal_multiplier = 0.0;
+    entry.memory.shear_multiplier.setZero();
+  }
+}
+
 void ContactMemory::start_level() {
   for (Entry& entry : entries_) {
     entry.memory.level_slip = entry.memory.slip;

@@ -69,6 +69,9 @@ class ContactMemory {
   /// Begins a load level: what slipped in the last one has slipped for good.
   void start_level();
 
+  /// Forgets what multipliers held.
+  void drop_multipliers();
+
   /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
   void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);
 
@@ -79,6 +82,8 @@ class ContactMemory {
   /// What store() was told of the last step; nothing where there was no contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  /// Whether there was no contact in the last step.
+  [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
 
  private:

@@ -12,21 +12,19 @@ double book(double work, double& account) {
   return beyond;
 }
 
-IslandFunds::IslandFunds(const ContactAccounts& accounts,
-                         std::vector<std::vector<std::array<int, 2>>> islands)
+IslandFunds::IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands)
     : islands_(std::move(islands)), own_(islands_.size(), 0.0) {
-  std::set<std::array<int, 2>> owned;
+  std::set<PairKey> owned;
   for (std::size_t island = 0; island < islands_.size(); ++island) {
-    for (const std::array<int, 2>& pair : islands_[island]) {
+    for (const PairKey& pair : islands_[island]) {
       owned.insert(pair);
-      if (const auto account = accounts.find(pair); account != accounts.end())
-        own_[island] += account->second;
+      own_[island] += history_of(histories, pair).taken;
     }
   }
-  for (const auto& [pair, account] : accounts) {
+  for (const auto& [pair, history] : histories) {
     if (owned.count(pair) > 0) continue;
     others_.push_back(pair);
-    common_ += account;
+    common_ += history.taken;
   }
 }
 
@@ -38,13 +36,13 @@ void IslandFunds::use(std::size_t island, double energy) {
   common_ = std::max(0.0, common_ - book(-energy, own_[island]));
 }
 
-void IslandFunds::spend_from(ContactAccounts& accounts) const {
-  const auto set_sum = [&](const std::vector<std::array<int, 2>>& pairs, double sum) {
+void IslandFunds::spend_from(PairHistories& histories) const {
+  const auto set_sum = [&](const std::vector<PairKey>& pairs, double sum) {
     double before = 0.0;
-    for (const std::array<int, 2>& pair : pairs) before += accounts[pair];
+    for (const PairKey& pair : pairs) before += histories[pair].taken;
     if (sum == before) return;
-    for (const std::array<int, 2>& pair : pairs) {
-      double& account = accounts[pair];
+    for (const PairKey& pair : pairs) {
+      double& account = histories[pair].taken;
       account = before > 0.0 ? account / before * sum : sum / static_cast<double>(pairs.size());
     }
   };

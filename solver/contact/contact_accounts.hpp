@@ -3,14 +3,11 @@
 // (position_projection.cpp) for what the contacts of their island took, then for what all others did.
 #pragma once
 
-#include <array>
-#include <map>
 #include <vector>
 
-namespace ashlar {
+#include "solver/contact/pair_history.hpp"
 
-/// By pair of blocks, J, >= 0.
-using ContactAccounts = std::map<std::array<int, 2>, double>;
+namespace ashlar {
 
 /// Books work that the contact of a pair has taken from its blocks. @param work J; negative: given
 /// @return what it has given beyond what was in its account, J, >= 0: the account is empty then
@@ -21,7 +18,7 @@ using ContactAccounts = std::map<std::array<int, 2>, double>;
 class IslandFunds {
  public:
   /// @param islands pairs of each, none in two
-  IslandFunds(const ContactAccounts& accounts, std::vector<std::vector<std::array<int, 2>>> islands);
+  IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands);
   /// J, >= 0.
   [[nodiscard]] double available(std::size_t island) const;
   /// @param energy J, at most what is available; negative: comes to what the island has of its own
@@ -29,13 +26,13 @@ class IslandFunds {
   /// Takes from the accounts what was used: of an island's pairs, and of those of no island, in proportion to
   /// what they have. What an island gained goes to its pairs in the same way, or to each as much if they have
   /// nothing.
-  void spend_from(ContactAccounts& accounts) const;
+  void spend_from(PairHistories& histories) const;
 
  private:
-  std::vector<std::vector<std::array<int, 2>>> islands_;
-  std::vector<std::array<int, 2>> others_;  ///< pairs that belong to no island
-  std::vector<double> own_;                 ///< left of each island's own, J
-  double common_ = 0.0;                     ///< left of what belongs to no island, J
+  std::vector<std::vector<PairKey>> islands_;
+  std::vector<PairKey> others_;  ///< pairs that belong to no island
+  std::vector<double> own_;      ///< left of each island's own, J
+  double common_ = 0.0;          ///< left of what belongs to no island, J
 };
 
 }  // namespace ashlar

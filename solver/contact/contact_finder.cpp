@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
@@ -99,9 +100,11 @@ void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairConta
 
 }  // namespace
 
-ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings)
+ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
+                             std::set<PairKey> left_out)
     : settings_(settings),
       axes_(axes_of(blocks)),
+      left_out_(std::move(left_out)),
       placed_(blocks.size()),
       boxes_(blocks.size()),
       box_paths_(blocks.size(), 0.0),
@@ -182,17 +185,17 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
   }
 }
 
-bool ContactFinder::known_apart(const PairKey& pair, double reach) const {
-  const auto known = clearances_.find(pair);
-  if (known == clearances_.end()) return false;
-  const double gone = paths_[at(pair[0])] + paths_[at(pair[1])] - known->second.path;
-  return known->second.distance - gone > reach;
+bool ContactFinder::known_apart(const PairKey& pair, double reach, const PairHistories& histories) const {
+  const std::optional<Clearance>& known = history_of(histories, pair).clearance;
+  if (!known) return false;
+  const double gone = paths_[at(pair[0])] + paths_[at(pair[1])] - known->path;
+  return known->distance - gone > reach;
 }
 
-void ContactFinder::note_clearance(const PairKey& pair) {
+Clearance ContactFinder::clearance_of(const PairKey& pair) const {
   const double bound = distance_bound(placed(pair[0]), placed(pair[1]));
   // Rounding of sums of paths is far below a part in a million of the distance.
-  clearances_[pair] = {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
+  return {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
 }
 
 void ContactFinder::hide_fixed_sides() {
@@ -255,8 +258,7 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
   for (const std::size_t k : again) hidden_.insert(searched[k].blocks);
 }
 
-void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
-                                        const std::function<double(int, int)>& deepest) {
+void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, PairHistories& histories) {
   std::map<PairKey, EntranceName> entrances;
   std::vector<std::size_t> open;
   std::vector<std::optional<ConvexSurface>> hulls(surfaces_.size());
@@ -278,22 +280,21 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched,
   parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
     auto& [blocks, contacts] = searched[open[k]];
     ContactHistory history;
-    if (const auto known = entrances_.find(blocks); known != entrances_.end())
-      history.entrance = known->second;
+    const PairHistory& known = history_of(histories, blocks);
+    history.entrance = known.entrance;
     // What the last step has not left so deep was not met through that facet.
-    history.depth =
-        settings_.passing_share * settings_.contact_distance + 2.0 * deepest(blocks[0], blocks[1]);
+    history.depth = settings_.passing_share * settings_.contact_distance + 2.0 * known.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
     settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });
   for (std::size_t k = 0; k < open.size(); ++k)
     if (settled[k]) entrances.emplace(searched[open[k]].blocks, *settled[k]);
-  entrances_ = std::move(entrances);
+  for (auto& [blocks, pair] : histories) pair.entrance.reset();
+  for (const auto& [blocks, name] : entrances) histories[blocks].entrance = name;
 }
 
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,
-                                               const ExpectedMotion& motion,
-                                               const std::function<double(int, int)>& deepest) {
+                                               const ExpectedMotion& motion, PairHistories& histories) {
   place(states, motion);
   const std::size_t all = surfaces_.size() * (surfaces_.size() - 1) / 2;
   counts_.block_pairs_skipped += all - candidates_.size();
@@ -301,7 +302,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   std::vector<ContactLimits> limits;
   for (const PairKey& pair : candidates_) {
     const double both = motion_[at(pair[0])] + motion_[at(pair[1])];
-    if (known_apart(pair, settings_.contact_distance + both)) {
+    if (known_apart(pair, settings_.contact_distance + both, histories)) {
       ++counts_.block_pairs_far;
       continue;
     }
@@ -309,7 +310,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
     limits.push_back(
         {settings_.contact_distance + both,
          std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
-             2.0 * deepest(pair[0], pair[1]),
+             2.0 * history_of(histories, pair).depth_to_search(),
          settings_.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});
   }
   counts_.block_pairs_tested += searched.size();
@@ -319,15 +320,16 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
     leave_out_slivers(placed(a), placed(b), searched[k].contacts);
   });
   search_hidden(searched, limits);
-  settle_convex_pairs(searched, deepest);
+  settle_convex_pairs(searched, histories);
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
     counts_.predicates.filter += pair.contacts.counts.filter;
     counts_.predicates.exact += pair.contacts.counts.exact;
+    std::optional<Clearance>& clearance = histories[pair.blocks].clearance;
     if (pair.contacts.empty()) {
-      note_clearance(pair.blocks);
+      clearance = clearance_of(pair.blocks);
     } else {
-      clearances_.erase(pair.blocks);
+      clearance.reset();
       found.push_back(std::move(pair));
     }
   }
@@ -336,7 +338,8 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
 
 std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockState>& before,
                                                        const std::vector<BlockState>& after,
-                                                       const std::vector<FoundContacts>& found) {
+                                                       const std::vector<FoundContacts>& found,
+                                                       const PairHistories& histories) {
   const double tolerance = settings_.passing_share * settings_.contact_distance;
   std::vector<Box> swept;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
@@ -349,7 +352,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
   };
   std::vector<PairKey> pairs = meeting_boxes(swept);
   std::erase_if(pairs, [&](const PairKey& pair) {
-    return left_out_.count(pair) > 0 || both(pair) <= tolerance || known_apart(pair, both(pair));
+    return left_out_.count(pair) > 0 || both(pair) <= tolerance || known_apart(pair, both(pair), histories);
   });
   // What is left is looked at with the true surfaces and their true motion.
   std::vector<std::vector<Vector3>> ends(surfaces_.size());
@@ -368,7 +371,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
   std::erase_if(pairs, [&](const PairKey& pair) {
     const Box of_a = boxes_[at(pair[0])].grown(checked_motion_[at(pair[0])]);
     const Box of_b = boxes_[at(pair[1])].grown(checked_motion_[at(pair[1])]);
-    return both(pair) <= tolerance || known_apart(pair, both(pair)) || !of_a.meets(of_b);
+    return both(pair) <= tolerance || known_apart(pair, both(pair), histories) || !of_a.meets(of_b);
   });
   counts_.motions_checked += pairs.size();
   std::vector<std::vector<Touch>> touches(pairs.size());
@@ -402,16 +405,17 @@ void ContactFinder::accept_motion() {
   for (std::size_t k = 0; k < paths_.size(); ++k) paths_[k] += checked_motion_[k];
 }
 
-void ContactFinder::renew(int block, const BlockModel& model) {
+void ContactFinder::renew(int block, const BlockModel& model, PairHistories& histories) {
   surfaces_[at(block)] = BlockSurface(model, settings_.subdivisions, axes_);
   placed_[at(block)].reset();
   boxes_[at(block)] = Box{};
-  std::erase_if(clearances_,
-                [&](const auto& known) { return known.first[0] == block || known.first[1] == block; });
+  for (auto& [blocks, pair] : histories) {
+    if (blocks[0] == block || blocks[1] == block) pair.clearance.reset();
+  }
 }
 
 FinderState ContactFinder::state() const {
-  FinderState state{paths_, boxes_, box_paths_, clearances_, entrances_, {}, counts_};
+  FinderState state{paths_, boxes_, box_paths_, {}, counts_};
   for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.wanted());
   return state;
 }
@@ -420,8 +424,6 @@ void ContactFinder::restore(const FinderState& state) {
   paths_ = state.paths;
   boxes_ = state.boxes;
   box_paths_ = state.box_paths;
-  clearances_ = state.clearances;
-  entrances_ = state.entrances;
   for (std::size_t k = 0; k < surfaces_.size() && k < state.divisions.size(); ++k)
     surfaces_[k].set_wanted(state.divisions[k]);
   counts_ = state.counts;

@@ -16,26 +16,21 @@
 #include "geometry/contacts/motion_check.hpp"
 #include "mechanics/block/block_surface.hpp"
 #include "solver/contact/hidden_sides.hpp"
+#include "solver/contact/pair_history.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
 
 /// The contacts of a pair of blocks (a < b) at the start of a step.
 struct FoundContacts {
-  std::array<int, 2> blocks;
+  PairKey blocks;
   PairContacts contacts;
 };
 
 /// Blocks that would pass through each other in a step.
 struct PassingBlocks {
-  std::array<int, 2> blocks;
+  PairKey blocks;
   Touch touch;
-};
-
-/// A pair of blocks that was found apart.
-struct Clearance {
-  double distance;  ///< m, at least, when it was found
-  double path;      ///< m, what both had gone until then
 };
 
 /// What was done and skipped.
@@ -56,8 +51,6 @@ struct FinderState {
   std::vector<double> paths;
   std::vector<Box> boxes;
   std::vector<double> box_paths;
-  std::map<std::array<int, 2>, Clearance> clearances;
-  std::map<std::array<int, 2>, EntranceName> entrances;
   std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
   FinderCounts counts;
 };
@@ -68,19 +61,18 @@ struct ExpectedMotion {
   std::function<double(int)> closer;  ///< of a block that may be near another, at most `loose`
 };
 
-/// Keeps surfaces and clearances from step to step.
+/// Keeps surfaces from step to step. What it finds out about pairs is noted in their histories.
 class ContactFinder {
  public:
   /// @param blocks must outlive this and stay where they are
-  ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings);
+  /// @param left_out pairs of blocks between which no contacts are looked for
+  ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
+                std::set<PairKey> left_out = {});
 
   /// All contacts within reach at the start of a step.
-  /// @param deepest largest penetration of a pair in the step before, m
+  /// @param histories of pairs: how deep they were, clearances and entrances are read and noted
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
-                                                const ExpectedMotion& motion,
-                                                const std::function<double(int, int)>& deepest);
-  /// Looks for no contacts between two blocks from now on. @param a,b a < b
-  void leave_out(int a, int b) { left_out_.insert({a, b}); }
+                                                const ExpectedMotion& motion, PairHistories& histories);
   [[nodiscard]] bool leaves_out(int a, int b) const { return left_out_.count({a, b}) > 0; }
   /// The surface of a block of a found pair.
   [[nodiscard]] const PlacedSurface& placed(int block) const {
@@ -91,11 +83,13 @@ class ContactFinder {
   /// a found contact stands for left out; the earliest first.
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const std::vector<BlockState>& before,
                                                         const std::vector<BlockState>& after,
-                                                        const std::vector<FoundContacts>& found);
+                                                        const std::vector<FoundContacts>& found,
+                                                        const PairHistories& histories);
   /// Takes note that the motion checked last was accepted.
   void accept_motion();
   /// Starts anew with a block whose model is another one now. @param model at the place of the old one
-  void renew(int block, const BlockModel& model);
+  /// @param histories forget the block's clearances
+  void renew(int block, const BlockModel& model, PairHistories& histories);
   /// Takes over the coordinates of a new step of an incremental block.
   void start_step(int block) { surfaces_[static_cast<std::size_t>(block)].start_step(); }
 
@@ -109,22 +103,19 @@ class ContactFinder {
   void restore(const FinderState& state);
 
  private:
-  using PairKey = std::array<int, 2>;
-
   /// Contains a block at the start of the step, from where it was seen last and what it has gone since.
   [[nodiscard]] Box loose_box(int block) const;
   void look_at(int block, const BlockState& state);
   void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
-  [[nodiscard]] bool known_apart(const PairKey& pair, double reach) const;
-  void note_clearance(const PairKey& pair);
+  [[nodiscard]] bool known_apart(const PairKey& pair, double reach, const PairHistories& histories) const;
+  [[nodiscard]] Clearance clearance_of(const PairKey& pair) const;
   /// Searches pairs again in which a vertex is in a block below a hidden part of its face.
   /// @param limits of the pairs
   void search_hidden(std::vector<FoundContacts>& searched, const std::vector<ContactLimits>& limits);
   /// Notes the faces of fixed blocks that lie on each other.
   void hide_fixed_sides();
   /// Completes the contacts of pairs of convex solids, with history.
-  void settle_convex_pairs(std::vector<FoundContacts>& searched,
-                           const std::function<double(int, int)>& deepest);
+  void settle_convex_pairs(std::vector<FoundContacts>& searched, PairHistories& histories);
 
   SimulationSettings settings_;
   Eigen::Matrix3d axes_;      ///< of the boxes below
@@ -141,10 +132,8 @@ class ContactFinder {
   std::vector<double> motion_;          ///< expected in the step; 0 of blocks that are not near others
   std::vector<double> paths_;           ///< what the fastest point of each block has gone so far at most, m
   std::vector<double> checked_motion_;  ///< of the motion checked last
-  std::map<PairKey, Clearance> clearances_;
-  std::map<PairKey, EntranceName> entrances_;  ///< history of convex pairs that are near each other
-  std::optional<HiddenSides> fixed_sides_;     ///< of fixed blocks, found when first asked for
-  HiddenSides hidden_sides_;                   ///< at the last search; empty if no vertex was in a block
+  std::optional<HiddenSides> fixed_sides_;  ///< of fixed blocks, found when first asked for
+  HiddenSides hidden_sides_;                ///< at the last search; empty if no vertex was in a block
   std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };

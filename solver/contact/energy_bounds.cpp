@@ -1,20 +1,20 @@
 #include "solver/contact/energy_bounds.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace ashlar {
 
-std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs,
-                                        const std::map<std::array<int, 2>, ContactMemory>& memory,
+std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs, const PairHistories& histories,
                                         const std::vector<bool>& moving) {
-  using PairKey = std::array<int, 2>;
   std::map<PairKey, double> lost;  // by normal springs
-  for (const auto& [blocks, pair] : memory) lost[blocks] = pair.held().normal;
+  for (const auto& [blocks, pair] : histories) {
+    if (pair.memory.held().normal > 0.0) lost[blocks] = pair.memory.held().normal;
+  }
   std::vector<SpringEnergy> bounds;
   for (const ContactPair& pair : pairs) {
     const PairKey blocks{pair.a(), pair.b()};
-    const auto known = memory.find(blocks);
-    bounds.push_back(known == memory.end() ? SpringEnergy{} : known->second.held());
+    bounds.push_back(history_of(histories, blocks).memory.held());
     // What bonds and multipliers hold is not given away: nothing bounds them either.
     double& rest = lost[blocks];
     rest = pair.can_be_bounded() ? std::max(0.0, rest - pair.start_energies().normal) : 0.0;

@@ -3,19 +3,19 @@
 // hold: a block that slides from one block to the next takes the energy of its springs along.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "solver/contact/contact_pair.hpp"
+#include "solver/contact/pair_history.hpp"
 
 namespace ashlar {
 
-/// @param pairs as found anew, at rest on the surface. @param memory of the pairs of blocks at the end of the
-/// last step. @param moving blocks that springs' energy can go along with
+/// @param pairs as found anew, at rest on the surface. @param histories of the pairs of blocks at the end
+/// of the last step. @param moving blocks that springs' energy can go along with
 /// @return bounds for ContactPair::hold_at_most, one for each pair: with them, all normal springs together
 /// hold no more than at the end of the last step
-[[nodiscard]] std::vector<SpringEnergy> energy_bounds(
-    const std::vector<ContactPair>& pairs, const std::map<std::array<int, 2>, ContactMemory>& memory,
-    const std::vector<bool>& moving);
+[[nodiscard]] std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs,
+                                                      const PairHistories& histories,
+                                                      const std::vector<bool>& moving);
 
 }  // namespace ashlar

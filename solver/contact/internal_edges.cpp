@@ -96,11 +96,11 @@ bool any_of(const PairContacts& contacts, const Condition& holds) {
 
 }  // namespace
 
-WaysOut::WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory) {
-  for (const auto& [blocks, pair] : memory) {
-    if (!(pair.deepest() > 0.0)) continue;
-    for (const ContactMemory::Entry& entry : pair.entries())
-      if (entry.memory.state != ContactState::open) add(blocks, entry.normal, pair.deepest());
+WaysOut::WaysOut(const PairHistories& histories) {
+  for (const auto& [blocks, pair] : histories) {
+    if (!(pair.memory.deepest() > 0.0)) continue;
+    for (const ContactMemory::Entry& entry : pair.memory.entries())
+      if (entry.memory.state != ContactState::open) add(blocks, entry.normal, pair.memory.deepest());
   }
 }
 

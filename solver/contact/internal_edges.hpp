@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "geometry/contacts/motion_check.hpp"
-#include "mechanics/contact/contact_memory.hpp"
 #include "solver/contact/contact_finder.hpp"
 
 namespace ashlar {
@@ -38,8 +37,7 @@ using GivenWay = std::function<double(int block, const Vector3& direction)>;
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
-  /// @param memory of pairs of blocks (a, b)
-  explicit WaysOut(const std::map<std::array<int, 2>, ContactMemory>& memory);
+  explicit WaysOut(const PairHistories& histories);
   /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
   /// negative: the gap between them
   void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);

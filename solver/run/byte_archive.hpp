@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -65,6 +66,11 @@ class ByteWriter {
     for (const auto& [key, value] : values) (*this)(key, value);
   }
   template <class T>
+  void write(const std::optional<T>& value) {
+    write(value.has_value());
+    if (value) write(*value);
+  }
+  template <class T>
   requires std::is_class_v<T>
   void write(const T& value) {
     // One list of members serves both directions; this direction only reads them.
@@ -93,6 +99,12 @@ class ByteReader {
   template <PlainNumber T>
   void read(T& value) {
     take(&value, sizeof(T));
+  }
+  void read(bool& value) {
+    std::uint8_t byte = 0;
+    read(byte);
+    if (byte > 1) fail();
+    value = byte == 1;
   }
   void read(std::string& text) {
     text.resize(read_size(1));
@@ -125,6 +137,13 @@ class ByteReader {
       read(key);
       read(values[key]);
     }
+  }
+  template <class T>
+  void read(std::optional<T>& value) {
+    bool has_value = false;
+    read(has_value);
+    value.reset();
+    if (has_value) read(value.emplace());
   }
   template <class T>
   requires std::is_class_v<T>

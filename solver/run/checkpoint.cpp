@@ -1,8 +1,11 @@
 #include "solver/run/checkpoint.hpp"
 
 #include <stdexcept>
+#include <utility>
 
+#include "geometry/index.hpp"
 #include "solver/run/byte_archive.hpp"
+#include "solver/step/block_changes.hpp"
 
 namespace ashlar {
 
@@ -44,8 +47,14 @@ static void visit_members(Archive& archive, SpringEnergy& held) {
 }
 
 template <class Archive>
-static void visit_members(Archive& archive, RememberedPair& pair) {
-  archive(pair.blocks, pair.entries, pair.cuts, pair.deepest, pair.bulge, pair.held);
+static void visit_members(Archive& archive, ContactMemory& memory) {
+  std::vector<ContactMemory::Entry> entries = memory.entries();
+  std::vector<PressureCut> cuts = memory.cuts();
+  double deepest = memory.deepest();
+  double bulge = memory.bulge();
+  SpringEnergy held = memory.held();
+  archive(entries, cuts, deepest, bulge, held);
+  memory = ContactMemory(std::move(entries), std::move(cuts), deepest, held, bulge);
 }
 
 template <class Archive>
@@ -127,8 +136,7 @@ static void visit_members(Archive& archive, EntranceName& name) {
 
 template <class Archive>
 static void visit_members(Archive& archive, FinderState& state) {
-  archive(state.paths, state.boxes, state.box_paths, state.clearances, state.entrances, state.divisions,
-          state.counts);
+  archive(state.paths, state.boxes, state.box_paths, state.divisions, state.counts);
 }
 
 template <class Archive>
@@ -149,13 +157,29 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, PairHistory& pair) {
+  archive(pair.memory, pair.clearance, pair.entrance, pair.work, pair.taken, pair.depth);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ContactExtremes& extremes) {
+  archive(extremes.penetration, extremes.deepest, extremes.sliding_friction);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, RunLog& log) {
+  archive(log.rejections, log.counts, log.seconds);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, RunState& run) {
+  archive(run.clock, run.next_step, run.steps, run.remembers_statics, run.states, run.accelerations,
+          run.spin_debts, run.pairs, run.statics, run.ledger, run.report, run.records, run.extremes, run.log);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.clock, snapshot.next_step, snapshot.steps, snapshot.remembers_statics, snapshot.states,
-          snapshot.carried, snapshot.accelerations, snapshot.spin_debts, snapshot.memory,
-          snapshot.contact_work, snapshot.taken, snapshot.finder, snapshot.report, snapshot.records,
-          snapshot.ledger, snapshot.statics, snapshot.start_balance, snapshot.largest_step_residual,
-          snapshot.largest_energy, snapshot.largest_penetration, snapshot.deepest, snapshot.sliding_friction,
-          snapshot.true_depths, snapshot.rejections, snapshot.counts, snapshot.seconds);
+  archive(snapshot.run, snapshot.carried, snapshot.finder);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {
@@ -172,94 +196,54 @@ SimulationSnapshot snapshot_from_bytes(std::string_view bytes) {
   return snapshot;
 }
 
-SimulationSnapshot Simulation::snapshot() const {
-  SimulationSnapshot result;
-  result.clock = clock_;
-  result.next_step = next_step_;
-  result.steps = steps_;
-  result.remembers_statics = remembers_statics_;
-  result.states = states_;
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (blocks_[k].incremental() != nullptr)
-      result.carried.emplace(static_cast<int>(k), blocks_[k].carried());
+SimulationCounts counts_of(const RunContext& run) {
+  SimulationCounts counts = run.state.log.counts;
+  counts.finder = run.contacts.finder().counts();
+  counts.factors += run.factors.counts();
+  return counts;
+}
+
+SimulationSnapshot snapshot_of(const RunContext& run) {
+  SimulationSnapshot result{run.state, {}, run.contacts.finder().state()};
+  result.run.log.counts = counts_of(run);
+  for (int k = 0; k < run.system.count(); ++k) {
+    const BlockModel& block = run.blocks()[at(k)];
+    if (block.incremental() != nullptr) result.carried.emplace(k, block.carried());
   }
-  result.accelerations = accelerations_;
-  result.spin_debts = spin_debts_;
-  for (const auto& [blocks, memory] : memory_) {
-    result.memory.push_back(
-        {blocks, memory.entries(), memory.cuts(), memory.deepest(), memory.bulge(), memory.held()});
-  }
-  result.contact_work = contact_work_;
-  result.taken = taken_;
-  result.finder = finder_.state();
-  result.report = report_;
-  result.records = records_;
-  result.ledger = ledger_;
-  result.statics = static_;
-  result.start_balance = start_balance_;
-  result.largest_step_residual = largest_step_residual_;
-  result.largest_energy = largest_energy_;
-  result.largest_penetration = largest_penetration_;
-  result.deepest = deepest_;
-  result.sliding_friction = sliding_friction_;
-  result.true_depths = true_depths_;
-  result.rejections = rejections_;
-  result.counts = counts();
-  result.seconds = seconds_;
   return result;
 }
 
-void Simulation::restore(const SimulationSnapshot& snapshot) {
-  bool fits = snapshot.states.size() == blocks_.size();
-  std::map<std::size_t, int> orders;  // that were changed in the run
-  for (std::size_t k = 0; fits && k < blocks_.size(); ++k) {
-    const Eigen::Index rows = snapshot.states[k].position.rows();
-    const bool incremental = blocks_[k].incremental() != nullptr;
-    fits = snapshot.states[k].velocity.rows() == rows &&
-           snapshot.carried.contains(static_cast<int>(k)) == incremental;
-    if (rows == states_[k].position.rows()) continue;
+/// Orders of blocks that were changed in the run.
+/// @throws std::invalid_argument if the snapshot was taken of other blocks
+static std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapshot& snapshot) {
+  const std::vector<BlockState>& states = snapshot.run.states;
+  bool fits = states.size() == run.blocks().size();
+  std::map<int, int> orders;
+  for (int k = 0; fits && k < run.system.count(); ++k) {
+    const Eigen::Index rows = states[at(k)].position.rows();
+    const bool incremental = run.blocks()[at(k)].incremental() != nullptr;
+    fits = states[at(k)].velocity.rows() == rows && snapshot.carried.contains(k) == incremental;
+    if (rows == run.state.states[at(k)].position.rows()) continue;
     int order = 1;
     while (order < PolynomialBasis::max_order && polynomial_count(order) < rows) ++order;
-    fits = fits && polynomial_count(order) == rows && moving_[k] && !incremental;
+    fits = fits && polynomial_count(order) == rows && run.system.moving()[at(k)] && !incremental;
     orders.emplace(k, order);
   }
   if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
-  for (const auto& [k, order] : orders) replace_model(k, blocks_[k].with_order(order));
-  clock_ = snapshot.clock;
-  next_step_ = snapshot.next_step;
-  steps_ = snapshot.steps;
-  remembers_statics_ = snapshot.remembers_statics;
-  states_ = snapshot.states;
+  return orders;
+}
+
+void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
+  for (const auto& [k, order] : changed_orders(run, snapshot))
+    replace_model(run, k, run.blocks()[at(k)].with_order(order));
+  run.state = snapshot.run;
   for (const auto& [block, shape] : snapshot.carried) {
-    blocks_[static_cast<std::size_t>(block)] = blocks_[static_cast<std::size_t>(block)].with_shape(shape);
-    finder_.start_step(block);
+    run.system.carry_on(block, run.blocks()[at(block)].with_shape(shape));
+    run.contacts.finder().start_step(block);
   }
-  accelerations_ = snapshot.accelerations;
-  spin_debts_ = snapshot.spin_debts;
-  memory_.clear();
-  for (const RememberedPair& pair : snapshot.memory) {
-    memory_.emplace(pair.blocks, ContactMemory(pair.entries, pair.cuts, pair.deepest, pair.held, pair.bulge));
-  }
-  contact_work_ = snapshot.contact_work;
-  taken_ = snapshot.taken;
-  finder_.restore(snapshot.finder);
-  report_ = snapshot.report;
-  records_ = snapshot.records;
-  ledger_ = snapshot.ledger;
-  static_ = snapshot.statics;
-  start_balance_ = snapshot.start_balance;
-  largest_step_residual_ = snapshot.largest_step_residual;
-  largest_energy_ = snapshot.largest_energy;
-  largest_penetration_ = snapshot.largest_penetration;
-  deepest_ = snapshot.deepest;
-  sliding_friction_ = snapshot.sliding_friction;
-  true_depths_ = snapshot.true_depths;
-  rejections_ = snapshot.rejections;
-  solvers_ = IslandSolvers();
-  lone_factors_ = LoneBodyFactors();
-  note_elastic_energies();
-  counts_ = snapshot.counts;
-  seconds_ = snapshot.seconds;
+  run.contacts.finder().restore(snapshot.finder);
+  run.factors = FactorCache();
+  run.state.ledger.measure_elastic(run.system, run.state.states);
 }
 
 }  // namespace ashlar

@@ -5,52 +5,26 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "solver/run/simulation.hpp"
+#include "mechanics/block/incremental_block.hpp"
+#include "solver/run/run_context.hpp"
 
 namespace ashlar {
 
-/// What one pair of blocks remembers (ContactMemory).
-struct RememberedPair {
-  std::array<int, 2> blocks;
-  std::vector<ContactMemory::Entry> entries;
-  std::vector<PressureCut> cuts;
-  double deepest;  ///< m
-  double bulge;    ///< m
-  SpringEnergy held;
+/// Everything that a step depends on or reports. What follows from the scene and kept factorisations are left
+/// out: those are made anew with the same values.
+struct SimulationSnapshot {
+  RunState run;                         ///< counts are those of the whole run
+  std::map<int, CarriedShape> carried;  ///< of incremental blocks
+  FinderState finder;
 };
 
-/// Everything that a step depends on or reports; see the members of Simulation for meaning and units. What
-/// follows from the scene and kept factorisations are left out: those are made anew with the same values.
-struct SimulationSnapshot {
-  StepClock clock;
-  double next_step = 0.0;
-  int steps = 0;
-  bool remembers_statics = false;
-  std::vector<BlockState> states;
-  std::map<int, CarriedShape> carried;  ///< of incremental blocks
-  std::vector<Eigen::MatrixX3d> accelerations;
-  std::vector<double> spin_debts;
-  std::vector<RememberedPair> memory;
-  std::map<std::array<int, 2>, double> contact_work;
-  ContactAccounts taken;
-  FinderState finder;
-  StepReport report;
-  std::vector<PairRecord> records;
-  Ledger ledger;
-  StaticState statics;
-  double start_balance = 0.0;
-  double largest_step_residual = 0.0;
-  double largest_energy = 0.0;
-  double largest_penetration = 0.0;
-  DeepestPoint deepest;
-  FrictionTally sliding_friction;
-  std::map<std::array<int, 2>, double> true_depths;
-  std::vector<Rejection> rejections;
-  SimulationCounts counts;
-  PhaseSeconds seconds;
-};
+/// Work done and skipped by a run so far.
+[[nodiscard]] SimulationCounts counts_of(const RunContext& run);
+
+[[nodiscard]] SimulationSnapshot snapshot_of(const RunContext& run);
+/// @throws std::invalid_argument if the snapshot was taken of other blocks: nothing has changed then
+void restore(const RunContext& run, const SimulationSnapshot& snapshot);
 
 [[nodiscard]] std::string to_bytes(const SimulationSnapshot& snapshot);
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 namespace ashlar {
@@ -94,6 +96,13 @@ void StepClock::advance(double length) {
   if (length == 0.0) return;
   if (length != step) *this = {time(), length, 0};
   ++count;
+}
+
+double time_rounding(double time_step, double end_time) {
+  constexpr double least_share = 1e-9;
+  constexpr double ulps = 4.0;
+  return std::max(least_share * time_step,
+                  ulps * std::numeric_limits<double>::epsilon() * std::abs(end_time));
 }
 
 }  // namespace ashlar

@@ -25,4 +25,8 @@ struct StepClock {
   void advance(double length);
 };
 
+/// What is left up to a time is nothing but rounding if it is at most this, s: less than 1e-9 of a step, or the
+/// rounding of times near it. It is no step of its own.
+[[nodiscard]] double time_rounding(double time_step, double end_time);
+
 }  // namespace ashlar

@@ -1,17 +1,12 @@
-// How blocks set off that no equilibrium holds. Where contacts and blocks give way has a part in the motion
-// of an iteration of a static analysis: a tipping wall rests on the strip that its springs press in, not on
-// its edge. Where no stiffness of a joint was asked for, blocks are therefore let go from rest once more,
-// from where the iteration found them, all but rigid: contacts that it closed give way by far less than
-// blocks move, those that it opened never touch, and blocks are without strain and strain by far less than
-// they move, which is too little to change how they lie. Where rigid blocks would stay, it is by giving way
-// that they move, then and after.
+#include "solver/statics/rigid_onset.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "geometry/index.hpp"
 #include "solver/run/automatic.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/statics/static_verdict.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -62,83 +57,109 @@ double stiffening(const BodyStep& body) {
   return stress / (strain_share * way * body.model->material().young_modulus);
 }
 
+/// Whether the springs of all contacts of an island only stand for what does not give way.
+bool is_rigid(const Island& island, const std::vector<ContactPair>& pairs) {
+  return std::all_of(island.pairs.begin(), island.pairs.end(),
+                     [&](int index) { return pairs[at(index)].rigid(); });
+}
+
+/// What sets off: bodies without strain, and how they compare.
+struct Onset {
+  double smallest = std::numeric_limits<double>::infinity();  // block size, m
+  double stiffer = 0.0;                                       // most that a body has to be
+  double farthest = 0.0;                                      // mean motion since the start, m
+};
+
+Onset prepare(const RunContext& run, const Island& island, const StepProblem& problem,
+              std::vector<BlockState>& states, std::vector<BodyStep>& bodies) {
+  Onset onset;
+  for (const int k : island.bodies) {
+    onset.farthest = std::max(onset.farthest, travel(run, k));
+    onset.smallest = std::min(onset.smallest, block_size(run.blocks()[at(k)]));
+    onset.stiffer = std::max(onset.stiffer, stiffening(problem.bodies[at(k)]));
+  }
+  for (const int k : island.bodies) {
+    states[at(k)].position = run.blocks()[at(k)].unstrained(run.state.states[at(k)].position);
+    BodyStep& body = bodies[at(k)];
+    body.state = &states[at(k)];
+    body.prescribed.resize(0, 3);
+    // The weight is that of external and of elastic forces.
+    body.external_force /= onset.stiffer;
+    body.roundoff_force *= onset.stiffer;
+  }
+  return onset;
+}
+
+/// Puts the accelerations of rigid blocks in the place of those that giving way has a part in.
+/// @param bodies as solved, in a step of this inertia. @return whether they set off at all
+bool take_over(const RunContext& run, const Island& island, const std::vector<BodyStep>& bodies,
+               double inertia, std::vector<Eigen::MatrixX3d>& accelerations) {
+  std::vector<Eigen::MatrixX3d> rigid_ones;
+  double along = 0.0;
+  double own = 0.0;
+  double given = 0.0;
+  double largest = 0.0;
+  for (const int k : island.bodies) {
+    const BlockModel& block = run.blocks()[at(k)];
+    const double weight = std::pow(block.material().density, 2);
+    rigid_ones.emplace_back(inertia * block.space().expand(bodies[at(k)].change));
+    along += weight * rigid_ones.back().cwiseProduct(accelerations[at(k)]).sum();
+    own += weight * rigid_ones.back().squaredNorm();
+    given += weight * accelerations[at(k)].squaredNorm();
+    largest = std::max(largest, mean_motion(block, rigid_ones.back()));
+  }
+  if (own < least_share * least_share * given) {
+    for (const int k : island.bodies) run.state.statics.gives_way[at(k)] = 1;
+    return false;
+  }
+  // What they have pressed in and left open, rigid blocks would leave again.
+  if (along <= 0.0) return false;
+  for (std::size_t n = 0; n < island.bodies.size(); ++n) {
+    const int k = island.bodies[n];
+    if (mean_motion(run.blocks()[at(k)], rigid_ones[n]) < least_share * largest) rigid_ones[n].setZero();
+    accelerations[at(k)] = std::move(rigid_ones[n]);
+  }
+  return true;
+}
+
 }  // namespace
 
-bool Simulation::set_off(const TimeScheme& scheme, const Trial& trial,
-                         std::vector<Eigen::MatrixX3d>& accelerations) {
-  const Stopwatch watch(seconds_.solve);
-  SimulationSettings settings = settings_;
+bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
+             std::vector<Eigen::MatrixX3d>& accelerations) {
+  const Stopwatch watch(run.state.log.seconds.solve);
+  SimulationSettings settings = run.settings();
   settings.augmented = true;
-  settings.static_residual_tolerance = settings_.apart_residual;
-  std::vector<ContactPair> pairs = trial.pairs;
-  std::vector<BodyStep> bodies = trial.bodies;
-  std::vector<BlockState> states = states_;
+  settings.static_residual_tolerance = run.settings().apart_residual;
+  std::vector<ContactPair> pairs = problem.pairs;
+  std::vector<BodyStep> bodies = problem.bodies;
+  std::vector<BlockState> states = run.state.states;
   bool all = true;
-  for (std::size_t i = 0; i < trial.islands.size(); ++i) {
-    const Island& island = trial.islands[i];
-    const IslandResult& result = trial.results[i];
-    const double motion = largest_motion(island, trial.bodies);
-    const bool rigid = std::all_of(island.pairs.begin(), island.pairs.end(),
-                                   [&](int index) { return pairs[at(index)].rigid(); });
-    const bool gives_way = std::any_of(island.bodies.begin(), island.bodies.end(),
-                                       [&](int block) { return static_.gives_way[at(block)] != 0; });
+  for (std::size_t i = 0; i < problem.islands.size(); ++i) {
+    const Island& island = problem.islands[i];
+    const IslandResult& result = problem.results[i];
+    const double motion = largest_motion(island, problem.bodies);
     if (island.pairs.empty() || motion == 0.0) continue;
-    all = all && rigid && !gives_way;
-    if (!rigid || gives_way) continue;
-    double smallest = std::numeric_limits<double>::infinity();
-    double stiffer = 0.0;
-    double farthest = 0.0;
-    for (const int k : island.bodies) {
-      farthest = std::max(farthest, travel(at(k)));
-      smallest = std::min(smallest, block_size(blocks_[at(k)]));
-      stiffer = std::max(stiffer, stiffening(trial.bodies[at(k)]));
+    const bool gives_way = std::any_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
+      return run.state.statics.gives_way[at(block)] != 0;
+    });
+    if (!is_rigid(island, pairs) || gives_way) {
+      all = false;
+      continue;
     }
-    for (const int k : island.bodies) {
-      states[at(k)].position = blocks_[at(k)].unstrained(states_[at(k)].position);
-      BodyStep& body = bodies[at(k)];
-      body.state = &states[at(k)];
-      body.prescribed.resize(0, 3);
-      // The weight is that of external and of elastic forces.
-      body.external_force /= stiffer;
-      body.roundoff_force *= stiffer;
-    }
+    const Onset onset = prepare(run, island, problem, states, bodies);
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
       ContactPair& pair = pairs[at(island.pairs[n])];
-      pair = pair.setting_off(result.responses[n], result.laws[n], opened_by * farthest);
+      pair = pair.setting_off(result.responses[n], result.laws[n], opened_by * onset.farthest);
     }
     TimeScheme let_go = scheme;
     let_go.inertia = scheme.inertia * motion / way;
-    let_go.force_weight = stiffer;
-    settings.penetration_tolerance = depth_share * way * smallest;
-    const IslandResult off = solve_island(island, bodies, pairs, let_go, settings, solvers_);
-    counts_.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
-    all = all && off.status == IslandStatus::settled;
-    if (off.status != IslandStatus::settled) continue;
-    std::vector<Eigen::MatrixX3d> rigid_ones;
-    double along = 0.0;
-    double own = 0.0;
-    double given = 0.0;
-    double largest = 0.0;
-    for (const int k : island.bodies) {
-      const BlockModel& block = blocks_[at(k)];
-      const double weight = std::pow(block.material().density, 2);
-      rigid_ones.emplace_back(let_go.inertia * block.space().expand(bodies[at(k)].change));
-      along += weight * rigid_ones.back().cwiseProduct(accelerations[at(k)]).sum();
-      own += weight * rigid_ones.back().squaredNorm();
-      given += weight * accelerations[at(k)].squaredNorm();
-      largest = std::max(largest, mean_motion(block, rigid_ones.back()));
-    }
-    const bool stay = own < least_share * least_share * given;
-    if (stay)
-      for (const int k : island.bodies) static_.gives_way[at(k)] = 1;
-    // What they have pressed in and left open, rigid blocks would leave again.
-    all = all && !stay && along > 0.0;
-    if (stay || along <= 0.0) continue;
-    for (std::size_t n = 0; n < island.bodies.size(); ++n) {
-      const int k = island.bodies[n];
-      if (mean_motion(blocks_[at(k)], rigid_ones[n]) < least_share * largest) rigid_ones[n].setZero();
-      accelerations[at(k)] = std::move(rigid_ones[n]);
-    }
+    let_go.force_weight = onset.stiffer;
+    settings.penetration_tolerance = depth_share * way * onset.smallest;
+    const IslandResult off = solve_island(island, bodies, pairs, let_go, settings, run.factors.islands);
+    run.state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
+    const bool rigid =
+        off.status == IslandStatus::settled && take_over(run, island, bodies, let_go.inertia, accelerations);
+    all = all && rigid;
   }
   return all;
 }

@@ -1,25 +1,21 @@
-// Blocks whose model changes between steps.
+#include "solver/step/block_changes.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/index.hpp"
 #include "mechanics/block/order_change.hpp"
-#include "solver/run/simulation.hpp"
 
 namespace ashlar {
 
-bool Simulation::any_incremental() const {
-  return std::any_of(blocks_.begin(), blocks_.end(),
-                     [](const BlockModel& block) { return block.incremental() != nullptr; });
-}
-
-bool Simulation::carry_blocks(Trial& trial) const {
-  trial.carried.clear();
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (blocks_[k].incremental() == nullptr) continue;
-    const Eigen::MatrixX3d change = trial.bodies[k].motion();
+bool carry_blocks(const RunContext& run, StepProblem& problem) {
+  problem.carried.clear();
+  for (std::size_t k = 0; k < run.blocks().size(); ++k) {
+    if (run.blocks()[k].incremental() == nullptr) continue;
+    const Eigen::MatrixX3d change = problem.bodies[k].motion();
     try {
-      trial.carried.emplace(k, blocks_[k].carried_on(states_[k].position + change));
+      problem.carried.emplace(k, run.blocks()[k].carried_on(run.state.states[k].position + change));
     } catch (const std::invalid_argument&) {
       return false;
     } catch (const std::domain_error&) {
@@ -29,53 +25,54 @@ bool Simulation::carry_blocks(Trial& trial) const {
   return true;
 }
 
-void Simulation::start_carried_step(std::size_t k, CarriedBlock next) {
-  const Eigen::MatrixX3d change = states_[k].position - blocks_[k].basis().identity_map();
-  const int block = static_cast<int>(k);
-  for (auto& [blocks, memory] : memory_) {
+void start_carried_step(const RunContext& run, int block, CarriedBlock next) {
+  BlockState& state = run.state.states[at(block)];
+  const PolynomialBasis& basis = run.blocks()[at(block)].basis();
+  const Eigen::MatrixX3d change = state.position - basis.identity_map();
+  for (auto& [blocks, pair] : run.state.pairs) {
     if (blocks[0] != block && blocks[1] != block) continue;
-    memory.carry(blocks[0] == block, [&](const Vector3& point) {
-      return Vector3(point + change.transpose() * blocks_[k].basis().values(point));
+    pair.memory.carry(blocks[0] == block, [&](const Vector3& point) {
+      return Vector3(point + change.transpose() * basis.values(point));
     });
   }
-  states_[k].velocity = next.taken_over(states_[k].velocity);
-  if (!accelerations_.empty()) accelerations_[k] = next.taken_over(accelerations_[k]);
-  blocks_[k] = std::move(next.model);
-  states_[k].position = blocks_[k].basis().identity_map();
-  finder_.start_step(block);
-  audit_.forget(k);
-  note_elastic_energy(k);
+  state.velocity = next.taken_over(state.velocity);
+  if (!run.state.accelerations.empty())
+    run.state.accelerations[at(block)] = next.taken_over(run.state.accelerations[at(block)]);
+  run.system.carry_on(block, std::move(next.model));
+  state.position = run.blocks()[at(block)].basis().identity_map();
+  run.contacts.finder().start_step(block);
+  run.audit.forget(at(block));
+  run.state.ledger.measure_elastic(run.system, run.state.states, block);
 }
 
-void Simulation::replace_model(std::size_t k, BlockModel model) {
-  blocks_[k] = std::move(model);
-  finder_.renew(static_cast<int>(k), blocks_[k]);
-  audit_.forget(k);
-  note_gradients(k);
-  roundoff_force_[k] = blocks_[k].force_rounding();
+void replace_model(const RunContext& run, int block, BlockModel model) {
+  run.system.replace(block, std::move(model));
+  run.contacts.finder().renew(block, run.blocks()[at(block)], run.state.pairs);
+  run.audit.forget(at(block));
   // Systems are as large as their blocks' unknowns.
-  counts_.factors += solvers_.counts();
-  solvers_ = IslandSolvers();
+  run.state.log.counts.factors += run.factors.islands.counts();
+  run.factors.islands = IslandSolvers();
 }
 
-DroppedByOrder Simulation::change_order(int block, int order) {
-  const auto k = static_cast<std::size_t>(block);
-  BlockModel next = blocks_.at(k).with_order(order);
-  const OrderChange changed = ashlar::change_order(blocks_[k], states_[k], next);
-  if (!accelerations_.empty()) {
-    const BlockState accelerated{states_[k].position, accelerations_[k]};
-    accelerations_[k] = ashlar::change_order(blocks_[k], accelerated, next).state.velocity;
+DroppedByOrder change_order(const RunContext& run, int block, int order) {
+  const std::size_t k = at(block);
+  BlockModel next = run.blocks().at(k).with_order(order);
+  const OrderChange changed = change_order(run.blocks()[k], run.state.states[k], next);
+  std::vector<Eigen::MatrixX3d>& accelerations = run.state.accelerations;
+  if (!accelerations.empty()) {
+    const BlockState accelerated{run.state.states[k].position, accelerations[k]};
+    accelerations[k] = change_order(run.blocks()[k], accelerated, next).state.velocity;
   }
-  const auto energy = [&] { return ledger_.kinetic + ledger_.elastic + ledger_.gravity; };
-  measure_energies(ledger_);
-  const double before = energy();
-  replace_model(k, std::move(next));
-  states_[k] = changed.state;
-  note_elastic_energy(k);
-  measure_energies(ledger_);
-  const double dropped = before - energy();
-  ledger_.numerical += dropped;
-  static_ = StaticState{};
+  LedgerKeeper& ledger = run.state.ledger;
+  ledger.measure(run.system, run.state.states);
+  const double before = ledger.mechanical();
+  replace_model(run, block, std::move(next));
+  run.state.states[k] = changed.state;
+  ledger.measure_elastic(run.system, run.state.states, block);
+  ledger.measure(run.system, run.state.states);
+  const double dropped = before - ledger.mechanical();
+  ledger.integrator_took(dropped);
+  run.state.statics = StaticState{};
   return {changed.dropped_displacement, changed.dropped_velocity, dropped};
 }
 

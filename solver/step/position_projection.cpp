@@ -1,18 +1,15 @@
-// Where contact is augmented, multipliers hold points at the depth where they are found. What a step does not
-// see, corners and faces that turn while it moves them straight, adds to that depth from step to step. Blocks
-// that are deeper in each other than the tolerance allows are therefore moved apart between two steps, by the
-// least motion that does it: they keep their velocities. To push them apart within a step would give them a
-// velocity of depth over step.
-//
-// The motion lifts weights and strains blocks a little. It takes no more energy for that than contacts have
-// taken from blocks before (contact_accounts.hpp), or take from their slip for it (slowed_slip.cpp). Free
-// blocks that move apart as they pass each other would have another angular momentum: the set of them gets it
-// back as a spin.
+#include "solver/step/position_projection.hpp"
+
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/contact/contact_accounts.hpp"
 #include "solver/step/angular_momentum.hpp"
+#include "solver/step/block_changes.hpp"
+#include "solver/step/slowed_slip.hpp"
+#include "solver/step/velocity_contact.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -20,134 +17,165 @@ namespace {
 
 constexpr double inertia_share = 0.01;  // of that of a step: blocks move rather than strain
 
-}  // namespace
+/// An island whose blocks are moved.
+struct MovedIsland {
+  const Island* island;
+  std::size_t place;                 // in the funds
+  double energy;                     // that its motion takes, J
+  Vector3 momentum;                  // angular, before
+  std::optional<SlowedSlip> slowed;  // pays for what the funds do not
+};
 
-double Simulation::energy_of_motion(const std::vector<int>& island,
-                                    const std::vector<BodyStep>& bodies) const {
+/// Energy that a motion without velocity takes from outside: of elasticity and gravity without the work of
+/// loads, J.
+double energy_of_motion(const RunContext& run, const Island& island, const std::vector<BodyStep>& bodies) {
   double energy = 0.0;
-  for (const int k : island) {
+  for (const int k : island.bodies) {
     const Eigen::MatrixX3d motion = bodies[at(k)].motion();
-    const BlockModel& block = blocks_[at(k)];
-    energy += block.elastic(states_[at(k)].position + motion).energy - elastic_energies_[at(k)] -
-              motion.cwiseProduct(block.external_force(settings_.gravity, time())).sum();
+    const BlockModel& block = run.blocks()[at(k)];
+    energy += block.elastic(run.state.states[at(k)].position + motion).energy -
+              run.state.ledger.elastic_energy(k) -
+              motion.cwiseProduct(block.external_force(run.settings().gravity, run.state.time())).sum();
   }
   return energy;
 }
 
-bool Simulation::is_free(const Island& island, const std::vector<ContactPair>& pairs) const {
-  const auto in_free_body = [&](int block) {
-    return std::any_of(free_bodies_.begin(), free_bodies_.end(), [&](const std::vector<int>& body) {
-      return std::find(body.begin(), body.end(), block) != body.end();
-    });
-  };
-  return std::all_of(island.bodies.begin(), island.bodies.end(), in_free_body) &&
-         std::all_of(island.pairs.begin(), island.pairs.end(), [&](int index) {
-           return moving_[at(pairs[at(index)].a())] && moving_[at(pairs[at(index)].b())];
-         });
-}
-
-bool Simulation::too_deep(const std::vector<ContactPair>& pairs) const {
-  return settings_.augmented && has_begun() &&
-         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
-           return pair.depth_found() > settings_.tolerated_depth();
-         });
-}
-
-bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::vector<FoundContacts>& found,
-                            int additions) {
+/// The problem of moving blocks apart: pairs without friction, bodies without motion of their own.
+StepProblem pose(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // As much is left for what springs give way by in this motion.
-  const double pushed_from = settings_.multiplier_share * settings_.penetration_tolerance;
+  const double pushed_from = run.settings().multiplier_share * run.settings().penetration_tolerance;
+  StepProblem problem;
+  for (const ContactPair& pair : pairs) problem.pairs.push_back(pair.moved_apart(pushed_from));
+  problem.islands = find_islands(run.system.moving(), problem.pairs);
+  problem.bodies.resize(run.blocks().size());
+  for (int k = 0; k < run.system.count(); ++k) {
+    BodyStep& body = problem.bodies[at(k)];
+    body.model = &run.blocks()[at(k)];
+    body.state = &run.state.states[at(k)];
+    body.roundoff_force = run.system.roundoff_force(k);
+    body.free_change = body.change = Eigen::VectorXd::Zero(body.model->unknowns());
+  }
+  return problem;
+}
+
+/// Islands with a point that is too deep.
+std::vector<const Island*> deep_islands(const RunContext& run, const std::vector<Island>& islands,
+                                        const std::vector<ContactPair>& pairs) {
+  std::vector<const Island*> deep;
+  for (const Island& island : islands) {
+    if (std::any_of(island.pairs.begin(), island.pairs.end(), [&](int index) {
+          return pairs[at(index)].depth_found() > run.settings().tolerated_depth();
+        }))
+      deep.push_back(&island);
+  }
+  return deep;
+}
+
+/// Lets the blocks of an island start without strain. @param relaxed their states, to outlive the bodies
+void relax(const RunContext& run, const Island& island, std::vector<BlockState>& relaxed,
+           std::vector<BodyStep>& bodies) {
+  for (const int k : island.bodies) {
+    BodyStep& body = bodies[at(k)];
+    const BlockModel& block = run.blocks()[at(k)];
+    relaxed[at(k)] = run.state.states[at(k)];
+    // Under stress, blocks that hardly have inertia would rather turn than move.
+    if (block.space().can_turn() && block.incremental() == nullptr)
+      relaxed[at(k)].position = block.unstrained(run.state.states[at(k)].position);
+    body.state = &relaxed[at(k)];
+    body.external_force = block.space().restrict(block.elastic(body.state->position).force);
+  }
+}
+
+/// Finds the motion of each deep island, as much of it as its funds and its slip pay for.
+std::vector<MovedIsland> solve_deep(const RunContext& run, double step, const std::vector<ContactPair>& pairs,
+                                    const std::vector<const Island*>& deep, StepProblem& problem,
+                                    IslandFunds& funds) {
   TimeScheme scheme;
   scheme.from_rest = true;
   scheme.inertia = inertia_share * 2.0 / (step * step);
-  SimulationSettings settings = settings_;
-  settings.static_residual_tolerance = settings_.apart_residual;
-  Trial trial;
-  for (const ContactPair& pair : pairs) trial.pairs.push_back(pair.moved_apart(pushed_from));
-  trial.islands = find_islands(moving_, trial.pairs);
-  trial.bodies.resize(blocks_.size());
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    BodyStep& body = trial.bodies[k];
-    body.model = &blocks_[k];
-    body.state = &states_[k];
-    body.roundoff_force = roundoff_force_[k];
-    body.free_change = body.change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
-  }
-  std::vector<BlockState> relaxed(blocks_.size());  // of blocks that are moved
-  struct MovedIsland {
-    const Island* island;
-    std::size_t place;                 // in the funds
-    double energy;                     // that its motion takes
-    Vector3 momentum;                  // angular, before
-    std::optional<SlowedSlip> slowed;  // pays for what the funds do not
-  };
-  std::vector<const Island*> deep;
-  std::vector<std::vector<PairKey>> contacts;
-  for (const Island& island : trial.islands) {
-    double deepest = 0.0;
-    for (const int index : island.pairs) deepest = std::max(deepest, pairs[at(index)].depth_found());
-    if (deepest <= settings_.tolerated_depth()) continue;
-    deep.push_back(&island);
-    contacts.push_back(contacts_of(island, pairs));
-  }
-  IslandFunds funds(taken_, std::move(contacts));
+  SimulationSettings settings = run.settings();
+  settings.static_residual_tolerance = run.settings().apart_residual;
+  std::vector<BlockState> relaxed(run.blocks().size());
   std::vector<MovedIsland> moved;
   for (std::size_t n = 0; n < deep.size(); ++n) {
-    const Stopwatch watch(seconds_.solve);
+    const Stopwatch watch(run.state.log.seconds.solve);
     const Island& island = *deep[n];
-    for (const int k : island.bodies) {
-      BodyStep& body = trial.bodies[at(k)];
-      const BlockModel& block = blocks_[at(k)];
-      relaxed[at(k)] = states_[at(k)];
-      // Under stress, blocks that hardly have inertia would rather turn than move.
-      if (block.space().can_turn() && block.incremental() == nullptr)
-        relaxed[at(k)].position = block.unstrained(states_[at(k)].position);
-      body.state = &relaxed[at(k)];
-      body.external_force = block.space().restrict(block.elastic(body.state->position).force);
-    }
-    const IslandResult result = solve_island(island, trial.bodies, trial.pairs, scheme, settings, solvers_);
-    counts_.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
-    double energy = energy_of_motion(island.bodies, trial.bodies);
+    relax(run, island, relaxed, problem.bodies);
+    const IslandResult result =
+        solve_island(island, problem.bodies, problem.pairs, scheme, settings, run.factors.islands);
+    run.state.log.counts.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
+    double energy = energy_of_motion(run, island, problem.bodies);
     const double limit = funds.available(n);
     const bool settled = result.status == IslandStatus::settled;
     std::optional<SlowedSlip> slowed;
-    if (settled && energy > limit) slowed = slow_slip(island, pairs, step, energy - limit);
+    if (settled && energy > limit) slowed = slow_slip(run, island, pairs, step, energy - limit);
     const double share = !settled ? 0.0 : energy > limit && !slowed ? limit / energy : 1.0;
-    for (const int k : island.bodies) trial.bodies[at(k)].change *= share;
+    for (const int k : island.bodies) problem.bodies[at(k)].change *= share;
     if (share == 0.0) continue;
-    if (share < 1.0) energy = energy_of_motion(island.bodies, trial.bodies);
+    if (share < 1.0) energy = energy_of_motion(run, island, problem.bodies);
     funds.use(n, std::min(energy, limit));
-    moved.push_back(
-        {&island, n, energy, angular_momentum_of(blocks_, island.bodies, states_), std::move(slowed)});
+    moved.push_back({&island, n, energy, angular_momentum_of(run.blocks(), island.bodies, run.state.states),
+                     std::move(slowed)});
   }
-  if (moved.empty()) return false;
-  if (const auto passing = check_motion(trial, found); !passing.empty()) {
-    if (additions == 0) return false;
-    add_contacts(passing, found);
-    pairs = make_pairs(found, true);
-    return move_apart(step, pairs, found, additions - 1);
-  }
-  if (!carry_blocks(trial)) return false;
-  finder_.accept_motion();
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    if (!moving_[k]) continue;
-    const Eigen::MatrixX3d motion = trial.bodies[k].motion();
-    ledger_.applied += motion.cwiseProduct(blocks_[k].load_force(time())).sum();
-    states_[k].position += motion;
-    note_elastic_energy(k);
+  // Bodies outlive what they were relaxed to.
+  for (std::size_t k = 0; k < relaxed.size(); ++k) problem.bodies[k].state = &run.state.states[k];
+  return moved;
+}
+
+/// Takes the motion over and books it. @param into gets the impulses against slip
+void move(const RunContext& run, const std::vector<MovedIsland>& moved, const std::vector<ContactPair>& pairs,
+          StepProblem& problem, IslandFunds& funds, StepProblem& into) {
+  LedgerKeeper& ledger = run.state.ledger;
+  run.contacts.finder().accept_motion();
+  for (int k = 0; k < run.system.count(); ++k) {
+    if (!run.system.moving()[at(k)]) continue;
+    const Eigen::MatrixX3d motion = problem.bodies[at(k)].motion();
+    ledger.loads_did(motion.cwiseProduct(run.blocks()[at(k)].load_force(run.state.time())).sum());
+    run.state.states[at(k)].position += motion;
+    ledger.measure_elastic(run.system, run.state.states, k);
   }
   for (const auto& [island, place, energy, momentum, slowed] : moved) {
-    ledger_.numerical -= energy;
-    if (slowed) apply(*slowed);
-    if (!is_free(*island, pairs)) continue;
+    ledger.integrator_took(-energy);
+    if (slowed) apply(run, *slowed, into.slip_impulses);
+    if (!is_free(run.system, *island, pairs)) continue;
+    const Vector3 lost = momentum - angular_momentum_of(run.blocks(), island->bodies, run.state.states);
     const double gain =
-        add_spin(blocks_, island->bodies, momentum - angular_momentum_of(blocks_, island->bodies, states_),
-                 funds.available(place), states_);
+        add_spin(run.blocks(), island->bodies, lost, funds.available(place), run.state.states);
     funds.use(place, gain);
-    ledger_.numerical -= gain;
+    ledger.integrator_took(-gain);
   }
-  funds.spend_from(taken_);
-  for (auto& [block, next] : trial.carried) start_carried_step(block, std::move(next));
+  funds.spend_from(run.state.pairs);
+  for (auto& [block, next] : problem.carried)
+    start_carried_step(run, static_cast<int>(block), std::move(next));
+}
+
+}  // namespace
+
+bool too_deep(const RunContext& run, const std::vector<ContactPair>& pairs) {
+  return run.settings().augmented && run.state.has_begun() &&
+         std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
+           return pair.depth_found() > run.settings().tolerated_depth();
+         });
+}
+
+bool project_positions(const RunContext& run, double step, StepProblem& problem,
+                       std::vector<FoundContacts>& found, int additions) {
+  StepProblem apart = pose(run, problem.pairs);
+  const std::vector<const Island*> deep = deep_islands(run, apart.islands, problem.pairs);
+  std::vector<std::vector<PairKey>> contacts;
+  for (const Island* island : deep) contacts.push_back(contacts_of(*island, problem.pairs));
+  IslandFunds funds(run.state.pairs, std::move(contacts));
+  const std::vector<MovedIsland> moved = solve_deep(run, step, problem.pairs, deep, apart, funds);
+  if (moved.empty()) return false;
+  const std::vector<BlockState> after = states_after(run.system, run.state, apart);
+  if (const auto passing = run.contacts.check_motion(run.system, run.state, after, found); !passing.empty()) {
+    if (additions == 0) return false;
+    found = with_passing(std::move(found), passing);
+    problem.pairs = run.contacts.pairs(run.system, run.state, found, PairUse::motion);
+    return project_positions(run, step, problem, found, additions - 1);
+  }
+  if (!carry_blocks(run, apart)) return false;
+  move(run, moved, problem.pairs, apart, funds, problem);
   return true;
 }
 

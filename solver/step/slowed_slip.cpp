@@ -1,19 +1,9 @@
-// Pays for moving blocks apart where contacts have not taken enough (position_projection.cpp).
-//
-// A step moves straight what slides along a face that turns, and pushes along the normal at its start. The
-// face comes to meet what slides: it is then deeper by d = w v dt^2 (w: angular velocity of the face, v:
-// slip), and blocks have gained N d that a normal turning with the face would have taken from the slip, as
-// its force leans against it by w dt. So slip pays what moving blocks apart by d takes: impulses against it,
-//
-//   J_k = -s N_k u_k     of each point that pushes and is too deep, u_k: velocity of its slip
-//   s sum N_k u_k^2 - s^2/2 sum |P|^2/rho = energy     P: sums of N_k u_k in the unknowns of each block
-//
-// equal and opposite on both blocks. They are part of the contact forces of the step that follows.
+#include "solver/step/slowed_slip.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/index.hpp"
-#include "solver/run/simulation.hpp"
 
 namespace ashlar {
 namespace {
@@ -42,16 +32,15 @@ PairResponse ContactPair::against_slip(double depth, const Eigen::VectorXd& ya,
   return result;
 }
 
-std::optional<Simulation::SlowedSlip> Simulation::slow_slip(const Island& island,
-                                                            const std::vector<ContactPair>& pairs,
-                                                            double step, double energy) const {
-  const double depth = settings_.multiplier_share * settings_.penetration_tolerance;
-  std::vector<Eigen::VectorXd> slips(blocks_.size());  // velocities of the unknowns
-  std::vector<Eigen::MatrixX3d> prescribed(blocks_.size());
+std::optional<SlowedSlip> slow_slip(const RunContext& run, const Island& island,
+                                    const std::vector<ContactPair>& pairs, double step, double energy) {
+  const double depth = run.settings().multiplier_share * run.settings().penetration_tolerance;
+  std::vector<Eigen::VectorXd> slips(run.blocks().size());  // velocities of the unknowns
+  std::vector<Eigen::MatrixX3d> prescribed(run.blocks().size());
   for (const int k : island.bodies) {
-    const BlockModel& block = blocks_[at(k)];
-    slips[at(k)] = block.space().restrict(states_[at(k)].velocity);
-    Eigen::MatrixX3d of_supports = states_[at(k)].velocity - block.space().expand(slips[at(k)]);
+    const BlockModel& block = run.blocks()[at(k)];
+    slips[at(k)] = block.space().restrict(run.state.states[at(k)].velocity);
+    Eigen::MatrixX3d of_supports = run.state.states[at(k)].velocity - block.space().expand(slips[at(k)]);
     if (!of_supports.isZero(0.0)) prescribed[at(k)] = std::move(of_supports);
   }
   SlowedSlip slowed;
@@ -62,7 +51,7 @@ std::optional<Simulation::SlowedSlip> Simulation::slow_slip(const Island& island
     if (pairs[at(index)].tied() || pairs[at(index)].depth_found() <= depth) continue;
     ContactPair pair = pairs[at(index)];
     const auto [a, b] = std::array{pair.a(), pair.b()};
-    pair.prescribe(blocks_[at(a)], prescribed[at(a)], blocks_[at(b)], prescribed[at(b)]);
+    pair.prescribe(run.blocks()[at(a)], prescribed[at(a)], run.blocks()[at(b)], prescribed[at(b)]);
     const PairResponse response = pair.against_slip(depth, slips[at(a)], slips[at(b)]);
     const auto push = [&](int block, const Eigen::VectorXd& force) {
       if (force.size() == 0) return;
@@ -84,7 +73,7 @@ std::optional<Simulation::SlowedSlip> Simulation::slow_slip(const Island& island
   }
   double resistance = 0.0;
   for (const auto& [block, sum] : sums)
-    resistance += sum.squaredNorm() / blocks_[at(block)].material().density;
+    resistance += sum.squaredNorm() / run.blocks()[at(block)].material().density;
   const double left = power * power - 2.0 * resistance * energy;
   if (power <= 0.0 || left < 0.0) return std::nullopt;
   const double scale = 2.0 * energy / (power + std::sqrt(left));
@@ -93,25 +82,26 @@ std::optional<Simulation::SlowedSlip> Simulation::slow_slip(const Island& island
   for (auto& [pair, impulse] : slowed.on_a) impulse *= scale;
   for (const auto& [block, sum] : sums)
     slowed.velocities[block] =
-        blocks_[at(block)].space().expand(scale / blocks_[at(block)].material().density * sum);
+        run.blocks()[at(block)].space().expand(scale / run.blocks()[at(block)].material().density * sum);
   return slowed;
 }
 
-void Simulation::apply(const SlowedSlip& slowed) {
+void apply(const RunContext& run, const SlowedSlip& slowed, std::map<PairKey, Vector3>& impulses) {
+  LedgerKeeper& ledger = run.state.ledger;
   for (const auto& [block, change] : slowed.velocities) {
-    BlockState& state = states_[at(block)];
-    ledger_.numerical += blocks_[at(block)].kinetic_energy(state);
+    BlockState& state = run.state.states[at(block)];
+    ledger.integrator_took(run.blocks()[at(block)].kinetic_energy(state));
     state.velocity += change;
-    ledger_.numerical -= blocks_[at(block)].kinetic_energy(state);
+    ledger.integrator_took(-run.blocks()[at(block)].kinetic_energy(state));
   }
-  ledger_.numerical -= slowed.work_on_supports;
-  ledger_.applied -= slowed.work_on_supports;
+  ledger.integrator_took(-slowed.work_on_supports);
+  ledger.loads_did(-slowed.work_on_supports);
   for (const auto& [pair, impulse] : slowed.on_a)
-    slowed_.try_emplace(pair, Vector3::Zero()).first->second += impulse;
+    impulses.try_emplace(pair, Vector3::Zero()).first->second += impulse;
 }
 
-void Simulation::add_impulse(const Vector3& on_a, double step, const std::vector<ContactPoint>& points,
-                             std::vector<PointResponse>& forces) {
+void add_impulse(const Vector3& on_a, double step, const std::vector<ContactPoint>& points,
+                 std::vector<PointResponse>& forces) {
   double pushes = 0.0;
   for (const PointResponse& point : forces) pushes += std::max(0.0, point.force[0]);
   for (std::size_t k = 0; k < points.size(); ++k) {

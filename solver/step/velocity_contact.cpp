@@ -1,31 +1,10 @@
-// Where contact is augmented, a step ends with impulses that stop what pushes.
-//
-// A step that holds a point where it is, D = 0, ends with v' = -v, or nearly (time_scheme.hpp): the velocity
-// turns round in each further step, and the contact force alternates by 2 m v/dt. Springs damp that as far as
-// they give way (fastest at k dt^2/2m = 8), multipliers, whose springs are as stiff as it takes, do not. So
-// contact is enforced for velocities too, by impulses of their own (Bruels, Acary and Cardona, Computer
-// Methods in Applied Mechanics and Engineering 281, 2014):
-//
-//   M (v'' - v') = dt G^T j,   j = -c G u,   u = v'' - (beta/gamma - 1/2) dt a'
-//   c = stop_stiffness m/dt N/(N + N0)        m: inertia that a point feels, N: its normal force
-//
-// u is what stands still under a constant force that pushes: generalized-alpha keeps a velocity there, and
-// would lack the force that a steady impulse bears, and its friction. The others have u = v''.
-//
-// G: normal velocities of points that push, shear velocities too of those that are locked, and all of bonds
-// and ties. N0 moves a point in a step by what springs may give way by: what has less force counts for
-// little, so that rounding does not say what is stopped. Impulses may pull, as velocities that have turned
-// round point away, but by no more than a point has pushed in the step: where more would be needed the point
-// is let go, with no force at all in this step. Friction has no part in them; the bounds of shear forces in
-// the next steps make up for that, up or down, as long as the point stays in contact. They take energy of
-// u, never less than nothing: impacts are plastic where blocks meet, and what can deform bounces by its
-// elasticity. What v loses is booked as numerical dissipation. A set of free blocks keeps its angular
-// momentum: the spin for that comes from what impulses and contacts have taken (contact_accounts.hpp).
+#include "solver/step/velocity_contact.hpp"
+
 #include <algorithm>
 #include <limits>
 
 #include "geometry/index.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/contact/contact_accounts.hpp"
 #include "solver/step/angular_momentum.hpp"
 #include "solver/step/island_equations.hpp"
 #include "solver/stopwatch.hpp"
@@ -124,57 +103,54 @@ void ContactPair::remember_impulses(const PairResponse& response, const std::vec
   }
 }
 
-std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeScheme& scheme,
-                                                                  const Trial& trial) {
-  const Stopwatch watch(seconds_.solve);
-  std::vector<StoppedPair> stopped(trial.pairs.size());
-  if (!settings_.augmented || scheme.from_rest) return stopped;
-  std::vector<BodyStep> bodies(blocks_.size());
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    bodies[k].model = &blocks_[k];
-    bodies[k].change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
-  }
-  for (std::size_t n = 0; n < trial.islands.size(); ++n) {
-    const Island& island = trial.islands[n];
-    const IslandResult& result = trial.results[n];
-    bool pushes = false;
-    for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
-      pushes = trial.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
-    if (pushes) stop_island(scheme, island, trial.pairs, result, bodies, stopped);
-  }
-  return stopped;
+bool is_free(const BlockSystem& system, const Island& island, const std::vector<ContactPair>& pairs) {
+  const auto in_free_body = [&](int block) {
+    return std::any_of(system.free_bodies().begin(), system.free_bodies().end(),
+                       [&](const std::vector<int>& body) {
+                         return std::find(body.begin(), body.end(), block) != body.end();
+                       });
+  };
+  return std::all_of(island.bodies.begin(), island.bodies.end(), in_free_body) &&
+         std::all_of(island.pairs.begin(), island.pairs.end(), [&](int index) {
+           return system.moving()[at(pairs[at(index)].a())] && system.moving()[at(pairs[at(index)].b())];
+         });
 }
 
-void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
-                             const std::vector<ContactPair>& pairs, const IslandResult& result,
-                             std::vector<BodyStep>& bodies, std::vector<StoppedPair>& stopped) {
+namespace {
+
+/// @param bodies models, and changes that are zero. @param stopped of the island's pairs is written
+void stop_island(const RunContext& run, const TimeScheme& of_step, const Island& island,
+                 const std::vector<ContactPair>& pairs, const IslandResult& result,
+                 std::vector<BodyStep>& bodies, std::vector<StoppedPair>& stopped) {
   const double step = of_step.step;
   TimeScheme scheme;
   scheme.force_weight = 0.0;
   scheme.inertia = 1.0 / (step * step);
-  IslandProblem problem(island, bodies, pairs, scheme, settings_,
-                        solver_of(island, bodies, pairs, SystemRole::stop, solvers_));
+  IslandProblem problem(island, bodies, pairs, scheme, run.settings(),
+                        solver_of(island, bodies, pairs, SystemRole::stop, run.factors.islands));
   // beta/gamma dt - dt/2, 0 but with generalized-alpha
   const double shift = 1.0 / of_step.end_velocity.change - 0.5 * step;
-  std::vector<Eigen::VectorXd> start(blocks_.size());  // u times the step
+  std::vector<Eigen::VectorXd> start(run.blocks().size());  // u times the step
   for (const int k : island.bodies) {
-    Eigen::MatrixX3d velocity = states_[at(k)].velocity;
-    if (!accelerations_.empty()) velocity -= shift * accelerations_[at(k)];
-    start[at(k)] = step * blocks_[at(k)].space().restrict(velocity);
+    Eigen::MatrixX3d velocity = run.state.states[at(k)].velocity;
+    if (!run.state.accelerations.empty()) velocity -= shift * run.state.accelerations[at(k)];
+    start[at(k)] = step * run.blocks()[at(k)].space().restrict(velocity);
   }
   std::vector<Eigen::VectorXd> velocities = start;
   std::vector<std::vector<bool>> let_go;
   for (const int index : island.pairs) let_go.emplace_back(pairs[at(index)].points().size(), false);
   const auto impulses = [&] {
-    const auto inertia = [&](int block) { return blocks_[at(block)].material().density * scheme.inertia; };
+    const auto inertia = [&](int block) {
+      return run.blocks()[at(block)].material().density * scheme.inertia;
+    };
     std::vector<PairResponse> responses;
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
       const ContactPair& pair = pairs[at(island.pairs[n])];
-      responses.push_back(pair.stopping(result.responses[n], result.laws[n], velocities[at(pair.a())],
-                                        velocities[at(pair.b())],
-                                        {settings_.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
-                                         settings_.multiplier_share * settings_.penetration_tolerance},
-                                        let_go[n]));
+      responses.push_back(pair.stopping(
+          result.responses[n], result.laws[n], velocities[at(pair.a())], velocities[at(pair.b())],
+          {run.settings().stop_stiffness, inertia(pair.a()), inertia(pair.b()),
+           run.settings().multiplier_share * run.settings().penetration_tolerance},
+          let_go[n]));
     }
     return responses;
   };
@@ -189,38 +165,62 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
     found = impulses();
   } while (let_go_of_pulls(island, pairs, result, found, let_go));
 
-  const Vector3 momentum = angular_momentum_of(blocks_, island.bodies, states_);
+  const Vector3 momentum = angular_momentum_of(run.blocks(), island.bodies, run.state.states);
   double lost = 0.0;
   for (const int k : island.bodies) {
-    const BlockModel& block = blocks_[at(k)];
-    BlockState& state = states_[at(k)];
+    const BlockModel& block = run.blocks()[at(k)];
+    BlockState& state = run.state.states[at(k)];
     lost += block.kinetic_energy(state);
     state.velocity += block.space().expand(bodies[at(k)].change) / step;
     lost -= block.kinetic_energy(state);
   }
   for (const int k : island.bodies)
-    velocities[at(k)] =
-        step * blocks_[at(k)].space().restrict(states_[at(k)].velocity) - 0.5 * bodies[at(k)].change;
+    velocities[at(k)] = step * run.blocks()[at(k)].space().restrict(run.state.states[at(k)].velocity) -
+                        0.5 * bodies[at(k)].change;
   for (std::size_t n = 0; n < island.pairs.size(); ++n) {
     const ContactPair& pair = pairs[at(island.pairs[n])];
     StoppedPair& result_of_pair = stopped[at(island.pairs[n])];
     for (const MeanResponse& mean : found[n].means) result_of_pair.forces.push_back(mean.force);
     result_of_pair.work = pair.work(found[n], velocities[at(pair.a())], velocities[at(pair.b())]);
     // Supports that move are pushed against.
-    ledger_.applied -= pair.prescribed_work(found[n]);
+    run.state.ledger.loads_did(-pair.prescribed_work(found[n]));
     lost -= pair.prescribed_work(found[n]);
   }
-  if (is_free(island, pairs)) {
+  if (is_free(run.system, island, pairs)) {
     // Opposite impulses act at places that are apart by the gap.
-    const Vector3 missing = momentum - angular_momentum_of(blocks_, island.bodies, states_);
+    const Vector3 missing = momentum - angular_momentum_of(run.blocks(), island.bodies, run.state.states);
     const double own = std::max(0.0, lost);
-    IslandFunds funds(taken_, {contacts_of(island, pairs)});
-    const double gain = add_spin(blocks_, island.bodies, missing, own + funds.available(0), states_);
+    IslandFunds funds(run.state.pairs, {contacts_of(island, pairs)});
+    const double gain =
+        add_spin(run.blocks(), island.bodies, missing, own + funds.available(0), run.state.states);
     funds.use(0, std::max(0.0, gain - own));
-    funds.spend_from(taken_);
+    funds.spend_from(run.state.pairs);
     lost -= gain;
   }
-  ledger_.numerical += lost;
+  run.state.ledger.integrator_took(lost);
+}
+
+}  // namespace
+
+std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeScheme& scheme,
+                                          const StepProblem& problem) {
+  const Stopwatch watch(run.state.log.seconds.solve);
+  std::vector<StoppedPair> stopped(problem.pairs.size());
+  if (!run.settings().augmented || scheme.from_rest) return stopped;
+  std::vector<BodyStep> bodies(run.blocks().size());
+  for (std::size_t k = 0; k < run.blocks().size(); ++k) {
+    bodies[k].model = &run.blocks()[k];
+    bodies[k].change = Eigen::VectorXd::Zero(run.blocks()[k].unknowns());
+  }
+  for (std::size_t n = 0; n < problem.islands.size(); ++n) {
+    const Island& island = problem.islands[n];
+    const IslandResult& result = problem.results[n];
+    bool pushes = false;
+    for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
+      pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
+    if (pushes) stop_island(run, scheme, island, problem.pairs, result, bodies, stopped);
+  }
+  return stopped;
 }
 
 }  // namespace ashlar

@@ -145,8 +145,8 @@ TEST(Incremental, ResumedSimulationGoesOnBitForBit) {
     take_steps(resumed);
     SimulationSnapshot expected = straight.snapshot();
     SimulationSnapshot reached = resumed.snapshot();
-    expected.seconds = reached.seconds;
-    expected.counts.factors = reached.counts.factors;
+    expected.run.log.seconds = reached.run.log.seconds;
+    expected.run.log.counts.factors = reached.run.log.counts.factors;
     EXPECT_EQ(to_bytes(reached), to_bytes(expected));
   }
 }

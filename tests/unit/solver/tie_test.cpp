@@ -21,8 +21,11 @@ Simulation chain(std::vector<BlockDefinition> definitions, const std::vector<Ini
   blocks.reserve(definitions.size());
   for (BlockDefinition& definition : definitions) blocks.emplace_back(std::move(definition));
   const int count = static_cast<int>(blocks.size());
-  Simulation simulation(std::move(blocks), motions, same_law({1e9, 1e9, 0.5, 0.0, 0.0, true}), settings);
-  for (int k = 0; k + 1 < count; ++k) EXPECT_TRUE(simulation.tie_blocks(k, k + 1, stiffness));
+  std::vector<TieRequest> ties;
+  for (int k = 0; k + 1 < count; ++k) ties.push_back({k, k + 1, stiffness});
+  Simulation simulation(std::move(blocks), motions, same_law({1e9, 1e9, 0.5, 0.0, 0.0, true}), settings,
+                        ties);
+  EXPECT_EQ(simulation.system().ties().size(), ties.size());
   return simulation;
 }
 

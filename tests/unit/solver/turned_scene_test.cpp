@@ -54,8 +54,10 @@ std::vector<Eigen::Matrix3Xd> run(const Scene& scene, const Turn& turn) {
   }
   SimulationSettings settings = scene.settings;
   settings.gravity = turn * Vector3(0, 0, -9.81);
-  Simulation simulation(std::move(blocks), motions, same_law(scene.law), settings);
-  for (const auto& [a, b] : scene.ties) EXPECT_TRUE(simulation.tie_blocks(a, b, 1e13));
+  std::vector<TieRequest> ties;
+  for (const auto& [a, b] : scene.ties) ties.push_back({a, b, 1e13});
+  Simulation simulation(std::move(blocks), motions, same_law(scene.law), settings, ties);
+  EXPECT_EQ(simulation.system().ties().size(), ties.size());
   std::vector<Eigen::Matrix3Xd> result;
   for (int step = 0; step < scene.steps; ++step) {
     EXPECT_EQ(simulation.step(1e9), StepStatus::accepted);

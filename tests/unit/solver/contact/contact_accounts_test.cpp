@@ -5,6 +5,21 @@
 namespace ashlar {
 namespace {
 
+using Accounts = std::map<PairKey, double>;
+
+/// Histories of pairs that have taken so much, J.
+PairHistories that_took(const Accounts& accounts) {
+  PairHistories histories;
+  for (const auto& [pair, taken] : accounts) histories[pair].taken = taken;
+  return histories;
+}
+
+Accounts taken_in(const PairHistories& histories) {
+  Accounts accounts;
+  for (const auto& [pair, history] : histories) accounts[pair] = history.taken;
+  return accounts;
+}
+
 TEST(ContactAccounts, APairGivesBackWhatItTook) {
   double account = 0.0;
   EXPECT_EQ(book(5.0, account), 0.0);
@@ -15,8 +30,8 @@ TEST(ContactAccounts, APairGivesBackWhatItTook) {
 }
 
 TEST(IslandFunds, AnIslandUsesItsOwnFirstAndThenWhatNoIslandHas) {
-  const ContactAccounts accounts = {
-      {{0, 1}, 3.0}, {{0, 2}, 1.0}, {{3, 4}, 2.0}, {{5, 6}, 6.0}, {{5, 7}, 2.0}};
+  const PairHistories accounts =
+      that_took({{{0, 1}, 3.0}, {{0, 2}, 1.0}, {{3, 4}, 2.0}, {{5, 6}, 6.0}, {{5, 7}, 2.0}});
   IslandFunds funds(accounts, {{{0, 1}, {0, 2}}, {{3, 4}}});
   EXPECT_EQ(funds.available(0), 4.0 + 8.0);
   EXPECT_EQ(funds.available(1), 2.0 + 8.0);
@@ -27,28 +42,28 @@ TEST(IslandFunds, AnIslandUsesItsOwnFirstAndThenWhatNoIslandHas) {
   EXPECT_EQ(funds.available(1), 2.0 + 4.0);
   funds.use(1, 1.0);
 
-  ContactAccounts left = accounts;
+  PairHistories left = accounts;
   funds.spend_from(left);
-  EXPECT_EQ(left,
-            (ContactAccounts{{{0, 1}, 0.0}, {{0, 2}, 0.0}, {{3, 4}, 1.0}, {{5, 6}, 3.0}, {{5, 7}, 1.0}}));
+  EXPECT_EQ(taken_in(left),
+            (Accounts{{{0, 1}, 0.0}, {{0, 2}, 0.0}, {{3, 4}, 1.0}, {{5, 6}, 3.0}, {{5, 7}, 1.0}}));
 }
 
 TEST(IslandFunds, WhatIsUsedComesFromPairsInProportion) {
-  ContactAccounts accounts = {{{0, 1}, 3.0}, {{0, 2}, 1.0}, {{5, 6}, 6.0}};
+  PairHistories accounts = that_took({{{0, 1}, 3.0}, {{0, 2}, 1.0}, {{5, 6}, 6.0}});
   IslandFunds funds(accounts, {{{0, 1}, {0, 2}}});
   funds.use(0, 2.0);
   funds.spend_from(accounts);
-  EXPECT_EQ(accounts, (ContactAccounts{{{0, 1}, 1.5}, {{0, 2}, 0.5}, {{5, 6}, 6.0}}));
+  EXPECT_EQ(taken_in(accounts), (Accounts{{{0, 1}, 1.5}, {{0, 2}, 0.5}, {{5, 6}, 6.0}}));
 }
 
 TEST(IslandFunds, WhatAMotionSetsFreeStaysWithTheIsland) {
   // Pairs that have no account yet share it.
-  ContactAccounts accounts = {{{5, 6}, 6.0}};
+  PairHistories accounts = that_took({{{5, 6}, 6.0}});
   IslandFunds funds(accounts, {{{0, 1}, {0, 2}}});
   funds.use(0, -4.0);
   EXPECT_EQ(funds.available(0), 10.0);
   funds.spend_from(accounts);
-  EXPECT_EQ(accounts, (ContactAccounts{{{0, 1}, 2.0}, {{0, 2}, 2.0}, {{5, 6}, 6.0}}));
+  EXPECT_EQ(taken_in(accounts), (Accounts{{{0, 1}, 2.0}, {{0, 2}, 2.0}, {{5, 6}, 6.0}}));
 }
 
 }  // namespace

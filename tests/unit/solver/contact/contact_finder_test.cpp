@@ -43,8 +43,6 @@ ExpectedMotion expected(const std::vector<double>& motion) {
   return {motion, [motion](int block) { return motion[static_cast<std::size_t>(block)]; }};
 }
 
-const auto no_penetration = [](int, int) { return 0.0; };
-
 Scene cube_over_floor(double gap) {
   Scene scene;
   scene.blocks.reserve(2);
@@ -73,22 +71,23 @@ Scene two_diagonal_plates() {
 TEST(ContactFinder, PairsKnownToBeApartAreNotSearchedUntilTheyCouldMeet) {
   Scene scene = two_diagonal_plates();
   ContactFinder finder(scene.blocks, settings_for_test());
+  PairHistories histories;
   const std::vector<double> motion = {0.0, 0.05, 0.0};
-  EXPECT_TRUE(finder.find(scene.states, expected(motion), no_penetration).empty());
+  EXPECT_TRUE(finder.find(scene.states, expected(motion), histories).empty());
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   const double down = -0.04 * std::sqrt(2.0);  // vertically, 0.04 nearer
   for (int step = 1; step <= 7; ++step) {
     const std::vector<BlockState> before = scene.states;
     scene.move(1, {0, 0, down});
-    EXPECT_TRUE(finder.check_motion(before, scene.states, {}).empty());
+    EXPECT_TRUE(finder.check_motion(before, scene.states, {}, histories).empty());
     finder.accept_motion();
-    EXPECT_TRUE(finder.find(scene.states, expected(motion), no_penetration).empty());
+    EXPECT_TRUE(finder.find(scene.states, expected(motion), histories).empty());
   }
   // 0.22 apart, having gone 0.4 of the 0.5: the eighth step could still not close what is left.
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   EXPECT_EQ(finder.counts().block_pairs_far, 7U);
   // With 0.3 expected it could: the pair is looked at again, and found.
-  EXPECT_EQ(finder.find(scene.states, expected({0.0, 0.3, 0.0}), no_penetration).size(), 1U);
+  EXPECT_EQ(finder.find(scene.states, expected({0.0, 0.3, 0.0}), histories).size(), 1U);
   EXPECT_EQ(finder.counts().block_pairs_tested, 2U);
 }
 
@@ -97,15 +96,17 @@ TEST(ContactFinder, FindsWhatWasSkippedAsSoonAsItCouldMeet) {
   std::mt19937_64 random(5);
   Scene scene = cube_over_floor(0.3);
   ContactFinder finder(scene.blocks, settings_for_test());
+  PairHistories histories;
   for (int step = 0; step < 200; ++step) {
     const double by = (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5) * 0.05;
     const std::vector<double> motion = {0.0, 0.05};
-    const auto found = finder.find(scene.states, expected(motion), no_penetration);
+    const auto found = finder.find(scene.states, expected(motion), histories);
     ContactFinder fresh(scene.blocks, settings_for_test());
-    EXPECT_EQ(found.size(), fresh.find(scene.states, expected(motion), no_penetration).size());
+    PairHistories of_fresh;
+    EXPECT_EQ(found.size(), fresh.find(scene.states, expected(motion), of_fresh).size());
     const std::vector<BlockState> before = scene.states;
     scene.move(1, {0, 0, by});
-    (void)finder.check_motion(before, scene.states, found);
+    (void)finder.check_motion(before, scene.states, found, histories);
     finder.accept_motion();
   }
 }
@@ -113,10 +114,11 @@ TEST(ContactFinder, FindsWhatWasSkippedAsSoonAsItCouldMeet) {
 TEST(ContactFinder, GoesOnFromItsState) {
   Scene scene = two_diagonal_plates();
   ContactFinder first(scene.blocks, settings_for_test());
-  (void)first.find(scene.states, expected({0.0, 0.05, 0.0}), no_penetration);
+  PairHistories histories;
+  (void)first.find(scene.states, expected({0.0, 0.05, 0.0}), histories);
   ContactFinder second(scene.blocks, settings_for_test());
   second.restore(first.state());
-  (void)second.find(scene.states, expected({0.0, 0.05, 0.0}), no_penetration);
+  (void)second.find(scene.states, expected({0.0, 0.05, 0.0}), histories);
   EXPECT_EQ(second.counts().block_pairs_tested, 1U);
   EXPECT_EQ(second.counts().block_pairs_far, 1U);
 }
@@ -127,7 +129,8 @@ TEST(ContactFinder, WhatItSkipsTurnsWithTheScene) {
   scene.blocks.pop_back();
   scene.states.pop_back();
   ContactFinder finder(scene.blocks, settings_for_test());
-  EXPECT_TRUE(finder.find(scene.states, expected({0.0, 0.05}), no_penetration).empty());
+  PairHistories histories;
+  EXPECT_TRUE(finder.find(scene.states, expected({0.0, 0.05}), histories).empty());
   EXPECT_EQ(finder.counts().block_pairs_skipped, 1U);
   EXPECT_EQ(finder.counts().block_pairs_tested, 0U);
 }
@@ -139,12 +142,13 @@ TEST(ContactFinder, BlocksThatWouldPassAreReportedEarliestFirst) {
   scene.add(fixed_block("near plate", {-2, -2, -0.01}, {2, 2, 0}));
   scene.add(BlockModel(block_of("cube", Polyhedron(make_box({-0.5, -0.5, 0.1}, {0.5, 0.5, 1.1})), rock, 1)));
   ContactFinder finder(scene.blocks, settings_for_test());
+  PairHistories histories;
   // Nothing is expected to move, so no contact is found; then the cube flies through both plates.
-  const auto found = finder.find(scene.states, expected({0.0, 0.0, 0.0}), no_penetration);
+  const auto found = finder.find(scene.states, expected({0.0, 0.0, 0.0}), histories);
   EXPECT_TRUE(found.empty());
   const std::vector<BlockState> before = scene.states;
   scene.move(2, {0, 0, -4});
-  const auto passing = finder.check_motion(before, scene.states, found);
+  const auto passing = finder.check_motion(before, scene.states, found, histories);
   ASSERT_FALSE(passing.empty());
   EXPECT_EQ(passing.front().blocks, (std::array<int, 2>{1, 2}));
   EXPECT_NEAR(passing.front().touch.share, 0.1 / 4.0, 1e-4);

@@ -7,8 +7,6 @@
 namespace ashlar {
 namespace {
 
-using Memory = std::map<std::array<int, 2>, ContactMemory>;
-
 /// A spring of 2 N/m and some depth, which holds its square.
 ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 0.0) {
   static const BlockModel block(
@@ -27,11 +25,13 @@ ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 
   return {a, b, {&block, &state, nullptr}, {&block, &state, nullptr}, law, {point}, {memory}};
 }
 
-ContactMemory that_held(double normal, double shear = 0.0) {
-  return {{}, {}, 0.0, {normal, shear}, 0.0};
+PairHistory that_held(double normal, double shear = 0.0) {
+  PairHistory pair;
+  pair.memory = ContactMemory({}, {}, 0.0, {normal, shear}, 0.0);
+  return pair;
 }
 
-std::vector<double> normal_bounds(const std::vector<ContactPair>& pairs, const Memory& memory,
+std::vector<double> normal_bounds(const std::vector<ContactPair>& pairs, const PairHistories& memory,
                                   const std::vector<bool>& moving) {
   std::vector<double> result;
   for (const SpringEnergy& bound : energy_bounds(pairs, memory, moving)) result.push_back(bound.normal);
@@ -42,7 +42,7 @@ const std::vector<bool> all_move(4, true);
 
 TEST(EnergyBounds, AreWhatThePairHeldAndNothingOfANewOne) {
   const std::vector<ContactPair> pairs = {pair_at_depth(0, 1, 3), pair_at_depth(2, 3, 1)};
-  const Memory memory = {{{0, 1}, that_held(4, 2)}};
+  const PairHistories memory = {{{0, 1}, that_held(4, 2)}};
   const auto bounds = energy_bounds(pairs, memory, all_move);
   ASSERT_EQ(bounds.size(), 2U);
   EXPECT_EQ(bounds[0].normal, 4.0);
@@ -53,7 +53,7 @@ TEST(EnergyBounds, AreWhatThePairHeldAndNothingOfANewOne) {
 }
 
 TEST(EnergyBounds, ABlockTakesAlongWhatItNoLongerHoldsElsewhere) {
-  const Memory memory = {{{0, 1}, that_held(6, 5)}};
+  const PairHistories memory = {{{0, 1}, that_held(6, 5)}};
   // It has left 1: no more goes along than the 4 J that are needed, no more than the 6 J that there are.
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2)}, memory, all_move), (std::vector<double>{4}));
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 3)}, memory, all_move), (std::vector<double>{6}));
@@ -73,13 +73,13 @@ TEST(EnergyBounds, ABlockTakesAlongWhatItNoLongerHoldsElsewhere) {
 }
 
 TEST(EnergyBounds, NothingGoesAlongWithAFixedBlock) {
-  const Memory memory = {{{0, 1}, that_held(6)}};
+  const PairHistories memory = {{{0, 1}, that_held(6)}};
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2)}, memory, {false, true, true}), (std::vector<double>{0}));
   EXPECT_EQ(normal_bounds({pair_at_depth(1, 2, 2)}, memory, {false, true, true}), (std::vector<double>{4}));
 }
 
 TEST(EnergyBounds, BondsNeitherGiveNorTake) {
-  const Memory memory = {{{0, 1}, that_held(6)}};
+  const PairHistories memory = {{{0, 1}, that_held(6)}};
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 1, 10), pair_at_depth(0, 2, 2)}, memory, all_move),
             (std::vector<double>{6, 0}));
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2, 10)}, memory, all_move), (std::vector<double>{0}));

@@ -53,34 +53,37 @@ TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
   SimulationSnapshot expected = straight.snapshot();
   SimulationSnapshot reached = resumed.snapshot();
   // Time is measured, and what is factorised anew is counted anew.
-  expected.seconds = reached.seconds;
-  expected.counts.factors = reached.counts.factors;
+  expected.run.log.seconds = reached.run.log.seconds;
+  expected.run.log.counts.factors = reached.run.log.counts.factors;
   EXPECT_EQ(to_bytes(reached), to_bytes(expected));
 }
 
 TEST(Checkpoint, EverySnapshotMemberIsStored) {
   SimulationSnapshot snapshot;
-  snapshot.clock = {0.1, 0.25, 14};
-  snapshot.next_step = 1e-300;
-  snapshot.steps = 7;
-  snapshot.states = {{Eigen::MatrixX3d::Constant(4, 3, -0.0), Eigen::MatrixX3d::Constant(4, 3, 2.5)}};
-  snapshot.memory = {{{0, 1},
-                      {{Vector3(1, 2, 3),
-                        Vector3(-1, -2, -3),
-                        4,
-                        5,
-                        Vector3(0, 0, 1),
-                        0.5,
-                        {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0, 26.0,
-                         Vector3(36, 37, 38), true}}},
-                      {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}},
-                      9,
-                      27,
-                      {24.0, 25.0}}};
-  snapshot.contact_work = {{{0, 1}, 10.0}};
-  snapshot.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
-  snapshot.counts.factors.solves = 13;
-  const SimulationSnapshot back = snapshot_from_bytes(to_bytes(snapshot));
+  RunState& run = snapshot.run;
+  run.clock = {0.1, 0.25, 14};
+  run.next_step = 1e-300;
+  run.steps = 7;
+  run.states = {{Eigen::MatrixX3d::Constant(4, 3, -0.0), Eigen::MatrixX3d::Constant(4, 3, 2.5)}};
+  PairHistory& pair = run.pairs[{0, 1}];
+  pair.memory =
+      ContactMemory({{Vector3(1, 2, 3),
+                      Vector3(-1, -2, -3),
+                      4,
+                      5,
+                      Vector3(0, 0, 1),
+                      0.5,
+                      {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0, 26.0,
+                       Vector3(36, 37, 38), true}}},
+                    {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}}, 9, {24.0, 25.0}, 27);
+  pair.work = 10.0;
+  pair.taken = 39.0;
+  pair.depth = 40.0;
+  run.pairs[{1, 2}].clearance = Clearance{41.0, 42.0};
+  run.log.rejections = {{11.0, 12.0, RejectionReason::not_positive_definite}};
+  run.log.counts.factors.solves = 13;
+  const SimulationSnapshot from_bytes = snapshot_from_bytes(to_bytes(snapshot));
+  const RunState& back = from_bytes.run;
   EXPECT_EQ(back.clock.start, 0.1);
   EXPECT_EQ(back.clock.step, 0.25);
   EXPECT_EQ(back.clock.count, 14);
@@ -89,9 +92,18 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   ASSERT_EQ(back.states.size(), 1U);
   EXPECT_TRUE(std::signbit(back.states[0].position(3, 2)));
   EXPECT_EQ(back.states[0].velocity(0, 1), 2.5);
-  ASSERT_EQ(back.memory.size(), 1U);
-  ASSERT_EQ(back.memory[0].entries.size(), 1U);
-  const ContactMemory::Entry& entry = back.memory[0].entries[0];
+  ASSERT_EQ(back.pairs.size(), 2U);
+  const PairHistory& touching = back.pairs.at({0, 1});
+  EXPECT_FALSE(touching.clearance);
+  EXPECT_EQ(touching.work, 10.0);
+  EXPECT_EQ(touching.taken, 39.0);
+  EXPECT_EQ(touching.depth, 40.0);
+  ASSERT_TRUE(back.pairs.at({1, 2}).clearance);
+  EXPECT_EQ(back.pairs.at({1, 2}).clearance->distance, 41.0);
+  EXPECT_EQ(back.pairs.at({1, 2}).clearance->path, 42.0);
+  const ContactMemory& memory = touching.memory;
+  ASSERT_EQ(memory.entries().size(), 1U);
+  const ContactMemory::Entry& entry = memory.entries()[0];
   EXPECT_EQ(entry.material_a, Vector3(1, 2, 3));
   EXPECT_EQ(entry.material_b, Vector3(-1, -2, -3));
   EXPECT_EQ(entry.face_b, 5);
@@ -106,18 +118,17 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.compression, 26.0);
   EXPECT_EQ(entry.memory.level_slip, Vector3(36, 37, 38));
   EXPECT_TRUE(entry.memory.in_level);
-  ASSERT_EQ(back.memory[0].cuts.size(), 1U);
-  EXPECT_EQ(back.memory[0].cuts[0].cell_b, 29);
-  EXPECT_TRUE(back.memory[0].cuts[0].of_a);
-  EXPECT_EQ(back.memory[0].cuts[0].end, Vector3(33, 34, 35));
-  EXPECT_EQ(back.memory[0].deepest, 9.0);
-  EXPECT_EQ(back.memory[0].bulge, 27.0);
-  EXPECT_EQ(back.memory[0].held.normal, 24.0);
-  EXPECT_EQ(back.memory[0].held.shear, 25.0);
-  EXPECT_EQ(back.contact_work.at({0, 1}), 10.0);
-  ASSERT_EQ(back.rejections.size(), 1U);
-  EXPECT_EQ(back.rejections[0].reason, RejectionReason::not_positive_definite);
-  EXPECT_EQ(back.counts.factors.solves, 13U);
+  ASSERT_EQ(memory.cuts().size(), 1U);
+  EXPECT_EQ(memory.cuts()[0].cell_b, 29);
+  EXPECT_TRUE(memory.cuts()[0].of_a);
+  EXPECT_EQ(memory.cuts()[0].end, Vector3(33, 34, 35));
+  EXPECT_EQ(memory.deepest(), 9.0);
+  EXPECT_EQ(memory.bulge(), 27.0);
+  EXPECT_EQ(memory.held().normal, 24.0);
+  EXPECT_EQ(memory.held().shear, 25.0);
+  ASSERT_EQ(back.log.rejections.size(), 1U);
+  EXPECT_EQ(back.log.rejections[0].reason, RejectionReason::not_positive_definite);
+  EXPECT_EQ(back.log.counts.factors.solves, 13U);
 }
 
 TEST(Checkpoint, BytesThatEndTooEarlyAreRefused) {
@@ -131,7 +142,7 @@ TEST(Checkpoint, BytesThatEndTooEarlyAreRefused) {
 TEST(Checkpoint, SnapshotOfOtherBlocksIsRefused) {
   Simulation simulation = make_simulation();
   SimulationSnapshot snapshot = simulation.snapshot();
-  snapshot.states.pop_back();
+  snapshot.run.states.pop_back();
   EXPECT_THROW(simulation.restore(snapshot), std::invalid_argument);
 }
 

@@ -204,7 +204,7 @@ TEST(StaticAnalysis, BlockSlidesOnAnIncline) {
 TEST(StaticAnalysis, AccelerationsOfABlockThatWasInBalanceAreThoseAfterIt) {
   // Friction holds the block until an iteration lacks nothing; then there is less of it.
   Simulation held = on_incline(30, 31);
-  while (held.snapshot().statics.still_iterations == 0)
+  while (held.snapshot().run.statics.still_iterations == 0)
     ASSERT_EQ(held.static_step(1.0), StaticStatus::balancing);
   Simulation released = on_incline(30, 20);
   released.restore(held.snapshot());

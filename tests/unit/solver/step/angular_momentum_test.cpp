@@ -182,9 +182,8 @@ TEST(AngularMomentum, StaysWithTiedBlocksThatSpin) {
     blocks.emplace_back(cube_at(k, k + 1));
     motions.push_back({spin.cross(Vector3(k - 1.0, 0, 0)), spin});
   }
-  Simulation simulation(std::move(blocks), motions, same_law({}), settings);
-  ASSERT_TRUE(simulation.tie_blocks(0, 1, 1e14));
-  ASSERT_TRUE(simulation.tie_blocks(1, 2, 1e14));
+  Simulation simulation(std::move(blocks), motions, same_law({}), settings, {{0, 1, 1e14}, {1, 2, 1e14}});
+  ASSERT_TRUE(simulation.system().are_tied(0, 1) && simulation.system().are_tied(1, 2));
   const Vector3 angular = simulation.angular_momentum();
   const double energy = simulation.ledger().kinetic;
   ASSERT_TRUE(run_until(simulation, 1.0));

@@ -188,8 +188,8 @@ double roughness_of_bearing_force(Integrator integrator, double stop_stiffness) 
   blocks.emplace_back(fixed_box({-0.14, -1, -0.4}, {0.14, 1, 0}));
   blocks.emplace_back(fixed_box({1.51, -1, -0.4}, {1.79, 1, 0}));
   Simulation simulation(std::move(blocks), std::vector<InitialMotion>(5),
-                        same_law({4e8, 2e8, 0.1, 0.0, 0.0, true}), settings);
-  EXPECT_TRUE(simulation.tie_blocks(0, 1, 1e13) && simulation.tie_blocks(1, 2, 1e13));
+                        same_law({4e8, 2e8, 0.1, 0.0, 0.0, true}), settings, {{0, 1, 1e13}, {1, 2, 1e13}});
+  EXPECT_TRUE(simulation.system().are_tied(0, 1) && simulation.system().are_tied(1, 2));
   std::vector<double> forces;
   for (int step = 0; step < 80; ++step) {
     EXPECT_EQ(simulation.step(1.0), StepStatus::accepted);

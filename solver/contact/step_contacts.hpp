@@ -1,0 +1,58 @@
+// Detects the contacts of a step: which blocks meet where, less what only sinking has made meet
+// (internal_edges.hpp), and makes contact pairs of them, with what their histories remember. A list of contacts
+// is made by detect(), or by with_passing() from another one, and not changed after.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "solver/contact/contact_finder.hpp"
+#include "solver/contact/contact_pair.hpp"
+#include "solver/contact/internal_edges.hpp"
+#include "solver/run/block_system.hpp"
+#include "solver/run/run_state.hpp"
+
+namespace ashlar {
+
+/// What contact pairs are made for.
+enum class PairUse {
+  motion,  ///< springs found anew hold no more than at the end of the last step, multipliers hold what is found
+  statics  ///< slip counts from the start of the load level, bonds hold until it has been in balance
+};
+
+/// The contacts of some list, and those of features that would pass through each other.
+[[nodiscard]] std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
+                                                      const std::vector<PassingBlocks>& passing);
+
+/// Keeps surfaces and ways out from step to step.
+class StepContacts {
+ public:
+  /// @param system its blocks must stay where they are
+  explicit StepContacts(const BlockSystem& system);
+
+  /// All contacts at the present state. @param step s, in which blocks may come near; 0: in an iteration of a
+  /// static analysis
+  [[nodiscard]] std::vector<FoundContacts> detect(const BlockSystem& system, RunState& state, double step);
+  /// Contact pairs of a list, then ties.
+  [[nodiscard]] std::vector<ContactPair> pairs(const BlockSystem& system, RunState& state,
+                                               const std::vector<FoundContacts>& found, PairUse use) const;
+  /// Blocks that would pass through each other on the way to new states, the earliest first.
+  [[nodiscard]] std::vector<PassingBlocks> check_motion(const BlockSystem& system, RunState& state,
+                                                        const std::vector<BlockState>& after,
+                                                        const std::vector<FoundContacts>& found);
+
+  [[nodiscard]] const ContactFinder& finder() const { return finder_; }
+  [[nodiscard]] ContactFinder& finder() { return finder_; }
+
+ private:
+  /// By how much blocks have given way, at the present state.
+  [[nodiscard]] static GivenWay given_way(const BlockSystem& system, const RunState& state);
+  /// Which ways out count among some contacts. All must outlive the answer.
+  [[nodiscard]] std::function<bool(const WayOut&)> standing_ways(
+      const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
+
+  ContactFinder finder_;
+  WaysOut ways_out_;  ///< at the last search
+};
+
+}  // namespace ashlar

@@ -1,0 +1,146 @@
+#include "solver/run/block_system.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/run/automatic.hpp"
+#include "solver/step/angular_momentum.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Where a block is asked whether it has turned inside out: its corners, the middles of its edges and the
+/// middles of the corners of its faces. An affine block is the same everywhere.
+std::vector<Vector3> asked_places(const BlockModel& block) {
+  if (block.order() == 1) return {block.basis().centroid()};
+  const Polyhedron& solid = block.solid();
+  const auto& points = solid.mesh().points;
+  std::vector<Vector3> places = {block.basis().centroid()};
+  for (const int corner : solid.corners()) places.push_back(points[at(corner)]);
+  for (const PolyhedronEdge& edge : solid.edges())
+    places.emplace_back(0.5 * (points[at(edge.vertices[0])] + points[at(edge.vertices[1])]));
+  for (const PolyhedronFace& face : solid.faces()) {
+    Vector3 sum = Vector3::Zero();
+    for (const int corner : face.loops.front()) sum += points[at(corner)];
+    places.emplace_back(sum / static_cast<double>(face.loops.front().size()));
+  }
+  return places;
+}
+
+/// Gradients of the functions at these places. @return (3 #places, p)
+Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>& places) {
+  Eigen::MatrixXd gradients(3 * static_cast<Eigen::Index>(places.size()), block.basis().size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    gradients.middleRows(3 * static_cast<Eigen::Index>(k), 3) =
+        block.basis().gradients(places[k]).transpose();
+  return gradients;
+}
+
+}  // namespace
+
+BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
+                         const std::vector<TieRequest>& ties)
+    : blocks_(std::move(blocks)), law_(std::move(law)), settings_(settings) {
+  let_go();
+  // The surface of an incremental block is its sub-faces.
+  if (any_incremental()) settings_.curved_surface = false;
+  for (const BlockModel& block : blocks_)
+    roundoff_force_.push_back(block.fixed() ? 0.0 : block.force_rounding());
+  asked_gradients_.resize(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
+  std::vector<std::array<int, 2>> tied;
+  for (const auto& [a, b, stiffness] : ties) {
+    const BlockModel& block_a = blocks_[at(a)];
+    const BlockModel& block_b = blocks_[at(b)];
+    if (block_a.incremental() != nullptr || block_b.incremental() != nullptr)
+      throw std::invalid_argument("blocks of the incremental formulation cannot be tied");
+    left_out_.insert({a, b});
+    Tie tie = tie_between(block_a.solid(), block_a.basis(), block_b.solid(), block_b.basis());
+    if (tie.area == 0.0) continue;
+    ties_.push_back({a, b, std::move(tie), stiffness});
+    tied.push_back({a, b});
+  }
+  free_bodies_ = ashlar::free_bodies(blocks_, tied);
+}
+
+bool BlockSystem::is_tied(int block) const {
+  return std::any_of(ties_.begin(), ties_.end(),
+                     [&](const TiedBlocks& tie) { return tie.a == block || tie.b == block; });
+}
+
+bool BlockSystem::are_tied(int a, int b) const {
+  return std::any_of(ties_.begin(), ties_.end(),
+                     [&](const TiedBlocks& tie) { return tie.a == a && tie.b == b; });
+}
+
+double BlockSystem::roundoff_force(int block) const {
+  return roundoff_force_[at(block)];
+}
+
+const Eigen::MatrixXd* BlockSystem::asked_gradients(int block) const {
+  return asked_gradients_[at(block)].get();
+}
+
+bool BlockSystem::any_incremental() const {
+  return std::any_of(blocks_.begin(), blocks_.end(),
+                     [](const BlockModel& block) { return block.incremental() != nullptr; });
+}
+
+double BlockSystem::smaller_size(const std::array<int, 2>& blocks) const {
+  return std::min(block_size(blocks_[at(blocks[0])]), block_size(blocks_[at(blocks[1])]));
+}
+
+int BlockSystem::unknowns() const {
+  int sum = 0;
+  for (const BlockModel& block : blocks_) sum += block.unknowns();
+  return sum;
+}
+
+std::vector<bool> BlockSystem::held_without_contacts() const {
+  std::vector<bool> held;
+  held.reserve(blocks_.size());
+  for (std::size_t k = 0; k < blocks_.size(); ++k) held.push_back(!moving_[k] || blocks_[k].space().held());
+  for (bool more = true; more;) {
+    more = false;
+    for (const TiedBlocks& tie : ties_) {
+      if (held[at(tie.a)] == held[at(tie.b)]) continue;
+      held[at(tie.a)] = held[at(tie.b)] = more = true;
+    }
+  }
+  return held;
+}
+
+void BlockSystem::replace(int block, BlockModel model) {
+  blocks_[at(block)] = std::move(model);
+  note_gradients(at(block));
+  roundoff_force_[at(block)] = blocks_[at(block)].force_rounding();
+}
+
+void BlockSystem::carry_on(int block, BlockModel model) {
+  blocks_[at(block)] = std::move(model);
+}
+
+void BlockSystem::hold(const std::vector<int>& blocks) {
+  for (const int block : blocks) moving_[at(block)] = false;
+}
+
+void BlockSystem::let_go() {
+  moving_.clear();
+  for (const BlockModel& block : blocks_) moving_.push_back(!block.fixed());
+}
+
+void BlockSystem::note_gradients(std::size_t k) {
+  asked_gradients_[k].reset();
+  if (!moving_[k] || blocks_[k].incremental() != nullptr) return;
+  for (std::size_t twin = 0; twin < k; ++twin) {
+    if (asked_gradients_[twin] == nullptr || blocks_[twin].parts() != blocks_[k].parts()) continue;
+    asked_gradients_[k] = asked_gradients_[twin];
+    return;
+  }
+  asked_gradients_[k] =
+      std::make_shared<const Eigen::MatrixXd>(gradients_at(blocks_[k], asked_places(blocks_[k])));
+}
+
+}  // namespace ashlar

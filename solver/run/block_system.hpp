@@ -1,0 +1,91 @@
+// The blocks of a scene and what holds them: all that a run does not change, but for models of blocks that
+// change their order or carry their shape on.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "mechanics/block/block_model.hpp"
+#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/tie.hpp"
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// Two blocks that are to be bonded over the faces that they have in common.
+struct TieRequest {
+  int a;  ///< a < b
+  int b;
+  double stiffness;  ///< Pa/m, > 0
+};
+
+/// Two blocks that are bonded (tie.hpp).
+struct TiedBlocks {
+  int a;
+  int b;
+  Tie tie;
+  double stiffness;  ///< Pa/m
+};
+
+/// Blocks by their numbers, ties and joint laws.
+class BlockSystem {
+ public:
+  using LawOfPair = std::function<JointLaw(int, int)>;
+
+  /// @param law joint law of each pair (a < b). @param ties a pair without a common face is not tied, but
+  /// contacts are left out all the same
+  /// @throws std::invalid_argument if a tied block is incremental
+  BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
+              const std::vector<TieRequest>& ties);
+
+  [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()); }
+  [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
+  /// By block: false for fixed blocks, and for those that are held at present.
+  [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
+  [[nodiscard]] JointLaw law(int a, int b) const { return law_(a, b); }
+  [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
+  [[nodiscard]] const std::vector<TiedBlocks>& ties() const { return ties_; }
+  [[nodiscard]] bool is_tied(int block) const;
+  [[nodiscard]] bool are_tied(int a, int b) const;
+  /// Pairs between which no contacts are looked for, the lower block first.
+  [[nodiscard]] const std::set<std::array<int, 2>>& left_out() const { return left_out_; }
+  /// Sets of blocks that turn as one and that nothing but contacts holds (angular_momentum.hpp).
+  [[nodiscard]] const std::vector<std::vector<int>>& free_bodies() const { return free_bodies_; }
+  /// Size of the rounding errors of a block's internal force, N m^-3/2.
+  [[nodiscard]] double roundoff_force(int block) const;
+  /// Gradients of a block's functions where it is asked whether it has turned inside out, (3 #places, p);
+  /// null: fixed or incremental blocks are not asked.
+  [[nodiscard]] const Eigen::MatrixXd* asked_gradients(int block) const;
+  [[nodiscard]] bool any_incremental() const;
+  /// block_size of the smaller of two blocks, m.
+  [[nodiscard]] double smaller_size(const std::array<int, 2>& blocks) const;
+  [[nodiscard]] int unknowns() const;
+  /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
+  [[nodiscard]] std::vector<bool> held_without_contacts() const;
+
+  /// Puts another model of the same solid in a block's place, of another order.
+  void replace(int block, BlockModel model);
+  /// Puts the model of an incremental block's next step in its place.
+  void carry_on(int block, BlockModel model);
+  /// Holds blocks as if they were fixed, until they are let go.
+  void hold(const std::vector<int>& blocks);
+  void let_go();
+
+ private:
+  void note_gradients(std::size_t block);
+
+  std::vector<BlockModel> blocks_;
+  std::vector<bool> moving_;
+  LawOfPair law_;
+  SimulationSettings settings_;
+  std::vector<TiedBlocks> ties_;
+  std::set<std::array<int, 2>> left_out_;
+  std::vector<std::vector<int>> free_bodies_;
+  std::vector<double> roundoff_force_;
+  std::vector<std::shared_ptr<const Eigen::MatrixXd>> asked_gradients_;  ///< shared by equal blocks
+};
+
+}  // namespace ashlar

@@ -1,0 +1,28 @@
+// The parts of a simulation that its steps work on.
+#pragma once
+
+#include <optional>
+
+#include "solver/contact/depth_audit.hpp"
+#include "solver/contact/step_contacts.hpp"
+#include "solver/run/block_system.hpp"
+#include "solver/run/run_state.hpp"
+#include "solver/step/factor_cache.hpp"
+
+namespace ashlar {
+
+/// All are those of one simulation and outlive this.
+struct RunContext {
+  BlockSystem& system;
+  RunState& state;
+  StepContacts& contacts;
+  FactorCache& factors;
+  DepthAudit& audit;
+  std::optional<StateFault>&
+      fault;  ///< what was wrong with the end of the last rejected step, if that was why
+
+  [[nodiscard]] const std::vector<BlockModel>& blocks() const { return system.blocks(); }
+  [[nodiscard]] const SimulationSettings& settings() const { return system.settings(); }
+};
+
+}  // namespace ashlar

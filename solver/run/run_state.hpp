@@ -1,0 +1,151 @@
+// All of a run that changes from step to step, as plain values: copied, it is a snapshot of the run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/contact/contact_finder.hpp"
+#include "solver/contact/contact_pair.hpp"
+#include "solver/contact/pair_history.hpp"
+#include "solver/linear/sparse_cholesky.hpp"
+#include "solver/run/ledger_keeper.hpp"
+#include "solver/run/step_clock.hpp"
+#include "solver/statics/static_analysis.hpp"
+
+namespace ashlar {
+
+/// Why a step was cut.
+enum class RejectionReason {
+  open_close_not_settled,  ///< reduce time_step or the stiffness of the joints
+  not_positive_definite,   ///< a joint or material far too stiff for the step
+  passing,                 ///< blocks would have passed through each other: cut to the first touch
+  no_shape,                ///< an incremental block would have turned inside out: reduce time_step
+  not_finite,              ///< a state that doubles cannot hold: check loads, stiffness and time_step
+  inside_out,              ///< a block would have turned inside out: stiffer material or less load
+  too_deep,                ///< blocks deeper in each other than allowed: see settings.allowed_depth
+};
+[[nodiscard]] std::string to_string(RejectionReason reason);
+
+/// A rejected step.
+struct Rejection {
+  double time;  ///< s, at its start
+  double step;  ///< s, its length
+  RejectionReason reason;
+};
+
+/// Why a state is no state that a step may end in.
+struct StateFault {
+  RejectionReason reason;           ///< not_finite, inside_out or too_deep
+  std::array<int, 2> blocks;        ///< of one block: the same twice; too_deep: the first is in the second
+  double depth = 0.0;               ///< m, of too_deep
+  double allowed = 0.0;             ///< m
+  Vector3 place = Vector3::Zero();  ///< m
+};
+
+/// Work done and skipped so far.
+struct SimulationCounts {
+  FinderCounts finder;
+  std::uint64_t contact_points = 0;
+  std::uint64_t open_close_iterations = 0;
+  std::uint64_t open_close_fallbacks = 0;  ///< times Newton went round in circles (open_close.hpp)
+  std::uint64_t passing_contacts =
+      0;  ///< contacts added because blocks at rest on each other's rim would pass
+  FactorCounts factors;
+};
+
+/// The contact points of one pair of blocks as an accepted step left them.
+struct PairRecord {
+  int a;
+  int b;
+  std::vector<ContactPoint> points;  ///< places are those at the start of the step
+  std::vector<PointResponse> responses;
+  std::vector<double> gaps;  ///< at the end of the step, m
+  double work;               ///< of the contact forces on both blocks since the start of the run, J
+};
+/// Sum of the contact forces on the block `a` of a pair, N.
+[[nodiscard]] Vector3 force_on_a(const PairRecord& record);
+
+/// What the last accepted step did.
+struct StepReport {
+  double step = 0.0;
+  int iterations = 0;  ///< most of any island
+  int open = 0;
+  int locked = 0;
+  int sliding = 0;
+  double penetration = 0.0;  ///< largest of any contact point, m, >= 0
+  double depth = 0.0;        ///< true depth of the deepest point of any block in another one, m, >= 0
+};
+
+/// The deepest that any block has been in another one.
+struct DeepestPoint {
+  std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: none has been
+  double depth = 0.0;                    ///< m
+  double share = 0.0;                    ///< depth over the size of the smaller block
+  double time = 0.0;                     ///< s
+  Vector3 place = Vector3::Zero();       ///< m
+};
+
+/// Friction at points that slid on multipliers, beside what Coulomb's law makes of their normal forces.
+struct FrictionTally {
+  double due = 0.0;    ///< N s, tan(phi) times normal impulses, and cohesion
+  double acted = 0.0;  ///< N s, of the shear forces
+
+  /// By how much of what was due more has acted, < 0: less.
+  [[nodiscard]] double excess() const { return due > 0.0 ? acted / due - 1.0 : 0.0; }
+};
+
+/// Wall time of the parts of a step, s.
+struct PhaseSeconds {
+  double contact_search = 0.0;
+  double contact_points = 0.0;
+  double solve = 0.0;
+  double motion_check = 0.0;
+  double depth_audit = 0.0;
+};
+
+/// What a run has done and what it has cost.
+struct RunLog {
+  std::vector<Rejection> rejections;
+  SimulationCounts counts;  ///< of finder and factors: those of a run that this one goes on with
+  PhaseSeconds seconds;
+};
+
+/// The most that contact has let through.
+struct ContactExtremes {
+  double penetration = 0.0;  ///< of contact points, m
+  DeepestPoint deepest;      ///< of any corner or edge, whatever its contacts say (depth_audit.hpp)
+  /// 0 where contact is springs, whose friction is Coulomb's at each point and time
+  FrictionTally sliding_friction;
+};
+
+/// Vectors are by block.
+struct RunState {
+  StepClock clock;
+  double next_step = 0.0;  ///< s, grows back to settings.time_step after cuts
+  int steps = 0;
+  bool remembers_statics = false;  ///< contacts were known before the first step
+  std::vector<BlockState> states;
+  /// a of time_scheme.hpp, (p, 3) for each block; empty unless the integrator carries it on
+  std::vector<Eigen::MatrixX3d> accelerations;
+  /// J, <= 0: what dda steps have created, and must dissipate before spin may take up any of it
+  std::vector<double> spin_debts;
+  PairHistories pairs;
+  StaticState statics;
+  LedgerKeeper ledger;
+  StepReport report;
+  std::vector<PairRecord> records;
+  ContactExtremes extremes;
+  RunLog log;
+
+  [[nodiscard]] double time() const { return clock.time(); }
+  /// Whether nothing is left up to `end_time` but rounding. @param time_step of the settings, s
+  [[nodiscard]] bool reached(double time_step, double end_time) const {
+    return end_time - time() <= time_rounding(time_step, end_time);
+  }
+  /// Whether contacts have been looked at before, so that new ones are new.
+  [[nodiscard]] bool has_begun() const { return steps > 0 || remembers_statics; }
+};
+
+}  // namespace ashlar

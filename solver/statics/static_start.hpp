@@ -1,0 +1,19 @@
+// Motion that starts from the static state of the whole scene: a static analysis under gravity and the loads
+// at time 0 comes before the first step. What it leaves is where blocks are and what contacts remember:
+// bonds, slip of springs, forces of multipliers, so that the first step finds all forces in balance. What it
+// did to get there, energies, work and rejected iterations, is no part of the motion.
+//
+// Blocks that nothing holds, in the air or in contact with each other only, have no static state: they stay
+// as placed, as if they were fixed, until the motion begins.
+#pragma once
+
+#include "solver/run/run_context.hpp"
+#include "solver/statics/static_analysis.hpp"
+
+namespace ashlar {
+
+/// To be called before the first step. @return how the static analysis ended; unless that is equilibrium all is as
+/// placed
+[[nodiscard]] StaticStatus start_from_statics(const RunContext& run);
+
+}  // namespace ashlar

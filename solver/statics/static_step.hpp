@@ -1,0 +1,19 @@
+// Iterations of a static analysis (static_analysis.hpp).
+#pragma once
+
+#include <vector>
+
+#include "solver/run/run_context.hpp"
+#include "solver/statics/static_analysis.hpp"
+
+namespace ashlar {
+
+/// Takes one iteration towards equilibrium under the loads of `end_time`, or takes up a load level.
+/// @throws std::logic_error if a block is incremental
+[[nodiscard]] StaticStatus static_step(const RunContext& run, double end_time);
+
+/// Sets of blocks in contact with each other that no fixed block, contact or support keeps from moving. A block
+/// alone is one of them if its supports leave any rigid motion.
+[[nodiscard]] std::vector<std::vector<int>> loose_blocks(const RunContext& run);
+
+}  // namespace ashlar

@@ -1,0 +1,193 @@
+#include "solver/statics/static_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "mechanics/basis/field_moments.hpp"
+#include "solver/run/automatic.hpp"
+#include "solver/statics/rigid_onset.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Of settings.static_travel: what has gone so far when iterations end moves, if slowly.
+constexpr double slow_share = 0.1;
+/// Of settings.static_travel: what moving blocks take along, or what sinks while others give way to it, has
+/// travelled this at least; blocks that only bear more than before have hardly moved.
+constexpr double taken_along_share = 1e-3;
+
+/// What an iteration does to joints.
+struct Joints {
+  std::vector<PairKey> sliding;  ///< blocks that slide on each other
+  bool fail = false;             ///< whether any loses its strength
+};
+
+Joints joints_of(const RunContext& run, const StepProblem& problem) {
+  Joints joints;
+  const double tearing_gap = run.settings().tearing_share * run.settings().contact_distance;
+  const auto change = [&](int block) { return problem.bodies[at(block)].change; };
+  for (std::size_t i = 0; i < problem.islands.size(); ++i) {
+    for (std::size_t n = 0; n < problem.islands[i].pairs.size(); ++n) {
+      const ContactPair& pair = problem.pairs[static_cast<std::size_t>(problem.islands[i].pairs[n])];
+      if (pair.tied()) continue;
+      const PairResponse& response = problem.results[i].responses[n];
+      const auto any = [&](ContactState state) {
+        return std::any_of(response.points.begin(), response.points.end(),
+                           [&](const PointResponse& point) { return point.state == state; });
+      };
+      // Where pressure ends, some points slide whatever the blocks do.
+      if (any(ContactState::sliding) && !any(ContactState::locked))
+        joints.sliding.push_back({pair.a(), pair.b()});
+      joints.fail =
+          joints.fail || pair.fails(pair.memory_after(response, problem.results[i].laws[n], change(pair.a()),
+                                                      change(pair.b()), tearing_gap));
+    }
+  }
+  std::sort(joints.sliding.begin(), joints.sliding.end());
+  return joints;
+}
+
+}  // namespace
+
+double largest_motion(const Island& island, const std::vector<BodyStep>& bodies) {
+  double most = 0.0;
+  for (const int k : island.bodies) {
+    const BodyStep& body = bodies[at(k)];
+    const double motion = mean_motion(*body.model, body.model->space().expand(body.change));
+    most = std::max(most, motion / block_size(*body.model));
+  }
+  return most;
+}
+
+double largest_motion(const StepProblem& problem) {
+  double most = 0.0;
+  for (const Island& island : problem.islands) most = std::max(most, largest_motion(island, problem.bodies));
+  return most;
+}
+
+bool multipliers_repeat(const RunContext& run, const StepProblem& problem) {
+  double change = 0.0;
+  double largest = 0.0;
+  for (const IslandResult& result : problem.results) {
+    for (std::size_t pair = 0; pair < result.laws.size(); ++pair) {
+      for (std::size_t k = 0; k < result.laws[pair].size(); ++k) {
+        const PointLaw& law = result.laws[pair][k];
+        const Eigen::Vector3d& force = result.responses[pair].points[k].force;
+        largest = std::max(largest, force.norm());
+        if (!law.augmented) continue;
+        const Eigen::Vector3d held(law.normal_multiplier, law.shear_multiplier[0], law.shear_multiplier[1]);
+        change = std::max(change, (force - held).norm());
+      }
+    }
+  }
+  return change <= run.settings().static_multiplier_tolerance * largest;
+}
+
+bool has_set_off(const RunContext& run) {
+  return std::any_of(run.state.statics.travels.begin(), run.state.statics.travels.end(), [&](double travel) {
+    return travel > taken_along_share * run.settings().static_travel;
+  });
+}
+
+bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
+  bool balanced = true;
+  const std::vector<bool> held = run.system.held_without_contacts();
+  for (std::size_t k = 0; k < run.blocks().size(); ++k) {
+    if (!run.system.moving()[k]) continue;
+    const BodyStep& body = problem.bodies[k];
+    const BlockModel& block = run.blocks()[k];
+    const double lacking = block.material().density * scheme.inertia * body.change.norm();
+    const Eigen::MatrixX3d position = run.state.states[k].position + body.motion();
+    if (lacking <= run.settings().static_tolerance * body.largest_force + body.roundoff_force) {
+      run.state.statics.travels[k] = 0.0;
+      run.state.statics.milestones[k] = position;
+      run.state.statics.milestone_forces[k] = lacking;
+      continue;
+    }
+    balanced = false;
+    if (lacking < 0.5 * run.state.statics.milestone_forces[k]) {
+      run.state.statics.milestones[k] = position;
+      run.state.statics.milestone_forces[k] = lacking;
+    }
+    run.state.statics.travels[k] =
+        mean_motion(block, position - run.state.statics.milestones[k]) / block_size(block);
+    if (run.state.statics.travels[k] > run.settings().static_travel && !held[k])
+      run.state.statics.moving = true;
+  }
+  return balanced;
+}
+
+void forget_accelerations(const RunContext& run) {
+  run.state.statics.least_lacking = std::numeric_limits<double>::infinity();
+  run.state.statics.unbalanced.clear();
+  run.state.statics.rigid = false;
+  run.state.statics.gives_way.assign(run.blocks().size(), 0);
+  run.state.statics.starts.clear();
+  for (const BlockState& state : run.state.states) run.state.statics.starts.push_back(state.position);
+}
+
+double travel(const RunContext& run, int block) {
+  return mean_motion(run.blocks()[at(block)],
+                     run.state.states[at(block)].position - run.state.statics.starts[at(block)]);
+}
+
+void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
+  auto [sliding, fail] = joints_of(run, problem);
+  if (fail) forget_accelerations(run);
+  const bool settled = sliding == run.state.statics.sliding;
+  run.state.statics.sliding = std::move(sliding);
+  if (!run.state.statics.unbalanced.empty() && !settled) return;
+  bool near_start = true;
+  for (std::size_t k = 0; k < run.blocks().size(); ++k)
+    near_start = near_start && !(run.system.moving()[k] &&
+                                 travel(run, static_cast<int>(k)) > run.settings().contact_distance);
+  if (!near_start && run.state.statics.rigid) return;
+  std::vector<Eigen::MatrixX3d> accelerations(run.blocks().size());
+  for (std::size_t k = 0; k < run.blocks().size(); ++k)
+    if (run.system.moving()[k])
+      accelerations[k] = scheme.inertia * run.blocks()[k].space().expand(problem.bodies[k].change);
+  if (settled) {
+    const bool rigid = set_off(run, scheme, problem, accelerations);
+    double lacking = 0.0;
+    for (std::size_t k = 0; k < run.blocks().size(); ++k)
+      lacking += std::pow(run.blocks()[k].material().density * accelerations[k].norm(), 2);
+    if (!(lacking < run.state.statics.least_lacking)) return;
+    run.state.statics.least_lacking = lacking;
+    run.state.statics.rigid = rigid;
+  }
+  run.state.statics.unbalanced = std::move(accelerations);
+}
+
+StaticStatus give_up(const RunContext& run) {
+  // What little a block lacks may take it far only slowly.
+  const std::vector<bool> held = run.system.held_without_contacts();
+  for (std::size_t k = 0; k < run.blocks().size(); ++k)
+    run.state.statics.moving =
+        run.state.statics.moving ||
+        (!held[k] && run.state.statics.travels[k] > slow_share * run.settings().static_travel);
+  return run.state.statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
+}
+
+std::vector<MovingBlock> moving_blocks(const RunContext& run) {
+  const std::vector<bool> held = run.system.held_without_contacts();
+  std::vector<MovingBlock> result;
+  std::vector<MovingBlock> later;
+  for (std::size_t k = 0; k < run.state.statics.travels.size(); ++k) {
+    const BlockModel& block = run.blocks()[k];
+    if (!run.system.moving()[k] || held[k] ||
+        run.state.statics.travels[k] <= taken_along_share * run.settings().static_travel)
+      continue;
+    const Eigen::MatrixX3d& a = run.state.statics.unbalanced[k];
+    const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
+    const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                                       gradient(1, 0) - gradient(0, 1));
+    (a.isZero(0.0) ? later : result)
+        .push_back({static_cast<int>(k), mean_of(a, block.basis().volume()), turn});
+  }
+  return result.empty() ? later : result;
+}
+
+}  // namespace ashlar

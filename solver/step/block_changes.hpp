@@ -1,0 +1,28 @@
+// Blocks whose model changes between steps: incremental blocks, and those that get another order.
+#pragma once
+
+#include "solver/run/run_context.hpp"
+#include "solver/step/step_problem.hpp"
+
+namespace ashlar {
+
+/// What a change of order lost.
+struct DroppedByOrder {
+  double displacement = 0.0;  ///< root of the mean square over the block, m
+  double velocity = 0.0;      ///< likewise, m/s
+  double energy = 0.0;        ///< kinetic, elastic and of gravity, J
+};
+
+/// Makes the next steps of incremental blocks. @return false if one would be no block any more
+[[nodiscard]] bool carry_blocks(const RunContext& run, StepProblem& problem);
+
+/// Goes on with the next step of an incremental block.
+void start_carried_step(const RunContext& run, int block, CarriedBlock next);
+
+/// Goes on with another model of the same solid, of another order.
+void replace_model(const RunContext& run, int block, BlockModel model);
+
+/// Changes the order of a moving block of the total formulation, see Simulation::change_order.
+DroppedByOrder change_order(const RunContext& run, int block, int order);
+
+}  // namespace ashlar

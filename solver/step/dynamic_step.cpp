@@ -1,0 +1,133 @@
+#include "solver/step/dynamic_step.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "solver/run/checkpoint.hpp"
+#include "solver/step/accepted_step.hpp"
+#include "solver/step/block_changes.hpp"
+#include "solver/step/end_state.hpp"
+#include "solver/step/position_projection.hpp"
+#include "solver/step/step_problem.hpp"
+
+namespace ashlar {
+namespace {
+
+/// One step: tried with less and less time, or with more contacts, until it can be accepted.
+class DynamicStep {
+ public:
+  DynamicStep(const RunContext& run, double step)
+      : run_(run), step_(step), found_(run.contacts.detect(run.system, run.state, step)) {}
+
+  StepStatus run() {
+    const SimulationSettings& settings = run_.settings();
+    pair_up();
+    while (cuts_ <= settings.max_step_cuts && additions_ <= settings.max_step_cuts) {
+      const TimeScheme scheme = time_scheme(settings, step_);
+      const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
+      if (status != IslandStatus::settled) {
+        reject_unsettled(run_, step_, status, problem_);
+        unsettled_ = true;
+        cut(0.5);
+      } else if (const auto broken = broken_block(run_, problem_)) {
+        reject(run_, step_, *broken);
+        cut(0.5);
+      } else if (const auto passing = blocks_that_pass(); !passing.empty()) {
+        meet(passing);
+      } else if (can_end()) {
+        accept(run_, scheme, problem_);
+        double& next = run_.state.next_step;
+        next = std::min(settings.time_step, unsettled_ ? step_ : 2.0 * next);
+        return StepStatus::accepted;
+      }
+    }
+    take_back_moves();
+    return StepStatus::too_many_cuts;
+  }
+
+ private:
+  void cut(double share) {
+    step_ *= share;
+    ++cuts_;
+  }
+
+  /// Makes the contact pairs of the step. Blocks that are too deep are moved apart first.
+  void pair_up() {
+    const int most = run_.settings().moves_apart;
+    problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
+    while (moves_ < most && too_deep(run_, problem_.pairs)) {
+      if (!unmoved_) unmoved_ = snapshot_of(run_);
+      if (!project_positions(run_, step_, problem_, found_, most)) break;
+      ++moves_;
+      found_ = run_.contacts.detect(run_.system, run_.state, step_);
+      problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
+    }
+  }
+
+  std::vector<PassingBlocks> blocks_that_pass() {
+    const std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
+    return run_.contacts.check_motion(run_.system, run_.state, after, found_);
+  }
+
+  /// Cuts the step to the first touch, or adds contacts where blocks at rest on each other's rim would pass.
+  void meet(const std::vector<PassingBlocks>& passing) {
+    const double first = passing.front().touch.share;
+    if (first > run_.settings().smallest_cut && cuts_ < run_.settings().max_step_cuts) {
+      reject(run_, step_, RejectionReason::passing);
+      cut(first);
+      return;
+    }
+    ++additions_;
+    found_ = with_passing(std::move(found_), passing);
+    run_.state.log.counts.passing_contacts += passing.size();
+    pair_up();
+  }
+
+  /// Whether the step may end as it does; otherwise it has been cut.
+  bool can_end() {
+    if (!carry_blocks(run_, problem_)) {
+      reject(run_, step_, RejectionReason::no_shape);
+      cut(0.5);
+      return false;
+    }
+    const bool fine = (run_.state.steps + 1) % run_.settings().fine_audit_interval == 0;
+    if (const auto deep = audit_depths(run_, problem_, fine)) {
+      reject(run_, step_, *deep);
+      cut(0.5);
+      return false;
+    }
+    return true;
+  }
+
+  /// Takes back that blocks were moved apart; what was done for it stays in the log.
+  void take_back_moves() {
+    if (moves_ == 0) return;
+    unmoved_->run.log = run_.state.log;
+    unmoved_->run.log.counts = counts_of(run_);
+    restore(run_, *unmoved_);
+  }
+
+  const RunContext& run_;
+  double step_;  ///< s
+  std::vector<FoundContacts> found_;
+  StepProblem problem_;
+  std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were moved apart
+  int moves_ = 0;
+  int cuts_ = 0;
+  int additions_ = 0;
+  bool unsettled_ = false;
+};
+
+}  // namespace
+
+StepStatus take_step(const RunContext& run, double end_time) {
+  double step = run.state.next_step;
+  const double left = end_time - run.state.time();
+  if (left < step - time_rounding(run.settings().time_step, end_time)) step = left;
+  if (run.settings().integrator == Integrator::generalized_alpha && run.state.accelerations.empty())
+    run.state.accelerations = smooth_accelerations(run.system, run.state);
+  return DynamicStep(run, step).run();
+}
+
+}  // namespace ashlar

@@ -1,0 +1,110 @@
+#include "solver/step/step_problem.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "solver/stopwatch.hpp"
+
+namespace ashlar {
+namespace {
+
+std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& state,
+                                     const TimeScheme& scheme) {
+  std::vector<BodyStep> bodies(system.blocks().size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const BlockModel& block = system.blocks()[k];
+    BodyStep& body = bodies[k];
+    body.model = &block;
+    body.state = &state.states[k];
+    body.roundoff_force = system.roundoff_force(static_cast<int>(k));
+    if (block.fixed()) continue;
+    body.change = Eigen::VectorXd::Zero(block.unknowns());
+    const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
+    body.free_change = block.space().restrict(scheme.free_change(
+        still, state.states[k].velocity, state.accelerations.empty() ? still : state.accelerations[k]));
+    body.external_force =
+        block.space().restrict(external_force(system, state.clock, static_cast<int>(k), scheme));
+    body.prescribed =
+        block.prescribed_change(state.states[k].position, state.time(), state.clock.time_after(scheme.step));
+  }
+  return bodies;
+}
+
+}  // namespace
+
+IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme, FactorCache& factors,
+                   StepProblem& problem) {
+  const Stopwatch watch(state.log.seconds.solve);
+  const SimulationSettings& settings = system.settings();
+  problem.islands = find_islands(system.moving(), problem.pairs);
+  problem.bodies = prepare_bodies(system, state, scheme);
+  for (ContactPair& pair : problem.pairs) {
+    pair.prescribe(system.blocks()[at(pair.a())], problem.bodies[at(pair.a())].prescribed,
+                   system.blocks()[at(pair.b())], problem.bodies[at(pair.b())].prescribed);
+    if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
+  }
+  problem.results.clear();
+  SimulationCounts& counts = state.log.counts;
+  for (const Island& island : problem.islands) {
+    std::optional<IslandResult> lone;
+    if (island.bodies.size() == 1 && island.pairs.empty())
+      lone = solve_lone_body(problem.bodies[at(island.bodies[0])], scheme, settings, factors.lone);
+    problem.results.push_back(
+        lone ? std::move(*lone)
+             : solve_island(island, problem.bodies, problem.pairs, scheme, settings, factors.islands));
+    const IslandResult& result = problem.results.back();
+    counts.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
+    counts.open_close_fallbacks += static_cast<std::uint64_t>(result.fallbacks);
+    if (result.status != IslandStatus::settled) return result.status;
+  }
+  return IslandStatus::settled;
+}
+
+Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,
+                                const TimeScheme& scheme) {
+  const BlockModel& model = system.blocks()[at(block)];
+  const Vector3& gravity = system.settings().gravity;
+  Eigen::MatrixX3d end = model.external_force(gravity, clock.time_after(scheme.step));
+  if (scheme.end_share >= 1.0) return end;
+  return scheme.end_share * end + (1.0 - scheme.end_share) * model.external_force(gravity, clock.time());
+}
+
+std::vector<BlockState> driven_states(const BlockSystem& system, const RunState& state, double step) {
+  std::vector<BlockState> states;
+  for (std::size_t k = 0; k < system.blocks().size(); ++k) {
+    const BlockModel& block = system.blocks()[k];
+    const Eigen::MatrixX3d prescribed =
+        block.prescribed_change(state.states[k].position, state.time(), state.clock.time_after(step));
+    if (prescribed.size() == 0 || prescribed.isZero(0.0)) continue;
+    if (states.empty()) states = state.states;
+    states[k].velocity = block.space().expand(block.space().restrict(state.states[k].velocity)) +
+                         prescribed / (step > 0.0 ? step : 1.0);
+  }
+  return states;
+}
+
+std::vector<Eigen::MatrixX3d> smooth_accelerations(const BlockSystem& system, const RunState& state) {
+  std::vector<Eigen::MatrixX3d> result;
+  for (std::size_t k = 0; k < system.blocks().size(); ++k) {
+    const BlockModel& block = system.blocks()[k];
+    result.emplace_back(Eigen::MatrixX3d::Zero(block.basis().size(), 3));
+    if (!system.moving()[k]) continue;
+    const Eigen::MatrixX3d force = block.external_force(system.settings().gravity, state.time()) -
+                                   block.elastic(state.states[k].position).force;
+    result.back() = block.space().expand(block.space().restrict(force)) / block.material().density -
+                    system.settings().mass_damping * state.states[k].velocity;
+  }
+  return result;
+}
+
+std::vector<BlockState> states_after(const BlockSystem& system, const RunState& state,
+                                     const StepProblem& problem) {
+  std::vector<BlockState> after = state.states;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    if (system.moving()[k]) after[k].position += problem.bodies[k].motion();
+  }
+  return after;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,52 @@
+// A step as a problem: bodies, contact pairs and islands, and their solution. Nothing of a run changes before a
+// step is accepted (accepted_step.hpp).
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "mechanics/block/incremental_block.hpp"
+#include "solver/contact/contact_pair.hpp"
+#include "solver/contact/depth_audit.hpp"
+#include "solver/run/block_system.hpp"
+#include "solver/run/run_state.hpp"
+#include "solver/step/factor_cache.hpp"
+#include "solver/step/island.hpp"
+#include "solver/step/time_scheme.hpp"
+
+namespace ashlar {
+
+/// A step as tried.
+struct StepProblem {
+  std::vector<ContactPair> pairs;
+  std::vector<Island> islands;
+  std::vector<BodyStep> bodies;
+  std::vector<IslandResult> results;            ///< by island
+  std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks
+  std::vector<PairDepth> depths;                ///< at its end
+  std::map<PairKey, Vector3> slip_impulses;     ///< on a, before the step, N s (slowed_slip.hpp)
+};
+
+/// Finds islands and bodies of a problem whose pairs are given, and solves it.
+/// @param state its log counts what is done. @return settled, or how the first island ended that is not
+[[nodiscard]] IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme,
+                                 FactorCache& factors, StepProblem& problem);
+
+/// Gravity and loads of a block where the integrator takes them, (p, 3).
+[[nodiscard]] Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,
+                                              const TimeScheme& scheme);
+
+/// States with the velocities that supports that move are about to have; empty if none moves.
+/// @param step s; 0: as if the iteration of a static analysis took one second
+[[nodiscard]] std::vector<BlockState> driven_states(const BlockSystem& system, const RunState& state,
+                                                    double step);
+
+/// Accelerations in balance with the smooth forces of the present state, (p, 3) of each block.
+[[nodiscard]] std::vector<Eigen::MatrixX3d> smooth_accelerations(const BlockSystem& system,
+                                                                 const RunState& state);
+
+/// States with the positions at the end of a solved problem and the velocities of its start.
+[[nodiscard]] std::vector<BlockState> states_after(const BlockSystem& system, const RunState& state,
+                                                   const StepProblem& problem);
+
+}  // namespace ashlar
