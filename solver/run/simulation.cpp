@@ -114,7 +114,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
   std::vector<int> settled;
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k] || !blocks_[k].supported() || is_tied(k)) continue;
-    auto position = blocks_[k].equilibrium(settings_.gravity, 0.0);
+    auto position = blocks_[k].equilibrium(settings_.gravity_at(0.0), 0.0);
     if (!position) continue;
     settled.push_back(static_cast<int>(k));
     if (blocks_[k].incremental() == nullptr) {
@@ -128,7 +128,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
       // Rounding is all that is left when steps no longer shrink.
       if (!(way < last)) break;
       last = way;
-      position = blocks_[k].equilibrium(settings_.gravity, 0.0);
+      position = blocks_[k].equilibrium(settings_.gravity_at(0.0), 0.0);
     }
   }
   note_elastic_energies();
@@ -416,9 +416,8 @@ std::vector<BodyStep> Simulation::prepare_bodies(const TimeScheme& scheme) const
 }
 
 Eigen::MatrixX3d Simulation::external_force(const BlockModel& block, const TimeScheme& scheme) const {
-  Eigen::MatrixX3d end = block.external_force(settings_.gravity, clock_.time_after(scheme.step));
-  if (scheme.end_share >= 1.0) return end;
-  return scheme.end_share * end + (1.0 - scheme.end_share) * block.external_force(settings_.gravity, time());
+  const auto force = [&](double when) { return block.external_force(settings_.gravity_at(when), when); };
+  return scheme.smooth_force(force, time(), clock_.time_after(scheme.step));
 }
 
 std::vector<BlockState> Simulation::driven_states(double step) const {
@@ -442,7 +441,7 @@ std::vector<Eigen::MatrixX3d> Simulation::smooth_accelerations() const {
     result.emplace_back(Eigen::MatrixX3d::Zero(block.basis().size(), 3));
     if (!moving_[k]) continue;
     const Eigen::MatrixX3d force =
-        block.external_force(settings_.gravity, time()) - block.elastic(states_[k].position).force;
+        block.external_force(settings_.gravity_at(time()), time()) - block.elastic(states_[k].position).force;
     result.back() = block.space().expand(block.space().restrict(force)) / block.material().density -
                     settings_.mass_damping * states_[k].velocity;
   }

@@ -150,8 +150,9 @@ class Simulation {
 
   /// Takes the blocks to their equilibrium under gravity and the loads at time 0, contacts on, by a static
   /// analysis; initial velocities are theirs then (static_start.cpp). To be called before the first step.
-  /// @return how it ended; unless that is equilibrium all is as placed
-  [[nodiscard]] StaticStatus start_from_statics();
+  /// @param goes_on asked before each iteration: if not, it ends there
+  /// @return how it ended, balancing if it was ended; unless that is equilibrium all is as placed
+  [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& goes_on = [] { return true; });
 
   /// Bonds two blocks over the faces they have in common (tie.hpp), and looks for no contacts between them.
   /// To be called before settle_supported_blocks(), which leaves tied blocks as they are. @param a,b a < b

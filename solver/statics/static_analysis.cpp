@@ -82,9 +82,10 @@ double Simulation::least_inertia() const {
 }
 
 void Simulation::start_load_level(double end_time) {
-  const bool changing = std::any_of(blocks_.begin(), blocks_.end(), [&](const BlockModel& block) {
-    return block.loads_change_between(time(), end_time);
-  });
+  const bool changing = settings_.gravity_history.changes_between(time(), end_time) ||
+                        std::any_of(blocks_.begin(), blocks_.end(), [&](const BlockModel& block) {
+                          return block.loads_change_between(time(), end_time);
+                        });
   if (changing && clock_.time_after(settings_.time_step) < end_time - time_rounding(end_time)) {
     clock_.advance(settings_.time_step);
   } else {

@@ -10,13 +10,13 @@
 
 namespace ashlar {
 
-StaticStatus Simulation::start_from_statics() {
+StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
   const SimulationSnapshot as_placed = snapshot();
   const std::vector<bool> moving = moving_;
   for (const std::vector<int>& blocks : loose_blocks())
     for (const int block : blocks) moving_[static_cast<std::size_t>(block)] = false;
   StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing) status = static_step(time());
+  while (status == StaticStatus::balancing && goes_on()) status = static_step(time());
   moving_ = moving;
   if (status != StaticStatus::equilibrium) {
     restore(as_placed);

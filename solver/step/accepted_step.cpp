@@ -6,6 +6,7 @@
 #include "geometry/index.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/step/angular_momentum.hpp"
+#include "solver/step/applied_force.hpp"
 
 namespace ashlar {
 
@@ -23,9 +24,8 @@ double Simulation::move_block(std::size_t k, const TimeScheme& scheme, const Bod
   const bool carried = !accelerations_.empty();
   const Eigen::MatrixX3d acceleration =
       carried ? accelerations_[k] : Eigen::MatrixX3d::Zero(change.rows(), 3);
-  Eigen::MatrixX3d load = block.load_force(clock_.time_after(scheme.step));
-  if (scheme.end_share < 1.0)
-    load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(time());
+  const auto applied = [&](double when) { return applied_force(block, settings_, when); };
+  const Eigen::MatrixX3d load = scheme.smooth_force(applied, time(), clock_.time_after(scheme.step));
   ledger_.applied += body.motion().cwiseProduct(load).sum();
   const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
   const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
@@ -240,7 +240,8 @@ void Simulation::measure_energies(Ledger& ledger) const {
     if (!moving_[k]) continue;
     ledger.kinetic += blocks_[k].kinetic_energy(states_[k]);
     ledger.elastic += elastic_energies_[k];
-    ledger.gravity += blocks_[k].gravity_energy(states_[k], settings_.gravity);
+    if (settings_.gravity_history.empty())
+      ledger.gravity += blocks_[k].gravity_energy(states_[k], settings_.gravity);
   }
 }
 

@@ -41,16 +41,16 @@ Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>
 }
 
 /// Whether doubles cannot hold what a step is to do with a block or has done: a square of it that is not
-/// finite, or a way so long that the block's coordinates would be rounded to more than 1e-6 of its size, as
-/// overlaps are judged by.
-bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX3d& position) {
-  constexpr double longest_way = 1e-6 / std::numeric_limits<double>::epsilon();  // in sizes of the block
+/// finite, or a way so long that the block's coordinates would be rounded to more than a share of its size
+/// (notes/lost_blocks.md).
+bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX3d& position, double share) {
   for (const Eigen::VectorXd* vector : {&body.external_force, &body.free_change, &body.change})
     if (!std::isfinite(vector->squaredNorm())) return true;
   if (!std::isfinite(position.squaredNorm())) return true;
   const double volume = block.basis().volume();
   const Eigen::MatrixX3d way = position - block.basis().identity_map();
-  return way.row(0).norm() / std::sqrt(volume) > longest_way * std::cbrt(volume);
+  const double rounding = std::numeric_limits<double>::epsilon() * way.row(0).norm() / std::sqrt(volume);
+  return rounding > share * std::cbrt(volume);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ std::optional<StateFault> Simulation::broken_block(const Trial& trial) const {
     if (!moving_[k]) continue;
     const Eigen::MatrixX3d position = states_[k].position + trial.bodies[k].motion();
     const int block = static_cast<int>(k);
-    if (is_lost(blocks_[k], trial.bodies[k], position))
+    if (is_lost(blocks_[k], trial.bodies[k], position, settings_.lost_share))
       return StateFault{RejectionReason::not_finite, {block, block}};
     if (asked_gradients_[k] == nullptr) continue;
     const Eigen::MatrixX3d deformation = *asked_gradients_[k] * position;

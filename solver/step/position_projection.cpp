@@ -13,6 +13,7 @@
 #include "geometry/index.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/step/angular_momentum.hpp"
+#include "solver/step/applied_force.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -29,7 +30,7 @@ double Simulation::energy_of_motion(const std::vector<int>& island,
     const Eigen::MatrixX3d motion = bodies[at(k)].motion();
     const BlockModel& block = blocks_[at(k)];
     energy += block.elastic(states_[at(k)].position + motion).energy - elastic_energies_[at(k)] -
-              motion.cwiseProduct(block.external_force(settings_.gravity, time())).sum();
+              motion.cwiseProduct(block.external_force(settings_.gravity_at(time()), time())).sum();
   }
   return energy;
 }
@@ -132,7 +133,7 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (!moving_[k]) continue;
     const Eigen::MatrixX3d motion = trial.bodies[k].motion();
-    ledger_.applied += motion.cwiseProduct(blocks_[k].load_force(time())).sum();
+    ledger_.applied += motion.cwiseProduct(applied_force(blocks_[k], settings_, time())).sum();
     states_[k].position += motion;
     note_elastic_energy(k);
   }
