@@ -110,7 +110,8 @@ TEST(ChangingGravity, ATableThatIsTiltedLetsGoWhereFrictionEnds) {
 
 TEST(ChangingGravity, SettledBlocksBearThatOfTheStart) {
   const auto sag = [](const SimulationSettings& settings) {
-    BlockDefinition beam = block_of("beam", Polyhedron(make_box({0, 0, 0}, {4, 1, 1})), {2500.0, 1e9, 0.2}, 3);
+    BlockDefinition beam =
+        block_of("beam", Polyhedron(make_box({0, 0, 0}, {4, 1, 1})), {2500.0, 1e9, 0.2}, 3);
     beam.supports.push_back({Plane{{0, 0, 0}, Vector3::UnitX()}, {true, true, true}, {}});
     std::vector<BlockModel> blocks;
     blocks.emplace_back(std::move(beam));

@@ -28,7 +28,8 @@ TEST(GravityHistoryKey, RowsAreRead) {
   EXPECT_EQ(scene.analysis.gravity_history[1].value, Vector3(1, 2, -3));
   const nlohmann::json json = to_json(scene)["analysis"];
   EXPECT_FALSE(json.contains("gravity"));
-  EXPECT_EQ(json["gravity_history"], nlohmann::json::parse("[[0.0, 0.0, 0.0, -9.81], [2.0, 1.0, 2.0, -3.0]]"));
+  EXPECT_EQ(json["gravity_history"],
+            nlohmann::json::parse("[[0.0, 0.0, 0.0, -9.81], [2.0, 1.0, 2.0, -3.0]]"));
 }
 
 TEST(GravityHistoryKey, FaultsHaveTheirPlace) {
