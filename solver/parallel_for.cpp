@@ -15,9 +15,18 @@
 #include <thread>
 #include <vector>
 
+// gcc says so by a macro, clang by a feature.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define ASHLAR_THREAD_SANITIZER
+#endif
+#elif defined(__SANITIZE_THREAD__)
+#define ASHLAR_THREAD_SANITIZER
+#endif
+
 namespace ashlar {
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(ASHLAR_THREAD_SANITIZER)
 
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;

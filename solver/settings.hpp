@@ -5,6 +5,7 @@
 
 #include "geometry/triangle_mesh.hpp"
 #include "mechanics/contact/contact_points.hpp"
+#include "mechanics/supports/gravity_history.hpp"
 
 namespace ashlar {
 
@@ -33,7 +34,17 @@ struct SimulationSettings {
   /// that falls freely reaches g / mass_damping
   double mass_damping = 0.0;
   double time_step = 1e-3;                     ///< s, > 0: the largest step
-  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2
+  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2, unless it has a history
+  /// m/s^2, in place of gravity unless empty. It has no potential: its work is that of a load
+  GravityHistory gravity_history;
+  /// @param time s. @return m/s^2
+  [[nodiscard]] Vector3 gravity_at(double time) const {
+    return gravity_history.empty() ? gravity : gravity_history.at(time);
+  }
+  /// At any time, m/s^2.
+  [[nodiscard]] double largest_gravity() const {
+    return gravity_history.empty() ? gravity.norm() : gravity_history.largest();
+  }
 
   bool area_springs = true;
   bool curved_surface = true;
@@ -61,6 +72,10 @@ struct SimulationSettings {
   /// steps between audits in which depths of edges in solids that are not convex are exact to passing_share
   /// of the contact distance; in the others they are to the contact distance
   int fine_audit_interval = 10;
+
+  /// of its size: a block that has gone so far that its coordinates are rounded to more is lost
+  /// (notes/lost_blocks.md)
+  double lost_share = 1e-6;
 
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 

@@ -85,6 +85,10 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   settings.mass_damping = scene.analysis.mass_damping;
   settings.time_step = scene.analysis.time_step;
   settings.gravity = scene.analysis.gravity;
+  for (const auto& [time, value] : scene.analysis.gravity_history) {
+    settings.gravity_history.times.push_back(time);
+    settings.gravity_history.values.push_back(value);
+  }
   settings.area_springs = scene.contact.springs == SceneContact::Springs::area;
   settings.curved_surface = scene.contact.surface == SceneContact::Surface::curved;
   settings.threads = threads;

@@ -61,23 +61,25 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
   return as_placed;
 }
 
-StaticStart start_in_statics(Simulation& simulation) {
-  switch (simulation.start_from_statics()) {
+StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>& goes_on) {
+  switch (simulation.start_from_statics(goes_on)) {
     case StaticStatus::moving:
       return {
-          false,
-          "initial_state (\"static\"): no equilibrium holds all blocks under gravity and the loads at t = "
-          "0; all start as placed"};
+          StaticStart::End::answered,
+          "note: initial_state (\"static\"): no equilibrium holds all blocks under gravity and the loads at "
+          "t = 0; all start as placed"};
     case StaticStatus::equilibrium:
       return {};
     case StaticStatus::balancing:
+      return {StaticStart::End::interrupted,
+              "interrupted in the static analysis that comes before the motion (initial_state = \"static\"): "
+              "nothing of it is saved, the same command starts anew"};
     case StaticStatus::not_converged:
       break;
   }
-  return {
-      true,
-      "initial_state (\"static\"): no equilibrium was found under gravity and the loads at t = 0, and none "
-      "was ruled out; run the scene with analysis.type = \"static\" to see how far it gets"};
+  return {StaticStart::End::failed,
+          "error: initial_state (\"static\"): no equilibrium was found under gravity and the loads at t = 0, "
+          "and none was ruled out; run the scene with analysis.type = \"static\" to see how far it gets"};
 }
 
 std::string first_names(const std::vector<std::string>& names) {

@@ -1,6 +1,7 @@
 // analysis.initial_state = "equilibrium", and whom it leaves as placed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,17 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
 
 /// What initial_state = "static" came to.
 struct StaticStart {
-  bool failed = false;
+  enum class End {
+    answered,     ///< motion may begin
+    failed,       ///< no answer was found
+    interrupted,  ///< it was told to stop, and nothing is kept
+  };
+  End end = End::answered;
   std::string message;  ///< to the user; empty: all blocks that are held are in equilibrium
 };
 /// Takes the blocks to their static state (Simulation::start_from_statics). Where nothing is in balance they
-/// start as placed; it fails where no answer was found.
-[[nodiscard]] StaticStart start_in_statics(Simulation& simulation);
+/// start as placed. @param goes_on asked before each iteration
+[[nodiscard]] StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>& goes_on);
 
 /// "A, B, C, D, E and 3 more": the first names.
 [[nodiscard]] std::string first_names(const std::vector<std::string>& names);

@@ -53,6 +53,9 @@ std::uint64_t scene_hash(const LoadedScene& loaded) {
     hash = hash_bytes(writer.take(), hash);
   }
   ByteWriter records;
+  const SceneAnalysis& analysis = loaded.scene.analysis;
+  for (std::size_t n = 0; analysis.gravity_file && n < analysis.gravity_history.size(); ++n)
+    records(analysis.gravity_history[n].time, analysis.gravity_history[n].value);
   for (const SceneBlock& block : loaded.scene.block) {
     for (const SceneFix& fix : block.fix) {
       for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)

@@ -1,20 +1,15 @@
 #include "apps/run/run_command.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <array>
 #include <chrono>
-#include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <string_view>
 
 #include "apps/command_line.hpp"
 #include "apps/results/atomic_file.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/json_text.hpp"
 #include "apps/results/result_folder.hpp"
 #include "apps/run/checkpoint_schedule.hpp"
@@ -24,8 +19,8 @@
 #include "apps/run/loose_blocks.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/run/run_checkpoint.hpp"
+#include "apps/run/run_messages.hpp"
 #include "apps/run/run_summary.hpp"
-#include "apps/run/scene_difference.hpp"
 #include "apps/run/space_reserve.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/scene_json.hpp"
@@ -67,32 +62,6 @@ int exit_status_of(RunStatus status) {
   return exit_status::failed;
 }
 
-/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2"
-std::string describe_motion(const Simulation& simulation) {
-  std::string text = "no equilibrium:";
-  const char* separator = " ";
-  for (const MovingBlock& moving : simulation.moving_blocks()) {
-    const auto& [x, y, z] =
-        std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
-    text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
-                        simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
-    separator = "; ";
-  }
-  return text;
-}
-
-/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
-std::string describe_displaced(const Simulation& simulation) {
-  std::vector<std::string> names;
-  for (const auto& [block, distance] : displaced_blocks(simulation)) {
-    names.push_back(fmt::format("block {} by {:.3g} m",
-                                simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
-  }
-  return names.empty()
-             ? ""
-             : fmt::format("equilibrium, but far from where they were placed: {}", first_names(names));
-}
-
 /// A run from its first step, or from a checkpoint, to its end.
 class Run {
  public:
@@ -111,7 +80,7 @@ class Run {
   }
 
   /// Steps until the end, an interrupt or a failure. @param start wall time at which the program began, s
-  RunStatus go(double start, bool quiet, std::ostream& err) {
+  RunEnd go(double start, bool quiet, std::ostream& err) {
     seconds_.setup = seconds_now() - start;
     ProgressLine progress(scene_.analysis.end_time, quiet, err);
     RunStatus status = RunStatus::failed;
@@ -127,14 +96,11 @@ class Run {
       status = saved_after(error, start);
     }
     progress.finish();
-    return summarised(status, start);
+    status = summarised(status, start);
+    return {status, message_, unsaved_};
   }
 
   [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
-  /// Why the run failed or where it was interrupted, or what moves.
-  [[nodiscard]] const std::string& message() const { return message_; }
-  /// Why the state that the run ended in is not saved; empty: it is.
-  [[nodiscard]] const std::string& unsaved() const { return unsaved_; }
 
  private:
   RunStatus take_steps(double start, ProgressLine& progress) {
@@ -151,8 +117,9 @@ class Run {
       }
       if (status != StepStatus::accepted) {
         const Rejection& last = simulation.rejections().back();
-        message_ = fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
-                               simulation.steps() + 1, simulation.time(), last.step, reason_of(last));
+        message_ =
+            fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
+                        simulation.steps() + 1, simulation.time(), last.step, reason_of(last, simulation));
         return RunStatus::failed;
       }
       record_step(start, schedule, progress);
@@ -167,7 +134,7 @@ class Run {
     const auto deep = simulation.audit();
     if (!deep) return RunStatus::completed;
     message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
-                           simulation.time(), description_of(*deep));
+                           simulation.time(), description_of(*deep, simulation));
     return RunStatus::failed;
   }
 
@@ -199,24 +166,6 @@ class Run {
       }
     }
     return interrupted_here();
-  }
-
-  /// Why a step was rejected, with the blocks and the place where that is known.
-  [[nodiscard]] std::string reason_of(const Rejection& rejection) const {
-    const auto& fault = built_.simulation.fault();
-    if (!fault || fault->reason != rejection.reason) return to_string(rejection.reason);
-    return fmt::format("{}: {}", to_string(fault->reason), description_of(*fault));
-  }
-
-  [[nodiscard]] std::string description_of(const StateFault& fault) const {
-    const auto name = [&](int block) {
-      return built_.simulation.blocks()[static_cast<std::size_t>(block)].name();
-    };
-    if (fault.reason != RejectionReason::too_deep) return fmt::format("block {}", name(fault.blocks[0]));
-    return fmt::format(
-        "block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
-        name(fault.blocks[0]), name(fault.blocks[1]), fault.depth, fault.place.x(), fault.place.y(),
-        fault.place.z(), fault.allowed);
   }
 
   /// What no check of the scene foresaw: the state is that before the step.
@@ -316,25 +265,6 @@ class Run {
   std::string unsaved_;
 };
 
-/// "; changed: KEY (was A, is B), ..." from the summary of the run before; empty if it has none or says
-/// nothing else.
-std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
-  constexpr std::size_t most_shown = 5;
-  nlohmann::ordered_json summary;
-  try {
-    summary = parse_json(whole_file(folder / "summary.json"));
-  } catch (const std::runtime_error&) {
-    return {};
-  }
-  if (!summary.is_object() || !summary.contains("scene")) return {};
-  std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
-  if (keys.empty()) return {};
-  const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
-  keys.resize(keys.size() - hidden);
-  return fmt::format("; changed: {}{}", fmt::join(keys, ", "),
-                     hidden > 0 ? fmt::format(" and {} more", hidden) : "");
-}
-
 /// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
                                              Diagnostics& diagnostics) {
@@ -347,74 +277,6 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
   } catch (const CheckpointError& error) {
     diagnostics.error({path.string()}, error.what());
     return std::nullopt;
-  }
-}
-
-void tell_choices(const BuiltSimulation& built, std::ostream& err) {
-  for (const AutomaticChoice& choice : built.choices) {
-    const auto* number = std::get_if<double>(&choice.value);
-    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
-                                     : fmt::format("{}", std::get<bool>(choice.value));
-    err << fmt::format("chosen: {} = {}\n", choice.key, value);
-  }
-  if (!built.as_placed.empty())
-    err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
-                       first_names(built.as_placed));
-}
-
-/// Blocks that are farther in each other than contact that does not give way would be.
-void warn_of_depth(const Simulation& simulation, std::ostream& err) {
-  constexpr double ordinary = 0.01;
-  const DeepestPoint& deepest = simulation.deepest();
-  if (!(deepest.share > ordinary)) return;
-  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
-  err << fmt::format(
-      "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
-      "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
-      "apart\n",
-      name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
-}
-
-/// Multipliers stop what lands by impulses without friction, which the next steps make up for where blocks
-/// stay together.
-void warn_of_friction(const Simulation& simulation, std::ostream& err) {
-  constexpr double ordinary = 0.02;
-  const double excess = simulation.sliding_friction().excess();
-  if (!(std::abs(excess) > ordinary)) return;
-  err << fmt::format(
-      "ashlar: warning: where blocks slid on multipliers, {:.3g} of the friction has acted that "
-      "Coulomb's law makes of their normal forces, as they part and meet again from step to step: a larger "
-      "time_step, or "
-      "augmented = false, whose friction is exact\n",
-      1.0 + excess);
-}
-
-void tell_end(RunStatus status, const Run& run, const std::filesystem::path& folder, bool quiet,
-              std::ostream& err) {
-  const std::string& message = run.message();
-  if (!run.unsaved().empty()) {
-    err << fmt::format("ashlar: error: {}; the last state could not be saved: {}\n", message, run.unsaved());
-    return;
-  }
-  switch (status) {
-    case RunStatus::failed:
-      err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message, folder.string());
-      break;
-    case RunStatus::not_converged:
-      err << fmt::format("ashlar: error: {}; the last state is in {}\n", message, folder.string());
-      break;
-    case RunStatus::interrupted:
-      err << fmt::format("ashlar: {}; the state is saved in {}, the same command with --resume goes on\n",
-                         message, folder.string());
-      break;
-    case RunStatus::moving:
-      if (!quiet) err << message << '\n';
-      break;
-    case RunStatus::equilibrium:
-      if (!quiet) err << (message.empty() ? "equilibrium" : message) << '\n';
-      break;
-    case RunStatus::completed:
-      break;
   }
 }
 
@@ -458,6 +320,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
     (void)find_checkpoint(folder, *loaded, diagnostics);
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
+  const InterruptGuard guard;
   const std::unique_ptr<FolderClaim> claim = claim_folder(folder, options, err);
   if (!claim) return exit_status::bad_input;
   std::optional<RunCheckpoint> earlier;
@@ -474,12 +337,12 @@ int run_command(const RunOptions& options, std::ostream& err) {
     for (const std::string& line : motion_left(loaded->scene)) err << line << '\n';
   }
   if (starts_from_statics(loaded->scene) && !earlier) {
-    const StaticStart statics = start_in_statics(built->simulation);
-    if (!statics.message.empty())
-      err << fmt::format("ashlar: {}: {}\n", statics.failed ? "error" : "note", statics.message);
-    if (statics.failed) return exit_status::failed;
+    const StaticStart statics =
+        start_in_statics(built->simulation, [] { return !InterruptGuard::interrupted(); });
+    if (!statics.message.empty()) err << "ashlar: " << statics.message << '\n';
+    if (statics.end == StaticStart::End::failed) return exit_status::failed;
+    if (statics.end == StaticStart::End::interrupted) return exit_status::interrupted;
   }
-  const InterruptGuard guard;
   std::optional<Run> started;
   try {
     started.emplace(*loaded, std::move(*built), *claim, earlier, options.checkpoint);
@@ -489,15 +352,15 @@ int run_command(const RunOptions& options, std::ostream& err) {
     return exit_status::bad_input;
   }
   Run& run = *started;
-  const RunStatus status = run.go(start, options.quiet, err);
-  tell_end(status, run, folder, options.quiet, err);
+  const RunEnd end = run.go(start, options.quiet, err);
+  tell_end(end, folder, options.quiet, err);
   warn_of_depth(run.simulation(), err);
   warn_of_friction(run.simulation(), err);
   if (options.view) {
     (void)write_view_file(folder, folder / "view.html");
     if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());
   }
-  return exit_status_of(status);
+  return exit_status_of(end.status);
 }
 
 }  // namespace ashlar

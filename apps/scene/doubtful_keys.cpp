@@ -37,6 +37,18 @@ void warn_of_no_friction(const Scene& scene, Diagnostics& diagnostics) {
       "slopes and in arches slide; friction_angle = 0 says that this is meant");
 }
 
+/// Of a history: where it begins.
+void warn_of_upward_gravity(const Scene& scene, Diagnostics& diagnostics) {
+  const SceneAnalysis& analysis = scene.analysis;
+  const bool changes = !analysis.gravity_history.empty();
+  const Vector3& gravity = changes ? analysis.gravity_history.front().value : analysis.gravity;
+  if (!(gravity.z() > std::hypot(gravity.x(), gravity.y()))) return;
+  diagnostics.warning(
+      scene.places.value(changes ? "analysis.gravity_history" : "analysis.gravity"),
+      fmt::format("gravity points upwards ([{}, {}, {}]): z is up, [0, 0, -9.81] is the earth's", gravity.x(),
+                  gravity.y(), gravity.z()));
+}
+
 double width_of(const Polyhedron& solid) {
   const Box box = box_of(solid.mesh().points);
   return (box.high - box.low).maxCoeff();
@@ -50,12 +62,7 @@ void warn_of_doubtful_keys(const Scene& scene, Diagnostics& diagnostics) {
     warn_of_small_angle(scene, fmt::format("joint.{}.friction_angle", k),
                         scene.joint[k].friction_angle.value_or(0.0), diagnostics);
   warn_of_no_friction(scene, diagnostics);
-  const Vector3& gravity = scene.analysis.gravity;
-  if (gravity.z() > std::hypot(gravity.x(), gravity.y()))
-    diagnostics.warning(
-        scene.places.value("analysis.gravity"),
-        fmt::format("gravity points upwards ([{}, {}, {}]): z is up, [0, 0, -9.81] is the earth's",
-                    gravity.x(), gravity.y(), gravity.z()));
+  warn_of_upward_gravity(scene, diagnostics);
 }
 
 void warn_of_mesh_units(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,

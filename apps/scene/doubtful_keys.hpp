@@ -17,7 +17,7 @@ inline constexpr double mesh_in_millimetres = 100.0;
 /// Warns, at its key, of
 ///   friction_angle          above 0 and below 1 degree: a coefficient, or radians
 ///   no friction_angle       where two or more blocks are not tied: nothing that leans or slopes stands
-///   gravity                 that points upwards, z being up
+///   gravity                 that points upwards, z being up; of a history, its first row
 void warn_of_doubtful_keys(const Scene& scene, Diagnostics& diagnostics);
 
 /// Warns of meshes that are probably in millimetres. @param solids one per scene.block; those that are

@@ -33,6 +33,7 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   } else if (analysis.integrator != SceneAnalysis::Integrator::generalized_alpha) {
     keys.warn("analysis.spectral_radius", "only integrator = \"generalized-alpha\" has one");
   }
+  if (!analysis.gravity_history.empty()) keys.warn("analysis.gravity", "gravity_history is in its place");
   if (!has_multipliers(scene)) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
 }
 

@@ -24,6 +24,14 @@ namespace ashlar {
 inline constexpr double default_static_end_time = 1.0;
 inline constexpr double default_static_time_step = 1e-3;
 
+/// { file, time, values, scale } in place of the rows of a history.
+struct SceneRecord {
+  std::filesystem::path file;  ///< CSV, as written; relative paths are relative to the scene file's folder
+  std::string time;            ///< name of the column of times
+  std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
+  double scale = 1.0;               ///< of the values
+};
+
 /// [analysis]
 struct SceneAnalysis {
   enum class Type {
@@ -42,6 +50,10 @@ struct SceneAnalysis {
     statics,      ///< "static": a static analysis of all blocks comes first, contacts on
   };
   enum class Solver { automatic, cholmod, cg, dual };
+  struct Gravity {
+    double time = 0.0;                ///< s
+    Vector3 value = Vector3::Zero();  ///< m/s^2
+  };
 
   Type type = Type::dynamic;
   /// s, > 0; required unless the analysis is static and nothing has a history: then a time like any other
@@ -53,7 +65,9 @@ struct SceneAnalysis {
   double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
   Formulation formulation = Formulation::total;
   InitialState initial_state = InitialState::as_placed;
-  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2
+  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2, unless it has a history
+  std::vector<Gravity> gravity_history;        ///< times increase, linear between; empty: constant
+  std::optional<SceneRecord> gravity_file;     ///< where it comes from, if not from the scene
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
   std::optional<double> memory_limit;          ///< bytes, > 0, that the estimate may reach; empty: auto
@@ -150,14 +164,6 @@ struct SceneRotation {
 struct ScenePlane {
   Vector3 point = Vector3::Zero();   ///< m
   Vector3 normal = Vector3::Zero();  ///< not zero, any length
-};
-
-/// { file, time, values, scale } in place of the rows of a history.
-struct SceneRecord {
-  std::filesystem::path file;  ///< CSV, as written; relative paths are relative to the scene file's folder
-  std::string time;            ///< name of the column of times
-  std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
-  double scale = 1.0;               ///< of the values
 };
 
 /// [[block.fix]]: clamped faces or a fixed point.

@@ -16,18 +16,37 @@ Json or_auto(const std::optional<Number>& number) {
   return number ? Json(*number) : Json("auto");
 }
 
+Json to_json(const SceneRecord& record) {
+  return {{"file", record.file.string()},
+          {"time", record.time},
+          {"values", record.values},
+          {"scale", record.scale}};
+}
+
+void add_gravity(Json& json, const SceneAnalysis& analysis) {
+  if (analysis.gravity_history.empty()) {
+    json["gravity"] = to_json(analysis.gravity);
+  } else if (analysis.gravity_file) {
+    json["gravity_history"] = to_json(*analysis.gravity_file);
+  } else {
+    for (const auto& [time, value] : analysis.gravity_history)
+      json["gravity_history"].push_back({time, value.x(), value.y(), value.z()});
+  }
+}
+
 Json to_json(const SceneAnalysis& analysis) {
-  return {{"type", name_of(analysis_type_names, analysis.type)},
-          {"end_time", analysis.end_time},
-          {"time_step", analysis.time_step},
-          {"integrator", name_of(integrator_names, analysis.integrator)},
-          {"spectral_radius", analysis.spectral_radius},
-          {"formulation", name_of(formulation_names, analysis.formulation)},
-          {"initial_state", name_of(initial_state_names, analysis.initial_state)},
-          {"gravity", to_json(analysis.gravity)},
-          {"solver", name_of(solver_names, analysis.solver)},
-          {"mass_damping", analysis.mass_damping},
-          {"memory_limit", or_auto(analysis.memory_limit)}};
+  Json json = {{"type", name_of(analysis_type_names, analysis.type)},
+               {"end_time", analysis.end_time},
+               {"time_step", analysis.time_step},
+               {"integrator", name_of(integrator_names, analysis.integrator)},
+               {"spectral_radius", analysis.spectral_radius},
+               {"formulation", name_of(formulation_names, analysis.formulation)},
+               {"initial_state", name_of(initial_state_names, analysis.initial_state)}};
+  add_gravity(json, analysis);
+  json["solver"] = name_of(solver_names, analysis.solver);
+  json["mass_damping"] = analysis.mass_damping;
+  json["memory_limit"] = or_auto(analysis.memory_limit);
+  return json;
 }
 
 Json to_json(const SceneContact& contact, bool augmented) {
@@ -97,13 +116,6 @@ void add_where(Json& json, const std::variant<ScenePlane, Vector3>& where) {
   }
   const ScenePlane& plane = std::get<ScenePlane>(where);
   json["plane"] = {{"point", to_json(plane.point)}, {"normal", to_json(plane.normal)}};
-}
-
-Json to_json(const SceneRecord& record) {
-  return {{"file", record.file.string()},
-          {"time", record.time},
-          {"values", record.values},
-          {"scale", record.scale}};
 }
 
 Json to_json(const SceneFix& fix) {

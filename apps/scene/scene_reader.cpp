@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "apps/scene/block_reader.hpp"
+#include "apps/scene/history_reader.hpp"
 #include "apps/scene/scene_names.hpp"
 #include "apps/scene/scene_overrides.hpp"
 #include "apps/scene/toml_faults.hpp"
@@ -28,6 +29,11 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("formulation", analysis.formulation, formulation_names);
   table.read_choice("initial_state", analysis.initial_state, initial_state_names);
   table.read_vector("gravity", analysis.gravity);
+  if (auto history = read_history(table, "gravity_history", 4, "[t, gx, gy, gz]")) {
+    analysis.gravity_file = std::move(history->file);
+    for (const auto& row : history->rows)
+      analysis.gravity_history.push_back({row[0], {row[1], row[2], row[3]}});
+  }
   table.read_choice("solver", analysis.solver, solver_names);
   table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
   table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
@@ -43,7 +49,7 @@ bool has_history(const SceneBlock& block) {
 // A static analysis of constant loads has no use for times.
 void complete_times(TomlTableReader& table, Scene& scene) {
   SceneAnalysis& analysis = scene.analysis;
-  const bool timeless = analysis.type == SceneAnalysis::Type::statics &&
+  const bool timeless = analysis.type == SceneAnalysis::Type::statics && analysis.gravity_history.empty() &&
                         std::none_of(scene.block.begin(), scene.block.end(), has_history);
   if (!timeless) {
     table.require("end_time");

@@ -44,11 +44,20 @@ double largest_factor(const SceneLoad& load) {
   return largest;
 }
 
+/// Of a history: its longest row.
+Vector3 largest_gravity(const SceneAnalysis& analysis) {
+  if (analysis.gravity_history.empty()) return analysis.gravity;
+  const auto shorter = [](const SceneAnalysis::Gravity& a, const SceneAnalysis::Gravity& b) {
+    return a.value.norm() < b.value.norm();
+  };
+  return std::max_element(analysis.gravity_history.begin(), analysis.gravity_history.end(), shorter)->value;
+}
+
 JudgedBlock judged(const Scene& scene, const SceneBlock& block, const SceneMaterial& material,
                    const Polyhedron& solid) {
   const double size = std::cbrt(solid.volume());
-  const Vector3& gravity = scene.analysis.gravity;
   JudgedBlock result{block, material, size, 0.0, 0.0, 0.0, 0.0};
+  const Vector3 gravity = largest_gravity(scene.analysis);
   result.weight = material.density * gravity.norm() * solid.volume();
   // The extent along gravity times its length.
   result.weight_stress = material.density * extent_along(solid, gravity);

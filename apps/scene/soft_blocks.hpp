@@ -17,7 +17,7 @@ inline constexpr double largest_ordinary_strain = 0.1;
 
 /// Warns of each material at whose Young's modulus E a block would be strained by more than that, the most
 /// strained block named, by the largest of
-///   its own weight      density |gravity| height / E,  height along gravity
+///   its own weight      density |gravity| height / E,  height along gravity; of a history, where it is largest
 ///   a load              |traction| / E or |force| / (size^2 E),  at its largest factor,  size^3 = volume
 ///   meeting something   (|velocity| + |angular_velocity| radius) / sqrt(E / density),  radius half the
 ///                       diagonal of the block's box; sqrt(E / density) is the speed of sound

@@ -152,6 +152,10 @@ class DefectSearch {
   }
 
   void check_embedding() {
+    // Of a mesh that is refused already, see notes/overlapping_triangles.md.
+    constexpr std::size_t per_triangle = 100;
+    const std::size_t candidates = result_.defects.empty() ? std::numeric_limits<std::size_t>::max()
+                                                           : per_triangle * mesh_.triangles.size();
     const std::vector<int> representative = check_fused_points();
     std::vector<std::array<int, 3>> triangles;
     std::vector<int> number;
@@ -165,7 +169,7 @@ class DefectSearch {
       for (int& v : renamed) v = representative[v];
       number.push_back(static_cast<int>(t));
     }
-    for (const auto& [i, j] : self_intersections(mesh_.points, triangles, limit_)) {
+    for (const auto& [i, j] : self_intersections(mesh_.points, triangles, limit_, candidates)) {
       report(MeshDefectKind::self_intersection, "triangles ", number[i], ", ", number[j]);
     }
   }

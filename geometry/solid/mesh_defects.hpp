@@ -52,9 +52,9 @@ class MeshError : public std::runtime_error {
 /// All defects of a mesh, and what the search found out about a sound one.
 ///
 /// The search goes from the plain to the costly: a bad coordinate or index ends it (nothing else can be
-/// decided); zero area, connection and self-intersections are all searched, whatever else was found; the
-/// volume is asked of closed and consistent surfaces only. Points with equal coordinates count as one in the
-/// search for self-intersections, so fused vertices are not reported again as touching triangles.
+/// decided); zero area, connection and self-intersections are searched, whatever else was found; the volume is
+/// asked of closed and consistent surfaces only. Points with equal coordinates count as one in the search for
+/// self-intersections, so fused vertices are not reported again as touching triangles.
 struct MeshCheck {
   std::vector<MeshDefect>
       defects;             ///< at most `limit` of each kind, in the order of the enumeration's checks
@@ -63,7 +63,9 @@ struct MeshCheck {
   double volume = 0.0;     ///< m^3, correctly rounded; for a sound mesh only
 };
 
-/// @param limit most defects listed of each kind, at least 1.
+/// Of a mesh that has other defects, self-intersections are looked for in the first 100 pairs of near triangles
+/// for each triangle (notes/overlapping_triangles.md). @param limit most defects listed of each kind, at
+/// least 1.
 [[nodiscard]] MeshCheck check_mesh(const TriangleMesh& mesh, std::size_t limit);
 
 }  // namespace ashlar

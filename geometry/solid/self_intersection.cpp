@@ -124,8 +124,8 @@ bool is_degenerate(const std::vector<Vector3>& points, const Triangle& triangle)
 }
 
 std::vector<std::array<int, 2>> self_intersections(const std::vector<Vector3>& points,
-                                                   const std::vector<Triangle>& triangles,
-                                                   std::size_t limit) {
+                                                   const std::vector<Triangle>& triangles, std::size_t limit,
+                                                   std::size_t candidates) {
   using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, std::vector<Triangle>::const_iterator>;
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
@@ -136,7 +136,9 @@ std::vector<std::array<int, 2>> self_intersections(const std::vector<Vector3>& p
   }
   std::vector<std::array<int, 2>> pairs;
   const PairTest meet(points, triangles);
+  std::size_t tested = 0;
   const auto visit = [&](const Box& x, const Box& y) {
+    if (tested++ >= candidates) throw EnoughPairs{};
     const auto [i, j] = std::minmax(
         {static_cast<int>(x.handle() - triangles.begin()), static_cast<int>(y.handle() - triangles.begin())});
     if (!meet(i, j)) return;

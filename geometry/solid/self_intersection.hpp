@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "geometry/triangle_mesh.hpp"
@@ -22,8 +23,10 @@ namespace ashlar {
 /// Pairs of triangles that meet elsewhere than in the points they name in common and in the edge between two
 /// of them; neighbours that lie on each other are such pairs. Box tree, O(n log n + candidates); exact.
 /// @param triangles without degenerate ones; equal points must have equal indices.
-/// @return index pairs (i < j), sorted. At most `limit` pairs.
+/// @param limit of pairs, after which the search ends. @param candidates of which no more are tested: pairs of
+/// triangles whose boxes meet, up to n^2 / 2 of them. @return index pairs (i < j), sorted
 [[nodiscard]] std::vector<std::array<int, 2>> self_intersections(
-    const std::vector<Vector3>& points, const std::vector<std::array<int, 3>>& triangles, std::size_t limit);
+    const std::vector<Vector3>& points, const std::vector<std::array<int, 3>>& triangles, std::size_t limit,
+    std::size_t candidates = std::numeric_limits<std::size_t>::max());
 
 }  // namespace ashlar

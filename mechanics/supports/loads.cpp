@@ -1,23 +1,17 @@
 #include "mechanics/supports/loads.hpp"
 
-#include <algorithm>
-#include <numeric>
 #include <stdexcept>
+
+#include "mechanics/supports/linear_rows.hpp"
 
 namespace ashlar {
 
 double History::at(double time) const {
-  if (times.empty()) return 1.0;
-  const auto after = std::upper_bound(times.begin(), times.end(), time);
-  if (after == times.begin()) return values.front();
-  if (after == times.end()) return values.back();
-  const auto k = static_cast<std::size_t>(after - times.begin());
-  const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
-  return values[k - 1] + share * (values[k] - values[k - 1]);
+  return times.empty() ? 1.0 : linear_between_rows(times, values, time);
 }
 
 bool History::changes_between(double start, double end) const {
-  return !times.empty() && times.front() < end && times.back() > start;
+  return rows_change_between(times, start, end);
 }
 
 Eigen::MatrixX3d load_coefficients(const Polyhedron& solid, const PolynomialBasis& basis, const Load& load) {

@@ -123,7 +123,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
 }
 
 ExpectedMotion ContactFinder::expected_motion(const std::vector<BlockState>& states, double step) const {
-  const double fall = 0.5 * step * step * settings_.gravity.norm();
+  const double fall = 0.5 * step * step * settings_.largest_gravity();
   ExpectedMotion motion;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     const double speed = moving_[k] ? surfaces_[k].quick_motion_bound(states[k].velocity) : 0.0;

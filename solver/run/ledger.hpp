@@ -17,11 +17,11 @@ namespace ashlar {
 struct Ledger {
   double kinetic = 0.0;
   double elastic = 0.0;
-  double gravity = 0.0;         ///< -m g . x
+  double gravity = 0.0;         ///< -m g . x; 0 if gravity has a history
   double contact = 0.0;         ///< stored in normal and shear springs
   double friction = 0.0;        ///< dissipated by sliding so far
   double damping = 0.0;         ///< taken by mass damping so far
-  double applied = 0.0;         ///< work of loads so far
+  double applied = 0.0;         ///< work of loads, supports that move, and gravity that has a history, so far
   double numerical = 0.0;       ///< taken by the time integrator so far
   double refound_gained = 0.0;  ///< came into springs where contacts were found anew, so far, >= 0
   double refound_lost = 0.0;    ///< went out of springs so, so far, >= 0

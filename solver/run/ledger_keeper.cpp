@@ -34,7 +34,8 @@ void LedgerKeeper::measure(const BlockSystem& system, const std::vector<BlockSta
     const BlockModel& block = system.blocks()[k];
     ledger_.kinetic += block.kinetic_energy(states[k]);
     ledger_.elastic += elastic_energies_[k];
-    ledger_.gravity += block.gravity_energy(states[k], system.settings().gravity);
+    if (system.settings().gravity_history.empty())
+      ledger_.gravity += block.gravity_energy(states[k], system.settings().gravity);
   }
 }
 

@@ -38,7 +38,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
   for (int k = 0; k < system_.count(); ++k) {
     const BlockModel& block = system_.blocks()[at(k)];
     if (!system_.moving()[at(k)] || !block.supported() || system_.is_tied(k)) continue;
-    auto position = block.equilibrium(system_.settings().gravity, 0.0);
+    auto position = block.equilibrium(system_.settings().gravity_at(0.0), 0.0);
     if (!position) continue;
     settled.push_back(k);
     BlockState& state = state_.states[at(k)];
@@ -53,15 +53,15 @@ std::vector<int> Simulation::settle_supported_blocks() {
       // Rounding is all that is left when steps no longer shrink.
       if (!(way < last)) break;
       last = way;
-      position = block.equilibrium(system_.settings().gravity, 0.0);
+      position = block.equilibrium(system_.settings().gravity_at(0.0), 0.0);
     }
   }
   state_.ledger.start(system_, state_.states);
   return settled;
 }
 
-StaticStatus Simulation::start_from_statics() {
-  return ashlar::start_from_statics(context());
+StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
+  return ashlar::start_from_statics(context(), goes_on);
 }
 
 bool Simulation::reached(double end_time) const {

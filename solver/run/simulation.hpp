@@ -41,9 +41,10 @@ class Simulation {
   std::vector<int> settle_supported_blocks();
 
   /// Takes the blocks to their equilibrium under gravity and the loads at time 0, contacts on, by a static
-  /// analysis; initial velocities are theirs then (static_start.cpp). To be called before the first step.
-  /// @return how it ended; unless that is equilibrium all is as placed
-  [[nodiscard]] StaticStatus start_from_statics();
+  /// analysis; initial velocities are theirs then (static_start.hpp). To be called before the first step.
+  /// @param goes_on asked before each iteration: if not, it ends there
+  /// @return how it ended, balancing if it was ended; unless that is equilibrium all is as placed
+  [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& goes_on = [] { return true; });
 
   /// Whether nothing is left up to `end_time` but rounding, or less than 1e-9 of a step.
   [[nodiscard]] bool reached(double end_time) const;

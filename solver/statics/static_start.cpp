@@ -5,11 +5,11 @@
 
 namespace ashlar {
 
-StaticStatus start_from_statics(const RunContext& run) {
+StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on) {
   const SimulationSnapshot as_placed = snapshot_of(run);
   for (const std::vector<int>& blocks : loose_blocks(run)) run.system.hold(blocks);
   StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing) status = static_step(run, run.state.time());
+  while (status == StaticStatus::balancing && goes_on()) status = static_step(run, run.state.time());
   run.system.let_go();
   if (status != StaticStatus::equilibrium) {
     restore(run, as_placed);

@@ -7,13 +7,15 @@
 // as placed, as if they were fixed, until the motion begins.
 #pragma once
 
+#include <functional>
+
 #include "solver/run/run_context.hpp"
 #include "solver/statics/static_analysis.hpp"
 
 namespace ashlar {
 
-/// To be called before the first step. @return how the static analysis ended; unless that is equilibrium all is as
-/// placed
-[[nodiscard]] StaticStatus start_from_statics(const RunContext& run);
+/// To be called before the first step. @param goes_on asked before each iteration: if not, it ends there
+/// @return how the static analysis ended, balancing if it was ended; unless that is equilibrium all is as placed
+[[nodiscard]] StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on);
 
 }  // namespace ashlar

@@ -45,9 +45,10 @@ double least_inertia(const BlockSystem& system) {
 void start_load_level(const RunContext& run, double end_time) {
   const double time_step = run.settings().time_step;
   StepClock& clock = run.state.clock;
-  const bool changing = std::any_of(run.blocks().begin(), run.blocks().end(), [&](const BlockModel& block) {
-    return block.loads_change_between(clock.time(), end_time);
-  });
+  const bool changing = run.settings().gravity_history.changes_between(clock.time(), end_time) ||
+                        std::any_of(run.blocks().begin(), run.blocks().end(), [&](const BlockModel& block) {
+                          return block.loads_change_between(clock.time(), end_time);
+                        });
   if (changing && clock.time_after(time_step) < end_time - time_rounding(time_step, end_time)) {
     clock.advance(time_step);
   } else {

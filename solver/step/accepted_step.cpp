@@ -9,6 +9,7 @@
 #include "geometry/index.hpp"
 #include "solver/contact/contact_accounts.hpp"
 #include "solver/step/angular_momentum.hpp"
+#include "solver/step/applied_force.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/slowed_slip.hpp"
@@ -34,9 +35,8 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   const bool carried = !run.state.accelerations.empty();
   const Eigen::MatrixX3d acceleration =
       carried ? run.state.accelerations[k] : Eigen::MatrixX3d::Zero(change.rows(), 3);
-  Eigen::MatrixX3d load = block.load_force(clock.time_after(scheme.step));
-  if (scheme.end_share < 1.0)
-    load = scheme.end_share * load + (1.0 - scheme.end_share) * block.load_force(clock.time());
+  const auto applied = [&](double when) { return applied_force(block, run.settings(), when); };
+  const Eigen::MatrixX3d load = scheme.smooth_force(applied, clock.time(), clock.time_after(scheme.step));
   ledger.loads_did(body.motion().cwiseProduct(load).sum());
   const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
   const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();

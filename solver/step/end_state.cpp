@@ -12,16 +12,16 @@ namespace ashlar {
 namespace {
 
 /// Whether doubles cannot hold what a step is to do with a block or has done: a square of it that is not
-/// finite, or a way so long that the block's coordinates would be rounded to more than 1e-6 of its size, as
-/// overlaps are judged by.
-bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX3d& position) {
-  constexpr double longest_way = 1e-6 / std::numeric_limits<double>::epsilon();  // in sizes of the block
+/// finite, or a way so long that the block's coordinates would be rounded to more than a share of its size
+/// (notes/lost_blocks.md).
+bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX3d& position, double share) {
   for (const Eigen::VectorXd* vector : {&body.external_force, &body.free_change, &body.change})
     if (!std::isfinite(vector->squaredNorm())) return true;
   if (!std::isfinite(position.squaredNorm())) return true;
   const double volume = block.basis().volume();
   const Eigen::MatrixX3d way = position - block.basis().identity_map();
-  return way.row(0).norm() / std::sqrt(volume) > longest_way * std::cbrt(volume);
+  const double rounding = std::numeric_limits<double>::epsilon() * way.row(0).norm() / std::sqrt(volume);
+  return rounding > share * std::cbrt(volume);
 }
 
 /// How deep blocks are in each other. @param fine see SimulationSettings::fine_audit_interval
@@ -64,7 +64,7 @@ std::optional<StateFault> broken_block(const RunContext& run, const StepProblem&
     if (!run.system.moving()[k]) continue;
     const Eigen::MatrixX3d position = run.state.states[k].position + problem.bodies[k].motion();
     const int block = static_cast<int>(k);
-    if (is_lost(run.blocks()[k], problem.bodies[k], position))
+    if (is_lost(run.blocks()[k], problem.bodies[k], position, run.settings().lost_share))
       return StateFault{RejectionReason::not_finite, {block, block}};
     const Eigen::MatrixXd* gradients = run.system.asked_gradients(block);
     if (gradients == nullptr) continue;

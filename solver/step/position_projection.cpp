@@ -7,6 +7,7 @@
 #include "geometry/index.hpp"
 #include "solver/contact/contact_accounts.hpp"
 #include "solver/step/angular_momentum.hpp"
+#include "solver/step/applied_force.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/slowed_slip.hpp"
 #include "solver/step/velocity_contact.hpp"
@@ -33,9 +34,11 @@ double energy_of_motion(const RunContext& run, const Island& island, const std::
   for (const int k : island.bodies) {
     const Eigen::MatrixX3d motion = bodies[at(k)].motion();
     const BlockModel& block = run.blocks()[at(k)];
-    energy += block.elastic(run.state.states[at(k)].position + motion).energy -
-              run.state.ledger.elastic_energy(k) -
-              motion.cwiseProduct(block.external_force(run.settings().gravity, run.state.time())).sum();
+    energy +=
+        block.elastic(run.state.states[at(k)].position + motion).energy - run.state.ledger.elastic_energy(k) -
+        motion
+            .cwiseProduct(block.external_force(run.settings().gravity_at(run.state.time()), run.state.time()))
+            .sum();
   }
   return energy;
 }
@@ -130,7 +133,8 @@ void move(const RunContext& run, const std::vector<MovedIsland>& moved, const st
   for (int k = 0; k < run.system.count(); ++k) {
     if (!run.system.moving()[at(k)]) continue;
     const Eigen::MatrixX3d motion = problem.bodies[at(k)].motion();
-    ledger.loads_did(motion.cwiseProduct(run.blocks()[at(k)].load_force(run.state.time())).sum());
+    ledger.loads_did(
+        motion.cwiseProduct(applied_force(run.blocks()[at(k)], run.settings(), run.state.time())).sum());
     run.state.states[at(k)].position += motion;
     ledger.measure_elastic(run.system, run.state.states, k);
   }

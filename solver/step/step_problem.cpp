@@ -63,11 +63,10 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
 
 Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,
                                 const TimeScheme& scheme) {
-  const BlockModel& model = system.blocks()[at(block)];
-  const Vector3& gravity = system.settings().gravity;
-  Eigen::MatrixX3d end = model.external_force(gravity, clock.time_after(scheme.step));
-  if (scheme.end_share >= 1.0) return end;
-  return scheme.end_share * end + (1.0 - scheme.end_share) * model.external_force(gravity, clock.time());
+  const auto force = [&](double when) {
+    return system.blocks()[at(block)].external_force(system.settings().gravity_at(when), when);
+  };
+  return scheme.smooth_force(force, clock.time(), clock.time_after(scheme.step));
 }
 
 std::vector<BlockState> driven_states(const BlockSystem& system, const RunState& state, double step) {
@@ -90,8 +89,9 @@ std::vector<Eigen::MatrixX3d> smooth_accelerations(const BlockSystem& system, co
     const BlockModel& block = system.blocks()[k];
     result.emplace_back(Eigen::MatrixX3d::Zero(block.basis().size(), 3));
     if (!system.moving()[k]) continue;
-    const Eigen::MatrixX3d force = block.external_force(system.settings().gravity, state.time()) -
-                                   block.elastic(state.states[k].position).force;
+    const Eigen::MatrixX3d force =
+        block.external_force(system.settings().gravity_at(state.time()), state.time()) -
+        block.elastic(state.states[k].position).force;
     result.back() = block.space().expand(block.space().restrict(force)) / block.material().density -
                     system.settings().mass_damping * state.states[k].velocity;
   }

@@ -56,6 +56,13 @@ struct TimeScheme {
   StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f
   double acceleration_memory = 0.0;  ///< alpha_m
 
+  /// F_external. @param force of a time (s), (p, 3). @param start,end of the step, s
+  template <class Force>
+  [[nodiscard]] auto smooth_force(const Force& force, double start, double end) const {
+    auto result = force(end);
+    if (end_share < 1.0) result = end_share * result + (1.0 - end_share) * force(start);
+    return result;
+  }
   /// a' from the acceleration that smooth forces and damping give.
   template <class Matrix>
   [[nodiscard]] Matrix end_acceleration(const Matrix& smooth, const Matrix& a) const {

@@ -1,8 +1,14 @@
 // `ashlar run` and `ashlar check` of static analyses.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <thread>
 
 #include "apps/run/run_command.hpp"
 #include "unit/apps/run_fixture.hpp"
@@ -117,6 +123,74 @@ TEST_F(StaticRun, ComesBeforeMotion) {
   EXPECT_THAT(faults_, HasSubstr("all start as placed"));
   EXPECT_EQ(column("slides/history.csv", "top.uz").front(), 0.0);
   EXPECT_LT(column("slides/history.csv", "top.uz").back(), -0.01);
+}
+
+// A table under a stone that is tilted in very many levels, by less than friction holds.
+std::string tilted_slowly() {
+  std::string scene = static_scene_text;
+  scene.replace(scene.find("end_time = 1\n"), 12, "end_time = 1000");
+  scene.insert(scene.find("time_step"), "gravity_history = [[0, 0, 0, -9.81], [1000, 0.1, 0, -9.81]]\n");
+  return scene;
+}
+
+TEST_F(StaticRun, InterruptedSavesItsStateAndGoesOn) {
+  write_text(scene_, tilted_slowly());
+  std::thread sender([&] {
+    for (int k = 0; k < 60000 && lines("out/history.csv").size() < 20; ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ::kill(::getpid(), SIGINT);
+  });
+  const int status = run("out");
+  sender.join();
+  ASSERT_EQ(status, exit_status::interrupted) << faults_;
+  EXPECT_THAT(faults_, AllOf(HasSubstr("interrupted after step"), HasSubstr("with --resume goes on")));
+  const auto summary = nlohmann::json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "interrupted");
+  // Some levels farther.
+  const std::string end = fmt::format("analysis.end_time={}", summary["time"].get<double>() + 0.1);
+  ASSERT_EQ(run("out", {"--resume", "--set", end}), exit_status::done) << faults_;
+  ASSERT_EQ(run("straight", {"--set", end}), exit_status::done) << faults_;
+  expect_same_results("straight", "out");
+}
+
+/// Text that raises a signal as soon as something is written.
+class RaisingText : public std::stringbuf {
+ public:
+  explicit RaisingText(std::string word) : word_(std::move(word)) {}
+
+ protected:
+  std::streamsize xsputn(const char* text, std::streamsize count) override {
+    const std::streamsize written = std::stringbuf::xsputn(text, count);
+    if (!word_.empty() && str().find(word_) != std::string::npos) {
+      word_.clear();
+      ::raise(SIGINT);
+    }
+    return written;
+  }
+
+ private:
+  std::string word_;
+};
+
+TEST_F(StaticRun, InterruptedBeforeMotionStartsAnew) {
+  std::string scene = static_scene_text;
+  scene.replace(scene.find("type = \"static\""), 15, "initial_state = \"static\"");
+  scene.replace(scene.find("end_time = 1\n"), 12, "end_time = 0.05");
+  write_text(scene_, scene);
+  // The estimate is the last that is said before the static analysis begins.
+  RaisingText faults("estimate:");
+  std::ostream err(&faults);
+  std::ostringstream out;
+  EXPECT_EQ(run_command_line({"run", scene_.string(), "--out", (folder_ / "out").string()}, out, err),
+            exit_status::interrupted);
+  EXPECT_THAT(faults.str(),
+              HasSubstr("ashlar: interrupted in the static analysis that comes before the motion "
+                        "(initial_state = \"static\"): nothing of it is saved, the same command "
+                        "starts anew\n"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "history.csv"));
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  ASSERT_EQ(run("straight"), exit_status::done) << faults_;
+  expect_same_results("straight", "out");
 }
 
 TEST_F(StaticRun, NeedsNoTimesWithConstantLoads) {

@@ -70,6 +70,22 @@ TEST(DrivenSupport, CarriedBlockHasItsMomentumAndTheWorkForIt) {
   }
 }
 
+TEST(DrivenSupport, CarriesAgainstGravityThatChangesWithoutWork) {
+  const SupportHistory history{{0.0, 10.0}, {Vector3::Zero(), {20, 0, 0}}};
+  for (const Integrator integrator :
+       {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
+    SimulationSettings settings;
+    settings.integrator = integrator;
+    settings.time_step = 0.1;
+    settings.gravity_history = {{0.0, 1.0}, {{0, 0, -9.81}, {-5, 0, -3}}};
+    Simulation simulation = lone(bar(2500, all, history, history), settings);
+    ASSERT_TRUE(run_until(simulation, 1.0));
+    // What gravity takes from the block supports give: 1/2 m v^2 is left.
+    EXPECT_NEAR(simulation.ledger().applied, 0.5 * 5000.0 * 4.0, 1e-6);
+    EXPECT_LT(std::abs(simulation.ledger().residual), 1e-6);
+  }
+}
+
 /// A belt at constant speed from a start on under a block that is laid on it.
 Simulation belt(double speed, double friction, double start = 0.0) {
   const SupportHistory history{{start, start + 10.0}, {Vector3::Zero(), {10.0 * speed, 0, 0}}};

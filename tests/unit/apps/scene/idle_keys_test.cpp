@@ -25,6 +25,13 @@ TEST(IdleKeys, SpectralRadiusIsThatOfGeneralizedAlpha) {
   EXPECT_THAT(warnings(given, {"analysis.integrator=generalized-alpha"}), IsEmpty());
 }
 
+TEST(IdleKeys, GravityGivesWayToItsHistory) {
+  const std::string given = sample_with(3, "time_step = 0.01\ngravity = [0, 0, -9.81]");
+  EXPECT_THAT(warnings(given), IsEmpty());
+  EXPECT_THAT(warnings(given, {"analysis.gravity_history=[[0, 0, 0, -9.81]]"}),
+              ElementsAre("s.toml:4:1: warning: gravity has no effect: gravity_history is in its place"));
+}
+
 TEST(IdleKeys, StaticAnalysisHasNoMotion) {
   const std::string given = sample_with(3, "time_step = 0.01\nmass_damping = 0.5\nintegrator = \"dda\"");
   EXPECT_THAT(warnings(given, {"block.B.velocity=[0, 0, 0]", "block.A.velocity=[0, 1, 0]"}), IsEmpty());

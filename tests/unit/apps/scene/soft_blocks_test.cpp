@@ -41,6 +41,13 @@ TEST(SoftBlocks, OwnWeightCountsByTheHeightAlongGravity) {
                           "rock has 1e9 to 1e11 Pa"));
 }
 
+TEST(SoftBlocks, GravityThatChangesCountsWhereItIsLargest) {
+  // Ten times the weight above: a strain of 1.
+  EXPECT_THAT(warnings({unloaded, "material.rock.young_modulus=245250",
+                        "analysis.gravity_history=[[0, 0, 0, 0], [1, 0, 0, -98.1], [2, 1, 0, 0]]"}),
+              ElementsAre(HasSubstr("block \"A\" is strained by 1 under its own weight")));
+}
+
 TEST(SoftBlocks, LoadsAndVelocitiesCountWithoutGravity) {
   const std::string weightless = "analysis.gravity=[0, 0, 0]";
   EXPECT_THAT(warnings({weightless, unloaded, "material.rock.young_modulus=5"}), IsEmpty());

@@ -128,6 +128,9 @@ TEST(SelfIntersection, number_of_pairs_is_limited) {
   }
   EXPECT_EQ(self_intersections(points, triangles, 7).size(), 7U);
   EXPECT_EQ(self_intersections(points, triangles, 10000).size(), 50U * 49U / 2U);
+  // All of these meet, so that as many are found as are tested.
+  EXPECT_EQ(self_intersections(points, triangles, 10000, 12).size(), 12U);
+  EXPECT_EQ(self_intersections(points, triangles, 7, 12).size(), 7U);
 }
 
 }  // namespace

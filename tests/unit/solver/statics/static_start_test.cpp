@@ -63,6 +63,21 @@ TEST(StaticStart, GoesOnFromASnapshot) {
     EXPECT_EQ(simulation.states()[k].position, resumed.states()[k].position) << k;
 }
 
+TEST(StaticStart, EndsWhereItIsToldToWithAllAsPlaced) {
+  Simulation simulation = stack_and_stone(multipliers());
+  int left = 3;
+  EXPECT_EQ(simulation.start_from_statics([&] { return --left >= 0; }), StaticStatus::balancing);
+  EXPECT_EQ(left, -1) << "asked before each iteration";
+  EXPECT_EQ(simulation.steps(), 0);
+  const Vector3 low(0.5, 0.5, 1.0);
+  EXPECT_EQ(place_of(simulation, 1, low), low);
+  // What was done is counted, but nothing that motion depends on is left of it.
+  ASSERT_TRUE(run_until(simulation, 0.05));
+  Simulation fresh = stack_and_stone(multipliers());
+  ASSERT_TRUE(run_until(fresh, 0.05));
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(simulation.states()[k].position, fresh.states()[k].position);
+}
+
 TEST(StaticStart, WhatNothingHoldsStartsAsPlaced) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-5, -5, -1}, {5, 5, 0}));

@@ -1,0 +1,139 @@
+#include "apps/run/run_messages.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "apps/results/input_file.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/run/initial_state.hpp"
+#include "apps/run/scene_difference.hpp"
+#include "apps/scene/scene_json.hpp"
+
+namespace ashlar {
+
+std::string describe_motion(const Simulation& simulation) {
+  std::string text = "no equilibrium:";
+  const char* separator = " ";
+  for (const MovingBlock& moving : simulation.moving_blocks()) {
+    const auto& [x, y, z] =
+        std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
+    text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
+                        simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
+    separator = "; ";
+  }
+  return text;
+}
+
+std::string describe_displaced(const Simulation& simulation) {
+  std::vector<std::string> names;
+  for (const auto& [block, distance] : displaced_blocks(simulation)) {
+    names.push_back(fmt::format("block {} by {:.3g} m",
+                                simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
+  }
+  return names.empty()
+             ? ""
+             : fmt::format("equilibrium, but far from where they were placed: {}", first_names(names));
+}
+
+std::string description_of(const StateFault& fault, const Simulation& simulation) {
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  if (fault.reason != RejectionReason::too_deep) return fmt::format("block {}", name(fault.blocks[0]));
+  return fmt::format(
+      "block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
+      name(fault.blocks[0]), name(fault.blocks[1]), fault.depth, fault.place.x(), fault.place.y(),
+      fault.place.z(), fault.allowed);
+}
+
+std::string reason_of(const Rejection& rejection, const Simulation& simulation) {
+  const auto& fault = simulation.fault();
+  if (!fault || fault->reason != rejection.reason) return to_string(rejection.reason);
+  return fmt::format("{}: {}", to_string(fault->reason), description_of(*fault, simulation));
+}
+
+std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
+  constexpr std::size_t most_shown = 5;
+  nlohmann::ordered_json summary;
+  try {
+    summary = parse_json(whole_file(folder / "summary.json"));
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  if (!summary.is_object() || !summary.contains("scene")) return {};
+  std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
+  if (keys.empty()) return {};
+  const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
+  keys.resize(keys.size() - hidden);
+  return fmt::format("; changed: {}{}", fmt::join(keys, ", "),
+                     hidden > 0 ? fmt::format(" and {} more", hidden) : "");
+}
+
+void tell_choices(const BuiltSimulation& built, std::ostream& err) {
+  for (const AutomaticChoice& choice : built.choices) {
+    const auto* number = std::get_if<double>(&choice.value);
+    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
+                                     : fmt::format("{}", std::get<bool>(choice.value));
+    err << fmt::format("chosen: {} = {}\n", choice.key, value);
+  }
+  if (!built.as_placed.empty())
+    err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
+                       first_names(built.as_placed));
+}
+
+void warn_of_depth(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.01;
+  const DeepestPoint& deepest = simulation.deepest();
+  if (!(deepest.share > ordinary)) return;
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  err << fmt::format(
+      "ashlar: warning: block {} was {:.3g} m deep in block {} at t = {:.6g} s, {:.2g} of the smaller "
+      "block's size; up to {} is ordinary: a larger contact.normal_stiffness or augmented = true keeps them "
+      "apart\n",
+      name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
+}
+
+void warn_of_friction(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.02;
+  const double excess = simulation.sliding_friction().excess();
+  if (!(std::abs(excess) > ordinary)) return;
+  err << fmt::format(
+      "ashlar: warning: where blocks slid on multipliers, {:.3g} of the friction has acted that "
+      "Coulomb's law makes of their normal forces, as they part and meet again from step to step: a larger "
+      "time_step, or "
+      "augmented = false, whose friction is exact\n",
+      1.0 + excess);
+}
+
+void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
+  const auto& [status, message, unsaved] = end;
+  if (!unsaved.empty()) {
+    err << fmt::format("ashlar: error: {}; the last state could not be saved: {}\n", message, unsaved);
+    return;
+  }
+  switch (status) {
+    case RunStatus::failed:
+      err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message, folder.string());
+      break;
+    case RunStatus::not_converged:
+      err << fmt::format("ashlar: error: {}; the last state is in {}\n", message, folder.string());
+      break;
+    case RunStatus::interrupted:
+      err << fmt::format("ashlar: {}; the state is saved in {}, the same command with --resume goes on\n",
+                         message, folder.string());
+      break;
+    case RunStatus::moving:
+      if (!quiet) err << message << '\n';
+      break;
+    case RunStatus::equilibrium:
+      if (!quiet) err << (message.empty() ? "equilibrium" : message) << '\n';
+      break;
+    case RunStatus::completed:
+      break;
+  }
+}
+
+}  // namespace ashlar

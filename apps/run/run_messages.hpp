@@ -1,0 +1,49 @@
+// What `ashlar run` tells its user: numbers that were chosen, how a run ended and why, doubts about results.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "apps/run/build_simulation.hpp"
+#include "apps/run/run_summary.hpp"
+
+namespace ashlar {
+
+/// How a run ended, in words.
+struct RunEnd {
+  RunStatus status = RunStatus::failed;
+  std::string message;  ///< why it failed or where it was interrupted, or what moves
+  std::string unsaved;  ///< why the state that it ended in is not saved; empty: it is
+};
+
+/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2"
+[[nodiscard]] std::string describe_motion(const Simulation& simulation);
+
+/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
+[[nodiscard]] std::string describe_displaced(const Simulation& simulation);
+
+/// "block A", of blocks that are too deep in each other with depth, place and what is allowed.
+[[nodiscard]] std::string description_of(const StateFault& fault, const Simulation& simulation);
+
+/// Why a step was rejected, with the blocks and the place where that is known.
+[[nodiscard]] std::string reason_of(const Rejection& rejection, const Simulation& simulation);
+
+/// "; changed: KEY (was A, is B), ..." from the summary of the run before in a result folder; empty if it has
+/// none or says nothing else.
+[[nodiscard]] std::string changed_keys(const std::filesystem::path& folder, const Scene& scene);
+
+/// Numbers that the program chose, and blocks that initial_state left as placed.
+void tell_choices(const BuiltSimulation& built, std::ostream& err);
+
+/// Nothing of a run that was completed. @param quiet only errors and interrupts
+void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet, std::ostream& err);
+
+/// Blocks that are farther in each other than contact that does not give way would be.
+void warn_of_depth(const Simulation& simulation, std::ostream& err);
+
+/// Multipliers stop what lands by impulses without friction, which the next steps make up for where blocks
+/// stay together: warns where sliding blocks had another friction than Coulomb's.
+void warn_of_friction(const Simulation& simulation, std::ostream& err);
+
+}  // namespace ashlar

@@ -1,0 +1,24 @@
+#include "mechanics/supports/gravity_history.hpp"
+
+#include <algorithm>
+
+#include "mechanics/supports/linear_rows.hpp"
+
+namespace ashlar {
+
+Vector3 GravityHistory::at(double time) const {
+  return linear_between_rows(times, values, time);
+}
+
+bool GravityHistory::changes_between(double start, double end) const {
+  return rows_change_between(times, start, end);
+}
+
+double GravityHistory::largest() const {
+  // Between two rows it is never larger than at both.
+  double most = 0.0;
+  for (const Vector3& value : values) most = std::max(most, value.norm());
+  return most;
+}
+
+}  // namespace ashlar
