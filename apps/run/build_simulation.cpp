@@ -15,7 +15,7 @@
 #include "apps/scene/joint_table.hpp"
 #include "apps/scene/support_history.hpp"
 #include "apps/scene/turned_supports.hpp"
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/program_version.hpp"
 #include "apps/scene/scene_json.hpp"
 
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 

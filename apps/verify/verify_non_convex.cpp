@@ -13,7 +13,7 @@
 #include "apps/verify/verification_contacts.hpp"
 #include "geometry/mesh/polygon_triangulation.hpp"
 #include "geometry/solid/shapes.hpp"
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {

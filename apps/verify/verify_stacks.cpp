@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/verify/verification_contacts.hpp"
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 
 namespace ashlar {
 namespace {

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/multiprecision/eigen.hpp>
-#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -13,12 +12,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/exact/fifty_digits.hpp"
+
 namespace ashlar {
 namespace {
 
-using Real = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
-    boost::multiprecision::et_off>;
+using Real = FiftyDigits;
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr double two_u = std::numeric_limits<double>::epsilon();

@@ -106,6 +106,8 @@ class PolynomialBasis {
     double divisor;
   };
 
+  struct ExactParts;
+
   /// All that stays when the block is translated. Places are from its first point.
   struct Parts {
     explicit Parts(const Polyhedron& solid, int the_order);
@@ -125,6 +127,19 @@ class PolynomialBasis {
 
     /// phi at a point from the first one, in the coordinates of the principal axes. @return (p)
     [[nodiscard]] Eigen::VectorXd values(const Vector3& xi) const;
+
+   private:
+    /// Volume, centroid and second moment.
+    void measure(const TriangleMesh& mesh, ExactParts& exact);
+    /// The box along the principal axes whose xi go from -1 to 1.
+    void choose_box(const TriangleMesh& mesh, ExactParts& exact);
+    /// @throws OrderTooHigh
+    void orthonormalise(const Polyhedron& solid, ExactParts& exact);
+    void make_recurrences(const ExactParts& exact);
+    void make_derivatives(const ExactParts& exact);
+    void make_identity_map(const ExactParts& exact);
+    /// @throws OrderTooHigh
+    void measure_loss(const TriangleMesh& mesh, const ExactParts& exact);
   };
 
   PolynomialBasis(std::shared_ptr<const Parts> parts, const Vector3& anchor);

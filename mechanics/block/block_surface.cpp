@@ -1,7 +1,5 @@
 #include "mechanics/block/block_surface.hpp"
 
-#include "mechanics/contact/contact_points.hpp"
-
 namespace ashlar {
 namespace {
 
@@ -13,6 +11,15 @@ Eigen::MatrixXd values_at_middles(const BlockModel& model, const SubFaceSurface&
                                 surface.points[static_cast<std::size_t>(edge.ends[1])]));
   }
   return model.basis().values(middles);
+}
+
+/// Current positions of points. @param phi values of the functions there, (#, p)
+std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state) {
+  const Eigen::MatrixX3d places = phi * state.position;
+  std::vector<Vector3> points;
+  points.reserve(static_cast<std::size_t>(places.rows()));
+  for (Eigen::Index k = 0; k < places.rows(); ++k) points.emplace_back(places.row(k));
+  return points;
 }
 
 }  // namespace

@@ -48,27 +48,31 @@ ContactMemory::Places ContactMemory::places() const {
   return places;
 }
 
-std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& point, const Places& places,
-                                                        bool same_faces) const {
+Eigen::RowVectorXd ContactMemory::squared_distances(const ContactPoint& point, const Places& places,
+                                                    bool same_faces) const {
   constexpr double least_cosine = 0.5;
   constexpr double too_far = std::numeric_limits<double>::infinity();
   // One of the two is carried along where a contact slides: the vertex, or the slave's point.
-  Eigen::RowVectorXd squared_distances =
+  Eigen::RowVectorXd result =
       (places.of_a.colwise() - point.material_a)
           .colwise()
           .squaredNorm()
           .cwiseMin((places.of_b.colwise() - point.material_b).colwise().squaredNorm());
   constexpr double sliver = 1e-6;  // of the largest area: where such points lie is known badly
-  double least_squared = too_far;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const Entry& entry = entries_[k];
-    double& squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
-    if (entry.area < sliver * largest_area_) squared_distance = too_far;
-    if (same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
-                   : entry.normal.dot(point.normal) < least_cosine)
-      squared_distance = too_far;
-    least_squared = std::min(least_squared, squared_distance);
+    const bool other = same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
+                                  : entry.normal.dot(point.normal) < least_cosine;
+    if (other || entry.area < sliver * largest_area_) result[static_cast<Eigen::Index>(k)] = too_far;
   }
+  return result;
+}
+
+std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& point, const Places& places,
+                                                        bool same_faces) const {
+  if (entries_.empty()) return std::nullopt;
+  const Eigen::RowVectorXd distances = squared_distances(point, places, same_faces);
+  const double least_squared = distances.minCoeff();
   if (!(least_squared <= squared_reach_)) return std::nullopt;
   // Old points on one place, as on the cut between two cells, are equally far.
   const double blur = 1e-6 * std::sqrt(squared_reach_);
@@ -81,7 +85,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   double in_level = 0.0;
   double most = 0.0;
   for (std::size_t k = 0; k < entries_.size(); ++k) {
-    const double squared_distance = squared_distances[static_cast<Eigen::Index>(k)];
+    const double squared_distance = distances[static_cast<Eigen::Index>(k)];
     if (squared_distance > farthest * farthest) continue;
     // Points without any area, on one place, are as good as each other.
     const double weight = farthest > 0.0 ? farthest - std::sqrt(squared_distance) : 1.0;

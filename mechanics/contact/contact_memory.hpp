@@ -97,6 +97,10 @@ class ContactMemory {
     int only_source = -1;  ///< the entry it is the memory of, -1 if there are several
   };
   [[nodiscard]] Places places() const;
+  /// Of each entry from a new point, in the nearer of the two materials, m^2; infinite where it is not asked.
+  /// @return (#entries)
+  [[nodiscard]] Eigen::RowVectorXd squared_distances(const ContactPoint& point, const Places& places,
+                                                     bool same_faces) const;
   /// Mean memory of the nearest old points, those within half as near again counting the less the farther
   /// they are; intact where most of it is. Slivers, points of less than a millionth of the largest area,
   /// are not asked.

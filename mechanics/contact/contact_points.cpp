@@ -314,14 +314,6 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
 
 }  // namespace
 
-std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state) {
-  const Eigen::MatrixX3d places = phi * state.position;
-  std::vector<Vector3> points;
-  points.reserve(static_cast<std::size_t>(places.rows()));
-  for (Eigen::Index k = 0; k < places.rows(); ++k) points.emplace_back(places.row(k));
-  return points;
-}
-
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                              const std::vector<bool>& masters, const ContactPointSettings& settings,
                              const std::vector<PressureCut>& known) {

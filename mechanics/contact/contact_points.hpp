@@ -55,9 +55,6 @@ struct ContactPointSettings {
   bool multipliers = false;
 };
 
-/// Current positions of a surface's points. @return (#surface.points), m
-[[nodiscard]] std::vector<Vector3> placed_points(const Eigen::MatrixXd& phi, const BlockState& state);
-
 /// Of a pair of blocks.
 struct ContactPoints {
   std::vector<ContactPoint> points;

@@ -7,7 +7,9 @@
 
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/index.hpp"
+#include "geometry/solid/face_axes.hpp"
 #include "geometry/solid/rounded_convexity.hpp"
+#include "geometry/subfaces/surface_distance.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
 #include "solver/contact/hidden_sides.hpp"
 #include "solver/contact/open_faces.hpp"
@@ -16,77 +18,12 @@
 namespace ashlar {
 namespace {
 
-double area_of_triangle(const TriangleMesh& mesh, const std::array<int, 3>& corners) {
-  const Vector3& start = mesh.points[at(corners[0])];
-  return 0.5 * (mesh.points[at(corners[1])] - start).cross(mesh.points[at(corners[2])] - start).norm();
-}
-
-double surface_area(const Polyhedron& solid) {
-  double area = 0.0;
-  for (const auto& triangle : solid.mesh().triangles) area += area_of_triangle(solid.mesh(), triangle);
-  return area;
-}
-
-/// Axes that turn with the scene, for boxes that then do so too: what they leave out, and the division of
-/// faces, must not depend on how a scene lies. Along the largest face and its longest side, as most of a
-/// scene is likely to be.
+/// Axes of the boxes: along the largest face of all blocks. Faces that are equal but for rounding: the first.
 Eigen::Matrix3d axes_of(const std::vector<BlockModel>& blocks) {
-  // Faces and sides that are equal but for rounding: the first.
-  constexpr double larger = 1.0 + 1e-9;
-  double most_area = 0.0;
-  Vector3 normal = Vector3::UnitZ();
-  Vector3 side = Vector3::UnitX();
-  for (const BlockModel& block : blocks) {
-    const auto& points = block.solid().mesh().points;
-    for (const PolyhedronFace& face : block.solid().faces()) {
-      double area = 0.0;
-      for (const int triangle : face.triangles)
-        area += area_of_triangle(block.solid().mesh(), block.solid().mesh().triangles[at(triangle)]);
-      if (area <= larger * most_area) continue;
-      most_area = area;
-      normal = face.normal;
-      double longest = 0.0;
-      const auto& loop = face.loops.front();
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vector3 along = points[at(loop[(k + 1) % loop.size()])] - points[at(loop[k])];
-        if (along.norm() <= larger * longest) continue;
-        longest = along.norm();
-        side = along;
-      }
-    }
-  }
-  Eigen::Matrix3d axes;
-  axes.col(2) = normal;
-  axes.col(1) = normal.cross(side).normalized();
-  axes.col(0) = axes.col(1).cross(normal);
-  return axes;
-}
-
-/// Width of the slab across a direction between two surfaces: no two points of them are nearer, however they
-/// curve. Negative if the direction does not separate them.
-double slab_between(const PlacedSurface& a, const PlacedSurface& b, const Vector3& direction) {
-  const auto extreme = [&](const PlacedSurface& surface, double sign) {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const Vector3& point : surface.points()) most = std::max(most, sign * direction.dot(point));
-    return most;
-  };
-  const double size = std::max(a.box().high.cwiseAbs().maxCoeff(), b.box().high.cwiseAbs().maxCoeff()) +
-                      std::max(a.box().low.cwiseAbs().maxCoeff(), b.box().low.cwiseAbs().maxCoeff());
-  const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * size;
-  return -extreme(b, -1.0) - extreme(a, 1.0) - a.largest_chord_bound() - b.largest_chord_bound() - rounding;
-}
-
-/// No two points of the true surfaces are nearer than this: the widest slab across an axis, the line between
-/// the middles or a face.
-double distance_bound(const PlacedSurface& a, const PlacedSurface& b) {
-  const Vector3 between = 0.5 * (b.box().low + b.box().high - a.box().low - a.box().high);
-  double bound = (a.box().low - b.box().high).cwiseMax(b.box().low - a.box().high).cwiseMax(0.0).norm();
-  if (between.norm() > 0.0) bound = std::max(bound, slab_between(a, b, between.normalized()));
-  for (int cell = 0; cell < static_cast<int>(a.surface().cells.size()); ++cell)
-    bound = std::max(bound, slab_between(a, b, a.normal(cell)));
-  for (int cell = 0; cell < static_cast<int>(b.surface().cells.size()); ++cell)
-    bound = std::max(bound, slab_between(a, b, -b.normal(cell)));
-  return bound;
+  constexpr double rounding = 1e-9;
+  std::vector<const Polyhedron*> solids;
+  for (const BlockModel& block : blocks) solids.push_back(&block.solid());
+  return axes_along_largest_face(solids, rounding);
 }
 
 /// Overlaps so thin that they have no contact points: whether faces beside each other have one is rounding,
@@ -117,7 +54,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
     surfaces_.emplace_back(block, settings.subdivisions, axes_,
                            is_first ? nullptr : &surfaces_[twin->second]);
     moving_.push_back(!block.fixed());
-    thickness_.push_back(block.basis().volume() / surface_area(block.solid()));
+    thickness_.push_back(block.basis().volume() / surface_area(block.solid().mesh()));
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
   }
 }
@@ -193,7 +130,7 @@ bool ContactFinder::known_apart(const PairKey& pair, double reach, const PairHis
 }
 
 Clearance ContactFinder::clearance_of(const PairKey& pair) const {
-  const double bound = distance_bound(placed(pair[0]), placed(pair[1]));
+  const double bound = least_distance(placed(pair[0]), placed(pair[1]));
   // Rounding of sums of paths is far below a part in a million of the distance.
   return {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
 }
@@ -336,11 +273,10 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   return found;
 }
 
-std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockState>& before,
-                                                       const std::vector<BlockState>& after,
-                                                       const std::vector<FoundContacts>& found,
-                                                       const PairHistories& histories) {
-  const double tolerance = settings_.passing_share * settings_.contact_distance;
+std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockState>& before,
+                                                        const std::vector<BlockState>& after,
+                                                        double tolerance, const PairHistories& histories,
+                                                        std::vector<std::vector<Vector3>>& ends) {
   std::vector<Box> swept;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     checked_motion_[k] =
@@ -355,7 +291,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
     return left_out_.count(pair) > 0 || both(pair) <= tolerance || known_apart(pair, both(pair), histories);
   });
   // What is left is looked at with the true surfaces and their true motion.
-  std::vector<std::vector<Vector3>> ends(surfaces_.size());
+  ends.resize(surfaces_.size());
   for (const PairKey& pair : pairs) {
     for (const int block : pair) {
       if (!ends[at(block)].empty()) continue;
@@ -373,6 +309,16 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
     const Box of_b = boxes_[at(pair[1])].grown(checked_motion_[at(pair[1])]);
     return both(pair) <= tolerance || known_apart(pair, both(pair), histories) || !of_a.meets(of_b);
   });
+  return pairs;
+}
+
+std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockState>& before,
+                                                       const std::vector<BlockState>& after,
+                                                       const std::vector<FoundContacts>& found,
+                                                       const PairHistories& histories) {
+  const double tolerance = settings_.passing_share * settings_.contact_distance;
+  std::vector<std::vector<Vector3>> ends;
+  const std::vector<PairKey> pairs = pairs_that_may_pass(before, after, tolerance, histories, ends);
   counts_.motions_checked += pairs.size();
   std::vector<std::vector<Touch>> touches(pairs.size());
   parallel_for(settings_.threads, pairs.size(), [&](std::size_t k) {

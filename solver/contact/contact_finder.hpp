@@ -109,6 +109,12 @@ class ContactFinder {
   void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
   [[nodiscard]] bool known_apart(const PairKey& pair, double reach, const PairHistories& histories) const;
   [[nodiscard]] Clearance clearance_of(const PairKey& pair) const;
+  /// Pairs whose surfaces have to be followed on the way from the last search to new states.
+  /// @param tolerance m: what moves by less passes nothing. @param ends gets the points of their blocks after
+  [[nodiscard]] std::vector<PairKey> pairs_that_may_pass(const std::vector<BlockState>& before,
+                                                         const std::vector<BlockState>& after,
+                                                         double tolerance, const PairHistories& histories,
+                                                         std::vector<std::vector<Vector3>>& ends);
   /// Searches pairs again in which a vertex is in a block below a hidden part of its face.
   /// @param limits of the pairs
   void search_hidden(std::vector<FoundContacts>& searched, const std::vector<ContactLimits>& limits);

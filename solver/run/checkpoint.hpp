@@ -1,30 +1,12 @@
-// All that a simulation has beyond its scene: stored and given to a simulation built from the same scene, it
-// lets the run go on bit for bit as if it had never stopped.
+// Snapshots of a simulation (step/snapshot.hpp) as bytes.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 
-#include "mechanics/block/incremental_block.hpp"
-#include "solver/run/run_context.hpp"
+#include "solver/step/snapshot.hpp"
 
 namespace ashlar {
-
-/// Everything that a step depends on or reports. What follows from the scene and kept factorisations are left
-/// out: those are made anew with the same values.
-struct SimulationSnapshot {
-  RunState run;                         ///< counts are those of the whole run
-  std::map<int, CarriedShape> carried;  ///< of incremental blocks
-  FinderState finder;
-};
-
-/// Work done and skipped by a run so far.
-[[nodiscard]] SimulationCounts counts_of(const RunContext& run);
-
-[[nodiscard]] SimulationSnapshot snapshot_of(const RunContext& run);
-/// @throws std::invalid_argument if the snapshot was taken of other blocks: nothing has changed then
-void restore(const RunContext& run, const SimulationSnapshot& snapshot);
 
 [[nodiscard]] std::string to_bytes(const SimulationSnapshot& snapshot);
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/run/run_context.hpp"
 #include "solver/statics/static_analysis.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/dynamic_step.hpp"
+#include "solver/step/run_context.hpp"
 
 namespace ashlar {
 

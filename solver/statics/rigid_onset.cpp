@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "geometry/index.hpp"
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 #include "solver/statics/static_verdict.hpp"
 #include "solver/stopwatch.hpp"
 

@@ -1,7 +1,7 @@
 #include "solver/statics/static_start.hpp"
 
-#include "solver/run/checkpoint.hpp"
 #include "solver/statics/static_step.hpp"
+#include "solver/step/snapshot.hpp"
 
 namespace ashlar {
 

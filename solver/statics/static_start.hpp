@@ -9,8 +9,8 @@
 
 #include <functional>
 
-#include "solver/run/run_context.hpp"
 #include "solver/statics/static_analysis.hpp"
+#include "solver/step/run_context.hpp"
 
 namespace ashlar {
 

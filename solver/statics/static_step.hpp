@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "solver/run/run_context.hpp"
 #include "solver/statics/static_analysis.hpp"
+#include "solver/step/run_context.hpp"
 
 namespace ashlar {
 

@@ -7,7 +7,7 @@
 
 #include "geometry/index.hpp"
 #include "mechanics/basis/field_moments.hpp"
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 #include "solver/statics/rigid_onset.hpp"
 
 namespace ashlar {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "solver/run/run_context.hpp"
 #include "solver/statics/static_analysis.hpp"
+#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

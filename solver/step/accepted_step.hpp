@@ -1,7 +1,7 @@
 // What a run takes over from a step that was accepted: motion, energies, memory of contacts.
 #pragma once
 
-#include "solver/run/run_context.hpp"
+#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

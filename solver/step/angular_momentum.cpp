@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/index.hpp"
-#include "geometry/union_find.hpp"
 #include "mechanics/basis/field_moments.hpp"
 
 namespace ashlar {
@@ -16,24 +15,6 @@ Eigen::MatrixX3d arms_of(const BlockModel& block, const BlockState& state, const
 }
 
 }  // namespace
-
-std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
-                                          const std::vector<std::array<int, 2>>& ties) {
-  UnionFind tied(blocks.size());
-  for (const auto& [a, b] : ties) tied.unite(a, b);
-  std::vector<std::vector<int>> sets(blocks.size());
-  std::vector<bool> free(blocks.size(), true);
-  for (int k = 0; k < static_cast<int>(blocks.size()); ++k) {
-    const BlockModel& block = blocks[at(k)];
-    const int set = tied.find(k);
-    sets[at(set)].push_back(k);
-    if (block.fixed() || block.supported() || block.incremental() != nullptr) free[at(set)] = false;
-  }
-  std::vector<std::vector<int>> result;
-  for (std::size_t set = 0; set < sets.size(); ++set)
-    if (free[set] && !sets[set].empty()) result.push_back(std::move(sets[set]));
-  return result;
-}
 
 Vector3 stray_angular_momentum(const BlockModel& block, const BlockState& before, const BlockState& after,
                                const Eigen::MatrixX3d& known, double step, const Vector3& origin) {

@@ -21,12 +21,6 @@
 
 namespace ashlar {
 
-/// Sets of blocks that turn as one and that nothing but contacts holds: single blocks, and blocks tied to
-/// each other. Fixed, supported and incremental blocks, and all that are tied to one, are in none.
-/// @param ties pairs of tied blocks. @return increasing block indices, sets in the order of their first
-[[nodiscard]] std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
-                                                        const std::vector<std::array<int, 2>>& ties);
-
 /// Angular momentum that a step gave to blocks of a free body beside what known forces did, kg m^2/s: the sum
 /// over the body, as what balances a tie's forces on one block need not be on that block, but for rounding.
 /// @param known contacts, ties, gravity, loads and damping as they act in the step, (p, 3), N m^-3/2

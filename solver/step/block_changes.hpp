@@ -1,7 +1,7 @@
 // Blocks whose model changes between steps: incremental blocks, and those that get another order.
 #pragma once
 
-#include "solver/run/run_context.hpp"
+#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

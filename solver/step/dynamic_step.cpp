@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "solver/run/checkpoint.hpp"
 #include "solver/step/accepted_step.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/position_projection.hpp"
+#include "solver/step/snapshot.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

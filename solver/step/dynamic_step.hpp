@@ -2,7 +2,7 @@
 // cut to their first touch, with the reason recorded; nothing of the state changes until a step is accepted.
 #pragma once
 
-#include "solver/run/run_context.hpp"
+#include "solver/step/run_context.hpp"
 
 namespace ashlar {
 

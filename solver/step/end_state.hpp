@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/run/run_context.hpp"
+#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

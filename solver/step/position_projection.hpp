@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "solver/run/run_context.hpp"
+#include "solver/step/run_context.hpp"
 #include "solver/step/step_problem.hpp"
 
 namespace ashlar {

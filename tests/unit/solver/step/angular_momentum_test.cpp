@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "solver/state/free_bodies.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar {

@@ -1,4 +1,4 @@
-#include "solver/statics/static_analysis.hpp"
+#include "solver/state/static_state.hpp"
 
 #include <cmath>
 

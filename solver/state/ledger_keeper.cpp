@@ -1,4 +1,4 @@
-#include "solver/run/ledger_keeper.hpp"
+#include "solver/state/ledger_keeper.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solver/run/run_state.hpp"
+#include "solver/state/run_state.hpp"
 
 namespace ashlar {
 

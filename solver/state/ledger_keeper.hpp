@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "solver/run/block_system.hpp"
-#include "solver/run/ledger.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/state/ledger.hpp"
 
 namespace ashlar {
 

@@ -10,9 +10,9 @@
 #include "solver/contact/contact_pair.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/linear/sparse_cholesky.hpp"
-#include "solver/run/ledger_keeper.hpp"
-#include "solver/run/step_clock.hpp"
-#include "solver/statics/static_analysis.hpp"
+#include "solver/state/ledger_keeper.hpp"
+#include "solver/state/static_state.hpp"
+#include "solver/state/step_clock.hpp"
 
 namespace ashlar {
 

@@ -9,8 +9,8 @@
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/contact_pair.hpp"
 #include "solver/contact/internal_edges.hpp"
-#include "solver/run/block_system.hpp"
-#include "solver/run/run_state.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/state/run_state.hpp"
 
 namespace ashlar {
 

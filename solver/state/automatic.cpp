@@ -1,4 +1,4 @@
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 
 #include <algorithm>
 #include <cmath>

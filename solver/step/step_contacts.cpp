@@ -1,4 +1,4 @@
-#include "solver/contact/step_contacts.hpp"
+#include "solver/step/step_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "mechanics/contact/overlap_outline.hpp"
 #include "solver/contact/energy_bounds.hpp"
 #include "solver/contact/surface_continuation.hpp"
-#include "solver/run/automatic.hpp"
+#include "solver/state/automatic.hpp"
 #include "solver/step/step_problem.hpp"
 #include "solver/stopwatch.hpp"
 

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "solver/contact/depth_audit.hpp"
-#include "solver/contact/step_contacts.hpp"
-#include "solver/run/block_system.hpp"
-#include "solver/run/run_state.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/state/run_state.hpp"
 #include "solver/step/factor_cache.hpp"
+#include "solver/step/step_contacts.hpp"
 
 namespace ashlar {
 

@@ -1,12 +1,12 @@
-#include "solver/run/block_system.hpp"
+#include "solver/state/block_system.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "solver/run/automatic.hpp"
-#include "solver/step/angular_momentum.hpp"
+#include "solver/state/automatic.hpp"
+#include "solver/state/free_bodies.hpp"
 
 namespace ashlar {
 namespace {

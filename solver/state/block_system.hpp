@@ -52,7 +52,7 @@ class BlockSystem {
   [[nodiscard]] bool are_tied(int a, int b) const;
   /// Pairs between which no contacts are looked for, the lower block first.
   [[nodiscard]] const std::set<std::array<int, 2>>& left_out() const { return left_out_; }
-  /// Sets of blocks that turn as one and that nothing but contacts holds (angular_momentum.hpp).
+  /// Sets of blocks that turn as one and that nothing but contacts holds (free_bodies.hpp).
   [[nodiscard]] const std::vector<std::vector<int>>& free_bodies() const { return free_bodies_; }
   /// Size of the rounding errors of a block's internal force, N m^-3/2.
   [[nodiscard]] double roundoff_force(int block) const;

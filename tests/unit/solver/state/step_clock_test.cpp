@@ -1,4 +1,4 @@
-#include "solver/run/step_clock.hpp"
+#include "solver/state/step_clock.hpp"
 
 #include <gtest/gtest.h>
 

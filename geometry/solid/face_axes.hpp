@@ -1,0 +1,22 @@
+// Axes that turn with solids, and areas of their surfaces.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/solid/polyhedron.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+/// Sum of the areas of all triangles, m^2.
+[[nodiscard]] double surface_area(const TriangleMesh& mesh);
+
+/// Axes for boxes that are to turn with a scene: what boxes leave out, and the division of faces, must not depend
+/// on how it lies. Along the largest face and its longest side, as most of a scene is likely to be.
+/// @param resolution faces and sides that are larger by no more than this share are equal: the first is taken
+/// @return right-handed, by columns; the third is the face's normal. Without solids the coordinate axes
+[[nodiscard]] Eigen::Matrix3d axes_along_largest_face(const std::vector<const Polyhedron*>& solids,
+                                                      double resolution);
+
+}  // namespace ashlar

@@ -1,0 +1,39 @@
+// What a static analysis (statics/static_analysis.hpp) carries from one iteration to the next.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mechanics/block/block_model.hpp"
+
+namespace ashlar {
+
+/// Root mean square over a block of the motion that a change of its coefficients is, in its unit.
+[[nodiscard]] double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change);
+
+/// What a static analysis carries from one iteration to the next.
+struct StaticState {
+  double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0 before the first
+  int iterations = 0;             ///< at the present loads
+  int still_iterations = 0;       ///< in which nothing was lacking and no contact changed, one after another
+  bool holds_bonds = false;       ///< until all is in balance once with bonds that hold
+  int multiplier_iterations = 0;  ///< in which nothing was lacking but that multipliers repeat themselves
+  bool balanced = false;          ///< equilibrium at the present loads
+  bool moving = false;
+  std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on
+  /// For each block, where it was when what it lacks had last been halved, and how much that was.
+  std::vector<Eigen::MatrixX3d> milestones;
+  std::vector<double> milestone_forces;
+  std::vector<double> travels;              ///< from there, in parts of the block's size
+  std::vector<std::array<int, 2>> sliding;  ///< joints that slid in the last iteration
+  /// Least sum of squares of what blocks lacked since the last iteration in which nothing was lacking or a
+  /// joint lost its strength, N^2
+  double least_lacking = 0.0;
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
+  bool rigid = false;                        ///< whether these are those of rigid blocks
+  /// Of each block, since then: not 0 where rigid blocks would have stayed (rigid_onset.cpp)
+  std::vector<int> gives_way;
+  std::vector<Eigen::MatrixX3d> starts;  ///< of each block, positions then
+};
+
+}  // namespace ashlar

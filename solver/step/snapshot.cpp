@@ -1,0 +1,63 @@
+#include "solver/step/snapshot.hpp"
+
+#include <stdexcept>
+
+#include "geometry/index.hpp"
+#include "solver/step/block_changes.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Orders of blocks that were changed in the run.
+/// @throws std::invalid_argument if the snapshot was taken of other blocks
+std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapshot& snapshot) {
+  const std::vector<BlockState>& states = snapshot.run.states;
+  bool fits = states.size() == run.blocks().size();
+  std::map<int, int> orders;
+  for (int k = 0; fits && k < run.system.count(); ++k) {
+    const Eigen::Index rows = states[at(k)].position.rows();
+    const bool incremental = run.blocks()[at(k)].incremental() != nullptr;
+    fits = states[at(k)].velocity.rows() == rows && snapshot.carried.contains(k) == incremental;
+    if (rows == run.state.states[at(k)].position.rows()) continue;
+    int order = 1;
+    while (order < PolynomialBasis::max_order && polynomial_count(order) < rows) ++order;
+    fits = fits && polynomial_count(order) == rows && run.system.moving()[at(k)] && !incremental;
+    orders.emplace(k, order);
+  }
+  if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
+  return orders;
+}
+
+}  // namespace
+
+SimulationCounts counts_of(const RunContext& run) {
+  SimulationCounts counts = run.state.log.counts;
+  counts.finder = run.contacts.finder().counts();
+  counts.factors += run.factors.counts();
+  return counts;
+}
+
+SimulationSnapshot snapshot_of(const RunContext& run) {
+  SimulationSnapshot result{run.state, {}, run.contacts.finder().state()};
+  result.run.log.counts = counts_of(run);
+  for (int k = 0; k < run.system.count(); ++k) {
+    const BlockModel& block = run.blocks()[at(k)];
+    if (block.incremental() != nullptr) result.carried.emplace(k, block.carried());
+  }
+  return result;
+}
+
+void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
+  for (const auto& [k, order] : changed_orders(run, snapshot))
+    replace_model(run, k, run.blocks()[at(k)].with_order(order));
+  run.state = snapshot.run;
+  for (const auto& [block, shape] : snapshot.carried) {
+    run.system.carry_on(block, run.blocks()[at(block)].with_shape(shape));
+    run.contacts.finder().start_step(block);
+  }
+  run.contacts.finder().restore(snapshot.finder);
+  run.factors = FactorCache();
+  run.state.ledger.measure_elastic(run.system, run.state.states);
+}
+
+}  // namespace ashlar

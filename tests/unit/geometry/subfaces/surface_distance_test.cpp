@@ -1,0 +1,52 @@
+#include "geometry/subfaces/surface_distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "geometry/solid/shapes.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A lower bound of the distance of two boxes, both turned.
+double bound(const TriangleMesh& a, const TriangleMesh& b, const Eigen::Matrix3d& turn) {
+  const auto surface_of = [](const TriangleMesh& mesh) { return whole_surface(Polyhedron(mesh)); };
+  const auto turned = [&](const TriangleMesh& mesh) {
+    std::vector<Vector3> points;
+    for (const Vector3& point : mesh.points) points.emplace_back(turn * point);
+    return points;
+  };
+  const SubFaceSurface surface_a = surface_of(a), surface_b = surface_of(b);
+  return least_distance(PlacedSurface(surface_a, turned(a)), PlacedSurface(surface_b, turned(b)));
+}
+
+const Eigen::Matrix3d as_is = Eigen::Matrix3d::Identity();
+const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vector3(1, 1, 2).normalized()).toRotationMatrix();
+
+TEST(SurfaceDistance, OfFacesThatAreOppositeIsTheirs) {
+  const TriangleMesh a = make_box({0, 0, 0}, {1, 1, 1}), b = make_box({0.25, 0, 1.5}, {1, 1, 2});
+  for (const Eigen::Matrix3d& by : {as_is, turn}) {
+    EXPECT_LE(bound(a, b, by), 0.5);
+    EXPECT_NEAR(bound(a, b, by), 0.5, 1e-13);
+  }
+}
+
+TEST(SurfaceDistance, IsNeverMoreThanTheTrueOne) {
+  // Corner to corner: sqrt(3)/2; the line between the middles goes through both corners.
+  const TriangleMesh a = make_box({0, 0, 0}, {1, 1, 1}), b = make_box({1.5, 1.5, 1.5}, {2.5, 2.5, 2.5});
+  for (const Eigen::Matrix3d& by : {as_is, turn}) {
+    EXPECT_LE(bound(a, b, by), std::sqrt(0.75));
+    EXPECT_NEAR(bound(a, b, by), std::sqrt(0.75), 1e-13);
+  }
+}
+
+TEST(SurfaceDistance, OfSurfacesThatMeetIsNone) {
+  const TriangleMesh a = make_box({0, 0, 0}, {1, 1, 1}), b = make_box({0.5, 0.5, 0.5}, {2, 2, 2});
+  EXPECT_EQ(bound(a, b, as_is), 0.0);
+  EXPECT_EQ(bound(a, b, turn), 0.0);
+  EXPECT_EQ(bound(a, make_box({1, 0, 0}, {2, 1, 1}), as_is), 0.0) << "they touch";
+}
+
+}  // namespace
+}  // namespace ashlar
