@@ -7,13 +7,13 @@
 
 namespace ashlar {
 
-/// "0.1.0".
+/// Major, minor and patch number, as "0.2.0".
 [[nodiscard]] std::string program_version();
 
 /// Name and version: the compiler first, then the libraries.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tool_versions();
 
-/// "ashlar 0.1.0" and a line for each of tool_versions.
+/// "ashlar", program_version() and a line for each of tool_versions.
 [[nodiscard]] std::string version_text();
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// Lets a browser without a window make something of a page. README.md of this folder says why pictures are
+// Lets a browser without a window make something of a page. apps/notes/pictures.md says why pictures are
 // made this way.
 #pragma once
 

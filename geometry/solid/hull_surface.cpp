@@ -14,18 +14,6 @@ constexpr signed char not_known = 2;
 
 }  // namespace
 
-void HalfEdges::add(int h) {
-  int& head = first_[triangles_[h / 3][h % 3]];
-  next_[h] = head;
-  head = h;
-}
-
-void HalfEdges::remove(int h) {
-  int* link = &first_[triangles_[h / 3][h % 3]];
-  while (*link != h) link = &next_[*link];
-  *link = next_[h];
-}
-
 HullSurface::HullSurface(const std::vector<Vector3>& points, const std::vector<std::array<int, 3>>& triangles,
                          bool floating)
     : points_(points),
@@ -59,15 +47,10 @@ void HullSurface::check_area(int t) {
 
 void HullSurface::add(int t) {
   const auto& c = triangles_[t];
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k)
     if (half_edges_.find(c[k], c[(k + 1) % 3]) >= 0)
       throw std::invalid_argument("convex shape: triangles around an edge do not fit together");
-    half_edges_.add(3 * t + k);
-  }
-}
-
-void HullSurface::remove(int t) {
-  for (int k = 0; k < 3; ++k) half_edges_.remove(3 * t + k);
+  half_edges_.add(t);
 }
 
 // 1 convex, 0 flat, -1 concave.
@@ -113,11 +96,11 @@ bool HullSurface::flip_concave_edges(const std::vector<Edge>& edges) {
 
 void HullSurface::flip(int h, int twin) {
   const int left = h / 3, right = twin / 3;
-  const int from = triangles_[left][h % 3], to = triangles_[right][twin % 3];
+  const int from = half_edges_.start(h), to = half_edges_.start(twin);
   const int a = opposite(h), b = opposite(twin);
   if (half_edges_.find(a, b) >= 0) throw std::invalid_argument("convex shape: the mesh is concave");
-  remove(left);
-  remove(right);
+  half_edges_.remove(left);
+  half_edges_.remove(right);
   triangles_[left] = {a, from, b};
   triangles_[right] = {b, to, a};
   for (const int t : {left, right}) {

@@ -3,40 +3,12 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "geometry/exact/direction_predicates.hpp"
+#include "geometry/solid/half_edges.hpp"
 
 namespace ashlar {
-
-/// Half-edges by the point they start from: half-edge 3 t + k runs from corner k of triangle t to the next
-/// one.
-class HalfEdges {
- public:
-  /// Holds none yet. @param triangles must outlive this; may change, but not in the triangles of half-edges
-  /// that are held.
-  HalfEdges(const std::vector<std::array<int, 3>>& triangles, std::size_t point_count)
-      : triangles_(triangles), first_(point_count, -1), next_(3 * triangles.size(), -1) {}
-
-  void add(int h);
-  void remove(int h);
-  /// The first half-edge held that starts from a point, and the one after h from the same point; -1: none.
-  [[nodiscard]] int first(int point) const { return first_[point]; }
-  [[nodiscard]] int next(int h) const { return next_[h]; }
-  [[nodiscard]] int end(int h) const { return triangles_[h / 3][h % 3 == 2 ? 0 : h % 3 + 1]; }
-  /// The half-edge between two points, or -1.
-  [[nodiscard]] int find(int from, int to) const {
-    int h = first_[from];
-    while (h >= 0 && end(h) != to) h = next_[h];
-    return h;
-  }
-
- private:
-  const std::vector<std::array<int, 3>>& triangles_;
-  std::vector<int> first_;  // by point
-  std::vector<int> next_;   // by half-edge
-};
 
 /// A closed triangle mesh whose concave edges, all of them within former facets, have been flipped until none
 /// is left. Triangles across flat edges form groups, the facets.
@@ -64,8 +36,7 @@ class HullSurface {
 
   void check_area(int t);
   void add(int t);
-  void remove(int t);
-  [[nodiscard]] int opposite(int h) const { return triangles_[h / 3][h % 3 == 0 ? 2 : h % 3 - 1]; }
+  [[nodiscard]] int opposite(int h) const { return half_edges_.start(previous_half_edge(h)); }
   int bend(int h, int twin);
   [[nodiscard]] std::vector<Edge> sorted_edges() const;
   bool flip_concave_edges(const std::vector<Edge>& edges);

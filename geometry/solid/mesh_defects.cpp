@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "geometry/solid/exact_surface.hpp"
-#include "geometry/solid/mesh_edges.hpp"
+#include "geometry/solid/half_edges.hpp"
 #include "geometry/solid/self_intersection.hpp"
 #include "geometry/union_find.hpp"
 
@@ -17,7 +17,8 @@ namespace {
 
 class DefectSearch {
  public:
-  DefectSearch(const TriangleMesh& mesh, std::size_t limit) : mesh_(mesh), limit_(limit) {}
+  DefectSearch(const TriangleMesh& mesh, std::size_t limit)
+      : mesh_(mesh), limit_(limit), half_edges_(mesh.triangles, mesh.points.size()) {}
 
   MeshCheck run() {
     if (mesh_.points.empty() || mesh_.triangles.empty()) {
@@ -28,7 +29,8 @@ class DefectSearch {
     check_indices();
     if (!result_.defects.empty()) return std::move(result_);
 
-    uses_ = sorted_edge_uses(mesh_.triangles);
+    half_edges_.add_all();
+    by_edge_ = half_edges_.sorted_by_edge();
     check_unused_points();
     check_edges();
     check_vertices();
@@ -80,50 +82,47 @@ class DefectSearch {
   }
 
   void check_edges() {
-    result_.twins.assign(3 * mesh_.triangles.size(), -1);
-    for_each_edge(uses_, [this](std::span<const EdgeUse> edge) {
-      const int first = edge[0].halfedge;
-      if (edge.size() == 1) {
-        report_edge(MeshDefectKind::open_edge, edge);
-      } else if (edge.size() > 2) {
-        report_edge(MeshDefectKind::non_manifold_edge, edge);
-      } else if (origin(mesh_.triangles, first) == origin(mesh_.triangles, edge[1].halfedge)) {
-        report_edge(MeshDefectKind::inconsistent_edge, edge);
-      } else {
-        result_.twins[first] = edge[1].halfedge;
-        result_.twins[edge[1].halfedge] = first;
-        return;
-      }
+    result_.twins = half_edges_.twins(by_edge_);
+    for_each_edge([this](std::span<const int> edge) {
+      if (result_.twins[edge[0]] >= 0) return;
       closed_ = false;
+      report_edge(edge.size() == 1  ? MeshDefectKind::open_edge
+                  : edge.size() > 2 ? MeshDefectKind::non_manifold_edge
+                                    : MeshDefectKind::inconsistent_edge,
+                  edge);
     });
   }
 
-  void report_edge(MeshDefectKind kind, std::span<const EdgeUse> edge) {
+  template <class Visit>
+  void for_each_edge(Visit visit) const {
+    half_edges_.for_each_edge(by_edge_, visit);
+  }
+
+  void report_edge(MeshDefectKind kind, std::span<const int> edge) {
     std::string triangles;
-    for (const EdgeUse& use : edge) {
-      triangles += (triangles.empty() ? " " : ", ") + std::to_string(use.triangle());
-    }
-    report(kind, "edge ", edge[0].low(), "-", edge[0].high(),
-           edge.size() == 1 ? " of triangle" : " of triangles", triangles);
+    for (const int h : edge) triangles += (triangles.empty() ? " " : ", ") + std::to_string(h / 3);
+    const auto [low, high] = std::minmax({half_edges_.start(edge[0]), half_edges_.end(edge[0])});
+    report(kind, "edge ", low, "-", high, edge.size() == 1 ? " of triangle" : " of triangles", triangles);
   }
 
   // The corners of triangles at a point fall into one set per fan when united over all edges at the point.
   void check_vertices() {
     UnionFind fans(3 * mesh_.triangles.size());
-    const auto corner = [this](const EdgeUse& use, int point) {
-      return origin(mesh_.triangles, use.halfedge) == point ? use.halfedge : next_halfedge(use.halfedge);
+    const auto corner = [this](int h, int point) {
+      return half_edges_.start(h) == point ? h : next_half_edge(h);
     };
-    for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {
-      for (const EdgeUse& use : edge.subspan(1)) {
-        for (const int end : {use.low(), use.high()}) fans.unite(corner(edge[0], end), corner(use, end));
+    for_each_edge([&](std::span<const int> edge) {
+      for (const int h : edge.subspan(1)) {
+        for (const int end : {half_edges_.start(h), half_edges_.end(h)})
+          fans.unite(corner(edge[0], end), corner(h, end));
       }
     });
     constexpr int none = -1;
     constexpr int several = -2;
     std::vector<int> fan_of_point(mesh_.points.size(), none);
-    for (const EdgeUse& use : uses_) {
-      int& known = fan_of_point[origin(mesh_.triangles, use.halfedge)];
-      const int fan = fans.find(use.halfedge);
+    for (const int h : by_edge_) {
+      int& known = fan_of_point[half_edges_.start(h)];
+      const int fan = fans.find(h);
       known = known == none || known == fan ? fan : several;
     }
     for (std::size_t v = 0; v < fan_of_point.size(); ++v) {
@@ -133,17 +132,15 @@ class DefectSearch {
 
   void check_components() {
     UnionFind surfaces(mesh_.triangles.size());
-    for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {
-      for (const EdgeUse& use : edge.subspan(1)) surfaces.unite(edge[0].triangle(), use.triangle());
+    for_each_edge([&](std::span<const int> edge) {
+      for (const int h : edge.subspan(1)) surfaces.unite(edge[0] / 3, h / 3);
     });
-    if (uses_.empty()) return;
-    const int first = surfaces.find(std::min_element(uses_.begin(), uses_.end(), [](auto& x, auto& y) {
-                                      return x.halfedge < y.halfedge;
-                                    })->triangle());
+    if (by_edge_.empty()) return;
+    const int first = surfaces.find(*std::min_element(by_edge_.begin(), by_edge_.end()) / 3);
     std::vector<char> named(mesh_.triangles.size(), 0);
     named[first] = 1;
-    for (const EdgeUse& use : uses_) {
-      const int root = surfaces.find(use.triangle());
+    for (const int h : by_edge_) {
+      const int root = surfaces.find(h / 3);
       if (named[root] != 0) continue;
       named[root] = 1;
       report(MeshDefectKind::several_components, "triangle ", root, " (not connected to triangle ", first,
@@ -205,7 +202,8 @@ class DefectSearch {
 
   const TriangleMesh& mesh_;
   const std::size_t limit_;
-  std::vector<EdgeUse> uses_;
+  HalfEdges half_edges_;
+  std::vector<int> by_edge_;  // as HalfEdges::sorted_by_edge
   bool closed_ = true;
   std::array<std::size_t, 16> counts_{};
   MeshCheck result_;

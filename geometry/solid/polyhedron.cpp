@@ -14,7 +14,7 @@
 #include "geometry/exact/rounding_mode.hpp"
 #include "geometry/solid/exact_surface.hpp"
 #include "geometry/solid/flat_regions.hpp"
-#include "geometry/solid/mesh_edges.hpp"
+#include "geometry/solid/half_edges.hpp"
 #include "geometry/union_find.hpp"
 
 namespace ashlar {
@@ -55,7 +55,7 @@ class FaceBuilder {
   bool convex = true;
 
  private:
-  [[nodiscard]] int start(int h) const { return origin(mesh_.triangles, h); }
+  [[nodiscard]] int start(int h) const { return start_of(mesh_.triangles, h); }
   [[nodiscard]] bool is_sharp(int h) const { return bend_[h] != CGAL::ZERO; }
   [[nodiscard]] bool is_corner(int v) const { return is_corner_[v]; }
 
@@ -126,7 +126,7 @@ class FaceBuilder {
   // Negative if the neighbour's third corner lies below the triangle, inside: a convex edge.
   [[nodiscard]] CGAL::Sign bend_over(int h, int twin, PredicateLadder& ladder) const {
     const auto& [a, b, c] = mesh_.triangles[h / 3];
-    const int apex = start(next_halfedge(next_halfedge(twin)));
+    const int apex = start(previous_half_edge(twin));
     const std::vector<Vector3>& x = mesh_.points;
     return CGAL::sign(sign_volume(x[a], x[b], x[c], x[apex], ladder));
   }
@@ -155,8 +155,8 @@ class FaceBuilder {
 
   // The sharp half-edge that follows a sharp one on the boundary of its face, turning inside the face.
   [[nodiscard]] int next_on_boundary(int h) const {
-    int next = next_halfedge(h);
-    while (!is_sharp(next)) next = next_halfedge(twins_[next]);
+    int next = next_half_edge(h);
+    while (!is_sharp(next)) next = next_half_edge(twins_[next]);
     return next;
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "geometry/solid/half_edges.hpp"
 
 namespace ashlar {
 namespace {
@@ -89,50 +90,58 @@ void find_neighbours(const Polyhedron& solid, SubFaceSurface& surface) {
   }
 }
 
-/// The edge of the polyhedron behind every directed side of a mesh triangle that lies on one. An edge may be
-/// a chain of sides with points that are no corners; from such a point a chain has one way to go on.
-std::map<Side, int> edges_of_mesh_sides(const Polyhedron& solid) {
-  std::map<Side, int> triangle_of_side;
+/// (3 #triangles) The twin of each half-edge. @throws std::invalid_argument if the triangles are not closed
+std::vector<int> twins_of_closed(const std::vector<std::array<int, 3>>& triangles, std::size_t point_count) {
+  HalfEdges half_edges(triangles, point_count);
+  half_edges.add_all();
+  std::vector<int> twins = half_edges.twins();
+  if (std::find(twins.begin(), twins.end(), -1) != twins.end())
+    throw std::invalid_argument("the triangles of a surface must be closed");
+  return twins;
+}
+
+/// (3 #triangles) The edge of the polyhedron that each half-edge of its mesh is a piece of; -1: none. An edge
+/// may be a chain of half-edges over points that are no corners; from such a point a chain has one way to go
+/// on.
+std::vector<int> edges_of_half_edges(const Polyhedron& solid) {
   const auto& triangles = solid.mesh().triangles;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k)
-      triangle_of_side[{triangles[t][k], triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
-  }
-  std::map<std::pair<int, int>, std::vector<int>> next;  // (face, point): ends of its rim sides from there
-  for (const auto& [side, triangle] : triangle_of_side) {
-    const int face = solid.face_of_triangle()[at(triangle)];
-    const int twin = triangle_of_side.at({side.second, side.first});
-    if (solid.face_of_triangle()[at(twin)] != face) next[{face, side.first}].push_back(side.second);
-  }
-  const auto& corners = solid.corners();
-  const auto is_corner = [&](int point) { return std::binary_search(corners.begin(), corners.end(), point); };
-  std::map<Side, int> edges;
+  const std::vector<int> twins = twins_of_closed(triangles, solid.mesh().points.size());
+  const auto face_of = [&](int h) { return solid.face_of_triangle()[at(h / 3)]; };
+  const auto is_rim = [&](int h) { return face_of(h) != face_of(twins[at(h)]); };
+  const auto next_on_rim = [&](int h) {
+    h = next_half_edge(h);
+    while (!is_rim(h)) h = next_half_edge(twins[at(h)]);
+    return h;
+  };
+  std::vector<bool> is_corner(solid.mesh().points.size(), false);
+  for (const int corner : solid.corners()) is_corner[at(corner)] = true;
+  std::map<std::array<int, 3>, int> edge_between;  // by left face and corners
   for (std::size_t e = 0; e < solid.edges().size(); ++e) {
     const PolyhedronEdge& edge = solid.edges()[e];
-    for (const int first : next.at({edge.faces[0], edge.vertices[0]})) {
-      std::vector<int> chain = {edge.vertices[0], first};
-      while (!is_corner(chain.back())) chain.push_back(next.at({edge.faces[0], chain.back()}).front());
-      if (chain.back() != edge.vertices[1]) continue;
-      for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
-        edges[{chain[k], chain[k + 1]}] = static_cast<int>(e);
-        edges[{chain[k + 1], chain[k]}] = static_cast<int>(e);
-      }
-    }
+    edge_between[{edge.faces[0], edge.vertices[0], edge.vertices[1]}] = static_cast<int>(e);
+  }
+  std::vector<int> edges(twins.size(), -1);
+  for (int first = 0; first < static_cast<int>(twins.size()); ++first) {
+    const int corner = start_of(triangles, first);
+    if (!is_corner[at(corner)] || !is_rim(first)) continue;
+    std::vector<int> chain = {first};
+    while (!is_corner[at(start_of(triangles, twins[at(chain.back())]))])
+      chain.push_back(next_on_rim(chain.back()));
+    const auto edge =
+        edge_between.find({face_of(first), corner, start_of(triangles, twins[at(chain.back())])});
+    if (edge == edge_between.end()) continue;
+    for (const int h : chain) edges[at(h)] = edges[at(twins[at(h)])] = edge->second;
   }
   return edges;
 }
 
 /// The mesh's triangles of a face as cells.
-void add_triangles(const Polyhedron& solid, int face, const std::map<Side, int>& edges_of_sides,
+void add_triangles(const Polyhedron& solid, int face, const std::vector<int>& edges_of_half_edges,
                    std::vector<SurfaceCell>& cells) {
   for (const int t : solid.faces()[at(face)].triangles) {
     const auto& triangle = solid.mesh().triangles[at(t)];
-    SurfaceCell cell{face, {triangle.begin(), triangle.end()}, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto edge = edges_of_sides.find({triangle[k], triangle[(k + 1) % 3]});
-      cell.rim.push_back(edge == edges_of_sides.end() ? -1 : edge->second);
-    }
-    cells.push_back(std::move(cell));
+    const auto rim = edges_of_half_edges.begin() + 3 * t;
+    cells.push_back({face, {triangle.begin(), triangle.end()}, {rim, rim + 3}});
   }
 }
 
@@ -201,11 +210,11 @@ SubFaceSurface whole_surface(const Polyhedron& solid) {
     const auto& [start, end] = solid.edges()[e].vertices;
     edge_of_side[sorted(start, end)] = static_cast<int>(e);
   }
-  const auto edges_of_sides = edges_of_mesh_sides(solid);
+  const std::vector<int> rims = edges_of_half_edges(solid);
   for (std::size_t f = 0; f < solid.faces().size(); ++f) {
     const PolyhedronFace& face = solid.faces()[f];
     if (!face.convex) {
-      add_triangles(solid, static_cast<int>(f), edges_of_sides, surface.cells);
+      add_triangles(solid, static_cast<int>(f), rims, surface.cells);
       continue;
     }
     const auto& loop = face.loops.front();
@@ -226,9 +235,9 @@ SubFaceSurface divide_surface(const Polyhedron& solid, int levels) {
   if (levels < 0 || levels > 8) throw std::invalid_argument("levels of subdivision must be 0 to 8");
   std::vector<Vector3> points = solid.mesh().points;
   std::vector<SurfaceCell> cells;
-  const auto edges_of_sides = edges_of_mesh_sides(solid);
+  const std::vector<int> rims = edges_of_half_edges(solid);
   for (std::size_t f = 0; f < solid.faces().size(); ++f)
-    add_triangles(solid, static_cast<int>(f), edges_of_sides, cells);
+    add_triangles(solid, static_cast<int>(f), rims, cells);
   for (int level = 0; level < levels; ++level) split(points, cells);
   return surface_of_triangles(solid, points, std::move(cells));
 }
@@ -238,9 +247,10 @@ SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<V
   SubFaceSurface surface;
   surface.divided = true;
   std::vector<int> place(points.size(), -1);
-  std::map<Side, int> right_cell;  // of a side, by the direction the left cell has it in
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    for (int& corner : cells[c].corners) {
+  std::vector<std::array<int, 3>> triangles;
+  triangles.reserve(cells.size());
+  for (SurfaceCell& cell : cells) {
+    for (int& corner : cell.corners) {
       const auto given = at(corner);
       if (place[given] < 0) {
         place[given] = static_cast<int>(surface.points.size());
@@ -248,23 +258,19 @@ SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<V
       }
       corner = place[given];
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int edge = cells[c].rim[k];
-      if (edge >= 0 && solid.edges()[at(edge)].faces[1] == cells[c].face)
-        right_cell[{cells[c].corners[(k + 1) % 3], cells[c].corners[k]}] = static_cast<int>(c);
-    }
+    triangles.push_back({cell.corners[0], cell.corners[1], cell.corners[2]});
   }
   surface.cells = std::move(cells);
-  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
-    const SurfaceCell& cell = surface.cells[c];
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (cell.rim[k] < 0) continue;
-      const PolyhedronEdge& edge = solid.edges()[at(cell.rim[k])];
-      if (edge.faces[0] != cell.face) continue;
-      const Side side = {cell.corners[k], cell.corners[(k + 1) % 3]};
-      surface.edges.push_back(
-          {{side.first, side.second}, {static_cast<int>(c), right_cell.at(side)}, edge.convex});
-    }
+  const std::vector<int> twins = twins_of_closed(triangles, surface.points.size());
+  for (int h = 0; h < static_cast<int>(twins.size()); ++h) {
+    const SurfaceCell& cell = surface.cells[at(h / 3)];
+    const int rim = cell.rim[at(h % 3)];
+    if (rim < 0) continue;
+    const PolyhedronEdge& edge = solid.edges()[at(rim)];
+    if (edge.faces[0] != cell.face) continue;
+    const int twin = twins[at(h)];
+    surface.edges.push_back(
+        {{start_of(triangles, h), start_of(triangles, twin)}, {h / 3, twin / 3}, edge.convex});
   }
   find_vertices(surface);
   surface.face_share = face_shares(solid);

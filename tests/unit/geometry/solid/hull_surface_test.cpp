@@ -12,21 +12,6 @@
 namespace ashlar {
 namespace {
 
-TEST(HalfEdges, AreFoundUntilRemoved) {
-  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
-  HalfEdges edges(triangles, 4);
-  for (int h = 0; h < 6; ++h) edges.add(h);
-  EXPECT_EQ(edges.find(0, 1), 0);
-  EXPECT_EQ(edges.find(2, 0), 2);
-  EXPECT_EQ(edges.find(0, 2), 3);
-  EXPECT_EQ(edges.find(1, 0), -1);
-  edges.remove(0);
-  EXPECT_EQ(edges.find(0, 1), -1);
-  EXPECT_EQ(edges.find(0, 2), 3);
-  EXPECT_EQ(edges.first(0), 3);
-  EXPECT_EQ(edges.next(3), -1);
-}
-
 TEST(HullSurface, GroupsTheTrianglesOfABox) {
   const TriangleMesh mesh = make_box({0, 0, 0}, {1, 2, 3});
   const HullSurface surface(mesh.points, mesh.triangles, true);

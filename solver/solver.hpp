@@ -1,0 +1,10 @@
+// The public face of this layer: a simulation of blocks, its settings, and its state as bytes. Headers that
+// this one does not reach are internal and not installed.
+#pragma once
+
+#include "mechanics/mechanics.hpp"
+#include "solver/library_versions.hpp"
+#include "solver/run/automatic.hpp"
+#include "solver/run/checkpoint.hpp"
+#include "solver/run/simulation.hpp"
+#include "solver/settings.hpp"
