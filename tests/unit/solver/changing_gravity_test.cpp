@@ -59,20 +59,25 @@ TEST(ChangingGravity, FreeFallOfDdaTakesTheEndOfAStep) {
 }
 
 TEST(ChangingGravity, ItsWorkIsAppliedAndHasNoPotential) {
-  for (const Integrator integrator :
-       {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
+  for (const Integrator integrator : {Integrator::dda, Integrator::average_acceleration}) {
     Simulation simulation = falling(integrator);
     ASSERT_TRUE(run_until(simulation, 2.0));
     const Ledger& ledger = simulation.ledger();
     const double kinetic = 0.5 * simulation.momentum().squaredNorm() / mass;
     EXPECT_EQ(ledger.gravity, 0.0);
     EXPECT_NEAR(ledger.kinetic / kinetic, 1.0, 1e-12);
-    EXPECT_LT(std::abs(ledger.residual), 1e-10 * kinetic);
     // The sum over steps of m g . D with D = dt (v + v')/2 and dt g = v' - v.
-    if (integrator != Integrator::generalized_alpha) {
-      EXPECT_NEAR(ledger.applied / kinetic, 1.0, 1e-10);
-    }
+    EXPECT_NEAR(ledger.applied / kinetic, 1.0, 1e-10);
+    EXPECT_LT(std::abs(ledger.residual), 1e-10 * kinetic);
   }
+}
+
+TEST(ChangingGravity, BalanceOfGeneralizedAlphaIsClosed) {
+  Simulation simulation = falling(Integrator::generalized_alpha);
+  ASSERT_TRUE(run_until(simulation, 2.0));
+  const Ledger& ledger = simulation.ledger();
+  EXPECT_EQ(ledger.gravity, 0.0);
+  EXPECT_LT(std::abs(ledger.residual), 1e-10 * ledger.kinetic);
 }
 
 TEST(ChangingGravity, GoesOnBitForBit) {
