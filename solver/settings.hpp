@@ -25,7 +25,107 @@ enum class Integrator {
                       ///< for contacts of any stiffness as long as mass_damping * time_step <= 3
 };
 
-/// Settings of a simulation.
+/// How contacts are searched for, and what may pass.
+struct SearchSettings {
+  double contact_angle =
+      0.17453292519943295;  ///< rad, 0 to pi/4: faces within it of parallel meet as face-face
+  /// m, > 0: faces of blocks of order >= 2 that have a neighbour in reach are divided until their certified
+  /// chord error is below it; infinity: not at all
+  double chord_tolerance = std::numeric_limits<double>::infinity();
+  int subdivisions = 2;  ///< 0 to 8, uniform levels for the faces of blocks of order >= 2 to start from
+  /// m, > 0, as a share of contact_distance: two blocks may get this far into each other in a step that no
+  /// contact was found for; deeper, and the step is cut to the first touch
+  double passing_share = 0.01;
+  /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
+  double smallest_cut = 0.01;
+};
+
+/// What a step may end in (step/end_state.hpp).
+struct DepthSettings {
+  /// m, > 0: how deep a corner or edge may be in another block beyond what contacts know, and in all where
+  /// springs only stand for contact that does not give way. 0: the shares below of the smaller block's size
+  double allowed_depth = 0.0;
+  double unknown_depth_share = 0.01;  ///< beyond what contacts know: such contact is not what was computed
+  /// in all: blocks that are so far in each other are not what their springs stand for; from the share above
+  /// on a run says so
+  double allowed_depth_share = 0.1;
+  /// steps between audits in which depths of edges in solids that are not convex are exact to passing_share
+  /// of the contact distance; in the others they are to the contact distance
+  int fine_interval = 10;
+  /// of its size: a block that has gone so far that its coordinates are rounded to more is lost
+  /// (notes/lost_blocks.md)
+  double lost_share = 1e-6;
+};
+
+/// Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
+/// where the others are exceeded the step is cut.
+struct IterationSettings {
+  int newton_iterations = 16;
+  double newton_overshoot = 0.3;   ///< 0 to 1: work along a change that may be undone by going all its way
+  int newton_patience = 8;         ///< iterations that do not halve what is left, one after another
+  int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
+  double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
+  int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
+  int minimiser_iterations = 150;  ///< of one pass
+  double minimiser_share = 1e-2;   ///< of what is left under Coulomb's law: how well one pass is solved
+  int line_search_steps = 30;
+  double line_search_tolerance = 0.05;  ///< of the work at the start of a line
+  int plain_passes = 8;                 ///< before bounds are extrapolated
+  double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
+  double residual_tolerance =
+      1e-10;  ///< of the largest force of a block: when an open-close iteration has settled
+  /// of the largest force of a block, at most: what points that only rounding has closed may leave unbalanced
+  double doubt_share = 1e-7;
+};
+
+/// Of contact that multipliers hold (notes/augmented_contact.md).
+struct MultiplierSettings {
+  double penetration_tolerance =
+      1e-6;  ///< m, > 0: no contact is deeper, no locked one slips farther in a step
+  /// 0 to 1/3, of penetration_tolerance: how far springs beside multipliers give way in a step. Blocks are
+  /// moved apart where they are so near to the tolerance that a step could exceed it, to twice this at most
+  double share = 0.25;
+  /// Depth at which multipliers may leave a point, m: a step may add what springs give way by.
+  [[nodiscard]] double tolerated_depth() const { return (1.0 - share) * penetration_tolerance; }
+  /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
+  double accuracy = 1e-6;
+  /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.hpp).
+  /// Larger makes more of rounding, smaller lets forces alternate longer
+  double stop_stiffness = 300.0;
+  /// before a step, of blocks that are deeper in each other: contacts are others after each
+  /// (position_projection.hpp)
+  int moves_apart = 4;
+  double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart
+  int rounds = 40;               ///< balances of a step with other stiffness or multipliers; more: it is cut
+};
+
+/// Of a static analysis (statics/static_analysis.hpp).
+struct StaticSettings {
+  /// as residual_tolerance: tighter, as soft motions make more of a force that is not balanced
+  double residual_tolerance = 1e-13;
+  double tolerance = 1e-10;  ///< what equilibrium may lack, as a share of a block's largest force
+  /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
+  /// smaller follows contacts better
+  double motion = 0.05;
+  /// in block sizes: blocks that move less in an iteration stand still, whatever points at the limit of
+  /// friction do
+  double stillness = 1e-12;
+  /// by how much multipliers may change in an iteration that is in balance, as a share of the largest force
+  /// of a point: what they do not hold yet, blocks are strained by
+  double multiplier_tolerance = 1e-6;
+  /// in balance, at one load level, for them to come to that; multipliers that do not are left as they are
+  int multiplier_iterations = 15;
+  double travel = 1.0;   ///< in block sizes: farther without coming nearer to balance is moving
+  int iterations = 500;  ///< at one load level; more: not converged
+  int cuts = 60;         ///< of one iteration; more: not converged
+  /// of the stiffest block: the inertia that stands in for stiffness where a block has none. Smaller
+  /// converges in fewer iterations, larger lets rounding move a free block less
+  double inertia_share = 1e-9;
+  /// the same where supports and ties hold every block without contacts: nothing needs inertia then
+  double held_inertia_share = 1e-16;
+};
+
+/// Settings of a simulation. Those that several parts of it read stand here, the others by who reads them.
 struct SimulationSettings {
   Integrator integrator = Integrator::dda;
   /// 0 to 1, of generalized_alpha: what a step leaves of a mode of infinite frequency. 1: no dissipation
@@ -48,103 +148,21 @@ struct SimulationSettings {
 
   bool area_springs = true;
   bool curved_surface = true;
+  bool augmented = false;  ///< multipliers take over from springs, see open_close.hpp
   double contact_distance =
       1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
-  double contact_angle =
-      0.17453292519943295;  ///< rad, 0 to pi/4: faces within it of parallel meet as face-face
-  /// m, > 0: faces of blocks of order >= 2 that have a neighbour in reach are divided until their certified
-  /// chord error is below it; infinity: not at all
-  double chord_tolerance = std::numeric_limits<double>::infinity();
-  int subdivisions = 2;  ///< 0 to 8, uniform levels for the faces of blocks of order >= 2 to start from
-  /// m, > 0, as a share of contact_distance: two blocks may get this far into each other in a step that no
-  /// contact was found for; deeper, and the step is cut to the first touch
-  double passing_share = 0.01;
-  /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
-  double smallest_cut = 0.01;
-
-  /// m, > 0: how deep a corner or edge may be in another block beyond what contacts know, and in all where
-  /// springs only stand for contact that does not give way. 0: the shares below of the smaller block's size
-  double allowed_depth = 0.0;
-  double unknown_depth_share = 0.01;  ///< beyond what contacts know: such contact is not what was computed
-  /// in all: blocks that are so far in each other are not what their springs stand for; from the share above
-  /// on a run says so
-  double allowed_depth_share = 0.1;
-  /// steps between audits in which depths of edges in solids that are not convex are exact to passing_share
-  /// of the contact distance; in the others they are to the contact distance
-  int fine_audit_interval = 10;
-
-  /// of its size: a block that has gone so far that its coordinates are rounded to more is lost
-  /// (notes/lost_blocks.md)
-  double lost_share = 1e-6;
-
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 
-  // Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
-  // where the others are exceeded the step is cut.
-  int newton_iterations = 16;
-  double newton_overshoot = 0.3;   ///< 0 to 1: work along a change that may be undone by going all its way
-  int newton_patience = 8;         ///< iterations that do not halve what is left, one after another
-  int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
-  double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
-  int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
-  int minimiser_iterations = 150;  ///< of one pass
-  double minimiser_share = 1e-2;   ///< of what is left under Coulomb's law: how well one pass is solved
-  int line_search_steps = 30;
-  double line_search_tolerance = 0.05;  ///< of the work at the start of a line
-  int plain_passes = 8;                 ///< before bounds are extrapolated
-  double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
-  double residual_tolerance =
-      1e-10;  ///< of the largest force of a block: when an open-close iteration has settled
-  /// of the largest force of a block, at most: what points that only rounding has closed may leave unbalanced
-  double doubt_share = 1e-7;
-  bool augmented = false;  ///< multipliers take over from springs, see open_close.hpp
-  double penetration_tolerance =
-      1e-6;  ///< m, > 0: no contact is deeper, no locked one slips farther in a step
-  /// 0 to 1/3, of penetration_tolerance: how far springs beside multipliers give way in a step. Blocks are
-  /// moved apart where they are so near to the tolerance that a step could exceed it, to twice this at most
-  double multiplier_share = 0.25;
-  /// Depth at which multipliers may leave a point, m: a step may add what springs give way by.
-  [[nodiscard]] double tolerated_depth() const { return (1.0 - multiplier_share) * penetration_tolerance; }
-  /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
-  double multiplier_accuracy = 1e-6;
-  /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.cpp).
-  /// Larger makes more of rounding, smaller lets forces alternate longer
-  double stop_stiffness = 300.0;
-  /// before a step, of blocks that are deeper in each other: contacts are others after each (position_projection.cpp)
-  int moves_apart = 4;
-  double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart
-  int augmented_rounds = 40;     ///< balances of a step with other stiffness or multipliers; more: it is cut
+  SearchSettings search;
+  DepthSettings depth;
+  IterationSettings iteration;
+  MultiplierSettings multipliers;
+  StaticSettings statics;
 
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
-
   /// with which an incremental block goes to its initial equilibrium at most; a fifth of them is ample for
   /// small deflections
   int settling_steps = 50;
-
-  // Of a static analysis (static_analysis.hpp):
-  /// as residual_tolerance: tighter, as soft motions make more of a force that is not balanced
-  double static_residual_tolerance = 1e-13;
-  double static_tolerance = 1e-10;  ///< what equilibrium may lack, as a share of a block's largest force
-  /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
-  /// smaller follows contacts better
-  double static_motion = 0.05;
-  /// in block sizes: blocks that move less in an iteration stand still, whatever points at the limit of
-  /// friction do
-  double static_stillness = 1e-12;
-  /// by how much multipliers may change in an iteration that is in balance, as a share of the largest force
-  /// of a point: what they do not hold yet, blocks are strained by
-  double static_multiplier_tolerance = 1e-6;
-  /// in balance, at one load level, for them to come to that; multipliers that do not are left as they are
-  int static_multiplier_iterations = 15;
-  double static_travel = 1.0;   ///< in block sizes: farther without coming nearer to balance is moving
-  int static_iterations = 500;  ///< at one load level; more: not converged
-  int static_cuts = 60;         ///< of one iteration; more: not converged
-  /// of the stiffest block: the inertia that stands in for stiffness where a block has none. Smaller
-  /// converges in fewer iterations, larger lets rounding move a free block less
-  double static_inertia_share = 1e-9;
-  /// the same where supports and ties hold every block without contacts: nothing needs inertia then
-  double static_held_inertia_share = 1e-16;
-
   int threads = 1;  ///< >= 1: for finding contacts; results do not depend on it
 };
 

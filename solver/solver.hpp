@@ -4,7 +4,7 @@
 
 #include "mechanics/mechanics.hpp"
 #include "solver/library_versions.hpp"
-#include "solver/run/automatic.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/settings.hpp"
+#include "solver/state/automatic.hpp"

@@ -102,24 +102,25 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   };
   settings.contact_distance =
       choose(scene.contact.distance, ratios.distance * smallest, "contact.distance", "m");
-  settings.contact_angle =
+  settings.search.contact_angle =
       choose(scene.contact.angle, ratios.angle_degrees, "contact.angle", "deg") * std::numbers::pi / 180.0;
   settings.augmented = has_multipliers(scene);
   if (settings.augmented) {
     if (!scene.contact.augmented) choices.push_back({"contact.augmented", true, ""});
-    settings.penetration_tolerance =
+    settings.multipliers.penetration_tolerance =
         choose(scene.contact.penetration_tolerance, ratios.penetration_tolerance * settings.contact_distance,
                "contact.penetration_tolerance", "m");
   }
-  settings.allowed_depth = scene.contact.allowed_depth.value_or(0.0);
+  settings.depth.allowed_depth = scene.contact.allowed_depth.value_or(0.0);
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
     return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
   });
   // Springs at corners alone would not feel what bends between them.
-  settings.subdivisions = scene.contact.subdivisions.value_or(curved && !settings.area_springs ? 1 : 0);
+  settings.search.subdivisions =
+      scene.contact.subdivisions.value_or(curved && !settings.area_springs ? 1 : 0);
   if (curved && !scene.contact.subdivisions) {
-    settings.chord_tolerance = choose(scene.contact.chord_tolerance, ratios.chord_tolerance * smallest,
-                                      "contact.chord_tolerance", "m");
+    settings.search.chord_tolerance = choose(scene.contact.chord_tolerance, ratios.chord_tolerance * smallest,
+                                             "contact.chord_tolerance", "m");
   }
   return settings;
 }

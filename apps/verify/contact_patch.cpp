@@ -49,7 +49,7 @@ Simulation put_together(const ContactPatch& patch) {
   scene.settings.gravity.setZero();
   scene.settings.area_springs = patch.area_springs;
   scene.settings.curved_surface = patch.curved_surface;
-  scene.settings.subdivisions = patch.subdivisions;
+  scene.settings.search.subdivisions = patch.subdivisions;
   // Ten periods of the blocks on their springs: a dda step leaves a seventieth of such a swing.
   if (patch.formulation == Formulation::incremental) scene.settings.time_step = 0.1;
   for (const bool upper : {false, true}) {

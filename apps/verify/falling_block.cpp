@@ -15,10 +15,10 @@ Simulation falling_block(const FallingBlock& example, const Placement& placement
   scene.settings.time_step = example.time_step;
   scene.settings.area_springs = example.area_springs;
   scene.settings.curved_surface = example.curved_surface;
-  scene.settings.chord_tolerance = example.chord_tolerance;
-  scene.settings.subdivisions = example.subdivisions;
+  scene.settings.search.chord_tolerance = example.chord_tolerance;
+  scene.settings.search.subdivisions = example.subdivisions;
   scene.settings.contact_distance = 1.5e-3;
-  scene.settings.allowed_depth = example.allowed_depth;
+  scene.settings.depth.allowed_depth = example.allowed_depth;
   const double stiffness = example.area_springs ? example.stiffness : example.stiffness * side * side / 4.0;
   *scene.law = {stiffness, stiffness, tangent_of(30), 0.0, 0.0, example.area_springs};
   const double low = 0.5 + example.drop;

@@ -106,13 +106,13 @@ Simulation put_together(const HertzSphere& sphere) {
   }
   ContactScene scene;
   scene.settings.gravity.setZero();
-  scene.settings.subdivisions = 0;
+  scene.settings.search.subdivisions = 0;
   scene.settings.area_springs = sphere.area_springs;
   scene.settings.curved_surface = sphere.curved_surface;
   scene.settings.contact_distance = 0.5 * sphere.approach();
   // What is compared with is known to some parts in a hundred.
-  scene.settings.static_tolerance = 1e-6;
-  scene.settings.static_residual_tolerance = 1e-9;
+  scene.settings.statics.tolerance = 1e-6;
+  scene.settings.statics.residual_tolerance = 1e-9;
   const double share = sphere.inner_size / (sphere.facets + 1);
   *scene.law = {sphere.area_springs ? sphere.stiffness : sphere.stiffness * share * share,
                 0.0,

@@ -55,10 +55,11 @@ void choose_as_for_statics(ContactScene& scene, double size, double young_modulu
   const AutomaticRatios ratios;
   scene.settings.augmented = true;
   scene.settings.contact_distance = ratios.distance * size;
-  scene.settings.contact_angle = ratios.angle_degrees * std::numbers::pi / 180.0;
-  scene.settings.chord_tolerance = ratios.chord_tolerance * size;
-  scene.settings.subdivisions = 0;
-  scene.settings.penetration_tolerance = ratios.penetration_tolerance * scene.settings.contact_distance;
+  scene.settings.search.contact_angle = ratios.angle_degrees * std::numbers::pi / 180.0;
+  scene.settings.search.chord_tolerance = ratios.chord_tolerance * size;
+  scene.settings.search.subdivisions = 0;
+  scene.settings.multipliers.penetration_tolerance =
+      ratios.penetration_tolerance * scene.settings.contact_distance;
   scene.law->normal_stiffness = ratios.normal_stiffness * young_modulus / size;
   scene.law->shear_stiffness = ratios.shear_to_normal_stiffness * scene.law->normal_stiffness;
   scene.law->friction = friction;

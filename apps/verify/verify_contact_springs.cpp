@@ -224,8 +224,8 @@ Simulation sheared_blocks(int order, double height, double friction_angle) {
   ContactScene scene;
   *scene.law = {1e10, 1e10, tangent_of(friction_angle), 0.0, 0.0, true};
   scene.settings.gravity.setZero();
-  scene.settings.subdivisions = 0;
-  scene.settings.chord_tolerance = 5e-3;
+  scene.settings.search.subdivisions = 0;
+  scene.settings.search.chord_tolerance = 5e-3;
   for (const auto& [low, high] : {std::pair{0.0, 1.0}, std::pair{1.0, 1.0 + height}}) {
     BlockDefinition block =
         define_block(Polyhedron(make_box({0, 0, low}, {1, 1, high})), {2500, 1e10, 0.0}, order);

@@ -78,7 +78,7 @@ std::vector<VerificationCheck> bar_impact() {
   scene.settings.integrator = Integrator::generalized_alpha;
   scene.settings.time_step = duration / steps;
   scene.settings.contact_distance = 1e-5;
-  scene.settings.subdivisions = 0;
+  scene.settings.search.subdivisions = 0;
   // The bars give way by F L/(E A) = 1e-4 m, the springs between them by a five-hundredth of it.
   *scene.law = {1e14, 0.0, 0.0, 0.0, 0.0, true};
   for (const double side : {-1.0, 1.0}) {
@@ -143,7 +143,7 @@ std::vector<VerificationCheck> joint_wave() {
   scene.settings.gravity.setZero();
   scene.settings.integrator = Integrator::average_acceleration;
   scene.settings.time_step = period / 50.0;
-  scene.settings.subdivisions = 0;
+  scene.settings.search.subdivisions = 0;
   *scene.law = {kn, kn, 0.0, 1e9, 1e9, true};
   BlockDefinition left = bar(0, length, 7);
   Load shake{Plane{{0, 0, 0}, Vector3::UnitX()}, true, {p, 0, 0}, {}};

@@ -43,15 +43,12 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
       axes_(axes_of(blocks)),
       left_out_(std::move(left_out)),
       placed_(blocks.size()),
-      boxes_(blocks.size()),
-      box_paths_(blocks.size(), 0.0),
-      paths_(blocks.size(), 0.0),
-      checked_motion_(blocks.size(), 0.0) {
+      tracks_(blocks.size()) {
   surfaces_.reserve(blocks.size());
   std::map<const BlockParts*, std::size_t> first;  // of equal blocks
   for (const BlockModel& block : blocks) {
     const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
-    surfaces_.emplace_back(block, settings.subdivisions, axes_,
+    surfaces_.emplace_back(block, settings.search.subdivisions, axes_,
                            is_first ? nullptr : &surfaces_[twin->second]);
     moving_.push_back(!block.fixed());
     thickness_.push_back(block.basis().volume() / surface_area(block.solid().mesh()));
@@ -74,15 +71,15 @@ ExpectedMotion ContactFinder::expected_motion(const std::vector<BlockState>& sta
 
 Box ContactFinder::loose_box(int block) const {
   constexpr double everywhere = std::numeric_limits<double>::infinity();
-  const Box& box = boxes_[at(block)];
+  const Box& box = tracks_[at(block)].box;
   if (box.low.x() > box.high.x()) return {Vector3::Constant(-everywhere), Vector3::Constant(everywhere)};
-  return box.grown(paths_[at(block)] - box_paths_[at(block)]);
+  return box.grown(tracks_[at(block)].path - tracks_[at(block)].box_path);
 }
 
 void ContactFinder::look_at(int block, const BlockState& state) {
   surfaces_[at(block)].move(state);
-  boxes_[at(block)] = surfaces_[at(block)].box();
-  box_paths_[at(block)] = paths_[at(block)];
+  tracks_[at(block)].box = surfaces_[at(block)].box();
+  tracks_[at(block)].box_path = tracks_[at(block)].path;
 }
 
 void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedMotion& motion) {
@@ -97,12 +94,12 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
   }
   std::vector<Box> boxes(surfaces_.size());
-  motion_.assign(surfaces_.size(), 0.0);
+  for (BlockTrack& track : tracks_) track.motion = 0.0;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     if (!near[k]) continue;
     look_at(static_cast<int>(k), states[k]);
-    motion_[k] = motion.closer(static_cast<int>(k));
-    boxes[k] = boxes_[k].grown(motion_[k] + settings_.contact_distance);
+    tracks_[k].motion = motion.closer(static_cast<int>(k));
+    boxes[k] = tracks_[k].box.grown(tracks_[k].motion + settings_.contact_distance);
   }
   candidates_.clear();
   std::vector<std::vector<Box>> neighbours(surfaces_.size());
@@ -115,7 +112,7 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     placed_[k].reset();
     if (!near[k]) continue;
-    if (surfaces_[k].divide({settings_.chord_tolerance, neighbours[k]})) ++counts_.divisions;
+    if (surfaces_[k].divide({settings_.search.chord_tolerance, neighbours[k]})) ++counts_.divisions;
     const std::size_t cells = surfaces_[k].surface().cells.size();
     if (cells >= static_cast<std::size_t>(AdaptiveSurface::max_cells)) ++counts_.divisions_at_limit;
     if (!neighbours[k].empty()) placed_[k] = surfaces_[k].placed();
@@ -125,14 +122,14 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
 bool ContactFinder::known_apart(const PairKey& pair, double reach, const PairHistories& histories) const {
   const std::optional<Clearance>& known = history_of(histories, pair).clearance;
   if (!known) return false;
-  const double gone = paths_[at(pair[0])] + paths_[at(pair[1])] - known->path;
+  const double gone = tracks_[at(pair[0])].path + tracks_[at(pair[1])].path - known->path;
   return known->distance - gone > reach;
 }
 
 Clearance ContactFinder::clearance_of(const PairKey& pair) const {
   const double bound = least_distance(placed(pair[0]), placed(pair[1]));
   // Rounding of sums of paths is far below a part in a million of the distance.
-  return {bound * (1.0 - 1e-6), paths_[at(pair[0])] + paths_[at(pair[1])]};
+  return {bound * (1.0 - 1e-6), tracks_[at(pair[0])].path + tracks_[at(pair[1])].path};
 }
 
 void ContactFinder::hide_fixed_sides() {
@@ -141,7 +138,8 @@ void ContactFinder::hide_fixed_sides() {
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     if (!moving_[k]) boxes[k] = box_of(surfaces_[k].surface().points).grown(settings_.contact_distance);
   }
-  const ContactLimits flush{settings_.contact_distance, settings_.contact_distance, settings_.contact_angle};
+  const ContactLimits flush{settings_.contact_distance, settings_.contact_distance,
+                            settings_.search.contact_angle};
   for (const PairKey& pair : meeting_boxes(boxes)) {
     const SubFaceSurface& a = surfaces_[at(pair[0])].surface();
     const SubFaceSurface& b = surfaces_[at(pair[1])].surface();
@@ -220,7 +218,8 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, Pa
     const PairHistory& known = history_of(histories, blocks);
     history.entrance = known.entrance;
     // What the last step has not left so deep was not met through that facet.
-    history.depth = settings_.passing_share * settings_.contact_distance + 2.0 * known.depth_to_search();
+    history.depth =
+        settings_.search.passing_share * settings_.contact_distance + 2.0 * known.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
     settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });
@@ -238,7 +237,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   std::vector<FoundContacts> searched;
   std::vector<ContactLimits> limits;
   for (const PairKey& pair : candidates_) {
-    const double both = motion_[at(pair[0])] + motion_[at(pair[1])];
+    const double both = tracks_[at(pair[0])].motion + tracks_[at(pair[1])].motion;
     if (known_apart(pair, settings_.contact_distance + both, histories)) {
       ++counts_.block_pairs_far;
       continue;
@@ -248,7 +247,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
         {settings_.contact_distance + both,
          std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
              2.0 * history_of(histories, pair).depth_to_search(),
-         settings_.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});
+         settings_.search.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});
   }
   counts_.block_pairs_tested += searched.size();
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
@@ -279,12 +278,12 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
                                                         std::vector<std::vector<Vector3>>& ends) {
   std::vector<Box> swept;
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    checked_motion_[k] =
+    tracks_[k].checked_motion =
         moving_[k] ? surfaces_[k].quick_motion_bound(after[k].position - before[k].position) : 0.0;
-    swept.push_back(loose_box(static_cast<int>(k)).grown(checked_motion_[k]));
+    swept.push_back(loose_box(static_cast<int>(k)).grown(tracks_[k].checked_motion));
   }
   const auto both = [&](const PairKey& pair) {
-    return checked_motion_[at(pair[0])] + checked_motion_[at(pair[1])];
+    return tracks_[at(pair[0])].checked_motion + tracks_[at(pair[1])].checked_motion;
   };
   std::vector<PairKey> pairs = meeting_boxes(swept);
   std::erase_if(pairs, [&](const PairKey& pair) {
@@ -300,13 +299,14 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
         placed_[at(block)] = surfaces_[at(block)].placed();
       }
       if (moving_[at(block)])
-        checked_motion_[at(block)] = surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
+        tracks_[at(block)].checked_motion =
+            surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
       ends[at(block)] = surfaces_[at(block)].points(after[at(block)]);
     }
   }
   std::erase_if(pairs, [&](const PairKey& pair) {
-    const Box of_a = boxes_[at(pair[0])].grown(checked_motion_[at(pair[0])]);
-    const Box of_b = boxes_[at(pair[1])].grown(checked_motion_[at(pair[1])]);
+    const Box of_a = tracks_[at(pair[0])].box.grown(tracks_[at(pair[0])].checked_motion);
+    const Box of_b = tracks_[at(pair[1])].box.grown(tracks_[at(pair[1])].checked_motion);
     return both(pair) <= tolerance || known_apart(pair, both(pair), histories) || !of_a.meets(of_b);
   });
   return pairs;
@@ -316,7 +316,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
                                                        const std::vector<BlockState>& after,
                                                        const std::vector<FoundContacts>& found,
                                                        const PairHistories& histories) {
-  const double tolerance = settings_.passing_share * settings_.contact_distance;
+  const double tolerance = settings_.search.passing_share * settings_.contact_distance;
   std::vector<std::vector<Vector3>> ends;
   const std::vector<PairKey> pairs = pairs_that_may_pass(before, after, tolerance, histories, ends);
   counts_.motions_checked += pairs.size();
@@ -329,8 +329,8 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
         found.begin(), found.end(), pairs[k],
         [](const FoundContacts& contacts, const PairKey& pair) { return contacts.blocks < pair; });
     const bool in_contact = known != found.end() && known->blocks == pairs[k];
-    const MotionLimits limits{tolerance,
-                              settings_.contact_distance + checked_motion_[at(a)] + checked_motion_[at(b)]};
+    const MotionLimits limits{tolerance, settings_.contact_distance + tracks_[at(a)].checked_motion +
+                                             tracks_[at(b)].checked_motion};
     touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
                               in_contact ? known->contacts : PairContacts{}, limits);
     if (hidden_sides_.empty()) return;
@@ -348,28 +348,26 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
 }
 
 void ContactFinder::accept_motion() {
-  for (std::size_t k = 0; k < paths_.size(); ++k) paths_[k] += checked_motion_[k];
+  for (BlockTrack& track : tracks_) track.path += track.checked_motion;
 }
 
 void ContactFinder::renew(int block, const BlockModel& model, PairHistories& histories) {
-  surfaces_[at(block)] = BlockSurface(model, settings_.subdivisions, axes_);
+  surfaces_[at(block)] = BlockSurface(model, settings_.search.subdivisions, axes_);
   placed_[at(block)].reset();
-  boxes_[at(block)] = Box{};
+  tracks_[at(block)].box = Box{};
   for (auto& [blocks, pair] : histories) {
     if (blocks[0] == block || blocks[1] == block) pair.clearance.reset();
   }
 }
 
 FinderState ContactFinder::state() const {
-  FinderState state{paths_, boxes_, box_paths_, {}, counts_};
+  FinderState state{tracks_, {}, counts_};
   for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.wanted());
   return state;
 }
 
 void ContactFinder::restore(const FinderState& state) {
-  paths_ = state.paths;
-  boxes_ = state.boxes;
-  box_paths_ = state.box_paths;
+  tracks_ = state.tracks;
   for (std::size_t k = 0; k < surfaces_.size() && k < state.divisions.size(); ++k)
     surfaces_[k].set_wanted(state.divisions[k]);
   counts_ = state.counts;

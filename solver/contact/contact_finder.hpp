@@ -46,11 +46,18 @@ struct FinderCounts {
   DecisionCounts predicates;
 };
 
+/// Where a block is and what it has gone, as far as it has been looked at.
+struct BlockTrack {
+  Box box;                      ///< true box when it was looked at last; empty: never
+  double box_path = 0.0;        ///< what it had gone until then, m
+  double path = 0.0;            ///< what its fastest point has gone so far at most, m
+  double motion = 0.0;          ///< expected in the step, m; 0 of blocks that are not near others
+  double checked_motion = 0.0;  ///< of the motion checked last, m
+};
+
 /// What a finder has beyond its blocks (checkpoint.hpp).
 struct FinderState {
-  std::vector<double> paths;
-  std::vector<Box> boxes;
-  std::vector<double> box_paths;
+  std::vector<BlockTrack> tracks;                     ///< by block
   std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
   FinderCounts counts;
 };
@@ -132,14 +139,10 @@ class ContactFinder {
   std::vector<bool> convex_;  ///< convex solids whose faces stay flat
   std::vector<BlockSurface> surfaces_;
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
-  std::vector<Box> boxes_;              ///< true boxes when blocks were looked at last; empty: never
-  std::vector<double> box_paths_;       ///< what each block had gone until then, m
-  std::vector<PairKey> candidates_;     ///< pairs whose boxes can meet in the step
-  std::vector<double> motion_;          ///< expected in the step; 0 of blocks that are not near others
-  std::vector<double> paths_;           ///< what the fastest point of each block has gone so far at most, m
-  std::vector<double> checked_motion_;  ///< of the motion checked last
-  std::optional<HiddenSides> fixed_sides_;  ///< of fixed blocks, found when first asked for
-  HiddenSides hidden_sides_;                ///< at the last search; empty if no vertex was in a block
+  std::vector<BlockTrack> tracks_;                    ///< by block
+  std::vector<PairKey> candidates_;                   ///< pairs whose boxes can meet in the step
+  std::optional<HiddenSides> fixed_sides_;            ///< of fixed blocks, found when first asked for
+  HiddenSides hidden_sides_;  ///< at the last search; empty if no vertex was in a block
   std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };

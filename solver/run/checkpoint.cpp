@@ -78,11 +78,20 @@ static void visit_members(Archive& archive, PairRecord& record) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, StaticProgress& progress) {
+  archive(progress.milestones, progress.forces, progress.travels);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, StaticOnset& onset) {
+  archive(onset.sliding, onset.least_lacking, onset.unbalanced, onset.rigid, onset.gives_way, onset.starts);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, StaticState& state) {
-  archive(state.inertia, state.iterations, state.still_iterations, state.balanced, state.moving,
-          state.holds_bonds, state.multiplier_iterations, state.level_start, state.milestones,
-          state.milestone_forces, state.travels, state.sliding, state.least_lacking, state.rigid,
-          state.gives_way, state.starts, state.unbalanced);
+  archive(state.inertia, state.iterations, state.still_iterations, state.holds_bonds,
+          state.multiplier_iterations, state.balanced, state.moving, state.level_start, state.progress,
+          state.onset);
 }
 
 template <class Archive>
@@ -133,8 +142,13 @@ static void visit_members(Archive& archive, EntranceName& name) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, BlockTrack& track) {
+  archive(track.box, track.box_path, track.path, track.motion, track.checked_motion);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, FinderState& state) {
-  archive(state.paths, state.boxes, state.box_paths, state.divisions, state.counts);
+  archive(state.tracks, state.divisions, state.counts);
 }
 
 template <class Archive>

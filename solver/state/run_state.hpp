@@ -24,7 +24,7 @@ enum class RejectionReason {
   no_shape,                ///< an incremental block would have turned inside out: reduce time_step
   not_finite,              ///< a state that doubles cannot hold: check loads, stiffness and time_step
   inside_out,              ///< a block would have turned inside out: stiffer material or less load
-  too_deep,                ///< blocks deeper in each other than allowed: see settings.allowed_depth
+  too_deep,                ///< blocks deeper in each other than allowed: see settings.depth.allowed_depth
 };
 [[nodiscard]] std::string to_string(RejectionReason reason);
 

@@ -11,6 +11,26 @@ namespace ashlar {
 /// Root mean square over a block of the motion that a change of its coefficients is, in its unit.
 [[nodiscard]] double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change);
 
+/// How far blocks have gone without coming nearer to balance. By block.
+struct StaticProgress {
+  /// Where it was when what it lacks had last been halved, (p, 3), and how much that was, N m^-3/2
+  std::vector<Eigen::MatrixX3d> milestones;
+  std::vector<double> forces;
+  std::vector<double> travels;  ///< from there, in parts of the block's size
+};
+
+/// How blocks set off that no equilibrium holds, since the last iteration in which nothing was lacking or a joint
+/// lost its strength.
+struct StaticOnset {
+  std::vector<std::array<int, 2>> sliding;   ///< joints that slid in the last iteration
+  double least_lacking = 0.0;                ///< least sum of squares of what blocks lacked, N^2
+  std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
+  bool rigid = false;                        ///< whether these are those of rigid blocks
+  std::vector<int>
+      gives_way;  ///< of each block: not 0 where rigid blocks would have stayed (rigid_onset.hpp)
+  std::vector<Eigen::MatrixX3d> starts;  ///< of each block, positions then
+};
+
 /// What a static analysis carries from one iteration to the next.
 struct StaticState {
   double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0 before the first
@@ -21,19 +41,8 @@ struct StaticState {
   bool balanced = false;          ///< equilibrium at the present loads
   bool moving = false;
   std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on
-  /// For each block, where it was when what it lacks had last been halved, and how much that was.
-  std::vector<Eigen::MatrixX3d> milestones;
-  std::vector<double> milestone_forces;
-  std::vector<double> travels;              ///< from there, in parts of the block's size
-  std::vector<std::array<int, 2>> sliding;  ///< joints that slid in the last iteration
-  /// Least sum of squares of what blocks lacked since the last iteration in which nothing was lacking or a
-  /// joint lost its strength, N^2
-  double least_lacking = 0.0;
-  std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
-  bool rigid = false;                        ///< whether these are those of rigid blocks
-  /// Of each block, since then: not 0 where rigid blocks would have stayed (rigid_onset.cpp)
-  std::vector<int> gives_way;
-  std::vector<Eigen::MatrixX3d> starts;  ///< of each block, positions then
+  StaticProgress progress;
+  StaticOnset onset;
 };
 
 }  // namespace ashlar

@@ -109,7 +109,7 @@ bool take_over(const RunContext& run, const Island& island, const std::vector<Bo
     largest = std::max(largest, mean_motion(block, rigid_ones.back()));
   }
   if (own < least_share * least_share * given) {
-    for (const int k : island.bodies) run.state.statics.gives_way[at(k)] = 1;
+    for (const int k : island.bodies) run.state.statics.onset.gives_way[at(k)] = 1;
     return false;
   }
   // What they have pressed in and left open, rigid blocks would leave again.
@@ -129,7 +129,7 @@ bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem&
   const Stopwatch watch(run.state.log.seconds.solve);
   SimulationSettings settings = run.settings();
   settings.augmented = true;
-  settings.static_residual_tolerance = run.settings().apart_residual;
+  settings.statics.residual_tolerance = run.settings().multipliers.apart_residual;
   std::vector<ContactPair> pairs = problem.pairs;
   std::vector<BodyStep> bodies = problem.bodies;
   std::vector<BlockState> states = run.state.states;
@@ -140,7 +140,7 @@ bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem&
     const double motion = largest_motion(island, problem.bodies);
     if (island.pairs.empty() || motion == 0.0) continue;
     const bool gives_way = std::any_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
-      return run.state.statics.gives_way[at(block)] != 0;
+      return run.state.statics.onset.gives_way[at(block)] != 0;
     });
     if (!is_rigid(island, pairs) || gives_way) {
       all = false;
@@ -154,7 +154,7 @@ bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem&
     TimeScheme let_go = scheme;
     let_go.inertia = scheme.inertia * motion / way;
     let_go.force_weight = onset.stiffer;
-    settings.penetration_tolerance = depth_share * way * onset.smallest;
+    settings.multipliers.penetration_tolerance = depth_share * way * onset.smallest;
     const IslandResult off = solve_island(island, bodies, pairs, let_go, settings, run.factors.islands);
     run.state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
     const bool rigid =

@@ -12,10 +12,10 @@
 // between: what slid, lifted off or tore while inertia carried part of the load is no part of the answer.
 // Bonds hold until the level has been in balance once (notes/static_friction.md).
 //
-// Equilibrium: m has fallen to its least, rho m D is below settings.static_tolerance of the largest force on
+// Equilibrium: m has fallen to its least, rho m D is below settings.statics.tolerance of the largest force on
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
 // soft motions may still be on their way; multipliers have to repeat themselves too. Moving: a block has
-// travelled settings.static_travel of its size and what it lacks was not halved on the way, or a tenth of
+// travelled settings.statics.travel of its size and what it lacks was not halved on the way, or a tenth of
 // that when no iterations or cuts are left; listed as moving is what has then gone a thousandth of it. m D is
 // the acceleration of the blocks from rest, whatever m, but for what contacts and blocks give way by, which
 // is taken out where no joint is asked to (rigid_onset.cpp). What is reported is that of the iteration, since

@@ -39,7 +39,8 @@ double least_inertia(const BlockSystem& system) {
   }
   const std::vector<bool> held = system.held_without_contacts();
   const bool all = std::find(held.begin(), held.end(), false) == held.end();
-  return (all ? system.settings().static_held_inertia_share : system.settings().static_inertia_share) * most;
+  return (all ? system.settings().statics.held_inertia_share : system.settings().statics.inertia_share) *
+         most;
 }
 
 void start_load_level(const RunContext& run, double end_time) {
@@ -64,11 +65,11 @@ void start_load_level(const RunContext& run, double end_time) {
     BlockState& state = run.state.states[k];
     if (run.system.moving()[k]) run.state.ledger.integrator_took(run.blocks()[k].kinetic_energy(state));
     state.velocity.setZero();
-    statics.milestones.push_back(state.position);
+    statics.progress.milestones.push_back(state.position);
     statics.level_start.push_back(state.position);
   }
-  statics.milestone_forces.assign(run.blocks().size(), std::numeric_limits<double>::infinity());
-  statics.travels.assign(run.blocks().size(), 0.0);
+  statics.progress.forces.assign(run.blocks().size(), std::numeric_limits<double>::infinity());
+  statics.progress.travels.assign(run.blocks().size(), 0.0);
   for (auto& [blocks, pair] : run.state.pairs) pair.memory.start_level();
   statics.holds_bonds = true;
   forget_accelerations(run);
@@ -98,7 +99,7 @@ class StaticIteration {
   }
 
   StaticStatus run() {
-    for (int cuts = 0; cuts <= run_.settings().static_cuts; ++cuts) {
+    for (int cuts = 0; cuts <= run_.settings().statics.cuts; ++cuts) {
       const TimeScheme scheme = static_scheme(std::max(run_.state.statics.inertia, least_));
       double raise = 10.0;
       if (const auto status = attempt(scheme, raise)) return *status;
@@ -131,8 +132,8 @@ class StaticIteration {
       return std::nullopt;
     }
     const double motion = largest_motion(problem_);
-    if (motion > run_.settings().static_motion) {
-      raise = std::clamp(1.1 * motion / run_.settings().static_motion, 2.0, 1e4);
+    if (motion > run_.settings().statics.motion) {
+      raise = std::clamp(1.1 * motion / run_.settings().statics.motion, 2.0, 1e4);
       return std::nullopt;
     }
     const std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
@@ -153,7 +154,7 @@ class StaticIteration {
   double meet(double step, const std::vector<PassingBlocks>& passing) {
     reject(run_, step, RejectionReason::passing);
     const double share = passing.front().touch.share;
-    if (share <= run_.settings().smallest_cut) {
+    if (share <= run_.settings().search.smallest_cut) {
       found_ = with_passing(std::move(found_), passing);
       run_.state.log.counts.passing_contacts += passing.size();
       pair_up();
@@ -182,10 +183,10 @@ class StaticIteration {
     if (!cut_) statics.inertia = std::max(0.1 * scheme.inertia, least_);
     const bool still =
         balanced && (scheme.inertia <= least_ || least_ == 0.0) &&
-        (before == contact_states(run_.state.report) || motion <= run_.settings().static_stillness);
+        (before == contact_states(run_.state.report) || motion <= run_.settings().statics.stillness);
     if (still && !repeat) ++statics.multiplier_iterations;
     const bool settled =
-        still && (repeat || statics.multiplier_iterations > run_.settings().static_multiplier_iterations);
+        still && (repeat || statics.multiplier_iterations > run_.settings().statics.multiplier_iterations);
     statics.still_iterations = settled ? statics.still_iterations + 1 : 0;
     statics.balanced = statics.still_iterations >= 2;
     if (statics.balanced && deep) {
@@ -217,7 +218,7 @@ StaticStatus static_step(const RunContext& run, double end_time) {
   if (statics.balanced && run.state.reached(run.settings().time_step, end_time))
     return StaticStatus::equilibrium;
   if (statics.inertia == 0.0 || statics.balanced) start_load_level(run, end_time);
-  if (statics.iterations >= run.settings().static_iterations) return give_up(run);
+  if (statics.iterations >= run.settings().statics.iterations) return give_up(run);
   ++statics.iterations;
   return StaticIteration(run, end_time).run();
 }

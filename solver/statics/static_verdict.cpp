@@ -13,9 +13,9 @@
 namespace ashlar {
 namespace {
 
-/// Of settings.static_travel: what has gone so far when iterations end moves, if slowly.
+/// Of settings.statics.travel: what has gone so far when iterations end moves, if slowly.
 constexpr double slow_share = 0.1;
-/// Of settings.static_travel: what moving blocks take along, or what sinks while others give way to it, has
+/// Of settings.statics.travel: what moving blocks take along, or what sinks while others give way to it, has
 /// travelled this at least; blocks that only bear more than before have hardly moved.
 constexpr double taken_along_share = 1e-3;
 
@@ -83,13 +83,13 @@ bool multipliers_repeat(const RunContext& run, const StepProblem& problem) {
       }
     }
   }
-  return change <= run.settings().static_multiplier_tolerance * largest;
+  return change <= run.settings().statics.multiplier_tolerance * largest;
 }
 
 bool has_set_off(const RunContext& run) {
-  return std::any_of(run.state.statics.travels.begin(), run.state.statics.travels.end(), [&](double travel) {
-    return travel > taken_along_share * run.settings().static_travel;
-  });
+  return std::any_of(
+      run.state.statics.progress.travels.begin(), run.state.statics.progress.travels.end(),
+      [&](double travel) { return travel > taken_along_share * run.settings().statics.travel; });
 }
 
 bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
@@ -101,50 +101,50 @@ bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepPro
     const BlockModel& block = run.blocks()[k];
     const double lacking = block.material().density * scheme.inertia * body.change.norm();
     const Eigen::MatrixX3d position = run.state.states[k].position + body.motion();
-    if (lacking <= run.settings().static_tolerance * body.largest_force + body.roundoff_force) {
-      run.state.statics.travels[k] = 0.0;
-      run.state.statics.milestones[k] = position;
-      run.state.statics.milestone_forces[k] = lacking;
+    if (lacking <= run.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
+      run.state.statics.progress.travels[k] = 0.0;
+      run.state.statics.progress.milestones[k] = position;
+      run.state.statics.progress.forces[k] = lacking;
       continue;
     }
     balanced = false;
-    if (lacking < 0.5 * run.state.statics.milestone_forces[k]) {
-      run.state.statics.milestones[k] = position;
-      run.state.statics.milestone_forces[k] = lacking;
+    if (lacking < 0.5 * run.state.statics.progress.forces[k]) {
+      run.state.statics.progress.milestones[k] = position;
+      run.state.statics.progress.forces[k] = lacking;
     }
-    run.state.statics.travels[k] =
-        mean_motion(block, position - run.state.statics.milestones[k]) / block_size(block);
-    if (run.state.statics.travels[k] > run.settings().static_travel && !held[k])
+    run.state.statics.progress.travels[k] =
+        mean_motion(block, position - run.state.statics.progress.milestones[k]) / block_size(block);
+    if (run.state.statics.progress.travels[k] > run.settings().statics.travel && !held[k])
       run.state.statics.moving = true;
   }
   return balanced;
 }
 
 void forget_accelerations(const RunContext& run) {
-  run.state.statics.least_lacking = std::numeric_limits<double>::infinity();
-  run.state.statics.unbalanced.clear();
-  run.state.statics.rigid = false;
-  run.state.statics.gives_way.assign(run.blocks().size(), 0);
-  run.state.statics.starts.clear();
-  for (const BlockState& state : run.state.states) run.state.statics.starts.push_back(state.position);
+  run.state.statics.onset.least_lacking = std::numeric_limits<double>::infinity();
+  run.state.statics.onset.unbalanced.clear();
+  run.state.statics.onset.rigid = false;
+  run.state.statics.onset.gives_way.assign(run.blocks().size(), 0);
+  run.state.statics.onset.starts.clear();
+  for (const BlockState& state : run.state.states) run.state.statics.onset.starts.push_back(state.position);
 }
 
 double travel(const RunContext& run, int block) {
   return mean_motion(run.blocks()[at(block)],
-                     run.state.states[at(block)].position - run.state.statics.starts[at(block)]);
+                     run.state.states[at(block)].position - run.state.statics.onset.starts[at(block)]);
 }
 
 void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
   auto [sliding, fail] = joints_of(run, problem);
   if (fail) forget_accelerations(run);
-  const bool settled = sliding == run.state.statics.sliding;
-  run.state.statics.sliding = std::move(sliding);
-  if (!run.state.statics.unbalanced.empty() && !settled) return;
+  const bool settled = sliding == run.state.statics.onset.sliding;
+  run.state.statics.onset.sliding = std::move(sliding);
+  if (!run.state.statics.onset.unbalanced.empty() && !settled) return;
   bool near_start = true;
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     near_start = near_start && !(run.system.moving()[k] &&
                                  travel(run, static_cast<int>(k)) > run.settings().contact_distance);
-  if (!near_start && run.state.statics.rigid) return;
+  if (!near_start && run.state.statics.onset.rigid) return;
   std::vector<Eigen::MatrixX3d> accelerations(run.blocks().size());
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     if (run.system.moving()[k])
@@ -154,11 +154,11 @@ void note_accelerations(const RunContext& run, const TimeScheme& scheme, const S
     double lacking = 0.0;
     for (std::size_t k = 0; k < run.blocks().size(); ++k)
       lacking += std::pow(run.blocks()[k].material().density * accelerations[k].norm(), 2);
-    if (!(lacking < run.state.statics.least_lacking)) return;
-    run.state.statics.least_lacking = lacking;
-    run.state.statics.rigid = rigid;
+    if (!(lacking < run.state.statics.onset.least_lacking)) return;
+    run.state.statics.onset.least_lacking = lacking;
+    run.state.statics.onset.rigid = rigid;
   }
-  run.state.statics.unbalanced = std::move(accelerations);
+  run.state.statics.onset.unbalanced = std::move(accelerations);
 }
 
 StaticStatus give_up(const RunContext& run) {
@@ -167,7 +167,7 @@ StaticStatus give_up(const RunContext& run) {
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     run.state.statics.moving =
         run.state.statics.moving ||
-        (!held[k] && run.state.statics.travels[k] > slow_share * run.settings().static_travel);
+        (!held[k] && run.state.statics.progress.travels[k] > slow_share * run.settings().statics.travel);
   return run.state.statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
 }
 
@@ -175,12 +175,12 @@ std::vector<MovingBlock> moving_blocks(const RunContext& run) {
   const std::vector<bool> held = run.system.held_without_contacts();
   std::vector<MovingBlock> result;
   std::vector<MovingBlock> later;
-  for (std::size_t k = 0; k < run.state.statics.travels.size(); ++k) {
+  for (std::size_t k = 0; k < run.state.statics.progress.travels.size(); ++k) {
     const BlockModel& block = run.blocks()[k];
     if (!run.system.moving()[k] || held[k] ||
-        run.state.statics.travels[k] <= taken_along_share * run.settings().static_travel)
+        run.state.statics.progress.travels[k] <= taken_along_share * run.settings().statics.travel)
       continue;
-    const Eigen::MatrixX3d& a = run.state.statics.unbalanced[k];
+    const Eigen::MatrixX3d& a = run.state.statics.onset.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
                                        gradient(1, 0) - gradient(0, 1));

@@ -296,6 +296,7 @@ void accept(const RunContext& run, const TimeScheme& scheme, StepProblem& proble
   extremes.penetration = std::max(extremes.penetration, run.state.report.penetration);
   note_depths(run, problem.depths);
   drop_empty(run.state.pairs);
+  validate(run.state.pairs, run.system.count());
 }
 
 }  // namespace ashlar

@@ -54,7 +54,7 @@ class DynamicStep {
 
   /// Makes the contact pairs of the step. Blocks that are too deep are moved apart first.
   void pair_up() {
-    const int most = run_.settings().moves_apart;
+    const int most = run_.settings().multipliers.moves_apart;
     problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
     while (moves_ < most && too_deep(run_, problem_.pairs)) {
       if (!unmoved_) unmoved_ = snapshot_of(run_);
@@ -73,7 +73,7 @@ class DynamicStep {
   /// Cuts the step to the first touch, or adds contacts where blocks at rest on each other's rim would pass.
   void meet(const std::vector<PassingBlocks>& passing) {
     const double first = passing.front().touch.share;
-    if (first > run_.settings().smallest_cut && cuts_ < run_.settings().max_step_cuts) {
+    if (first > run_.settings().search.smallest_cut && cuts_ < run_.settings().max_step_cuts) {
       reject(run_, step_, RejectionReason::passing);
       cut(first);
       return;
@@ -91,7 +91,7 @@ class DynamicStep {
       cut(0.5);
       return false;
     }
-    const bool fine = (run_.state.steps + 1) % run_.settings().fine_audit_interval == 0;
+    const bool fine = (run_.state.steps + 1) % run_.settings().depth.fine_interval == 0;
     if (const auto deep = audit_depths(run_, problem_, fine)) {
       reject(run_, step_, *deep);
       cut(0.5);

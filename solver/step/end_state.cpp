@@ -24,11 +24,11 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
   return rounding > share * std::cbrt(volume);
 }
 
-/// How deep blocks are in each other. @param fine see SimulationSettings::fine_audit_interval
+/// How deep blocks are in each other. @param fine see SimulationSettings::depth::fine_interval
 std::vector<PairDepth> measure_depths(const RunContext& run, const std::vector<BlockState>& states,
                                       bool fine) {
   const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
-                         (fine ? run.settings().passing_share : 1.0) * run.settings().contact_distance,
+                         (fine ? run.settings().search.passing_share : 1.0) * run.settings().contact_distance,
                          run.settings().threads};
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope);
 }
@@ -46,13 +46,13 @@ std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<P
   for (const PairDepth& pair : depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
     const auto allowed = [&, size = run.system.smaller_size({a, b})](double share) {
-      return run.settings().allowed_depth > 0.0 ? run.settings().allowed_depth : share * size;
+      return run.settings().depth.allowed_depth > 0.0 ? run.settings().depth.allowed_depth : share * size;
     };
     const auto contact = known.find({a, b});
-    hold_against(
-        pair, allowed(run.settings().unknown_depth_share) + (contact == known.end() ? 0.0 : contact->second));
+    hold_against(pair, allowed(run.settings().depth.unknown_depth_share) +
+                           (contact == known.end() ? 0.0 : contact->second));
     // A joint of given stiffness gives way as its user has asked for.
-    if (run.system.law(a, b).rigid) hold_against(pair, allowed(run.settings().allowed_depth_share));
+    if (run.system.law(a, b).rigid) hold_against(pair, allowed(run.settings().depth.allowed_depth_share));
   }
   return fault;
 }
@@ -64,7 +64,7 @@ std::optional<StateFault> broken_block(const RunContext& run, const StepProblem&
     if (!run.system.moving()[k]) continue;
     const Eigen::MatrixX3d position = run.state.states[k].position + problem.bodies[k].motion();
     const int block = static_cast<int>(k);
-    if (is_lost(run.blocks()[k], problem.bodies[k], position, run.settings().lost_share))
+    if (is_lost(run.blocks()[k], problem.bodies[k], position, run.settings().depth.lost_share))
       return StateFault{RejectionReason::not_finite, {block, block}};
     const Eigen::MatrixXd* gradients = run.system.asked_gradients(block);
     if (gradients == nullptr) continue;

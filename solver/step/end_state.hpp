@@ -14,7 +14,7 @@ namespace ashlar {
 [[nodiscard]] std::optional<StateFault> broken_block(const RunContext& run, const StepProblem& problem);
 
 /// Measures how deep blocks would be in each other at the end of a problem, which keeps the depths.
-/// @param fine see SimulationSettings::fine_audit_interval. @return the pair that is too deep by most
+/// @param fine see SimulationSettings::depth::fine_interval. @return the pair that is too deep by most
 [[nodiscard]] std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& problem, bool fine);
 /// The same of the present state, finely; the depths are noted.
 [[nodiscard]] std::optional<StateFault> audit_present(const RunContext& run);

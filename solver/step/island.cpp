@@ -1,5 +1,8 @@
 #include "solver/step/island.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
 #include "solver/step/open_close.hpp"
@@ -56,6 +59,32 @@ std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vec
     islands[island_of_root.at(meeting.find(block))].pairs.push_back(static_cast<int>(k));
   }
   return islands;
+}
+
+void validate(const std::vector<Island>& islands, const std::vector<bool>& moving,
+              const std::vector<ContactPair>& pairs) {
+  constexpr int nowhere = -1;
+  std::vector<int> island_of(moving.size(), nowhere);
+  for (std::size_t n = 0; n < islands.size(); ++n) {
+    const std::vector<int>& bodies = islands[n].bodies;
+    if (bodies.empty() || !std::is_sorted(bodies.begin(), bodies.end()))
+      throw std::logic_error("an island is empty or not in order");
+    for (const int body : bodies) {
+      if (!moving[at(body)] || island_of[at(body)] != nowhere)
+        throw std::logic_error("a block is in two islands, or in one without moving");
+      island_of[at(body)] = static_cast<int>(n);
+    }
+  }
+  for (std::size_t body = 0; body < moving.size(); ++body)
+    if (moving[body] && island_of[body] == nowhere) throw std::logic_error("a block is in no island");
+  std::vector<int> island_of_pair(pairs.size(), nowhere);
+  for (std::size_t n = 0; n < islands.size(); ++n)
+    for (const int pair : islands[n].pairs) island_of_pair[at(pair)] = static_cast<int>(n);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    for (const int block : {pairs[k].a(), pairs[k].b()})
+      if (moving[at(block)] && island_of[at(block)] != island_of_pair[k])
+        throw std::logic_error("a contact joins blocks of two islands");
+  }
 }
 
 std::vector<std::array<int, 2>> contacts_of(const Island& island, const std::vector<ContactPair>& pairs) {

@@ -74,6 +74,11 @@ struct Island {
 [[nodiscard]] std::vector<Island> find_islands(const std::vector<bool>& moving,
                                                const std::vector<ContactPair>& pairs);
 
+/// @throws std::logic_error unless each moving block is in one island, in order, and each pair of contacts or
+/// ties in that of its moving blocks
+void validate(const std::vector<Island>& islands, const std::vector<bool>& moving,
+              const std::vector<ContactPair>& pairs);
+
 /// Pairs of blocks of an island's contacts, ties left out.
 [[nodiscard]] std::vector<std::array<int, 2>> contacts_of(const Island& island,
                                                           const std::vector<ContactPair>& pairs);

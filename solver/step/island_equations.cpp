@@ -88,11 +88,11 @@ Balance IslandProblem::balance() const {
     }
   }
   const double tolerance =
-      scheme_.from_rest ? settings_.static_residual_tolerance : settings_.residual_tolerance;
+      scheme_.from_rest ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
     const double rounding = body.roundoff_force + contact_rounding[k] +
-                            std::min(in_doubt[k], settings_.doubt_share * scale[k]) +
+                            std::min(in_doubt[k], settings_.iteration.doubt_share * scale[k]) +
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
@@ -182,8 +182,8 @@ Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool cou
     }
     return x + solver_.factor.solve(force, false);
   };
-  return gmres(times, solver_.factor.solve(right_side), settings_.krylov_tolerance,
-               settings_.krylov_iterations)
+  return gmres(times, solver_.factor.solve(right_side), settings_.iteration.krylov_tolerance,
+               settings_.iteration.krylov_iterations)
       .x;
 }
 

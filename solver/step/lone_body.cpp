@@ -54,12 +54,12 @@ std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& sc
   if (!shares_factors(block)) return std::nullopt;
   const double mass = scheme.inertia * block.material().density;
   const double tolerance =
-      scheme.from_rest ? settings.static_residual_tolerance : settings.residual_tolerance;
+      scheme.from_rest ? settings.statics.residual_tolerance : settings.iteration.residual_tolerance;
   const Eigen::VectorXd external = scheme.force_weight * body.external_force;
   body.change = body.free_change;
   if (!scheme.from_rest) body.change += external / mass;
   IslandResult result;
-  for (int k = 0; k <= settings.newton_iterations; ++k) {
+  for (int k = 0; k <= settings.iteration.newton_iterations; ++k) {
     ++result.iterations;
     body.elastic = block.elastic(body.state->position + scheme.end_share * body.motion());
     const Eigen::VectorXd internal = scheme.force_weight * block.space().restrict(body.elastic.force);

@@ -23,7 +23,7 @@ class OpenClose {
     bond();
     start();
     for (int rounds = 0;;) {
-      Outcome outcome = newton(settings_.newton_iterations, false);
+      Outcome outcome = newton(settings_.iteration.newton_iterations, false);
       if (outcome == Outcome::stalled) {
         ++result_.fallbacks;
         outcome = minimise();
@@ -34,7 +34,7 @@ class OpenClose {
           if (factorized_) polish();
           return outcome;
         }
-        if (++rounds > settings_.augmented_rounds) return Outcome::stalled;
+        if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
       }
       problem_.respond();
     }
@@ -151,13 +151,13 @@ class OpenClose {
   }
 
   /// How far a point is from where multipliers alone would hold it, as a share of what it may give way by:
-  /// settings.multiplier_share of the tolerance, and of a point that goes deeper as much less as the depth
+  /// settings.multipliers.share of the tolerance, and of a point that goes deeper as much less as the depth
   /// where it was found leaves.
   double given_way(const PointLaw& law, const PointResponse& point, double gap) const {
     constexpr double least = 0.01;  // of what a point at the surface may give way by
     if (!law.augmented || point.state == ContactState::open) return 0.0;
-    const double allowed = settings_.multiplier_share * settings_.penetration_tolerance;
-    const double left = std::clamp(1.0 + gap / settings_.tolerated_depth(), least, 1.0);
+    const double allowed = settings_.multipliers.share * settings_.multipliers.penetration_tolerance;
+    const double left = std::clamp(1.0 + gap / settings_.multipliers.tolerated_depth(), least, 1.0);
     double most = 0.0;
     const auto look_at = [&most](double force, double stiffness, double way) {
       if (stiffness > 0.0) most = std::max(most, force / (stiffness * way));
@@ -194,7 +194,7 @@ class OpenClose {
   /// so that rounding says nothing. @return whether any was lowered
   bool lower_multipliers() {
     if (problem_.scheme().from_rest) return false;
-    const double accuracy = settings_.multiplier_accuracy * settings_.penetration_tolerance;
+    const double accuracy = settings_.multipliers.accuracy * settings_.multipliers.penetration_tolerance;
     bool lowered = false;
     beyond_ *= 2.0;  // 1 the first time
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
@@ -232,7 +232,7 @@ class OpenClose {
         return Outcome::settled;
       // Slip that turns round leaves the states as they are.
       without_gain = balance.worst < 0.5 * least_ ? 0 : without_gain + 1;
-      if (!std::isfinite(balance.worst) || without_gain > (closing ? 0 : settings_.newton_patience))
+      if (!std::isfinite(balance.worst) || without_gain > (closing ? 0 : settings_.iteration.newton_patience))
         return Outcome::stalled;
       if (balance.worst < least_) {
         least_ = balance.worst;
@@ -243,7 +243,7 @@ class OpenClose {
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
       seen.push_back(std::move(states));
       // The last factor will do for what is left.
-      const bool nearly = as_before && !last_factor && balance.worst <= settings_.nearly_settled;
+      const bool nearly = as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled;
       last_factor = nearly;
       factorized_ = true;
       if (!nearly && problem_.factorize() != FactorStatus::success) return Outcome::singular;
@@ -252,7 +252,7 @@ class OpenClose {
         problem_.apply(change, 1.0);
         problem_.respond();
       } else {
-        search(change, balance.left.dot(change), settings_.newton_overshoot, 1.0);
+        search(change, balance.left.dot(change), settings_.iteration.newton_overshoot, 1.0);
       }
     }
     return Outcome::stalled;
@@ -287,20 +287,21 @@ class OpenClose {
     problem_.respond();
     std::vector<double> limits = bounds();
     Eigen::VectorXd last_change;
-    for (int pass = 0; pass < settings_.fallback_passes; ++pass) {
+    for (int pass = 0; pass < settings_.iteration.fallback_passes; ++pass) {
       hold(limits);
       // A minimum need not be met better than its bounds are known; newton() sees to the rest.
-      const double target = std::max(1.0, settings_.minimiser_share * least_);
+      const double target = std::max(1.0, settings_.iteration.minimiser_share * least_);
       if (const Outcome inner = minimise_held(target); inner != Outcome::settled) return inner;
       release();
       const std::vector<Eigen::VectorXd> guess = problem_.guess();
       const std::vector<double> next = bounds();
-      const Outcome finished = newton(settings_.newton_iterations, true);
+      const Outcome finished = newton(settings_.iteration.newton_iterations, true);
       if (finished == Outcome::settled) return finished;
       problem_.set_guess(guess);
       Eigen::Map<Eigen::VectorXd> held(limits.data(), static_cast<Eigen::Index>(limits.size()));
       const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(next.data(), held.size()) - held;
-      const double share = pass < settings_.plain_passes || pass % 3 != 2 ? 1.0 : way_on(change, last_change);
+      const double share =
+          pass < settings_.iteration.plain_passes || pass % 3 != 2 ? 1.0 : way_on(change, last_change);
       held = (held + share * change).cwiseMax(0.0);
       last_change = change;
     }
@@ -318,14 +319,14 @@ class OpenClose {
 
   /// The minimum with the present bounds held. @param target of Balance::worst
   Outcome minimise_held(double target) {
-    for (int k = 0; k < settings_.minimiser_iterations; ++k) {
+    for (int k = 0; k < settings_.iteration.minimiser_iterations; ++k) {
       ++result_.iterations;
       const Balance balance = problem_.balance();
       if (balance.worst <= target) return Outcome::settled;
       if (!std::isfinite(balance.worst)) return Outcome::stalled;
       if (problem_.factorize() != FactorStatus::success) return Outcome::singular;
       const Eigen::VectorXd change = problem_.solve(balance.left, false);
-      search(change, balance.left.dot(change), settings_.line_search_tolerance, 16.0);
+      search(change, balance.left.dot(change), settings_.iteration.line_search_tolerance, 16.0);
     }
     return Outcome::stalled;
   }
@@ -355,7 +356,8 @@ class OpenClose {
       work_high = work(high);
     }
     double found = work_high;
-    for (int k = 0; k < settings_.line_search_steps && std::abs(found) > enough && work_high < 0.0; ++k) {
+    for (int k = 0; k < settings_.iteration.line_search_steps && std::abs(found) > enough && work_high < 0.0;
+         ++k) {
       // False position, and every third time the middle: the work has kinks.
       const double share =
           k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * work_low / (work_low - work_high);

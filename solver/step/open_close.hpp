@@ -21,7 +21,7 @@
 //
 // Augmented contact starts each step with the forces of the last one as multipliers (Uzawa, one update a
 // step). What the forces change by is left to springs, each made as stiff as it takes to hold its point
-// within a quarter of settings.penetration_tolerance of where it was. A pair that would so give its blocks
+// within a quarter of settings.multipliers.penetration_tolerance of where it was. A pair that would so give its blocks
 // more than it has taken from them starts from less force instead.
 #pragma once
 

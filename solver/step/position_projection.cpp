@@ -46,7 +46,8 @@ double energy_of_motion(const RunContext& run, const Island& island, const std::
 /// The problem of moving blocks apart: pairs without friction, bodies without motion of their own.
 StepProblem pose(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // As much is left for what springs give way by in this motion.
-  const double pushed_from = run.settings().multiplier_share * run.settings().penetration_tolerance;
+  const double pushed_from =
+      run.settings().multipliers.share * run.settings().multipliers.penetration_tolerance;
   StepProblem problem;
   for (const ContactPair& pair : pairs) problem.pairs.push_back(pair.moved_apart(pushed_from));
   problem.islands = find_islands(run.system.moving(), problem.pairs);
@@ -67,7 +68,7 @@ std::vector<const Island*> deep_islands(const RunContext& run, const std::vector
   std::vector<const Island*> deep;
   for (const Island& island : islands) {
     if (std::any_of(island.pairs.begin(), island.pairs.end(), [&](int index) {
-          return pairs[at(index)].depth_found() > run.settings().tolerated_depth();
+          return pairs[at(index)].depth_found() > run.settings().multipliers.tolerated_depth();
         }))
       deep.push_back(&island);
   }
@@ -97,7 +98,7 @@ std::vector<MovedIsland> solve_deep(const RunContext& run, double step, const st
   scheme.from_rest = true;
   scheme.inertia = inertia_share * 2.0 / (step * step);
   SimulationSettings settings = run.settings();
-  settings.static_residual_tolerance = run.settings().apart_residual;
+  settings.statics.residual_tolerance = run.settings().multipliers.apart_residual;
   std::vector<BlockState> relaxed(run.blocks().size());
   std::vector<MovedIsland> moved;
   for (std::size_t n = 0; n < deep.size(); ++n) {
@@ -158,7 +159,7 @@ void move(const RunContext& run, const std::vector<MovedIsland>& moved, const st
 bool too_deep(const RunContext& run, const std::vector<ContactPair>& pairs) {
   return run.settings().augmented && run.state.has_begun() &&
          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) {
-           return pair.depth_found() > run.settings().tolerated_depth();
+           return pair.depth_found() > run.settings().multipliers.tolerated_depth();
          });
 }
 

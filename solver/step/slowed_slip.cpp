@@ -34,7 +34,7 @@ PairResponse ContactPair::against_slip(double depth, const Eigen::VectorXd& ya,
 
 std::optional<SlowedSlip> slow_slip(const RunContext& run, const Island& island,
                                     const std::vector<ContactPair>& pairs, double step, double energy) {
-  const double depth = run.settings().multiplier_share * run.settings().penetration_tolerance;
+  const double depth = run.settings().multipliers.share * run.settings().multipliers.penetration_tolerance;
   std::vector<Eigen::VectorXd> slips(run.blocks().size());  // velocities of the unknowns
   std::vector<Eigen::MatrixX3d> prescribed(run.blocks().size());
   for (const int k : island.bodies) {

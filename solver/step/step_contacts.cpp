@@ -62,7 +62,7 @@ bool is_far(const BlockSystem& system, const RunState& state, int block) {
   const BlockModel& model = system.blocks()[at(block)];
   const Eigen::MatrixX3d way = state.states[at(block)].position - state.statics.level_start[at(block)];
   return system.moving()[at(block)] &&
-         mean_motion(model, way) > system.settings().static_motion * block_size(model);
+         mean_motion(model, way) > system.settings().statics.motion * block_size(model);
 }
 
 /// Takes the slip of a load level so far for good: what comes counts from there.

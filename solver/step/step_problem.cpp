@@ -38,6 +38,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   const Stopwatch watch(state.log.seconds.solve);
   const SimulationSettings& settings = system.settings();
   problem.islands = find_islands(system.moving(), problem.pairs);
+  validate(problem.islands, system.moving(), problem.pairs);
   problem.bodies = prepare_bodies(system, state, scheme);
   for (ContactPair& pair : problem.pairs) {
     pair.prescribe(system.blocks()[at(pair.a())], problem.bodies[at(pair.a())].prescribed,

@@ -148,8 +148,8 @@ void stop_island(const RunContext& run, const TimeScheme& of_step, const Island&
       const ContactPair& pair = pairs[at(island.pairs[n])];
       responses.push_back(pair.stopping(
           result.responses[n], result.laws[n], velocities[at(pair.a())], velocities[at(pair.b())],
-          {run.settings().stop_stiffness, inertia(pair.a()), inertia(pair.b()),
-           run.settings().multiplier_share * run.settings().penetration_tolerance},
+          {run.settings().multipliers.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
+           run.settings().multipliers.share * run.settings().multipliers.penetration_tolerance},
           let_go[n]));
     }
     return responses;

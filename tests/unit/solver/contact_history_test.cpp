@@ -40,8 +40,8 @@ Simulation block_on_incline(int order, bool augmented) {
   Stack stack;
   stack.settings.time_step = 5e-3;
   stack.settings.augmented = augmented;
-  stack.settings.chord_tolerance = 1e-3;
-  stack.settings.subdivisions = 0;
+  stack.settings.search.chord_tolerance = 1e-3;
+  stack.settings.search.subdivisions = 0;
   stack.add(fixed_block(tilted_box({-3, -2, -1}, {3, 2, 0}, 30.0)));
   stack.add(block_of("block", tilted_box({-0.5, -0.4, 0}, {0.5, 0.4, 0.6}, 30.0), {2500, 1e8, 0.2}, order));
   return stack.simulation({1e10, 5e9, std::tan(31.0 * std::numbers::pi / 180.0), 0.0, 0.0, true});
@@ -53,8 +53,8 @@ TEST(ContactHistory, ASoftCubeOnPointSpringsDoesNotSink) {
   for (const int order : {2, 3}) {
     Stack stack;
     stack.settings.area_springs = false;
-    stack.settings.subdivisions = 0;
-    stack.settings.chord_tolerance = 5e-3;
+    stack.settings.search.subdivisions = 0;
+    stack.settings.search.chord_tolerance = 5e-3;
     stack.add(fixed_block(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0}))));
     stack.add(
         block_of("cube", Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2500, 1e7, 0.2}, order));
@@ -142,7 +142,7 @@ TEST(ContactHistory, MultipliersHoldABlockWhateverTheSprings) {
     Stack stack;
     stack.settings.time_step = 5e-3;
     stack.settings.augmented = true;
-    stack.settings.penetration_tolerance = 1e-8;
+    stack.settings.multipliers.penetration_tolerance = 1e-8;
     stack.add(fixed_block(Polyhedron(make_box({-3, -2, -1}, {3, 2, 0}))));
     stack.add(block_of("block", Polyhedron(make_box({-0.5, -0.4, 0}, {0.5, 0.4, 0.6})), {2500, 1e8, 0.2}, 1));
     Simulation simulation = stack.simulation({stiffness, stiffness, 0.5, 0.0, 0.0, true});

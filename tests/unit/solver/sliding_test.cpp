@@ -68,8 +68,8 @@ double sideways_share(const Slide& slide) {
   settings.time_step = 5e-3;
   settings.gravity = slide.turn * Vector3(0, 0, -9.81);
   settings.area_springs = slide.area;
-  settings.chord_tolerance = 1e-3;
-  settings.subdivisions = 0;
+  settings.search.chord_tolerance = 1e-3;
+  settings.search.subdivisions = 0;
   std::vector<BlockModel> blocks;
   BlockDefinition base = block_of("floor", Polyhedron(std::move(floor)), {2500, 1e9, 0.2}, 1);
   base.fixed = true;
@@ -153,8 +153,8 @@ Simulation plate_on_edges(const OnEdges& scene) {
   settings.time_step = 1e-3;
   settings.area_springs = scene.area;
   settings.contact_distance = 2e-3;
-  settings.chord_tolerance = 1e-3;
-  settings.subdivisions = 0;
+  settings.search.chord_tolerance = 1e-3;
+  settings.search.subdivisions = 0;
   settings.gravity = 9.81 * Vector3(std::sin(scene.slope), 0.0, -std::cos(scene.slope));
   const double fall = std::tan((scene.degrees + scene.flanks) * std::numbers::pi / 180.0);
   std::vector<BlockModel> blocks;

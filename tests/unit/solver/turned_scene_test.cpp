@@ -159,7 +159,7 @@ TEST(TurnedScene, ASoftArchWithMultipliers) {
   scene.material.young_modulus = 3e7;
   scene.law = {6e8, 3e8, 0.577, 0.0, 0.0, true};
   scene.settings.augmented = true;
-  scene.settings.penetration_tolerance = 7e-7;
+  scene.settings.multipliers.penetration_tolerance = 7e-7;
   scene.settings.time_step = 5e-3;
   scene.steps = 12;
   EXPECT_LT(largest_difference(scene, 1), 1e-6);
@@ -177,7 +177,7 @@ TEST(TurnedScene, ABeamOnTwoBasesWithMultipliers) {
   scene.law = {4e8, 2e8, 0.1, 0.0, 0.0, true};
   scene.settings.curved_surface = false;
   scene.settings.augmented = true;
-  scene.settings.penetration_tolerance = 5e-7;
+  scene.settings.multipliers.penetration_tolerance = 5e-7;
   scene.settings.time_step = 5e-4;
   scene.steps = 80;
   for (const Integrator integrator : {Integrator::average_acceleration, Integrator::generalized_alpha}) {
@@ -201,7 +201,7 @@ TEST(TurnedScene, BlocksWithCohesionThatPushEachOtherDownASlope) {
   scene.material = {2007.3, young_modulus, 0.274};
   scene.law = {40 * young_modulus, 20 * young_modulus, 0.577, 3763.6159072678356, 0.0, true};
   scene.settings.augmented = true;
-  scene.settings.penetration_tolerance = 3e-7;
+  scene.settings.multipliers.penetration_tolerance = 3e-7;
   scene.settings.contact_distance = 3e-4;
   scene.settings.time_step = 1e-3;
   scene.steps = 12;
@@ -256,8 +256,8 @@ TEST(TurnedScene, DominoesWhoseFacesAreDivided) {
   scene.law = {1e10, 5e9, 0.3, 0.0, 0.0, true};
   scene.settings.integrator = Integrator::average_acceleration;
   scene.settings.curved_surface = false;
-  scene.settings.subdivisions = 0;
-  scene.settings.chord_tolerance = 1e-4;
+  scene.settings.search.subdivisions = 0;
+  scene.settings.search.chord_tolerance = 1e-4;
   scene.settings.time_step = 5e-3;
   scene.steps = 20;
   EXPECT_LT(largest_difference(scene), 1e-6);

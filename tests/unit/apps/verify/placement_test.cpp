@@ -95,7 +95,7 @@ TEST(Tower, TurnsWithItsScene) {
   const auto places = [](const Placement& placement) {
     ContactScene scene(placement);
     scene.settings.time_step = 1e-3;
-    scene.settings.subdivisions = 0;
+    scene.settings.search.subdivisions = 0;
     *scene.law = {1e10, 5e9, tangent_of(35), 0.0, 0.0, true};
     scene.add_fixed(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0})));
     for (int k = 0; k < 4; ++k) {
@@ -135,8 +135,8 @@ std::vector<Vector3> collided(bool area_springs, const Placement& placement) {
   scene.settings.gravity.setZero();
   scene.settings.time_step = 2e-4;
   scene.settings.area_springs = area_springs;
-  scene.settings.chord_tolerance = 2.7e-3;
-  scene.settings.subdivisions = 0;
+  scene.settings.search.chord_tolerance = 2.7e-3;
+  scene.settings.search.subdivisions = 0;
   const double share = area_springs ? 1.0 : 0.25;
   *scene.law = {share * 5e9, share * 2e9, tangent_of(30), 0.0, 0.0, area_springs};
   const Material soft{2500, 1e8, 0.2};
@@ -167,7 +167,7 @@ TEST(Collision, TurnsWithItsScene) {
 std::vector<Vector3> settled_arch(bool area_springs, const Placement& placement) {
   ContactScene scene(placement);
   scene.settings.time_step = 1e-3;
-  scene.settings.subdivisions = 0;
+  scene.settings.search.subdivisions = 0;
   scene.settings.area_springs = area_springs;
   const double share = area_springs ? 1.0 : 0.01;
   *scene.law = {share * 1e10, share * 1e10, tangent_of(60), 0.0, 0.0, area_springs};

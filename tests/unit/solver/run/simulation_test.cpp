@@ -225,7 +225,7 @@ TEST(Simulation, BlocksOfDifferentOrdersInOneScene) {
   // A cube of order 1 rests on a thick plate of order 3 on a fixed base: the forces add up to the weights.
   SimulationSettings settings;
   settings.time_step = 2e-3;
-  settings.subdivisions = 1;
+  settings.search.subdivisions = 1;
   JointLaw law{1e9, 5e8, 0.5, 0.0, 0.0, true};
   Simulation simulation(
       models(block_of("A", Polyhedron(make_box({-0.5, -0.5, 1}, {0.5, 0.5, 2})), {2500, 1e9, 0.2}, 1),

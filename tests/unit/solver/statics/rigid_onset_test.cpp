@@ -41,7 +41,7 @@ struct Wall {
 double tipping(const Wall& wall) {
   SimulationSettings settings;
   settings.augmented = wall.augmented;
-  settings.penetration_tolerance = 1e-6;
+  settings.multipliers.penetration_tolerance = 1e-6;
   const double tilt = std::atan(wall.share / 3.0);
   settings.gravity = g * Vector3(std::sin(tilt), 0.0, -std::cos(tilt));
   JointLaw law{wall.stiffness, 0.5 * wall.stiffness, 1.0, 0.0, 0.0, true};
@@ -120,7 +120,7 @@ TEST(SettingOff, ABondThatBreaksHoldsNoMore) {
   const double expected = g * std::sqrt(0.5) * (1.0 - friction);
   for (const bool augmented : {false, true}) {
     settings.augmented = augmented;
-    settings.penetration_tolerance = 1e-6;
+    settings.multipliers.penetration_tolerance = 1e-6;
     for (const double time_step : {1e-2, 1e-3}) {
       settings.time_step = time_step;
       for (const double share : {0.5, 0.99, 1.05}) {

@@ -206,9 +206,9 @@ TEST_P(FreeCollision, KeepsMomentumAndAngularMomentum) {
   settings.time_step = 2e-4;
   settings.area_springs = area_springs;
   settings.curved_surface = curved;
-  settings.subdivisions = 1;
+  settings.search.subdivisions = 1;
   // Here nothing is given back: what a step is solved to is left.
-  if (integrator == Integrator::average_acceleration) settings.residual_tolerance = 1e-13;
+  if (integrator == Integrator::average_acceleration) settings.iteration.residual_tolerance = 1e-13;
   const double share = area_springs ? 1.0 : 0.25;
   const JointLaw law{share * 5e9, share * 2e9, 0.577, 0.0, 0.0, area_springs};
   const Material soft{2500, 1e8, 0.2}, light{2000, 1e8, 0.3};

@@ -32,7 +32,7 @@ Simulation simulation_of(const Drop& drop) {
   SimulationSettings settings;
   settings.gravity = Vector3(0, 0, -drop.gravity);
   settings.contact_distance = 1e-3;
-  settings.allowed_depth = drop.allowed_depth;
+  settings.depth.allowed_depth = drop.allowed_depth;
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-2, -2, -1}, {3, 3, 0}));
   blocks.emplace_back(

@@ -67,6 +67,18 @@ TEST(Island, TiesJoinBlocksButAreNoContacts) {
   EXPECT_EQ(contacts_of(islands[0], pairs), (std::vector<std::array<int, 2>>{{0, 1}}));
 }
 
+TEST(Island, SetsThatCannotBeAreRefused) {
+  const std::vector<ContactPair> pairs = {pair_of(0, 1)};
+  const std::vector<bool> moving = {true, true, false};
+  EXPECT_NO_THROW(validate({{{0, 1}, {0}}}, moving, pairs));
+  EXPECT_THROW(validate({{{0}, {0}}, {{1}, {}}}, moving, pairs), std::logic_error) << "joined by a contact";
+  EXPECT_THROW(validate({{{0, 1}, {}}}, moving, pairs), std::logic_error) << "its contact is missing";
+  EXPECT_THROW(validate({{{0, 1}, {0}}, {{1}, {}}}, moving, pairs), std::logic_error) << "in two";
+  EXPECT_THROW(validate({{{0, 1}, {0}}, {{2}, {}}}, moving, pairs), std::logic_error) << "fixed";
+  EXPECT_THROW(validate({{{0}, {}}}, moving, {}), std::logic_error) << "1 is in none";
+  EXPECT_THROW(validate({{{1, 0}, {0}}}, moving, pairs), std::logic_error) << "not in order";
+}
+
 TEST(IslandSolvers, KeepAFactorAsLongAsItComesUp) {
   IslandSolvers solvers;
   const std::vector<int> key = {0, 3, 4};

@@ -20,7 +20,7 @@ SimulationSettings augmented(Integrator integrator, double time_step, Simulation
   settings.integrator = integrator;
   settings.time_step = time_step;
   settings.augmented = true;
-  settings.penetration_tolerance = tolerance;
+  settings.multipliers.penetration_tolerance = tolerance;
   return settings;
 }
 
@@ -121,7 +121,7 @@ TEST(MovedApartFailed, LeavesTheLastAcceptedState) {
   for (int rounds = 1; rounds < 4; ++rounds) {
     SimulationSettings settings;
     settings.max_step_cuts = 0;
-    settings.augmented_rounds = rounds;
+    settings.multipliers.rounds = rounds;
     Simulation simulation = dominoes(Integrator::dda, 1, settings);
     while (!simulation.reached(1.3)) {
       const std::vector<BlockState> before = simulation.states();

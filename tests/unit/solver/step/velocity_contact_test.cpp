@@ -18,7 +18,7 @@ SimulationSettings augmented(double time_step, Integrator integrator = Integrato
   settings.integrator = integrator;
   settings.time_step = time_step;
   settings.augmented = true;
-  settings.penetration_tolerance = 1e-6;
+  settings.multipliers.penetration_tolerance = 1e-6;
   return settings;
 }
 
@@ -51,7 +51,7 @@ double rebound(double share_of_step, int order, double stop_stiffness) {
   constexpr double speed = 2.0, time_step = 1e-3;
   SimulationSettings settings = augmented(time_step);
   settings.gravity.setZero();
-  settings.stop_stiffness = stop_stiffness;
+  settings.multipliers.stop_stiffness = stop_stiffness;
   const double gap = share_of_step * speed * time_step;
   std::vector<BlockModel> blocks;
   blocks.push_back(cube({0, 0, 0}, order));
@@ -77,7 +77,7 @@ double rebound(double share_of_step, int order, double stop_stiffness) {
 TEST(ContactImpulses, WhatMeetsStopsWhereItMeetsWheneverInTheStep) {
   for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     for (const int order : {1, 2})
-      EXPECT_NEAR(rebound(share, order, SimulationSettings{}.stop_stiffness), 0.0, 1e-2) << share;
+      EXPECT_NEAR(rebound(share, order, SimulationSettings{}.multipliers.stop_stiffness), 0.0, 1e-2) << share;
     // The step alone: D = -share v dt, v' = 2 D/dt + v away from each other.
     EXPECT_NEAR(rebound(share, 1, 0.0), 1.0 - 2.0 * share, 1e-2) << share;
   }
@@ -179,8 +179,8 @@ TEST(ContactImpulses, FrictionOnSupportsThatSpeedUpIsThatOfAllThatBears) {
 /// ones, sums over 80 steps: 2 sin(pi/n) of what swings in n steps, 2 of what alternates
 double roughness_of_bearing_force(Integrator integrator, double stop_stiffness) {
   SimulationSettings settings = augmented(5e-4, integrator);
-  settings.penetration_tolerance = 2e-6;
-  settings.stop_stiffness = stop_stiffness;
+  settings.multipliers.penetration_tolerance = 2e-6;
+  settings.multipliers.stop_stiffness = stop_stiffness;
   std::vector<BlockModel> blocks;
   for (const double x : {0.0, 0.55, 1.1})
     blocks.emplace_back(
@@ -210,7 +210,8 @@ TEST(ContactImpulses, BearingForcesSwingAsTheBeamDoes) {
   // The beam swings in ten steps and more.
   for (const Integrator integrator :
        {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
-    const double stopped = roughness_of_bearing_force(integrator, SimulationSettings{}.stop_stiffness);
+    const double stopped =
+        roughness_of_bearing_force(integrator, SimulationSettings{}.multipliers.stop_stiffness);
     EXPECT_LT(stopped, 2.0 * std::sin(std::numbers::pi / 10));
     EXPECT_GT(roughness_of_bearing_force(integrator, 0.0), 2.0 * std::sin(std::numbers::pi / 6));
   }
