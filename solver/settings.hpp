@@ -92,6 +92,11 @@ struct SimulationSettings {
   [[nodiscard]] double tolerated_depth() const { return (1.0 - multiplier_share) * penetration_tolerance; }
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
+  /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew.
+  [[nodiscard]] double followed_gap() const { return multiplier_accuracy * penetration_tolerance; }
+  /// >= 0, of contact points in a step after the first: each leaves about a thousandth of what the last left
+  /// out
+  int contact_evaluations = 3;
   /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.cpp).
   /// Larger makes more of rounding, smaller lets forces alternate longer
   double stop_stiffness = 300.0;

@@ -148,7 +148,6 @@ bool Simulation::reached(double end_time) const {
 }
 
 StepStatus Simulation::step(double end_time) {
-  slowed_.clear();
   double step = next_step_;
   const double left = end_time - time();
   if (left < step - time_rounding(end_time)) step = left;
@@ -159,6 +158,7 @@ StepStatus Simulation::step(double end_time) {
   int moves = 0;
   std::optional<SimulationSnapshot> unmoved;
   const auto pair_up = [&] {
+    trial.results.clear();
     trial.pairs = make_pairs(found, true);
     while (moves < settings_.moves_apart && too_deep(trial.pairs)) {
       if (!unmoved) unmoved = snapshot();
@@ -244,6 +244,12 @@ void Simulation::add_contacts(const std::vector<PassingBlocks>& passing, std::ve
 
 IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
   const Stopwatch watch(seconds_.solve);
+  const auto swap_followed = [&](IslandResult& result) {
+    for (auto& [index, pair] : result.followed) std::swap(trial.pairs[at(index)], pair);
+  };
+  // Of the last try.
+  for (IslandResult& result : trial.results) swap_followed(result);
+  trial.results.clear();
   trial.islands = find_islands(moving_, trial.pairs);
   trial.bodies = prepare_bodies(scheme);
   for (ContactPair& pair : trial.pairs) {
@@ -251,7 +257,6 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
                    trial.bodies[at(pair.b())].prescribed);
     if (settings_.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
   }
-  trial.results.clear();
   for (const Island& island : trial.islands) {
     std::optional<IslandResult> lone;
     if (island.bodies.size() == 1 && island.pairs.empty())
@@ -259,6 +264,7 @@ IslandStatus Simulation::try_step(const TimeScheme& scheme, Trial& trial) {
     trial.results.push_back(
         lone ? std::move(*lone)
              : solve_island(island, trial.bodies, trial.pairs, scheme, settings_, solvers_));
+    swap_followed(trial.results.back());
     counts_.open_close_iterations += static_cast<std::uint64_t>(trial.results.back().iterations);
     counts_.open_close_fallbacks += static_cast<std::uint64_t>(trial.results.back().fallbacks);
     if (trial.results.back().status != IslandStatus::settled) return trial.results.back().status;

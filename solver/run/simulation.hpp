@@ -288,22 +288,6 @@ class Simulation {
   [[nodiscard]] double energy_of_motion(const std::vector<int>& island,
                                         const std::vector<BodyStep>& bodies) const;
 
-  // slowed_slip.cpp
-  /// Impulses against the slip of points that are too deep.
-  struct SlowedSlip {
-    std::map<int, Eigen::MatrixX3d> velocities;  ///< changes, by block
-    std::map<PairKey, Vector3> on_a;             ///< by pair, N s
-    double work_on_supports = 0.0;               ///< J
-  };
-  /// @param energy that they take, J. @return none: slip cannot be why points are deep
-  [[nodiscard]] std::optional<SlowedSlip> slow_slip(const Island& island,
-                                                    const std::vector<ContactPair>& pairs, double step,
-                                                    double energy) const;
-  void apply(const SlowedSlip& slowed);
-  /// Spreads a pair's impulse over its points, as they push. @param forces of the points in their frames, N
-  static void add_impulse(const Vector3& on_a, double step, const std::vector<ContactPoint>& points,
-                          std::vector<PointResponse>& forces);
-
   // end_state.cpp
   /// Whether a block's state at the end of a trial is none that it can have.
   [[nodiscard]] std::optional<StateFault> broken_block(const Trial& trial) const;
@@ -430,7 +414,6 @@ class Simulation {
   std::map<PairKey, ContactMemory> memory_;
   std::map<PairKey, double> contact_work_;  ///< of every pair that ever touched, J
   ContactAccounts taken_;                   ///< by multipliers, of every pair that ever touched
-  std::map<PairKey, Vector3> slowed_;       ///< impulses on a in this step, N s (slowed_slip.cpp)
   std::vector<double> elastic_energies_;    ///< by block, J
   IslandSolvers solvers_;
   LoneBodyFactors lone_factors_;

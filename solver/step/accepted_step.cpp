@@ -140,8 +140,6 @@ void Simulation::accept(const TimeScheme& scheme, Trial& trial) {
         if (!stop.forces.empty()) acted[k].force += stop.forces[k];
       }
       if (settings_.augmented && !scheme.from_rest) tally_friction(acted, laws, scheme.step);
-      if (const auto slowed = slowed_.find({pair.a(), pair.b()}); slowed != slowed_.end())
-        add_impulse(slowed->second, scheme.step, pair.points(), acted);
       records_.push_back({pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps),
                           contact_work_[{pair.a(), pair.b()}] += work + stop.work});
     }

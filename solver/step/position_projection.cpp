@@ -5,9 +5,8 @@
 // velocity of depth over step.
 //
 // The motion lifts weights and strains blocks a little. It takes no more energy for that than contacts have
-// taken from blocks before (contact_accounts.hpp), or take from their slip for it (slowed_slip.cpp). Free
-// blocks that move apart as they pass each other would have another angular momentum: the set of them gets it
-// back as a spin.
+// taken from blocks before (contact_accounts.hpp). Free blocks that move apart as they pass each other would
+// have another angular momentum: the set of them gets it back as a spin.
 #include <algorithm>
 
 #include "geometry/index.hpp"
@@ -76,10 +75,9 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
   std::vector<BlockState> relaxed(blocks_.size());  // of blocks that are moved
   struct MovedIsland {
     const Island* island;
-    std::size_t place;                 // in the funds
-    double energy;                     // that its motion takes
-    Vector3 momentum;                  // angular, before
-    std::optional<SlowedSlip> slowed;  // pays for what the funds do not
+    std::size_t place;  // in the funds
+    double energy;      // that its motion takes
+    Vector3 momentum;   // angular, before
   };
   std::vector<const Island*> deep;
   std::vector<std::vector<PairKey>> contacts;
@@ -110,15 +108,12 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     double energy = energy_of_motion(island.bodies, trial.bodies);
     const double limit = funds.available(n);
     const bool settled = result.status == IslandStatus::settled;
-    std::optional<SlowedSlip> slowed;
-    if (settled && energy > limit) slowed = slow_slip(island, pairs, step, energy - limit);
-    const double share = !settled ? 0.0 : energy > limit && !slowed ? limit / energy : 1.0;
+    const double share = !settled ? 0.0 : energy > limit ? limit / energy : 1.0;
     for (const int k : island.bodies) trial.bodies[at(k)].change *= share;
     if (share == 0.0) continue;
     if (share < 1.0) energy = energy_of_motion(island.bodies, trial.bodies);
     funds.use(n, std::min(energy, limit));
-    moved.push_back(
-        {&island, n, energy, angular_momentum_of(blocks_, island.bodies, states_), std::move(slowed)});
+    moved.push_back({&island, n, energy, angular_momentum_of(blocks_, island.bodies, states_)});
   }
   if (moved.empty()) return false;
   if (const auto passing = check_motion(trial, found); !passing.empty()) {
@@ -136,9 +131,8 @@ bool Simulation::move_apart(double step, std::vector<ContactPair>& pairs, std::v
     states_[k].position += motion;
     note_elastic_energy(k);
   }
-  for (const auto& [island, place, energy, momentum, slowed] : moved) {
+  for (const auto& [island, place, energy, momentum] : moved) {
     ledger_.numerical -= energy;
-    if (slowed) apply(*slowed);
     if (!is_free(*island, pairs)) continue;
     const double gain =
         add_spin(blocks_, island->bodies, momentum - angular_momentum_of(blocks_, island->bodies, states_),

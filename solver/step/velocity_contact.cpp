@@ -52,6 +52,22 @@ bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs
   return any;
 }
 
+/// Takes rows of pairs that were followed to the end of the step.
+void act_at_end(const Island& island, const std::vector<ContactPair>& pairs, const IslandResult& result,
+                const std::vector<BodyStep>& bodies, IslandProblem& problem) {
+  const auto placed = [&](int block) -> BlockInStep {
+    const BodyStep& body = bodies[at(block)];
+    return {body.model, body.state->position, body.state->position, body.prescribed};
+  };
+  for (const auto& followed : result.followed) {
+    const int index = followed.first;
+    const auto place = std::find(island.pairs.begin(), island.pairs.end(), index);
+    const ContactPair& pair = pairs[at(index)];
+    problem.replace(static_cast<std::size_t>(place - island.pairs.begin()),
+                    pair.at_end(placed(pair.a()), placed(pair.b())));
+  }
+}
+
 }  // namespace
 
 bool ContactPair::pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const {
@@ -72,7 +88,7 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
     return (part(rows_a_, stop.inertia_a) + part(rows_b_, stop.inertia_b)) / static_cast<double>(count);
   };
   const double of_tie = tied() ? mobility(0, 3 * static_cast<Eigen::Index>(points_.size())) : 0.0;
-  const Eigen::Matrix3Xd way = relative(ya, yb) - start_;
+  const Eigen::Matrix3Xd way = motion(ya, yb);
   PairResponse result;
   result.points = end.points;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(way.size());
@@ -132,7 +148,9 @@ std::vector<Simulation::StoppedPair> Simulation::stop_at_contacts(const TimeSche
   std::vector<BodyStep> bodies(blocks_.size());
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     bodies[k].model = &blocks_[k];
+    bodies[k].state = &states_[k];
     bodies[k].change = Eigen::VectorXd::Zero(blocks_[k].unknowns());
+    bodies[k].prescribed = trial.bodies[k].prescribed;
   }
   for (std::size_t n = 0; n < trial.islands.size(); ++n) {
     const Island& island = trial.islands[n];
@@ -154,6 +172,7 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
   scheme.inertia = 1.0 / (step * step);
   IslandProblem problem(island, bodies, pairs, scheme, settings_,
                         solver_of(island, bodies, pairs, SystemRole::stop, solvers_));
+  act_at_end(island, pairs, result, bodies, problem);
   // beta/gamma dt - dt/2, 0 but with generalized-alpha
   const double shift = 1.0 / of_step.end_velocity.change - 0.5 * step;
   std::vector<Eigen::VectorXd> start(blocks_.size());  // u times the step
@@ -169,7 +188,7 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
     const auto inertia = [&](int block) { return blocks_[at(block)].material().density * scheme.inertia; };
     std::vector<PairResponse> responses;
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
-      const ContactPair& pair = pairs[at(island.pairs[n])];
+      const ContactPair& pair = problem.pair(n);
       responses.push_back(pair.stopping(result.responses[n], result.laws[n], velocities[at(pair.a())],
                                         velocities[at(pair.b())],
                                         {settings_.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
@@ -202,9 +221,12 @@ void Simulation::stop_island(const TimeScheme& of_step, const Island& island,
     velocities[at(k)] =
         step * blocks_[at(k)].space().restrict(states_[at(k)].velocity) - 0.5 * bodies[at(k)].change;
   for (std::size_t n = 0; n < island.pairs.size(); ++n) {
-    const ContactPair& pair = pairs[at(island.pairs[n])];
+    const ContactPair& pair = problem.pair(n);
     StoppedPair& result_of_pair = stopped[at(island.pairs[n])];
-    for (const MeanResponse& mean : found[n].means) result_of_pair.forces.push_back(mean.force);
+    const std::vector<ContactPoint>& points = pairs[at(island.pairs[n])].points();
+    for (std::size_t k = 0; k < points.size(); ++k)
+      result_of_pair.forces.push_back(
+          in_frame(points[k], out_of_frame(pair.points()[k], found[n].means[k].force)));
     result_of_pair.work = pair.work(found[n], velocities[at(pair.a())], velocities[at(pair.b())]);
     // Supports that move are pushed against.
     ledger_.applied -= pair.prescribed_work(found[n]);
