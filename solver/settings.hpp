@@ -89,6 +89,12 @@ struct MultiplierSettings {
   [[nodiscard]] double tolerated_depth() const { return (1.0 - share) * penetration_tolerance; }
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double accuracy = 1e-6;
+  /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew
+  /// (notes/contact_at_the_end_of_a_step.md).
+  [[nodiscard]] double followed_gap() const { return accuracy * penetration_tolerance; }
+  /// >= 0, of contact points in a step after the first: each leaves about a thousandth of what the last left
+  /// out
+  int contact_evaluations = 3;
   /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.hpp).
   /// Larger makes more of rounding, smaller lets forces alternate longer
   double stop_stiffness = 300.0;

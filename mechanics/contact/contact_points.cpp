@@ -73,54 +73,13 @@ class CellMap {
   Eigen::Matrix<double, 3, 2> placed_slope_;
 };
 
-struct Foot {
-  Vector3 material;
-  Vector3 place;
-  Vector3 normal;  ///< outward of the body it is on
-};
-
-/// Closest point of a face's polynomial surface to a point, by Gauss-Newton in the face's plane from a start
-/// on it. For an affine block it is exact after one step; else the contraction per step is gap times
-/// curvature, and the step limit only cuts what is below rounding.
-Foot closest_point(const ContactBody& body, int face, const Vector3& start, const Vector3& target) {
-  const PolynomialBasis& basis = body.model->basis();
-  const ViewFrame plane(start, body.model->solid().faces()[at(face)].normal);
-  Eigen::Matrix<double, 3, 2> directions;
-  directions << plane.e1, plane.e2;
-  Foot foot{start, Vector3::Zero(), Vector3::Zero()};
-  constexpr int step_limit = 8;
-  const double smallest = 1e-14 * (body.placed->box().high - body.placed->box().low).norm();
-  for (int step = 0; step <= step_limit; ++step) {
-    foot.place = body.state->position.transpose() * basis.values(foot.material);
-    const Eigen::Matrix<double, 3, 2> tangents =
-        body.state->position.transpose() * (basis.gradients(foot.material) * directions);
-    foot.normal = tangents.col(0).cross(tangents.col(1)).normalized();
-    const Eigen::Matrix2d metric = tangents.transpose() * tangents;
-    const Eigen::Vector2d change = metric.inverse() * (tangents.transpose() * (target - foot.place));
-    if (step == step_limit || (tangents * change).norm() <= smallest) break;
-    foot.material += directions * change;
-  }
-  return foot;
+PlacedBlock placed_block(const ContactBody& body) {
+  return {body.model, &body.state->position};
 }
 
-Vector3 true_place(const ContactBody& body, const Vector3& material) {
-  return body.state->position.transpose() * body.model->basis().values(material);
-}
-
-void complete(ContactPoint& point) {
-  const ViewFrame frame(Vector3::Zero(), point.normal);
-  point.tangent_1 = frame.e1;
-  point.tangent_2 = frame.e2;
-  point.gap = point.normal.dot(point.place_a - point.place_b);
-}
-
-/// Puts the foot of the slave's point on the master's true surface.
-void set_foot(ContactPoint& point, const ContactBody& master, int face, bool master_is_a) {
-  const Foot foot = closest_point(master, face, master_is_a ? point.material_a : point.material_b,
-                                  master_is_a ? point.place_b : point.place_a);
-  (master_is_a ? point.material_a : point.material_b) = foot.material;
-  (master_is_a ? point.place_a : point.place_b) = foot.place;
-  point.normal = master_is_a ? Vector3(-foot.normal) : foot.normal;
+/// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
+bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved) {
+  return curved || (is_affine(*a.model) && is_affine(*b.model));
 }
 
 /// Makes the contact points of two cells that face each other.
@@ -144,10 +103,13 @@ class OverlapPoints {
     point.material_a = map_a_.reference(place);
     point.material_b = map_b_.reference(place);
     point.area = area;
+    if (has_true_places(a_, b_, curved_))
+      point.source = master_is_a_ ? NormalSource::face_of_a : NormalSource::face_of_b;
     if (curved_) {
-      point.place_a = true_place(a_, point.material_a);
-      point.place_b = true_place(b_, point.material_b);
-      set_foot(point, master_is_a_ ? a_ : b_, master_is_a_ ? point.face_a : point.face_b, master_is_a_);
+      point.place_a = place_of(placed_block(a_), point.material_a);
+      point.place_b = place_of(placed_block(b_), point.material_b);
+      set_foot(point, placed_block(master_is_a_ ? a_ : b_), master_is_a_ ? point.face_a : point.face_b,
+               master_is_a_);
     } else {
       point.place_a = map_a_.placed(place);
       point.place_b = map_b_.placed(place);
@@ -169,10 +131,6 @@ class OverlapPoints {
   CellMap map_a_;
   CellMap map_b_;
 };
-
-bool is_affine(const ContactBody& body) {
-  return body.model->fixed() || body.model->order() == 1;
-}
 
 /// A remembered cut as seen in an overlap. @param map of the block's cell that it is remembered in
 PressureEnd seen(const PressureCut& cut, const CellMap& map) {
@@ -220,7 +178,7 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
   const PolygonRule whole = polygon_rule(outline, degree);
   add_points(whole);
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
-  const bool true_gaps = !settings.multipliers && (settings.curved || (is_affine(a) && is_affine(b)));
+  const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
   std::optional<PressureEnd> end;
   if (true_gaps)
     end = cut_of(overlap, outline, whole, points, make, coordinate_rounding(*a.placed, *b.placed), known);
@@ -268,8 +226,10 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
   point.place_a = contact.vertex_of_a ? place : foot;
   point.place_b = contact.vertex_of_a ? foot : place;
   point.area = contact.area;
+  if (has_true_places(a, b, settings.curved))
+    point.source = contact.vertex_of_a ? NormalSource::face_of_b : NormalSource::face_of_a;
   if (settings.curved) {
-    set_foot(point, with_cell, face, !contact.vertex_of_a);
+    set_foot(point, placed_block(with_cell), face, !contact.vertex_of_a);
   } else {
     point.normal = contact.vertex_of_a ? normal : Vector3(-normal);
   }
@@ -289,7 +249,7 @@ SidePoint side_point(const ContactBody& body, const CrossedSide& side, bool curv
   };
   SidePoint point;
   point.material = between(reference_point(body, side.ends[0]), reference_point(body, side.ends[1]));
-  point.place = curved ? true_place(body, point.material)
+  point.place = curved ? place_of(placed_block(body), point.material)
                        : between(body.placed->point(side.ends[0]), body.placed->point(side.ends[1]));
   return point;
 }
@@ -308,6 +268,12 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
   point.place_b = on_b.place;
   point.normal = contact.normal;
   point.area = contact.area;
+  if (has_true_places(a, b, settings.curved)) point.source = NormalSource::edges;
+  const auto edge_of = [](const ContactBody& body, const CrossedSide& side) {
+    return Vector3(reference_point(body, side.ends[1]) - reference_point(body, side.ends[0]));
+  };
+  point.edge_a = edge_of(a, contact.of_a);
+  point.edge_b = edge_of(b, contact.of_b);
   complete(point);
   points.push_back(point);
 }

@@ -15,36 +15,17 @@
 
 #include "geometry/contacts/contact_search.hpp"
 #include "geometry/contacts/overlap_vertices.hpp"
-#include "mechanics/block/block_model.hpp"
+#include "mechanics/contact/contact_kinematics.hpp"
 #include "mechanics/contact/joint_law.hpp"
 #include "mechanics/contact/pressure_end.hpp"
 
 namespace ashlar {
-
-/// How a contact point came about.
-enum class ContactPointType { face_face, vertex_face, edge_edge };
 
 /// A block with its surface and its present state.
 struct ContactBody {
   const BlockModel* model;
   const BlockState* state;
   const PlacedSurface* placed;
-};
-
-/// One point-to-face contact between blocks a and b.
-struct ContactPoint {
-  ContactPointType type;
-  int face_a;  ///< faces of the polyhedra that meet here
-  int face_b;
-  Vector3 material_a;  ///< reference coordinates, m
-  Vector3 material_b;
-  Vector3 place_a;  ///< current coordinates, m
-  Vector3 place_b;
-  Vector3 normal;     ///< unit, out of b
-  Vector3 tangent_1;  ///< with normal and tangent_2 a right-handed orthonormal frame
-  Vector3 tangent_2;
-  double gap;   ///< n . (x_a - x_b), m
-  double area;  ///< m^2
 };
 
 /// How contact points are made.

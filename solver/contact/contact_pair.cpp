@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "mechanics/basis/field_moments.hpp"
-
 namespace ashlar {
 namespace {
 
@@ -97,26 +95,19 @@ bool is_free(const ContactBody& body) {
   return !body.model->fixed() && body.model->space().free();
 }
 
-/// Position at the middle of the step. @param change of the coefficients, stacked
-Eigen::MatrixX3d middle_of(const Eigen::MatrixX3d& start, const Eigen::VectorXd& change) {
-  return start + 0.5 * Eigen::Map<const Eigen::MatrixX3d>(change.data(), start.rows(), 3);
-}
-
-/// @param force stacked
-Vector3 torque_of(const Eigen::MatrixX3d& position, const Eigen::VectorXd& force) {
-  return integral_of_cross(position, Eigen::Map<const Eigen::MatrixX3d>(force.data(), position.rows(), 3));
-}
-
-/// Forces f_a = w x q_a that have no resultant and the given torque, stacked as the unknowns of a free block
-/// are. @param position coefficients
-Eigen::VectorXd turning_force(Eigen::MatrixX3d position, const Vector3& torque) {
-  // Only the first function has a mean, so that what is left of it turns about the centroid.
-  position.row(0).setZero();
-  const Vector3 w = unit_inertia(position).ldlt().solve(torque);
-  return turning_field(w, position).reshaped();
+MeanDeformation mean_deformation(const ContactBody& body) {
+  const std::shared_ptr<const BlockParts>& parts = body.model->parts();
+  return {parts, body.state->position.transpose() * parts->mean_gradients};
 }
 
 }  // namespace
+
+Eigen::MatrixX3d MeanDeformation::levers(const Eigen::VectorXd& change) const {
+  const Eigen::MatrixX3d& gradients = parts->mean_gradients;
+  const Eigen::Map<const Eigen::MatrixX3d> motion(change.data(), gradients.rows(), 3);
+  const Eigen::Matrix3d middle = start + 0.5 * motion.transpose() * gradients;
+  return gradients * middle.inverse();
+}
 
 ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
                          const JointLaw& law, const std::vector<ContactPoint>& points,
@@ -150,11 +141,12 @@ ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactB
       // The forces of a tie are along the gap, so that they have no couple worth the name.
       free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
   if (free_pair_) {
-    // From where both are, so that the torques of opposite forces cancel far from the origin too.
-    const double volume_a = body_a.model->basis().volume();
-    const Vector3 origin = mean_of(body_a.state->position, volume_a);
-    position_a_ = from_point(body_a.state->position, volume_a, origin);
-    position_b_ = from_point(body_b.state->position, body_b.model->basis().volume(), origin);
+    deformation_a_ = mean_deformation(body_a);
+    deformation_b_ = mean_deformation(body_b);
+    apart_.resize(3, start_.cols());
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      apart_.col(static_cast<Eigen::Index>(k)) =
+          in_frame(points_[k], points_[k].place_a - points_[k].place_b);
   }
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
@@ -290,8 +282,8 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
         0.5 * laws_[k].shear_stiffness * start_.col(static_cast<Eigen::Index>(k)).tail<2>().squaredNorm();
 }
 
-Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  Eigen::Matrix3Xd result = start_;
+Eigen::Matrix3Xd ContactPair::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, start_.cols());
   Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
   if (rows_a_.cols() > 0) flat.noalias() += rows_a_ * ya;
   if (rows_b_.cols() > 0) flat.noalias() -= rows_b_ * yb;
@@ -299,24 +291,75 @@ Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::V
   return result;
 }
 
+Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  Eigen::Matrix3Xd result = start_ + motion(ya, yb);
+  if (bent_.size() > 0) result.row(0) += bent_;
+  return result;
+}
+
 void ContactPair::prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
                             const Eigen::MatrixX3d& change_b) {
+  set_prescribed(points_, a, change_a, b, change_b);
+}
+
+void ContactPair::set_prescribed(const std::vector<ContactPoint>& acting, const BlockModel& a,
+                                 const Eigen::MatrixX3d& change_a, const BlockModel& b,
+                                 const Eigen::MatrixX3d& change_b) {
   prescribed_.resize(3, 0);
   if (change_a.size() == 0 && change_b.size() == 0) return;
   prescribed_.setZero(3, start_.cols());
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const ContactPoint& point = points_[k];
+  for (std::size_t k = 0; k < acting.size(); ++k) {
     Vector3 motion = Vector3::Zero();
     const auto row = static_cast<Eigen::Index>(k);
     const auto values = [&](const BlockModel& block, const Vector3& material, bool of_a) -> Eigen::VectorXd {
       if (tied()) return (of_a ? tie_->a : tie_->b).row(row).transpose();
       return block.basis().values(material);
     };
-    if (change_a.size() > 0) motion += change_a.transpose() * values(a, point.material_a, true);
-    if (change_b.size() > 0) motion -= change_b.transpose() * values(b, point.material_b, false);
-    prescribed_.col(static_cast<Eigen::Index>(k)) << point.normal.dot(motion), point.tangent_1.dot(motion),
-        point.tangent_2.dot(motion);
+    if (change_a.size() > 0) motion += change_a.transpose() * values(a, acting[k].material_a, true);
+    if (change_b.size() > 0) motion -= change_b.transpose() * values(b, acting[k].material_b, false);
+    prescribed_.col(row) = in_frame(acting[k], motion);
   }
+}
+
+void ContactPair::act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a,
+                         const BlockInStep& b) {
+  rows_a_ = contact_rows(*a.model, acting, values_at(*a.model, acting, true));
+  rows_b_ = contact_rows(*b.model, acting, values_at(*b.model, acting, false));
+  set_prescribed(acting, *a.model, a.prescribed, *b.model, b.prescribed);
+  for (std::size_t k = 0; k < acting.size(); ++k) {
+    points_[k].normal = acting[k].normal;
+    points_[k].tangent_1 = acting[k].tangent_1;
+    points_[k].tangent_2 = acting[k].tangent_2;
+  }
+}
+
+void ContactPair::follow(const BlockInStep& a, const BlockInStep& b, const Eigen::VectorXd& ya,
+                         const Eigen::VectorXd& yb) {
+  std::vector<ContactPoint> middle;
+  middle.reserve(points_.size());
+  for (const ContactPoint& point : points_)
+    middle.push_back(moved_to(point, {a.model, &a.middle}, {b.model, &b.middle}));
+  act_at(middle, a, b);
+  const Eigen::Matrix3Xd way = motion(ya, yb);
+  bent_.setZero(static_cast<Eigen::Index>(points_.size()));
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    if (free_pair_)
+      apart_.col(column) = in_frame(middle[k], middle[k].place_a - middle[k].place_b) - 0.5 * way.col(column);
+    if (points_[k].source == NormalSource::as_found) continue;
+    const ContactPoint end = moved_to(middle[k], {a.model, &a.end}, {b.model, &b.end});
+    bent_[column] = end.gap - points_[k].gap - way(0, column);
+  }
+}
+
+ContactPair ContactPair::at_end(const BlockInStep& a, const BlockInStep& b) const {
+  ContactPair pair = *this;
+  std::vector<ContactPoint> end;
+  end.reserve(points_.size());
+  for (const ContactPoint& point : points_)
+    end.push_back(moved_to(point, {a.model, &a.end}, {b.model, &b.end}));
+  pair.act_at(end, a, b);
+  return pair;
 }
 
 double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
@@ -385,15 +428,25 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     forces.segment<3>(3 * column) = response.means.back().force;
   }
   set_block_forces(forces, response);
-  if (free_pair_) {
-    const Eigen::MatrixX3d middle_a = middle_of(position_a_, ya);
-    const Eigen::MatrixX3d middle_b = middle_of(position_b_, yb);
-    const Vector3 couple =
-        torque_of(middle_a, response.force_on_a) + torque_of(middle_b, response.force_on_b);
-    response.turning_on_a = turning_force(middle_a, -0.5 * couple);
-    response.turning_on_b = turning_force(middle_b, -0.5 * couple);
-  }
+  if (free_pair_) shift_to_common_points(ya, yb, forces, response);
   return response;
+}
+
+void ContactPair::shift_to_common_points(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                                         const Eigen::VectorXd& forces, PairResponse& response) const {
+  const Eigen::Matrix3Xd apart = apart_ + 0.5 * motion(ya, yb);
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // r f'
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const ContactPoint& point = points_[k];
+    const Vector3 force = forces.segment<3>(3 * column);
+    const Vector3 r = apart.col(column);
+    const Vector3 along = out_of_frame(point, {0.0, force[1], force[2]});
+    moment += force[0] * out_of_frame(point, {0.0, r[1], r[2]}) * point.normal.transpose() +
+              out_of_frame(point, r) * along.transpose();
+  }
+  response.shift_on_a = (-0.5 * deformation_a_.levers(ya) * moment).reshaped();
+  response.shift_on_b = (-0.5 * deformation_b_.levers(yb) * moment).reshaped();
 }
 
 void ContactPair::set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const {

@@ -1,8 +1,8 @@
-// The contact of two blocks within one step: constant rows, and forces as a function of both blocks'
-// unknowns.
+// The contact of two blocks within one step: forces of its points as a function of both blocks' unknowns.
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
@@ -18,16 +18,25 @@ struct PairResponse {
   std::vector<MeanResponse> means;    ///< what acts in the equations of motion
   Eigen::VectorXd force_on_a;         ///< of the springs, (unknowns of a)
   Eigen::VectorXd force_on_b;         ///< (unknowns of b)
-  Eigen::VectorXd turning_on_a;  ///< that balances their couple, see ContactPair; empty unless both are free
-  Eigen::VectorXd turning_on_b;
+  Eigen::VectorXd shift_on_a;  ///< of forces to common points, see ContactPair; empty unless both are free
+  Eigen::VectorXd shift_on_b;
 
-  [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, turning_on_a); }
-  [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, turning_on_b); }
+  [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, shift_on_a); }
+  [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, shift_on_b); }
 
  private:
-  static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& turning) {
-    return turning.size() > 0 ? Eigen::VectorXd(force + turning) : force;
+  static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& shift) {
+    return shift.size() > 0 ? Eigen::VectorXd(force + shift) : force;
   }
+};
+
+/// Mean deformation of a free block over a step.
+struct MeanDeformation {
+  std::shared_ptr<const BlockParts> parts;
+  Eigen::Matrix3d start = Eigen::Matrix3d::Identity();  ///< gradient at the start of the step
+
+  /// B of ContactPair. @param change of the unknowns. @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d levers(const Eigen::VectorXd& change) const;
 };
 
 /// How points that push are stopped (velocity_contact.cpp).
@@ -38,15 +47,26 @@ struct Stop {
   double allowed_way = 0.0;  ///< m: points that their force moves by less in a step count for little
 };
 
-/// The force of a point acts on a at x_a and on b at x_b, the true places of the material points. Where these
-/// differ, by the gap, because a slides on b within the step or because feet are taken on flat sub-faces, the
-/// two forces are a couple r x F, r = x_a - x_b at the middle of the step, which would change the angular
-/// momentum of two free blocks. Half of its opposite is then given to each of them as the forces of a rigid
-/// angular acceleration, which strain nothing.
+/// A block in the middle and at the end of a step, at a guess of its unknowns.
+struct BlockInStep {
+  const BlockModel* model;
+  Eigen::MatrixX3d middle;      ///< position, (p, 3)
+  Eigen::MatrixX3d end;         ///< position, (p, 3)
+  Eigen::MatrixX3d prescribed;  ///< change of the position by supports that move; empty: none
+};
+
+/// Points are linear in the unknowns: with ya, yb the changes of the blocks' unknowns,
+///   gap = g0 + b + n . (C_a ya - C_b yb)
+/// and likewise the slip (theory.md section 7, where H = rows_a, Q = rows_b). Rows, normals and tangents are
+/// those at the start of the step, b = 0, until follow() takes them to the middle of the step, and b to what
+/// makes the gap that of the end of the step (notes/contact_at_the_end_of_a_step.md).
 ///
-/// Constant after construction. Points are linear in the unknowns within a step: with ya, yb the changes of
-/// the blocks' unknowns,  gap = g0 + n . (C_a ya - C_b yb)  and likewise the slip (theory.md section 7,
-/// where H = rows_a, Q = rows_b).
+/// The force f of a point acts on a at x_a and on b at x_b, the places of the material points in the middle
+/// of the step. Where these differ, r = x_a - x_b, both forces of free blocks are shifted to the place half
+/// way between them, so that they have no couple: by -1/2 B (r f') on each block, with
+///   B = G inverse(F),  sum_k x_k B_k = I    G: mean gradients of the functions, F: mean deformation gradient
+/// in the middle of the step. That is the force at the common point of an affine block, and has its resultant
+/// and torque for any. Normal forces are not shifted along the normal.
 class ContactPair {
  public:
   /// @param a,b indices of the blocks, used by the solver only. @param cuts that the points come from, to be
@@ -115,10 +135,17 @@ class ContactPair {
   /// 3), empty: none
   void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
                  const Eigen::MatrixX3d& change_b);
+  /// Takes rows and normals to the middle of the step and gaps to its end, at a guess of the unknowns.
+  void follow(const BlockInStep& a, const BlockInStep& b, const Eigen::VectorXd& ya,
+              const Eigen::VectorXd& yb);
+  /// The pair with rows and normals of the end of the step, for velocities there.
+  [[nodiscard]] ContactPair at_end(const BlockInStep& a, const BlockInStep& b) const;
+  /// Motion of a relative to b at each point in its frame, m, linear in the changes. @return (3, #points)
+  [[nodiscard]] Eigen::Matrix3Xd motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Work of the contact forces on both blocks, on prescribed motion too, J.
   [[nodiscard]] double work(const PairResponse& response, const Eigen::VectorXd& ya,
                             const Eigen::VectorXd& yb) const;
-  /// Its part without that of what balances the couple, J.
+  /// Its part without that of the shift to common points, J.
   [[nodiscard]] double spring_work(const PairResponse& response, const Eigen::VectorXd& ya,
                                    const Eigen::VectorXd& yb) const;
   /// Its part on prescribed motion, J.
@@ -165,13 +192,6 @@ class ContactPair {
                          const std::vector<Eigen::Vector3d>& impulses, double step,
                          std::vector<PointMemory>& memory) const;
 
-  // slowed_slip.cpp
-  /// Forces against slip, N m/s: of each point that pushes and is deeper than `depth`, m, its normal force at
-  /// the start times its slip. Bonds have none.
-  /// @param ya,yb velocities of the unknowns
-  [[nodiscard]] PairResponse against_slip(double depth, const Eigen::VectorXd& ya,
-                                          const Eigen::VectorXd& yb) const;
-
   // rigid_onset.cpp
   /// The pair as blocks feel it that set off from rest: points that a response has closed are rigid, with
   /// their forces as multipliers, those that it has opened never touch. Ties stay as they are.
@@ -208,6 +228,14 @@ class ContactPair {
     return area_springs_ ? point.area : 1.0;
   }
   void respond_at_start();
+  /// Takes rows and frames from contact points in a configuration.
+  void act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b);
+  /// @param acting points where they act
+  void set_prescribed(const std::vector<ContactPoint>& acting, const BlockModel& a,
+                      const Eigen::MatrixX3d& change_a, const BlockModel& b,
+                      const Eigen::MatrixX3d& change_b);
+  void shift_to_common_points(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                              const Eigen::VectorXd& forces, PairResponse& response) const;
   /// Trial slip at the start that no spring holds, of a load level, m.
   [[nodiscard]] Eigen::Vector2d slid_before(std::size_t point) const;
   /// A vector along the surface at a point.
@@ -216,7 +244,7 @@ class ContactPair {
   void rest_at(std::vector<double> rests);
   /// @param forces (3 #points)
   void set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
-  /// Gap over the rest and trial slip of every point, linear in the changes. @return (3, #points)
+  /// Gap over the rest and trial slip of every point at the end of the step. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
 
   int a_;
@@ -237,10 +265,12 @@ class ContactPair {
   Eigen::MatrixXd rows_b_;
   const Tie* tie_;  ///< null for contacts
   bool rigid_;
-  bool area_springs_;            ///< multipliers are remembered per area
-  bool free_pair_;               ///< nothing but the other block holds either
-  Eigen::MatrixX3d position_a_;  ///< coefficients at the start of the step from a point near, of free pairs
-  Eigen::MatrixX3d position_b_;
+  bool area_springs_;              ///< multipliers are remembered per area
+  bool free_pair_;                 ///< nothing but the other block holds either
+  MeanDeformation deformation_a_;  ///< of free pairs
+  MeanDeformation deformation_b_;
+  Eigen::Matrix3Xd apart_;   ///< r in the middle of the step without motion
+  Eigen::RowVectorXd bent_;  ///< b, m; empty: none
 };
 
 }  // namespace ashlar

@@ -12,7 +12,7 @@
 #include "solver/step/applied_force.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
-#include "solver/step/slowed_slip.hpp"
+
 #include "solver/step/velocity_contact.hpp"
 
 namespace ashlar {
@@ -179,14 +179,13 @@ struct AcceptedPair {
   const Eigen::VectorXd& change_of_a;
   const Eigen::VectorXd& change_of_b;
   const StoppedPair& stopped;
-  const Vector3* slip_impulse;  ///< on a, N s; null: none
 };
 
 /// Keeps what the points of a pair remember, and the record of the step. @param work of the step, J
 /// @param bulge of both blocks, m
 void remember(const RunContext& run, const AcceptedPair& accepted, const TimeScheme& scheme, double work,
               double bulge) {
-  const auto& [pair, response, laws, ya, yb, stopped, slip_impulse] = accepted;
+  const auto& [pair, response, laws, ya, yb, stopped] = accepted;
   const SimulationSettings& settings = run.settings();
   auto gaps = pair.gaps(ya, yb);
   double deepest = 0.0;
@@ -207,7 +206,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   }
   if (settings.augmented && !scheme.from_rest)
     tally_friction(acted, laws, scheme.step, run.state.extremes.sliding_friction);
-  if (slip_impulse != nullptr) add_impulse(*slip_impulse, scheme.step, pair.points(), acted);
+
   history.work += work + stopped.work;
   run.state.records.push_back(
       {pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps), history.work});
@@ -263,9 +262,8 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       if (run.settings().augmented && !scheme.from_rest)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
       count_states(response, report);
-      const auto slowed = problem.slip_impulses.find({pair.a(), pair.b()});
-      const Vector3* impulse = slowed == problem.slip_impulses.end() ? nullptr : &slowed->second;
-      remember(run, {pair, response, result.laws[n], ya, yb, stopped[index], impulse}, scheme, work,
+
+      remember(run, {pair, response, result.laws[n], ya, yb, stopped[index]}, scheme, work,
                bulges.of(pair.a()) + bulges.of(pair.b()));
     }
   }

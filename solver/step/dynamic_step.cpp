@@ -55,6 +55,7 @@ class DynamicStep {
   /// Makes the contact pairs of the step. Blocks that are too deep are moved apart first.
   void pair_up() {
     const int most = run_.settings().multipliers.moves_apart;
+    problem_.results.clear();
     problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
     while (moves_ < most && too_deep(run_, problem_.pairs)) {
       if (!unmoved_) unmoved_ = snapshot_of(run_);

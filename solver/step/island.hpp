@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "solver/contact/contact_pair.hpp"
@@ -42,6 +43,8 @@ struct IslandResult {
   int fallbacks = 0;                        ///< times the fallback was needed
   std::vector<PairResponse> responses;      ///< of the island's pairs, at the end of the step
   std::vector<std::vector<PointLaw>> laws;  ///< of their points: broken joints, multipliers
+  /// Pairs whose rows were taken anew, by index: those that responses are of
+  std::vector<std::pair<int, ContactPair>> followed;
 };
 
 /// Factorisations that are kept from step to step, by the blocks and pairs of an island.

@@ -23,6 +23,7 @@ int IslandProblem::place(int block) const {
 }
 
 const ContactPair& IslandProblem::pair(std::size_t k) const {
+  if (const auto replaced = replaced_.find(k); replaced != replaced_.end()) return replaced->second;
   return pairs_[at(island_.pairs[k])];
 }
 
@@ -215,7 +216,58 @@ double IslandProblem::given(std::size_t k) const {
   return pair(k).spring_work(responses_[k], ya, yb) + pair(k).friction_work(responses_[k], laws_[k], ya, yb);
 }
 
+BlockInStep IslandProblem::placed(const BodyStep& body) const {
+  if (body.model->fixed()) return {body.model, body.state->position, body.state->position, {}};
+  const Eigen::MatrixX3d motion = body.motion();
+  return {body.model, body.state->position + 0.5 * motion, body.state->position + motion, body.prescribed};
+}
+
+double IslandProblem::left_out(std::size_t k) const {
+  const BodyStep& a = bodies_[at(pair(k).a())];
+  const BodyStep& b = bodies_[at(pair(k).b())];
+  const Eigen::Matrix3Xd motion = pair(k).motion(a.change, b.change);
+  const auto slip = [&](const Eigen::Matrix3Xd& way) {
+    double most = 0.0;
+    for (std::size_t n = 0; n < responses_[k].points.size(); ++n) {
+      if (responses_[k].points[n].state == ContactState::open) continue;
+      most = std::max(most, way.col(static_cast<Eigen::Index>(n)).tail<2>().norm());
+    }
+    return most;
+  };
+  const auto turn = [](const BlockModel& model, const Eigen::MatrixX3d& way) {
+    return (way.transpose() * model.parts()->mean_gradients).norm();
+  };
+  const auto turned = [&](const BodyStep& body) {
+    return body.model->fixed() ? 0.0 : turn(*body.model, body.motion());
+  };
+  const auto found = followed_.find(k);
+  const double slipped = slip(motion);
+  if (slipped == 0.0) return 0.0;
+  const double turns = std::max(turned(a), turned(b));
+  if (found == followed_.end()) return turns * slipped;
+  const auto turned_since = [&](const BodyStep& body, const Eigen::VectorXd& change) {
+    return body.model->fixed() ? 0.0 : turn(*body.model, body.model->space().expand(body.change - change));
+  };
+  return turns * slip(motion - found->second.motion) +
+         std::max(turned_since(a, found->second.change_a), turned_since(b, found->second.change_b)) * slipped;
+}
+
+bool IslandProblem::follow_contacts(double tolerance) {
+  bool any = false;
+  for (std::size_t k = 0; k < pairs(); ++k) {
+    if (pair(k).tied() || !(left_out(k) > tolerance)) continue;
+    const BodyStep& a = bodies_[at(pair(k).a())];
+    const BodyStep& b = bodies_[at(pair(k).b())];
+    ContactPair& moved = replaced_.try_emplace(k, pair(k)).first->second;
+    moved.follow(placed(a), placed(b), a.change, b.change);
+    followed_.insert_or_assign(k, Followed{a.change, b.change, moved.motion(a.change, b.change)});
+    any = true;
+  }
+  return any;
+}
+
 void IslandProblem::hand_over(IslandResult& result) {
+  for (auto& [k, pair] : replaced_) result.followed.emplace_back(island_.pairs[k], std::move(pair));
   result.responses = std::move(responses_);
   result.laws = std::move(laws_);
 }

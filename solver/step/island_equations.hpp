@@ -53,19 +53,27 @@ class IslandProblem {
 
   [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
+  /// Takes a pair for one of the island's.
+  void replace(std::size_t k, ContactPair pair) { replaced_.insert_or_assign(k, std::move(pair)); }
   [[nodiscard]] const std::vector<PairResponse>& responses() const { return responses_; }
   [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
+  /// Takes rows to the middle and gaps to the end of the step at the present guess (ContactPair::follow), of
+  /// pairs where that makes a difference. @param tolerance of gaps, m. @return whether there are any
+  [[nodiscard]] bool follow_contacts(double tolerance);
   /// Work of a pair's contact on its blocks at the last responses, that of sliding left out, J.
   [[nodiscard]] double given(std::size_t pair) const;
-  /// Moves responses and laws out, when the iteration has ended.
+  /// Moves responses, laws and pairs that were followed out, when the iteration has ended.
   void hand_over(IslandResult& result);
 
  private:
   [[nodiscard]] int place(int block) const;
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   void assemble(bool positive);
+  [[nodiscard]] BlockInStep placed(const BodyStep& body) const;
+  /// What rows that are not taken anew leave out of the gaps of a pair's closed points, m.
+  [[nodiscard]] double left_out(std::size_t pair) const;
   [[nodiscard]] Eigen::VectorXd part(const Eigen::VectorXd& of_island, int block) const;
 
   const Island& island_;
@@ -74,7 +82,16 @@ class IslandProblem {
   const SimulationSettings& settings_;
   const TimeScheme& scheme_;
   IslandSolvers::Entry& solver_;
+  /// Where a pair was followed.
+  struct Followed {
+    Eigen::VectorXd change_a;
+    Eigen::VectorXd change_b;
+    Eigen::Matrix3Xd motion;  ///< of its points then
+  };
+
   std::map<int, int> place_;
+  std::map<std::size_t, ContactPair> replaced_;
+  std::map<std::size_t, Followed> followed_;
   std::vector<PairResponse> responses_;
   std::vector<std::vector<PointLaw>> laws_;
 };

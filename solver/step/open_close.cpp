@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace ashlar {
 namespace {
@@ -22,7 +23,7 @@ class OpenClose {
   Outcome run() {
     bond();
     start();
-    for (int rounds = 0;;) {
+    for (int rounds = 0, evaluations = 0;;) {
       Outcome outcome = newton(settings_.iteration.newton_iterations, false);
       if (outcome == Outcome::stalled) {
         ++result_.fallbacks;
@@ -30,11 +31,14 @@ class OpenClose {
       }
       if (outcome != Outcome::settled) return outcome;
       if (!break_joints()) {
-        if (!settings_.augmented || !(stiffen() || lower_multipliers())) {
+        if (settings_.augmented && (stiffen() || lower_multipliers())) {
+          if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
+        } else if (evaluations < settings_.contact_evaluations && follow()) {
+          ++evaluations;
+        } else {
           if (factorized_) polish();
           return outcome;
         }
-        if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
       }
       problem_.respond();
     }
@@ -95,6 +99,13 @@ class OpenClose {
     if (problem_.balance().settled()) return;
     problem_.set_guess(guess);
     problem_.respond();
+  }
+
+  /// Takes rows of contact points to where they act. @return whether any were elsewhere
+  bool follow() {
+    if (problem_.scheme().from_rest) return false;
+    followed_ = problem_.follow_contacts(settings_.followed_gap());
+    return followed_;
   }
 
   /// Joints with tensile strength do not break, and those with cohesion do not lose it, before what pulls at
@@ -222,6 +233,11 @@ class OpenClose {
     least_ = std::numeric_limits<double>::infinity();
     int without_gain = 0;
     bool last_factor = false;  // was used once more
+    // Rows that were taken anew hardly differ: the last factor will do as long as it takes most of what is
+    // left.
+    constexpr double most_of_it = 0.1;
+    double last =
+        std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
       const Balance balance = problem_.balance();
@@ -243,7 +259,10 @@ class OpenClose {
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
       seen.push_back(std::move(states));
       // The last factor will do for what is left.
-      const bool nearly = as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled;
+      const bool falls = balance.worst < most_of_it * last;
+      last = falls ? balance.worst : 0.0;
+      const bool nearly =
+          falls || (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
       last_factor = nearly;
       factorized_ = true;
       if (!nearly && problem_.factorize() != FactorStatus::success) return Outcome::singular;
@@ -373,6 +392,7 @@ class OpenClose {
   std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
   double beyond_ = 0.5;                ///< multiples of a fall of force that multipliers are lowered below it
   bool factorized_ = false;            ///< by newton()
+  bool followed_ = false;              ///< rows were taken anew since newton() was called
   double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
 };

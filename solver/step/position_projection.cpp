@@ -9,7 +9,7 @@
 #include "solver/step/angular_momentum.hpp"
 #include "solver/step/applied_force.hpp"
 #include "solver/step/block_changes.hpp"
-#include "solver/step/slowed_slip.hpp"
+
 #include "solver/step/velocity_contact.hpp"
 #include "solver/stopwatch.hpp"
 
@@ -21,10 +21,9 @@ constexpr double inertia_share = 0.01;  // of that of a step: blocks move rather
 /// An island whose blocks are moved.
 struct MovedIsland {
   const Island* island;
-  std::size_t place;                 // in the funds
-  double energy;                     // that its motion takes, J
-  Vector3 momentum;                  // angular, before
-  std::optional<SlowedSlip> slowed;  // pays for what the funds do not
+  std::size_t place;  // in the funds
+  double energy;      // that its motion takes, J
+  Vector3 momentum;   // angular, before
 };
 
 /// Energy that a motion without velocity takes from outside: of elasticity and gravity without the work of
@@ -90,8 +89,8 @@ void relax(const RunContext& run, const Island& island, std::vector<BlockState>&
   }
 }
 
-/// Finds the motion of each deep island, as much of it as its funds and its slip pay for.
-std::vector<MovedIsland> solve_deep(const RunContext& run, double step, const std::vector<ContactPair>& pairs,
+/// Finds the motion of each deep island, as much of it as its funds pay for.
+std::vector<MovedIsland> solve_deep(const RunContext& run, double step,
                                     const std::vector<const Island*>& deep, StepProblem& problem,
                                     IslandFunds& funds) {
   TimeScheme scheme;
@@ -111,24 +110,21 @@ std::vector<MovedIsland> solve_deep(const RunContext& run, double step, const st
     double energy = energy_of_motion(run, island, problem.bodies);
     const double limit = funds.available(n);
     const bool settled = result.status == IslandStatus::settled;
-    std::optional<SlowedSlip> slowed;
-    if (settled && energy > limit) slowed = slow_slip(run, island, pairs, step, energy - limit);
-    const double share = !settled ? 0.0 : energy > limit && !slowed ? limit / energy : 1.0;
+    const double share = !settled ? 0.0 : energy > limit ? limit / energy : 1.0;
     for (const int k : island.bodies) problem.bodies[at(k)].change *= share;
     if (share == 0.0) continue;
     if (share < 1.0) energy = energy_of_motion(run, island, problem.bodies);
     funds.use(n, std::min(energy, limit));
-    moved.push_back({&island, n, energy, angular_momentum_of(run.blocks(), island.bodies, run.state.states),
-                     std::move(slowed)});
+    moved.push_back({&island, n, energy, angular_momentum_of(run.blocks(), island.bodies, run.state.states)});
   }
   // Bodies outlive what they were relaxed to.
   for (std::size_t k = 0; k < relaxed.size(); ++k) problem.bodies[k].state = &run.state.states[k];
   return moved;
 }
 
-/// Takes the motion over and books it. @param into gets the impulses against slip
+/// Takes the motion over and books it.
 void move(const RunContext& run, const std::vector<MovedIsland>& moved, const std::vector<ContactPair>& pairs,
-          StepProblem& problem, IslandFunds& funds, StepProblem& into) {
+          StepProblem& problem, IslandFunds& funds) {
   LedgerKeeper& ledger = run.state.ledger;
   run.contacts.finder().accept_motion();
   for (int k = 0; k < run.system.count(); ++k) {
@@ -139,9 +135,9 @@ void move(const RunContext& run, const std::vector<MovedIsland>& moved, const st
     run.state.states[at(k)].position += motion;
     ledger.measure_elastic(run.system, run.state.states, k);
   }
-  for (const auto& [island, place, energy, momentum, slowed] : moved) {
+  for (const auto& [island, place, energy, momentum] : moved) {
     ledger.integrator_took(-energy);
-    if (slowed) apply(run, *slowed, into.slip_impulses);
+
     if (!is_free(run.system, *island, pairs)) continue;
     const Vector3 lost = momentum - angular_momentum_of(run.blocks(), island->bodies, run.state.states);
     const double gain =
@@ -170,7 +166,7 @@ bool project_positions(const RunContext& run, double step, StepProblem& problem,
   std::vector<std::vector<PairKey>> contacts;
   for (const Island* island : deep) contacts.push_back(contacts_of(*island, problem.pairs));
   IslandFunds funds(run.state.pairs, std::move(contacts));
-  const std::vector<MovedIsland> moved = solve_deep(run, step, problem.pairs, deep, apart, funds);
+  const std::vector<MovedIsland> moved = solve_deep(run, step, deep, apart, funds);
   if (moved.empty()) return false;
   const std::vector<BlockState> after = states_after(run.system, run.state, apart);
   if (const auto passing = run.contacts.check_motion(run.system, run.state, after, found); !passing.empty()) {
@@ -180,7 +176,7 @@ bool project_positions(const RunContext& run, double step, StepProblem& problem,
     return project_positions(run, step, problem, found, additions - 1);
   }
   if (!carry_blocks(run, apart)) return false;
-  move(run, moved, problem.pairs, apart, funds, problem);
+  move(run, moved, problem.pairs, apart, funds);
   return true;
 }
 

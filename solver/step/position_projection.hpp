@@ -5,9 +5,8 @@
 // velocity of depth over step.
 //
 // The motion lifts weights and strains blocks a little. It takes no more energy for that than contacts have
-// taken from blocks before (contact_accounts.hpp), or take from their slip for it (slowed_slip.cpp). Free
-// blocks that move apart as they pass each other would have another angular momentum: the set of them gets it
-// back as a spin.
+// taken from blocks before (contact_accounts.hpp). Free blocks that move apart as they pass each other would
+// have another angular momentum: the set of them gets it back as a spin.
 #pragma once
 
 #include <vector>
@@ -21,7 +20,7 @@ namespace ashlar {
 [[nodiscard]] bool too_deep(const RunContext& run, const std::vector<ContactPair>& pairs);
 
 /// Moves the blocks of such points apart, before the step that a problem is for.
-/// @param step s. @param problem its pairs are those of `found`; impulses against slip are added to it
+/// @param step s. @param problem its pairs are those of `found`
 /// @param found replaced, and the pairs with it, where blocks would pass through each other on the way
 /// @param additions times that this may happen
 /// @return whether any was moved: contacts have to be detected anew then

@@ -36,6 +36,12 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
 IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme, FactorCache& factors,
                    StepProblem& problem) {
   const Stopwatch watch(state.log.seconds.solve);
+  const auto swap_followed = [&](IslandResult& result) {
+    for (auto& [index, pair] : result.followed) std::swap(problem.pairs[at(index)], pair);
+  };
+  // Of the last try.
+  for (IslandResult& result : problem.results) swap_followed(result);
+  problem.results.clear();
   const SimulationSettings& settings = system.settings();
   problem.islands = find_islands(system.moving(), problem.pairs);
   validate(problem.islands, system.moving(), problem.pairs);
@@ -45,7 +51,6 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
                    system.blocks()[at(pair.b())], problem.bodies[at(pair.b())].prescribed);
     if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
   }
-  problem.results.clear();
   SimulationCounts& counts = state.log.counts;
   for (const Island& island : problem.islands) {
     std::optional<IslandResult> lone;
@@ -54,7 +59,8 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
     problem.results.push_back(
         lone ? std::move(*lone)
              : solve_island(island, problem.bodies, problem.pairs, scheme, settings, factors.islands));
-    const IslandResult& result = problem.results.back();
+    IslandResult& result = problem.results.back();
+    swap_followed(result);
     counts.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
     counts.open_close_fallbacks += static_cast<std::uint64_t>(result.fallbacks);
     if (result.status != IslandStatus::settled) return result.status;

@@ -16,7 +16,8 @@
 
 namespace ashlar {
 
-/// A step as tried.
+/// A step as tried. Pairs whose rows were taken anew stand in the place of those that they were made of, until it is
+/// tried again.
 struct StepProblem {
   std::vector<ContactPair> pairs;
   std::vector<Island> islands;
@@ -24,7 +25,6 @@ struct StepProblem {
   std::vector<IslandResult> results;            ///< by island
   std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks
   std::vector<PairDepth> depths;                ///< at its end
-  std::map<PairKey, Vector3> slip_impulses;     ///< on a, before the step, N s (slowed_slip.hpp)
 };
 
 /// Finds islands and bodies of a problem whose pairs are given, and solves it.

@@ -31,6 +31,22 @@ bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs
   return any;
 }
 
+/// Takes rows of pairs that were followed to the end of the step.
+void act_at_end(const Island& island, const std::vector<ContactPair>& pairs, const IslandResult& result,
+                const std::vector<BodyStep>& bodies, IslandProblem& problem) {
+  const auto placed = [&](int block) -> BlockInStep {
+    const BodyStep& body = bodies[at(block)];
+    return {body.model, body.state->position, body.state->position, body.prescribed};
+  };
+  for (const auto& followed : result.followed) {
+    const int index = followed.first;
+    const auto place = std::find(island.pairs.begin(), island.pairs.end(), index);
+    const ContactPair& pair = pairs[at(index)];
+    problem.replace(static_cast<std::size_t>(place - island.pairs.begin()),
+                    pair.at_end(placed(pair.a()), placed(pair.b())));
+  }
+}
+
 }  // namespace
 
 bool ContactPair::pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const {
@@ -51,7 +67,7 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
     return (part(rows_a_, stop.inertia_a) + part(rows_b_, stop.inertia_b)) / static_cast<double>(count);
   };
   const double of_tie = tied() ? mobility(0, 3 * static_cast<Eigen::Index>(points_.size())) : 0.0;
-  const Eigen::Matrix3Xd way = relative(ya, yb) - start_;
+  const Eigen::Matrix3Xd way = motion(ya, yb);
   PairResponse result;
   result.points = end.points;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(way.size());
@@ -118,87 +134,131 @@ bool is_free(const BlockSystem& system, const Island& island, const std::vector<
 
 namespace {
 
-/// @param bodies models, and changes that are zero. @param stopped of the island's pairs is written
-void stop_island(const RunContext& run, const TimeScheme& of_step, const Island& island,
-                 const std::vector<ContactPair>& pairs, const IslandResult& result,
-                 std::vector<BodyStep>& bodies, std::vector<StoppedPair>& stopped) {
-  const double step = of_step.step;
-  TimeScheme scheme;
-  scheme.force_weight = 0.0;
-  scheme.inertia = 1.0 / (step * step);
-  IslandProblem problem(island, bodies, pairs, scheme, run.settings(),
-                        solver_of(island, bodies, pairs, SystemRole::stop, run.factors.islands));
-  // beta/gamma dt - dt/2, 0 but with generalized-alpha
-  const double shift = 1.0 / of_step.end_velocity.change - 0.5 * step;
-  std::vector<Eigen::VectorXd> start(run.blocks().size());  // u times the step
-  for (const int k : island.bodies) {
-    Eigen::MatrixX3d velocity = run.state.states[at(k)].velocity;
-    if (!run.state.accelerations.empty()) velocity -= shift * run.state.accelerations[at(k)];
-    start[at(k)] = step * run.blocks()[at(k)].space().restrict(velocity);
+/// The impulses of one island.
+class IslandStop {
+ public:
+  /// @param of_step the step that has ended. @param bodies models, states and changes that are zero
+  IslandStop(const RunContext& run, const TimeScheme& of_step, const StepProblem& step_problem,
+             std::size_t island, std::vector<BodyStep>& bodies)
+      : run_(run),
+        step_(of_step.step),
+        island_(step_problem.islands[island]),
+        pairs_(step_problem.pairs),
+        result_(step_problem.results[island]),
+        bodies_(bodies),
+        scheme_(impulsive(of_step.step)),
+        problem_(island_, bodies_, pairs_, scheme_, run.settings(),
+                 solver_of(island_, bodies_, pairs_, SystemRole::stop, run.factors.islands)),
+        velocities_(bodies.size()) {
+    act_at_end(island_, pairs_, result_, bodies_, problem_);
+    for (const int index : island_.pairs) let_go_.emplace_back(pairs_[at(index)].points().size(), false);
+    set_velocities(1.0 / of_step.end_velocity.change - 0.5 * of_step.step);
   }
-  std::vector<Eigen::VectorXd> velocities = start;
-  std::vector<std::vector<bool>> let_go;
-  for (const int index : island.pairs) let_go.emplace_back(pairs[at(index)].points().size(), false);
-  const auto impulses = [&] {
-    const auto inertia = [&](int block) {
-      return run.blocks()[at(block)].material().density * scheme.inertia;
-    };
+
+  /// @return whether there are any: a system that cannot be factorised has none
+  [[nodiscard]] bool find() {
+    const std::vector<Eigen::VectorXd> start = velocities_;
+    do {
+      velocities_ = start;
+      for (const int k : island_.bodies) bodies_[at(k)].change.setZero();
+      problem_.set_responses(impulses());
+      if (problem_.factorize() != FactorStatus::success) return false;
+      problem_.apply(problem_.solve(problem_.contact_forces(), false), 1.0);
+      for (const int k : island_.bodies) velocities_[at(k)] += bodies_[at(k)].change;
+      found_ = impulses();
+    } while (let_go_of_pulls(island_, pairs_, result_, found_, let_go_));
+    return true;
+  }
+
+  /// Changes velocities and books what they lose. @param stopped of the island's pairs is written
+  void apply(std::vector<StoppedPair>& stopped) {
+    const std::vector<BlockModel>& blocks = run_.blocks();
+    std::vector<BlockState>& states = run_.state.states;
+    const Vector3 momentum = angular_momentum_of(blocks, island_.bodies, states);
+    double lost = 0.0;
+    for (const int k : island_.bodies) {
+      const BlockModel& block = blocks[at(k)];
+      lost += block.kinetic_energy(states[at(k)]);
+      states[at(k)].velocity += block.space().expand(bodies_[at(k)].change) / step_;
+      lost -= block.kinetic_energy(states[at(k)]);
+    }
+    // Means over the impulse: work is by these.
+    for (const int k : island_.bodies)
+      velocities_[at(k)] =
+          step_ * blocks[at(k)].space().restrict(states[at(k)].velocity) - 0.5 * bodies_[at(k)].change;
+    for (std::size_t n = 0; n < island_.pairs.size(); ++n) lost -= record(n, stopped[at(island_.pairs[n])]);
+    if (is_free(run_.system, island_, pairs_)) {
+      // Opposite impulses act at places that are apart by the gap.
+      const Vector3 missing = momentum - angular_momentum_of(blocks, island_.bodies, states);
+      const double own = std::max(0.0, lost);
+      IslandFunds funds(run_.state.pairs, {contacts_of(island_, pairs_)});
+      const double gain = add_spin(blocks, island_.bodies, missing, own + funds.available(0), states);
+      funds.use(0, std::max(0.0, gain - own));
+      funds.spend_from(run_.state.pairs);
+      lost -= gain;
+    }
+    run_.state.ledger.integrator_took(lost);
+  }
+
+ private:
+  static TimeScheme impulsive(double step) {
+    TimeScheme scheme;
+    scheme.force_weight = 0.0;
+    scheme.inertia = 1.0 / (step * step);
+    return scheme;
+  }
+
+  /// u times the step. @param shift beta/gamma dt - dt/2, 0 but with generalized-alpha
+  void set_velocities(double shift) {
+    for (const int k : island_.bodies) {
+      Eigen::MatrixX3d velocity = run_.state.states[at(k)].velocity;
+      if (!run_.state.accelerations.empty()) velocity -= shift * run_.state.accelerations[at(k)];
+      velocities_[at(k)] = step_ * run_.blocks()[at(k)].space().restrict(velocity);
+    }
+  }
+
+  [[nodiscard]] double inertia(int block) const {
+    return run_.blocks()[at(block)].material().density * scheme_.inertia;
+  }
+
+  /// Of each pair at the present velocities.
+  [[nodiscard]] std::vector<PairResponse> impulses() const {
+    const MultiplierSettings& settings = run_.settings().multipliers;
     std::vector<PairResponse> responses;
-    for (std::size_t n = 0; n < island.pairs.size(); ++n) {
-      const ContactPair& pair = pairs[at(island.pairs[n])];
-      responses.push_back(pair.stopping(
-          result.responses[n], result.laws[n], velocities[at(pair.a())], velocities[at(pair.b())],
-          {run.settings().multipliers.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
-           run.settings().multipliers.share * run.settings().multipliers.penetration_tolerance},
-          let_go[n]));
+    for (std::size_t n = 0; n < island_.pairs.size(); ++n) {
+      const ContactPair& pair = problem_.pair(n);
+      const Stop stop{settings.stop_stiffness, inertia(pair.a()), inertia(pair.b()),
+                      settings.share * settings.penetration_tolerance};
+      responses.push_back(pair.stopping(result_.responses[n], result_.laws[n], velocities_[at(pair.a())],
+                                        velocities_[at(pair.b())], stop, let_go_[n]));
     }
     return responses;
-  };
-  std::vector<PairResponse> found;
-  do {
-    velocities = start;
-    for (const int k : island.bodies) bodies[at(k)].change.setZero();
-    problem.set_responses(impulses());
-    if (problem.factorize() != FactorStatus::success) return;
-    problem.apply(problem.solve(problem.contact_forces(), false), 1.0);
-    for (const int k : island.bodies) velocities[at(k)] += bodies[at(k)].change;
-    found = impulses();
-  } while (let_go_of_pulls(island, pairs, result, found, let_go));
+  }
 
-  const Vector3 momentum = angular_momentum_of(run.blocks(), island.bodies, run.state.states);
-  double lost = 0.0;
-  for (const int k : island.bodies) {
-    const BlockModel& block = run.blocks()[at(k)];
-    BlockState& state = run.state.states[at(k)];
-    lost += block.kinetic_energy(state);
-    state.velocity += block.space().expand(bodies[at(k)].change) / step;
-    lost -= block.kinetic_energy(state);
+  /// Writes what a pair's impulses do. @return work of supports that move and are pushed against, J
+  [[nodiscard]] double record(std::size_t n, StoppedPair& stopped) const {
+    const ContactPair& pair = problem_.pair(n);
+    const std::vector<ContactPoint>& points = pairs_[at(island_.pairs[n])].points();
+    for (std::size_t k = 0; k < points.size(); ++k)
+      stopped.forces.push_back(in_frame(points[k], out_of_frame(pair.points()[k], found_[n].means[k].force)));
+    stopped.work = pair.work(found_[n], velocities_[at(pair.a())], velocities_[at(pair.b())]);
+    const double of_supports = pair.prescribed_work(found_[n]);
+    run_.state.ledger.loads_did(-of_supports);
+    return of_supports;
   }
-  for (const int k : island.bodies)
-    velocities[at(k)] = step * run.blocks()[at(k)].space().restrict(run.state.states[at(k)].velocity) -
-                        0.5 * bodies[at(k)].change;
-  for (std::size_t n = 0; n < island.pairs.size(); ++n) {
-    const ContactPair& pair = pairs[at(island.pairs[n])];
-    StoppedPair& result_of_pair = stopped[at(island.pairs[n])];
-    for (const MeanResponse& mean : found[n].means) result_of_pair.forces.push_back(mean.force);
-    result_of_pair.work = pair.work(found[n], velocities[at(pair.a())], velocities[at(pair.b())]);
-    // Supports that move are pushed against.
-    run.state.ledger.loads_did(-pair.prescribed_work(found[n]));
-    lost -= pair.prescribed_work(found[n]);
-  }
-  if (is_free(run.system, island, pairs)) {
-    // Opposite impulses act at places that are apart by the gap.
-    const Vector3 missing = momentum - angular_momentum_of(run.blocks(), island.bodies, run.state.states);
-    const double own = std::max(0.0, lost);
-    IslandFunds funds(run.state.pairs, {contacts_of(island, pairs)});
-    const double gain =
-        add_spin(run.blocks(), island.bodies, missing, own + funds.available(0), run.state.states);
-    funds.use(0, std::max(0.0, gain - own));
-    funds.spend_from(run.state.pairs);
-    lost -= gain;
-  }
-  run.state.ledger.integrator_took(lost);
-}
+
+  const RunContext& run_;
+  double step_;  ///< s
+  const Island& island_;
+  const std::vector<ContactPair>& pairs_;
+  const IslandResult& result_;
+  std::vector<BodyStep>& bodies_;
+  TimeScheme scheme_;
+  IslandProblem problem_;
+  std::vector<Eigen::VectorXd> velocities_;  ///< by block, times the step
+  std::vector<std::vector<bool>> let_go_;    ///< by pair of the island and point
+  std::vector<PairResponse> found_;
+};
 
 }  // namespace
 
@@ -210,7 +270,9 @@ std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeSchem
   std::vector<BodyStep> bodies(run.blocks().size());
   for (std::size_t k = 0; k < run.blocks().size(); ++k) {
     bodies[k].model = &run.blocks()[k];
+    bodies[k].state = &run.state.states[k];
     bodies[k].change = Eigen::VectorXd::Zero(run.blocks()[k].unknowns());
+    bodies[k].prescribed = problem.bodies[k].prescribed;
   }
   for (std::size_t n = 0; n < problem.islands.size(); ++n) {
     const Island& island = problem.islands[n];
@@ -218,7 +280,9 @@ std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeSchem
     bool pushes = false;
     for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
       pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
-    if (pushes) stop_island(run, scheme, island, problem.pairs, result, bodies, stopped);
+    if (!pushes) continue;
+    IslandStop stop(run, scheme, problem, n, bodies);
+    if (stop.find()) stop.apply(stopped);
   }
   return stopped;
 }

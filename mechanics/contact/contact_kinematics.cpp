@@ -1,0 +1,131 @@
+#include "mechanics/contact/contact_kinematics.hpp"
+
+#include <cmath>
+
+#include "geometry/index.hpp"
+#include "geometry/subfaces/view_frame.hpp"
+
+namespace ashlar {
+namespace {
+
+/// The corrections that a closest point takes: the first is exact for affine blocks; for others each leaves
+/// gap times curvature of the last, and the limit only cuts what is below rounding.
+int corrections_of(const BlockModel& model) {
+  constexpr int most = 8;
+  return is_affine(model) ? 1 : most;
+}
+
+/// A correction that is rounding, m.
+double rounding_of(const BlockModel& model) {
+  return 1e-14 * std::cbrt(model.basis().volume());
+}
+
+struct Foot {
+  Vector3 material;
+  Vector3 place;
+  Vector3 normal;  ///< outward of the block it is on
+};
+
+/// Closest point of a face's polynomial surface to a point, by Gauss-Newton in the face's plane from a start
+/// on it.
+Foot closest_point(const PlacedBlock& block, int face, const Vector3& start, const Vector3& target) {
+  const PolynomialBasis& basis = block.model->basis();
+  const ViewFrame plane(start, block.model->solid().faces()[at(face)].normal);
+  Eigen::Matrix<double, 3, 2> directions;
+  directions << plane.e1, plane.e2;
+  Foot foot{start, Vector3::Zero(), Vector3::Zero()};
+  const int corrections = corrections_of(*block.model);
+  for (int step = 0; step <= corrections; ++step) {
+    foot.place = place_of(block, foot.material);
+    const Eigen::Matrix<double, 3, 2> tangents =
+        block.position->transpose() * (basis.gradients(foot.material) * directions);
+    foot.normal = tangents.col(0).cross(tangents.col(1)).normalized();
+    const Eigen::Matrix2d metric = tangents.transpose() * tangents;
+    const Eigen::Vector2d change = metric.inverse() * (tangents.transpose() * (target - foot.place));
+    if (step == corrections || (tangents * change).norm() <= rounding_of(*block.model)) break;
+    foot.material += directions * change;
+  }
+  return foot;
+}
+
+/// An edge as a line at the place of its contact point. @param edge reference coordinates, m
+Vector3 line_of(const PlacedBlock& block, const Vector3& material, const Vector3& edge) {
+  return block.position->transpose() * (block.model->basis().gradients(material) * edge);
+}
+
+/// Puts the material points where the two edges are nearest. @return false if an edge ends long before that
+bool set_crossing(ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b) {
+  const Vector3 last_normal = point.normal;
+  const int corrections = std::max(corrections_of(*a.model), corrections_of(*b.model));
+  const double smallest = std::max(rounding_of(*a.model), rounding_of(*b.model));
+  Eigen::Vector2d shares = Eigen::Vector2d::Zero();  // of the edges, from where the point was found
+  const ContactPoint found = point;
+  for (int step = 0; step <= corrections; ++step) {
+    Eigen::Matrix<double, 3, 2> lines;
+    lines << line_of(a, point.material_a, point.edge_a), -line_of(b, point.material_b, point.edge_b);
+    point.normal = lines.col(1).cross(lines.col(0)).normalized();
+    if (point.normal.dot(last_normal) < 0.0) point.normal = -point.normal;
+    const Eigen::Matrix2d metric = lines.transpose() * lines;
+    const Eigen::Vector2d change = metric.inverse() * (lines.transpose() * (point.place_b - point.place_a));
+    if (step == corrections || (lines * change).norm() <= smallest) break;
+    shares += change;
+    if (!(shares.cwiseAbs().maxCoeff() <= 1.0)) return false;
+    point.material_a = found.material_a + shares[0] * point.edge_a;
+    point.material_b = found.material_b + shares[1] * point.edge_b;
+    point.place_a = place_of(a, point.material_a);
+    point.place_b = place_of(b, point.material_b);
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_affine(const BlockModel& model) {
+  return model.fixed() || model.order() == 1;
+}
+
+Vector3 place_of(const PlacedBlock& block, const Vector3& material) {
+  return block.position->transpose() * block.model->basis().values(material);
+}
+
+void set_foot(ContactPoint& point, const PlacedBlock& master, int face, bool master_is_a) {
+  const Foot foot = closest_point(master, face, master_is_a ? point.material_a : point.material_b,
+                                  master_is_a ? point.place_b : point.place_a);
+  (master_is_a ? point.material_a : point.material_b) = foot.material;
+  (master_is_a ? point.place_a : point.place_b) = foot.place;
+  point.normal = master_is_a ? Vector3(-foot.normal) : foot.normal;
+}
+
+void complete(ContactPoint& point) {
+  const ViewFrame frame(Vector3::Zero(), point.normal);
+  point.tangent_1 = frame.e1;
+  point.tangent_2 = frame.e2;
+  point.gap = point.normal.dot(point.place_a - point.place_b);
+}
+
+ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b) {
+  ContactPoint moved = point;
+  moved.place_a = place_of(a, moved.material_a);
+  moved.place_b = place_of(b, moved.material_b);
+  const ContactPoint kept = moved;
+  switch (point.source) {
+    case NormalSource::as_found:
+      break;
+    case NormalSource::face_of_a:
+      set_foot(moved, a, point.face_a, true);
+      break;
+    case NormalSource::face_of_b:
+      set_foot(moved, b, point.face_b, false);
+      break;
+    case NormalSource::edges:
+      if (!set_crossing(moved, a, b)) moved = kept;
+      break;
+  }
+  const auto turn = Eigen::Quaterniond::FromTwoVectors(point.normal, moved.normal);
+  moved.tangent_1 = turn * point.tangent_1;
+  moved.tangent_2 = moved.normal.cross(moved.tangent_1);
+  moved.gap = moved.normal.dot(moved.place_a - moved.place_b);
+  return moved;
+}
+
+}  // namespace ashlar
