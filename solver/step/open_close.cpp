@@ -33,7 +33,7 @@ class OpenClose {
       if (!break_joints()) {
         if (settings_.augmented && (stiffen() || lower_multipliers())) {
           if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
-        } else if (evaluations < settings_.contact_evaluations && follow()) {
+        } else if (evaluations < settings_.multipliers.contact_evaluations && follow()) {
           ++evaluations;
         } else {
           if (factorized_) polish();
@@ -104,7 +104,7 @@ class OpenClose {
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
   bool follow() {
     if (problem_.scheme().from_rest) return false;
-    followed_ = problem_.follow_contacts(settings_.followed_gap());
+    followed_ = problem_.follow_contacts(settings_.multipliers.followed_gap());
     return followed_;
   }
 
