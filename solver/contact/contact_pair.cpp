@@ -5,77 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "solver/contact/tied_points.hpp"
+
 namespace ashlar {
 namespace {
-
-/// Values of a block's functions at its material points. @return (#points, p), empty for fixed blocks
-Eigen::MatrixXd values_at(const BlockModel& model, const std::vector<ContactPoint>& points, bool of_a) {
-  if (model.fixed()) return {};
-  std::vector<Vector3> material;
-  material.reserve(points.size());
-  for (const ContactPoint& point : points) material.push_back(of_a ? point.material_a : point.material_b);
-  return model.basis().values(material);
-}
-
-/// Rows that give the motion of a block along the three directions of each contact point.
-Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactPoint>& points,
-                             const Eigen::MatrixXd& phi) {
-  if (model.fixed()) return {};
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd rows(3 * count, model.unknowns());
-  for (int direction = 0; direction < 3; ++direction) {
-    Eigen::MatrixX3d directions(count, 3);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const ContactPoint& point = points[static_cast<std::size_t>(k)];
-      directions.row(k) = direction == 0 ? point.normal : direction == 1 ? point.tangent_1 : point.tangent_2;
-    }
-    const Eigen::MatrixXd part = model.space().rows(phi, directions);
-    for (Eigen::Index k = 0; k < count; ++k) rows.row(3 * k + direction) = part.row(k);
-  }
-  return rows;
-}
-
-/// Coefficients of the gap of two tied blocks. @return (r, 3)
-Eigen::MatrixX3d tie_gap(const Tie& tie, const BlockState& a, const BlockState& b) {
-  return tie.a * a.position - tie.b * b.position;
-}
-
-std::vector<ContactPoint> tie_points(const Eigen::MatrixX3d& gap) {
-  std::vector<ContactPoint> points(static_cast<std::size_t>(gap.rows()));
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    ContactPoint& point = points[k];
-    point.type = ContactPointType::face_face;
-    point.normal = Vector3::UnitX();
-    point.tangent_1 = Vector3::UnitY();
-    point.tangent_2 = Vector3::UnitZ();
-    point.place_a = gap.row(static_cast<Eigen::Index>(k));
-    point.place_b.setZero();
-    point.gap = point.place_a.x();
-    point.area = 1.0;
-  }
-  return points;
-}
-
-std::vector<PointMemory> tie_memory(const Eigen::MatrixX3d& gap) {
-  std::vector<PointMemory> memory(static_cast<std::size_t>(gap.rows()));
-  for (std::size_t k = 0; k < memory.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    memory[k].slip = {0.0, gap(row, 1), gap(row, 2)};
-    memory[k].state = ContactState::locked;
-    memory[k].intact = true;
-  }
-  return memory;
-}
-
-/// Springs in all directions that nothing breaks.
-JointLaw tie_law(double stiffness) {
-  JointLaw law;
-  law.normal_stiffness = law.shear_stiffness = stiffness;
-  // Far from any force, and its differences are numbers.
-  law.cohesion = 1e100;
-  law.tensile_strength = std::numeric_limits<double>::infinity();
-  return law;
-}
 
 SpringEnergy sum_of(const std::vector<PointResponse>& points) {
   SpringEnergy sum;
@@ -86,68 +19,29 @@ SpringEnergy sum_of(const std::vector<PointResponse>& points) {
   return sum;
 }
 
-/// Norm of the longest row.
-double largest_row(const Eigen::MatrixXd& rows) {
-  return rows.size() > 0 ? std::sqrt(rows.rowwise().squaredNorm().maxCoeff()) : 0.0;
-}
-
-bool is_free(const ContactBody& body) {
-  return !body.model->fixed() && body.model->space().free();
-}
-
-MeanDeformation mean_deformation(const ContactBody& body) {
-  const std::shared_ptr<const BlockParts>& parts = body.model->parts();
-  return {parts, body.state->position.transpose() * parts->mean_gradients};
-}
-
 }  // namespace
 
-Eigen::MatrixX3d MeanDeformation::levers(const Eigen::VectorXd& change) const {
-  const Eigen::MatrixX3d& gradients = parts->mean_gradients;
-  const Eigen::Map<const Eigen::MatrixX3d> motion(change.data(), gradients.rows(), 3);
-  const Eigen::Matrix3d middle = start + 0.5 * motion.transpose() * gradients;
-  return gradients * middle.inverse();
-}
-
-ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
-                         const JointLaw& law, const std::vector<ContactPoint>& points,
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
                          std::vector<PointMemory> memory, std::vector<PressureCut> cuts)
-    : ContactPair(a, b, body_a, body_b, law, points, std::move(memory),
-                  values_at(*body_a.model, points, true), values_at(*body_b.model, points, false), nullptr) {
+    : ContactPair(bodies, law, std::move(points), std::move(memory), nullptr) {
   cuts_ = std::move(cuts);
 }
 
-ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
-                         double stiffness)
-    : ContactPair(a, b, body_a, body_b, tie_law(stiffness),
-                  tie_points(tie_gap(tie, *body_a.state, *body_b.state)),
-                  tie_memory(tie_gap(tie, *body_a.state, *body_b.state)), tie.a, tie.b, &tie) {}
+ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffness)
+    : ContactPair(bodies, unbreakable_law(stiffness),
+                  tie_points(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)),
+                  tie_memory(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)), &tie) {}
 
-ContactPair::ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b,
-                         const JointLaw& law, std::vector<ContactPoint> points,
-                         std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
-                         const Eigen::MatrixXd& phi_b, const Tie* tie)
-    : a_(a),
-      b_(b),
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+                         std::vector<PointMemory> memory, const Tie* tie)
+    : a_(bodies.a),
+      b_(bodies.b),
       points_(std::move(points)),
       memory_(std::move(memory)),
       rests_(points_.size(), 0.0),
+      kind_{tie != nullptr, law.rigid || law.augmented || tie != nullptr, law.area_springs},
       start_(3, static_cast<Eigen::Index>(points_.size())),
-      rows_a_(contact_rows(*body_a.model, points_, phi_a)),
-      rows_b_(contact_rows(*body_b.model, points_, phi_b)),
-      tie_(tie),
-      rigid_(law.rigid || law.augmented || tie != nullptr),
-      area_springs_(law.area_springs),
-      // The forces of a tie are along the gap, so that they have no couple worth the name.
-      free_pair_(tie == nullptr && is_free(body_a) && is_free(body_b)) {
-  if (free_pair_) {
-    deformation_a_ = mean_deformation(body_a);
-    deformation_b_ = mean_deformation(body_b);
-    apart_.resize(3, start_.cols());
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      apart_.col(static_cast<Eigen::Index>(k)) =
-          in_frame(points_[k], points_[k].place_a - points_[k].place_b);
-  }
+      rows_(bodies.of_a, bodies.of_b, points_, tie) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
     if (law.augmented) {
@@ -192,7 +86,7 @@ void ContactPair::hold_where_found(double taken) {
 }
 
 void ContactPair::count_slip(const std::vector<Vector3>& moved) {
-  counts_slip_ = true;
+  kind_.counts_slip = true;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto along = [&](const Vector3& vector) {
       return Eigen::Vector2d(points_[k].tangent_1.dot(vector), points_[k].tangent_2.dot(vector));
@@ -210,8 +104,8 @@ Vector3 ContactPair::flat(std::size_t k, const Eigen::Vector2d& along) const {
 
 Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
   const Eigen::Vector2d slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
-  return counts_slip_ ? Eigen::Vector2d(slip - elastic_slip(laws_[k], start_responses_[k], slip))
-                      : Eigen::Vector2d::Zero();
+  return kind_.counts_slip ? Eigen::Vector2d(slip - elastic_slip(laws_[k], start_responses_[k], slip))
+                           : Eigen::Vector2d::Zero();
 }
 
 bool ContactPair::bonded() const {
@@ -220,8 +114,8 @@ bool ContactPair::bonded() const {
 }
 
 void ContactPair::hold_bonds() {
-  holds_bonds_ = true;
-  const JointLaw bond = tie_law(1.0);
+  kind_.holds_bonds = true;
+  const JointLaw bond = unbreakable_law(1.0);
   for (PointLaw& law : laws_) {
     if (tied() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
     law.cohesion = bond.cohesion;
@@ -241,8 +135,8 @@ double ContactPair::depth_found() const {
 ContactPair ContactPair::moved_apart(double depth) const {
   ContactPair pair = *this;
   pair.start_.setZero();
-  pair.prescribed_.resize(3, 0);
-  const JointLaw bond = tie_law(1.0);
+  pair.rows_.prescribe_nothing();
+  const JointLaw bond = unbreakable_law(1.0);
   for (std::size_t k = 0; k < points_.size(); ++k) {
     PointLaw& law = pair.laws_[k];
     const bool bonded = tied() || law.tension > 0.0;
@@ -282,83 +176,25 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
         0.5 * laws_[k].shear_stiffness * start_.col(static_cast<Eigen::Index>(k)).tail<2>().squaredNorm();
 }
 
-Eigen::Matrix3Xd ContactPair::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, start_.cols());
-  Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
-  if (rows_a_.cols() > 0) flat.noalias() += rows_a_ * ya;
-  if (rows_b_.cols() > 0) flat.noalias() -= rows_b_ * yb;
-  if (prescribed_.size() > 0) result += prescribed_;
-  return result;
-}
-
 Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   Eigen::Matrix3Xd result = start_ + motion(ya, yb);
-  if (bent_.size() > 0) result.row(0) += bent_;
+  if (rows_.bent().size() > 0) result.row(0) += rows_.bent();
   return result;
 }
 
 void ContactPair::prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
                             const Eigen::MatrixX3d& change_b) {
-  set_prescribed(points_, a, change_a, b, change_b);
-}
-
-void ContactPair::set_prescribed(const std::vector<ContactPoint>& acting, const BlockModel& a,
-                                 const Eigen::MatrixX3d& change_a, const BlockModel& b,
-                                 const Eigen::MatrixX3d& change_b) {
-  prescribed_.resize(3, 0);
-  if (change_a.size() == 0 && change_b.size() == 0) return;
-  prescribed_.setZero(3, start_.cols());
-  for (std::size_t k = 0; k < acting.size(); ++k) {
-    Vector3 motion = Vector3::Zero();
-    const auto row = static_cast<Eigen::Index>(k);
-    const auto values = [&](const BlockModel& block, const Vector3& material, bool of_a) -> Eigen::VectorXd {
-      if (tied()) return (of_a ? tie_->a : tie_->b).row(row).transpose();
-      return block.basis().values(material);
-    };
-    if (change_a.size() > 0) motion += change_a.transpose() * values(a, acting[k].material_a, true);
-    if (change_b.size() > 0) motion -= change_b.transpose() * values(b, acting[k].material_b, false);
-    prescribed_.col(row) = in_frame(acting[k], motion);
-  }
-}
-
-void ContactPair::act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a,
-                         const BlockInStep& b) {
-  rows_a_ = contact_rows(*a.model, acting, values_at(*a.model, acting, true));
-  rows_b_ = contact_rows(*b.model, acting, values_at(*b.model, acting, false));
-  set_prescribed(acting, *a.model, a.prescribed, *b.model, b.prescribed);
-  for (std::size_t k = 0; k < acting.size(); ++k) {
-    points_[k].normal = acting[k].normal;
-    points_[k].tangent_1 = acting[k].tangent_1;
-    points_[k].tangent_2 = acting[k].tangent_2;
-  }
+  rows_.prescribe(points_, a, change_a, b, change_b);
 }
 
 void ContactPair::follow(const BlockInStep& a, const BlockInStep& b, const Eigen::VectorXd& ya,
                          const Eigen::VectorXd& yb) {
-  std::vector<ContactPoint> middle;
-  middle.reserve(points_.size());
-  for (const ContactPoint& point : points_)
-    middle.push_back(moved_to(point, {a.model, &a.middle}, {b.model, &b.middle}));
-  act_at(middle, a, b);
-  const Eigen::Matrix3Xd way = motion(ya, yb);
-  bent_.setZero(static_cast<Eigen::Index>(points_.size()));
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    if (free_pair_)
-      apart_.col(column) = in_frame(middle[k], middle[k].place_a - middle[k].place_b) - 0.5 * way.col(column);
-    if (points_[k].source == NormalSource::as_found) continue;
-    const ContactPoint end = moved_to(middle[k], {a.model, &a.end}, {b.model, &b.end});
-    bent_[column] = end.gap - points_[k].gap - way(0, column);
-  }
+  rows_.follow(points_, a, b, ya, yb);
 }
 
 ContactPair ContactPair::at_end(const BlockInStep& a, const BlockInStep& b) const {
   ContactPair pair = *this;
-  std::vector<ContactPoint> end;
-  end.reserve(points_.size());
-  for (const ContactPoint& point : points_)
-    end.push_back(moved_to(point, {a.model, &a.end}, {b.model, &b.end}));
-  pair.act_at(end, a, b);
+  pair.rows_.go_to_end(pair.points_, a, b);
   return pair;
 }
 
@@ -367,8 +203,8 @@ double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::Vecto
   double stiffness = 0.0;
   for (const PointLaw& law : laws)
     stiffness = std::max({stiffness, law.normal_stiffness, law.shear_stiffness});
-  const double row_a = largest_row(rows_a_);
-  const double row_b = largest_row(rows_b_);
+  const double row_a = rows_.longest_of_a();
+  const double row_b = rows_.longest_of_b();
   return 2.0 * std::numeric_limits<double>::epsilon() * stiffness *
          (row_a * row_a * ya.norm() + row_b * row_b * yb.norm());
 }
@@ -386,7 +222,7 @@ double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::Vecto
     if (in_doubt(response.points[k]))
       sum += std::max(0.0, laws[k].normal_stiffness * gap - laws[k].normal_multiplier);
   }
-  return std::max(largest_row(rows_a_), largest_row(rows_b_)) * sum;
+  return std::max(rows_.longest_of_a(), rows_.longest_of_b()) * sum;
 }
 
 double ContactPair::work(const PairResponse& response, const Eigen::VectorXd& ya,
@@ -399,13 +235,6 @@ double ContactPair::spring_work(const PairResponse& response, const Eigen::Vecto
                                 const Eigen::VectorXd& yb) const {
   return (ya.size() > 0 ? ya.dot(response.force_on_a) : 0.0) +
          (yb.size() > 0 ? yb.dot(response.force_on_b) : 0.0) + prescribed_work(response);
-}
-
-double ContactPair::prescribed_work(const PairResponse& response) const {
-  double work = 0.0;
-  for (Eigen::Index k = 0; k < prescribed_.cols(); ++k)
-    work += prescribed_.col(k).dot(response.means[static_cast<std::size_t>(k)].force);
-  return work;
 }
 
 PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
@@ -427,64 +256,9 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     }
     forces.segment<3>(3 * column) = response.means.back().force;
   }
-  set_block_forces(forces, response);
-  if (free_pair_) shift_to_common_points(ya, yb, forces, response);
+  rows_.set_forces(forces, response);
+  rows_.set_shifts(points_, ya, yb, forces, response);
   return response;
-}
-
-void ContactPair::shift_to_common_points(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                                         const Eigen::VectorXd& forces, PairResponse& response) const {
-  const Eigen::Matrix3Xd apart = apart_ + 0.5 * motion(ya, yb);
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // r f'
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const ContactPoint& point = points_[k];
-    const Vector3 force = forces.segment<3>(3 * column);
-    const Vector3 r = apart.col(column);
-    const Vector3 along = out_of_frame(point, {0.0, force[1], force[2]});
-    moment += force[0] * out_of_frame(point, {0.0, r[1], r[2]}) * point.normal.transpose() +
-              out_of_frame(point, r) * along.transpose();
-  }
-  response.shift_on_a = (-0.5 * deformation_a_.levers(ya) * moment).reshaped();
-  response.shift_on_b = (-0.5 * deformation_b_.levers(yb) * moment).reshaped();
-}
-
-void ContactPair::set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
-  if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
-  if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
-}
-
-ContactPair::Tangent ContactPair::tangent(const PairResponse& response) const {
-  std::vector<Eigen::Index> active;
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    if (!response.means[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
-  }
-  const auto gather = [&](const Eigen::MatrixXd& rows, bool times_tangent) {
-    Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(active.size()), rows.cols());
-    for (std::size_t n = 0; n < active.size(); ++n) {
-      const Eigen::Index k = active[n];
-      const auto target = static_cast<Eigen::Index>(3 * n);
-      if (times_tangent) {
-        result.middleRows<3>(target).noalias() =
-            response.means[static_cast<std::size_t>(k)].tangent * rows.middleRows<3>(3 * k);
-      } else {
-        result.middleRows<3>(target) = rows.middleRows<3>(3 * k);
-      }
-    }
-    return result;
-  };
-  Tangent tangent;
-  Eigen::MatrixXd scaled_b;
-  if (rows_b_.cols() > 0) {
-    scaled_b = gather(rows_b_, true);
-    tangent.bb = gather(rows_b_, false).transpose() * scaled_b;
-  }
-  if (rows_a_.cols() > 0) {
-    const Eigen::MatrixXd plain_a = gather(rows_a_, false);
-    tangent.aa = plain_a.transpose() * gather(rows_a_, true);
-    if (rows_b_.cols() > 0) tangent.ab = -(plain_a.transpose() * scaled_b);
-  }
-  return tangent;
 }
 
 Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response) {
@@ -492,20 +266,6 @@ Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response) {
   for (std::size_t k = 0; k < response.means.size(); ++k)
     result.col(static_cast<Eigen::Index>(k)) = response.means[k].coupling;
   return result;
-}
-
-void ContactPair::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da,
-                               const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
-                               Eigen::Ref<Eigen::VectorXd> to_b) const {
-  for (Eigen::Index k = 0; k < couplings.cols(); ++k) {
-    if (couplings.col(k).isZero(0.0)) continue;
-    double opening = 0.0;
-    if (da.size() > 0) opening += rows_a_.row(3 * k).dot(da);
-    if (db.size() > 0) opening -= rows_b_.row(3 * k).dot(db);
-    const Eigen::Vector2d force = opening * couplings.col(k);
-    if (da.size() > 0) to_a += rows_a_.middleRows<2>(3 * k + 1).transpose() * force;
-    if (db.size() > 0) to_b -= rows_b_.middleRows<2>(3 * k + 1).transpose() * force;
-  }
 }
 
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
@@ -529,15 +289,15 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     PointMemory memory;
     memory.slip = flat(k, elastic);
     memory.level_slip = memory_[k].level_slip;
-    memory.in_level = counts_slip_ && (memory_[k].in_level || point.state != ContactState::open ||
-                                       start_responses_[k].state != ContactState::open);
+    memory.in_level = kind_.counts_slip && (memory_[k].in_level || point.state != ContactState::open ||
+                                            start_responses_[k].state != ContactState::open);
     memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
     const bool open = point.state == ContactState::open;
     const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension == 0.0
                                              : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
-    memory.intact = memory_[k].intact && (holds_bonds_ || (!torn && !sheared));
+    memory.intact = memory_[k].intact && (kind_.holds_bonds || (!torn && !sheared));
     if (laws[k].augmented && point.state != ContactState::open) {
       const Eigen::Vector2d shear = point.force.tail<2>();
       const double scale = multiplier_scale(points_[k]);
@@ -567,6 +327,35 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
     work += response.means[k].force.tail<2>().dot(elastic - slip);
   }
   return work;
+}
+
+ContactPair ContactPair::setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                     double reach) const {
+  ContactPair pair = *this;
+  pair.rows_.prescribe_nothing();
+  pair.start_.setZero();
+  for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
+    PointLaw& law = pair.laws_[k];
+    const PointResponse& point = response.points[k];
+    const bool open = point.state == ContactState::open;
+    if (open && points_[k].gap > reach)
+      pair.start_(0, static_cast<Eigen::Index>(k)) = std::numeric_limits<double>::infinity();
+    law.tension = open ? 0.0 : laws[k].tension;
+    law.cohesion = open ? 0.0 : laws[k].cohesion;
+    law.augmented = true;
+    law.normal_multiplier = point.force[0];
+    law.shear_multiplier = point.force.tail<2>();
+  }
+  pair.respond_at_start();
+  return pair;
+}
+
+bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
+  for (std::size_t k = 0; k < memory.size(); ++k) {
+    if (memory_[k].intact && !memory[k].intact && (laws_[k].cohesion > 0.0 || laws_[k].tension > 0.0))
+      return true;
+  }
+  return false;
 }
 
 double ContactPair::start_energy() const {

@@ -2,44 +2,17 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <memory>
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
 #include "mechanics/contact/contact_points.hpp"
 #include "mechanics/contact/spring_energy.hpp"
 #include "mechanics/contact/tie.hpp"
+#include "solver/contact/pair_rows.hpp"
 
 namespace ashlar {
 
-/// Response of all points of a pair over a step.
-struct PairResponse {
-  std::vector<PointResponse> points;  ///< at the end of the step
-  std::vector<MeanResponse> means;    ///< what acts in the equations of motion
-  Eigen::VectorXd force_on_a;         ///< of the springs, (unknowns of a)
-  Eigen::VectorXd force_on_b;         ///< (unknowns of b)
-  Eigen::VectorXd shift_on_a;  ///< of forces to common points, see ContactPair; empty unless both are free
-  Eigen::VectorXd shift_on_b;
-
-  [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, shift_on_a); }
-  [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, shift_on_b); }
-
- private:
-  static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& shift) {
-    return shift.size() > 0 ? Eigen::VectorXd(force + shift) : force;
-  }
-};
-
-/// Mean deformation of a free block over a step.
-struct MeanDeformation {
-  std::shared_ptr<const BlockParts> parts;
-  Eigen::Matrix3d start = Eigen::Matrix3d::Identity();  ///< gradient at the start of the step
-
-  /// B of ContactPair. @param change of the unknowns. @return (p, 3)
-  [[nodiscard]] Eigen::MatrixX3d levers(const Eigen::VectorXd& change) const;
-};
-
-/// How points that push are stopped (velocity_contact.cpp).
+/// How points that push are stopped (step/velocity_contact.hpp).
 struct Stop {
   double stiffness = 0.0;  ///< of a point against the inertia it feels, without unit
   double inertia_a = 0.0;  ///< density over the step squared, kg/(m^3 s^2); of no use if fixed
@@ -47,12 +20,12 @@ struct Stop {
   double allowed_way = 0.0;  ///< m: points that their force moves by less in a step count for little
 };
 
-/// A block in the middle and at the end of a step, at a guess of its unknowns.
-struct BlockInStep {
-  const BlockModel* model;
-  Eigen::MatrixX3d middle;      ///< position, (p, 3)
-  Eigen::MatrixX3d end;         ///< position, (p, 3)
-  Eigen::MatrixX3d prescribed;  ///< change of the position by supports that move; empty: none
+/// Two blocks, and where they are at the start of a step.
+struct PairBodies {
+  int a;  ///< index of the block, used by the solver only
+  int b;
+  ContactBody of_a;
+  ContactBody of_b;
 };
 
 /// Points are linear in the unknowns: with ya, yb the changes of the blocks' unknowns,
@@ -60,29 +33,19 @@ struct BlockInStep {
 /// and likewise the slip (theory.md section 7, where H = rows_a, Q = rows_b). Rows, normals and tangents are
 /// those at the start of the step, b = 0, until follow() takes them to the middle of the step, and b to what
 /// makes the gap that of the end of the step (notes/contact_at_the_end_of_a_step.md).
-///
-/// The force f of a point acts on a at x_a and on b at x_b, the places of the material points in the middle
-/// of the step. Where these differ, r = x_a - x_b, both forces of free blocks are shifted to the place half
-/// way between them, so that they have no couple: by -1/2 B (r f') on each block, with
-///   B = G inverse(F),  sum_k x_k B_k = I    G: mean gradients of the functions, F: mean deformation gradient
-/// in the middle of the step. That is the force at the common point of an affine block, and has its resultant
-/// and torque for any. Normal forces are not shifted along the normal.
 class ContactPair {
  public:
-  /// @param a,b indices of the blocks, used by the solver only. @param cuts that the points come from, to be
-  /// remembered
-  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
-              const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
-              std::vector<PressureCut> cuts = {});
+  /// @param cuts that the points come from, to be remembered
+  ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+              std::vector<PointMemory> memory, std::vector<PressureCut> cuts = {});
 
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
   /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
   /// @param stiffness Pa/m
-  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const Tie& tie,
-              double stiffness);
-  [[nodiscard]] bool tied() const { return tie_ != nullptr; }
+  ContactPair(const PairBodies& bodies, const Tie& tie, double stiffness);
+  [[nodiscard]] bool tied() const { return kind_.tied; }
   /// Whether its springs only stand for what does not give way.
-  [[nodiscard]] bool rigid() const { return rigid_; }
+  [[nodiscard]] bool rigid() const { return kind_.rigid; }
   /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
   [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                       const std::vector<PointLaw>& laws) const;
@@ -141,7 +104,9 @@ class ContactPair {
   /// The pair with rows and normals of the end of the step, for velocities there.
   [[nodiscard]] ContactPair at_end(const BlockInStep& a, const BlockInStep& b) const;
   /// Motion of a relative to b at each point in its frame, m, linear in the changes. @return (3, #points)
-  [[nodiscard]] Eigen::Matrix3Xd motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  [[nodiscard]] Eigen::Matrix3Xd motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+    return rows_.motion(ya, yb);
+  }
   /// Work of the contact forces on both blocks, on prescribed motion too, J.
   [[nodiscard]] double work(const PairResponse& response, const Eigen::VectorXd& ya,
                             const Eigen::VectorXd& yb) const;
@@ -149,29 +114,21 @@ class ContactPair {
   [[nodiscard]] double spring_work(const PairResponse& response, const Eigen::VectorXd& ya,
                                    const Eigen::VectorXd& yb) const;
   /// Its part on prescribed motion, J.
-  [[nodiscard]] double prescribed_work(const PairResponse& response) const;
+  [[nodiscard]] double prescribed_work(const PairResponse& response) const {
+    return rows_.prescribed_work(response);
+  }
 
   /// Spring energy at the start of the step, J.
   [[nodiscard]] double start_energy() const;
   [[nodiscard]] SpringEnergy start_energies() const;
 
-  /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed,
-  /// (na, nb).
-  struct Tangent {
-    Eigen::MatrixXd aa;
-    Eigen::MatrixXd ab;
-    Eigen::MatrixXd bb;
-  };
-  [[nodiscard]] Tangent tangent(const PairResponse& response) const;
+  [[nodiscard]] PairTangent tangent(const PairResponse& response) const { return rows_.tangent(response); }
 
   /// -d (shear force) / d gap of every point (MeanResponse::coupling). @return (2, #)
   [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response);
-  /// Adds to the forces of a and b what the couplings make of changes of the unknowns: the part of the
-  /// Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks.
-  void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
-                    Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
+  [[nodiscard]] const PairRows& rows() const { return rows_; }
 
-  // velocity_contact.cpp
+  // pair_impulses.cpp
   /// Whether any point pushes, or a bond of a contact holds.
   [[nodiscard]] bool pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const;
   /// Impulses per step, N, that stop points: along the normal where they push, along the surface too where
@@ -192,7 +149,7 @@ class ContactPair {
                          const std::vector<Eigen::Vector3d>& impulses, double step,
                          std::vector<PointMemory>& memory) const;
 
-  // rigid_onset.cpp
+  // contact_pair.cpp
   /// The pair as blocks feel it that set off from rest: points that a response has closed are rigid, with
   /// their forces as multipliers, those that it has opened never touch. Ties stay as they are.
   /// @param laws that gave the response
@@ -202,7 +159,6 @@ class ContactPair {
   /// Whether cohesion or tensile strength is lost in the step anywhere. @param memory after it
   [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
 
-  // contact_pair.cpp
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Memory after an accepted step. @param laws that gave the response
@@ -220,30 +176,26 @@ class ContactPair {
   [[nodiscard]] static SpringEnergy energies(const PairResponse& response);
 
  private:
-  /// With phi (#points, p) the values of the functions of a and b at the points.
-  ContactPair(int a, int b, const ContactBody& body_a, const ContactBody& body_b, const JointLaw& law,
-              std::vector<ContactPoint> points, std::vector<PointMemory> memory, const Eigen::MatrixXd& phi_a,
-              const Eigen::MatrixXd& phi_b, const Tie* tie);
+  struct Kind {
+    bool tied;
+    bool rigid;
+    bool area_springs;  ///< multipliers are remembered per area
+    bool counts_slip = false;
+    bool holds_bonds = false;
+  };
+
+  ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+              std::vector<PointMemory> memory, const Tie* tie);
   [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
-    return area_springs_ ? point.area : 1.0;
+    return kind_.area_springs ? point.area : 1.0;
   }
   void respond_at_start();
-  /// Takes rows and frames from contact points in a configuration.
-  void act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b);
-  /// @param acting points where they act
-  void set_prescribed(const std::vector<ContactPoint>& acting, const BlockModel& a,
-                      const Eigen::MatrixX3d& change_a, const BlockModel& b,
-                      const Eigen::MatrixX3d& change_b);
-  void shift_to_common_points(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
-                              const Eigen::VectorXd& forces, PairResponse& response) const;
   /// Trial slip at the start that no spring holds, of a load level, m.
   [[nodiscard]] Eigen::Vector2d slid_before(std::size_t point) const;
   /// A vector along the surface at a point.
   [[nodiscard]] Vector3 flat(std::size_t point, const Eigen::Vector2d& along) const;
   /// @param rests gap of each point at which its normal spring is at rest, m
   void rest_at(std::vector<double> rests);
-  /// @param forces (3 #points)
-  void set_block_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
   /// Gap over the rest and trial slip of every point at the end of the step. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
 
@@ -256,21 +208,9 @@ class ContactPair {
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
   double taken_ = 0.0;
-  bool counts_slip_ = false;
-  bool holds_bonds_ = false;
-  Eigen::Matrix3Xd start_;            ///< gap over the rest and slip at the start of the step
-  Eigen::Matrix3Xd prescribed_ = {};  ///< change of both by supports that move; empty: none
-  Eigen::MatrixXd
-      rows_a_;  ///< (3 #points, unknowns of a): normal, tangent 1, tangent 2 of each point; empty if fixed
-  Eigen::MatrixXd rows_b_;
-  const Tie* tie_;  ///< null for contacts
-  bool rigid_;
-  bool area_springs_;              ///< multipliers are remembered per area
-  bool free_pair_;                 ///< nothing but the other block holds either
-  MeanDeformation deformation_a_;  ///< of free pairs
-  MeanDeformation deformation_b_;
-  Eigen::Matrix3Xd apart_;   ///< r in the middle of the step without motion
-  Eigen::RowVectorXd bent_;  ///< b, m; empty: none
+  Kind kind_;
+  Eigen::Matrix3Xd start_;  ///< gap over the rest and slip at the start of the step
+  PairRows rows_;
 };
 
 }  // namespace ashlar

@@ -11,35 +11,6 @@
 
 namespace ashlar {
 
-ContactPair ContactPair::setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
-                                     double reach) const {
-  ContactPair pair = *this;
-  pair.prescribed_.resize(3, 0);
-  pair.start_.setZero();
-  for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
-    PointLaw& law = pair.laws_[k];
-    const PointResponse& point = response.points[k];
-    const bool open = point.state == ContactState::open;
-    if (open && points_[k].gap > reach)
-      pair.start_(0, static_cast<Eigen::Index>(k)) = std::numeric_limits<double>::infinity();
-    law.tension = open ? 0.0 : laws[k].tension;
-    law.cohesion = open ? 0.0 : laws[k].cohesion;
-    law.augmented = true;
-    law.normal_multiplier = point.force[0];
-    law.shear_multiplier = point.force.tail<2>();
-  }
-  pair.respond_at_start();
-  return pair;
-}
-
-bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
-  for (std::size_t k = 0; k < memory.size(); ++k) {
-    if (memory_[k].intact && !memory[k].intact && (laws_[k].cohesion > 0.0 || laws_[k].tension > 0.0))
-      return true;
-  }
-  return false;
-}
-
 namespace {
 
 constexpr double way = 1e-5;           // in sizes of the block that goes farthest

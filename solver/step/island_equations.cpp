@@ -135,7 +135,7 @@ void IslandProblem::assemble(bool positive) {
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
   }
   for (std::size_t k = 0; k < pairs(); ++k) {
-    const ContactPair::Tangent tangent = pair(k).tangent(responses_[k]);
+    const PairTangent tangent = pair(k).tangent(responses_[k]);
     const int a = place(pair(k).a());
     const int b = place(pair(k).b());
     if (a >= 0) matrix.add_diagonal(a, tangent.aa);
@@ -174,7 +174,7 @@ Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool cou
       const int b = place(pair(k).b());
       const Eigen::VectorXd of_a = part(x, pair(k).a());
       const Eigen::VectorXd of_b = part(x, pair(k).b());
-      pair(k).add_coupling(
+      pair(k).rows().add_coupling(
           coupling, of_a, of_b,
           a < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
                 : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(a), of_a.size())),

@@ -151,7 +151,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
       moved = moved_in_level(system, state, blocks, points);
       if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
     }
-    pairs.emplace_back(a, b, body_a, body_b, law, points, std::move(memory), std::move(cuts));
+    pairs.emplace_back(PairBodies{a, b, body_a, body_b}, law, points, std::move(memory), std::move(cuts));
     if (goes_on && law.augmented) pairs.back().hold_where_found(known.taken);
     if (!moved.empty()) pairs.back().count_slip(moved);
     if (use == PairUse::statics && state.statics.holds_bonds) pairs.back().hold_bonds();
@@ -161,8 +161,9 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
     for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].hold_at_most(bounds[k]);
   }
   for (const TiedBlocks& tied : system.ties()) {
-    pairs.emplace_back(tied.a, tied.b, body_at_start(system, state, tied.a, nullptr),
-                       body_at_start(system, state, tied.b, nullptr), tied.tie, tied.stiffness);
+    pairs.emplace_back(PairBodies{tied.a, tied.b, body_at_start(system, state, tied.a, nullptr),
+                                  body_at_start(system, state, tied.b, nullptr)},
+                       tied.tie, tied.stiffness);
   }
   return pairs;
 }

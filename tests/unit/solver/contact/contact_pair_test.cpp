@@ -23,7 +23,9 @@ struct Setting {
 ContactPair pair_of(const Setting& setting, const JointLaw& law, const PointMemory& memory) {
   const BlockState state_a = setting.a.initial_state();
   const BlockState state_b = setting.b.initial_state();
-  return {0,       1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}, law, setting.points,
+  return {{0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}},
+          law,
+          setting.points,
           {memory}};
 }
 
@@ -81,7 +83,7 @@ TEST(ContactPair, ForcesAndTangentsAreDerivativesOfTheEnergy) {
       continue;
     }
     test_support::expect_derivative(energy, start, -force.transpose(), 1e-7, 1e-6);
-    const ContactPair::Tangent tangent = pair.tangent(response);
+    const PairTangent tangent = pair.tangent(response);
     Eigen::MatrixXd matrix(na + nb, na + nb);
     matrix << tangent.aa, tangent.ab, tangent.ab.transpose(), tangent.bb;
     test_support::expect_derivative(
@@ -112,7 +114,7 @@ TEST(ContactPair, MatricesAreThoseOfTheTheory) {
   const Eigen::RowVectorXd q = point.normal.transpose() * cj;
   const PairResponse response =
       pair.respond(Eigen::VectorXd::Zero(ci.cols()), Eigen::VectorXd::Zero(cj.cols()), false);
-  const ContactPair::Tangent tangent = pair.tangent(response);
+  const PairTangent tangent = pair.tangent(response);
   const auto near = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     return (a - b).norm() < 1e-12 * b.norm();
   };
@@ -254,8 +256,8 @@ TEST(ContactPair, WithoutPointsThereAreNoForces) {
   setting.points.clear();
   const BlockState state_a = setting.a.initial_state();
   const BlockState state_b = setting.b.initial_state();
-  ContactPair pair(0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr},
-                   {2e9, 1e9, 0.1, 0.0, 0.0, true}, {}, {});
+  ContactPair pair({0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}},
+                   JointLaw{2e9, 1e9, 0.1, 0.0, 0.0, true}, {}, {});
   pair.hold_at_most({});
   const Eigen::VectorXd ya = Eigen::VectorXd::Ones(setting.a.unknowns());
   const Eigen::VectorXd yb = Eigen::VectorXd::Ones(setting.b.unknowns());

@@ -22,7 +22,7 @@ ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 
   PointMemory memory;
   memory.intact = true;
   const JointLaw law{2.0, 1.0, 0.5, 0.0, tensile_strength, true};
-  return {a, b, {&block, &state, nullptr}, {&block, &state, nullptr}, law, {point}, {memory}};
+  return {{a, b, {&block, &state, nullptr}, {&block, &state, nullptr}}, law, {point}, {memory}};
 }
 
 PairHistory that_held(double normal, double shear = 0.0) {

@@ -25,11 +25,11 @@ ContactPair pair_of(int a, int b) {
   point.tangent_1 = Vector3::UnitX();
   point.tangent_2 = Vector3::UnitY();
   point.area = 1.0;
-  return {a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}, JointLaw{}, {point}, {{}}};
+  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}}, JointLaw{}, {point}, {{}}};
 }
 
 ContactPair tie_of(int a, int b, const Tie& tie) {
-  return {a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}, tie, 1.0};
+  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}}, tie, 1.0};
 }
 
 TEST(Island, IsASetOfMovingBlocksThatTouch) {

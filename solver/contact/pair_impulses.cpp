@@ -1,0 +1,82 @@
+// The part of ContactPair that stops what pushes at the end of a step (step/velocity_contact.hpp).
+#include <algorithm>
+#include <limits>
+
+#include "solver/contact/contact_pair.hpp"
+
+namespace ashlar {
+namespace {
+
+bool is_held(const PointLaw& law, const PointResponse& point) {
+  return point.state != ContactState::open && (point.force[0] > 0.0 || law.tension > 0.0);
+}
+
+}  // namespace
+
+bool ContactPair::pushes(const PairResponse& end, const std::vector<PointLaw>& laws) const {
+  for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
+    if (is_held(laws[k], end.points[k])) return true;
+  }
+  return false;
+}
+
+PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
+                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
+                                   const std::vector<bool>& let_go) const {
+  const auto mobility = [&](Eigen::Index first, Eigen::Index count) {
+    return rows_.mobility(first, count, stop.inertia_a, stop.inertia_b);
+  };
+  const double of_tie = tied() ? mobility(0, 3 * static_cast<Eigen::Index>(points_.size())) : 0.0;
+  const Eigen::Matrix3Xd way = motion(ya, yb);
+  PairResponse result;
+  result.points = end.points;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(way.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const PointResponse& point = end.points[k];
+    MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0};
+    const auto stiffness = [&](double mobile) {
+      if (mobile <= 0.0) return 0.0;
+      const bool whole = tied() || laws[k].tension > 0.0;
+      const double share = whole ? 1.0 : point.force[0] / (point.force[0] + stop.allowed_way / mobile);
+      return share * stop.stiffness / mobile;
+    };
+    if (tied()) {
+      mean.tangent.diagonal().setConstant(stiffness(of_tie));
+    } else if (let_go[k]) {
+      mean.force = -end.means[k].force;
+    } else if (is_held(laws[k], point)) {
+      mean.tangent(0, 0) = stiffness(mobility(3 * column, 1));
+      if (point.state == ContactState::locked)
+        mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness(mobility(3 * column + 1, 2)));
+    }
+    mean.force -= mean.tangent * way.col(column);
+    forces.segment<3>(3 * column) = mean.force;
+    result.means.push_back(mean);
+  }
+  rows_.set_forces(forces, result);
+  return result;
+}
+
+void ContactPair::rub_impulses(double step) {
+  for (std::size_t k = 0; k < laws_.size(); ++k)
+    laws_[k].impulse_force = multiplier_scale(points_[k]) * memory_[k].unrubbed / step;
+}
+
+void ContactPair::remember_impulses(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                    const std::vector<Eigen::Vector3d>& impulses, double step,
+                                    std::vector<PointMemory>& memory) const {
+  for (std::size_t k = 0; k < impulses.size(); ++k) {
+    const Eigen::Vector3d& force = response.points[k].force;
+    if (response.points[k].state == ContactState::open || laws[k].friction == 0.0) continue;
+    const double rubbed = std::max(0.0, force.tail<2>().norm() - laws[k].cohesion) / laws[k].friction;
+    const double due = force[0] + laws[k].impulse_force + impulses[k][0];
+    const double most = response.points[k].state == ContactState::sliding
+                            ? std::numeric_limits<double>::infinity()
+                            : std::max(impulses[k][0], 0.0);
+    const double left = std::min(most, due - rubbed);
+    memory[k].unrubbed = step * left / multiplier_scale(points_[k]);
+  }
+}
+
+}  // namespace ashlar

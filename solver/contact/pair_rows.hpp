@@ -1,0 +1,131 @@
+// How the points of two blocks move with the unknowns of both, and what forces at them do to the unknowns: the
+// kinematics of a contact pair within a step.
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <vector>
+
+#include "mechanics/contact/contact_points.hpp"
+#include "mechanics/contact/joint_law.hpp"
+#include "mechanics/contact/tie.hpp"
+
+namespace ashlar {
+
+/// Response of all points of a pair over a step.
+struct PairResponse {
+  std::vector<PointResponse> points;  ///< at the end of the step
+  std::vector<MeanResponse> means;    ///< what acts in the equations of motion
+  Eigen::VectorXd force_on_a;         ///< of the springs, (unknowns of a)
+  Eigen::VectorXd force_on_b;         ///< (unknowns of b)
+  Eigen::VectorXd shift_on_a;  ///< of forces to common points, see PairRows; empty unless both are free
+  Eigen::VectorXd shift_on_b;
+
+  [[nodiscard]] Eigen::VectorXd total_on_a() const { return sum(force_on_a, shift_on_a); }
+  [[nodiscard]] Eigen::VectorXd total_on_b() const { return sum(force_on_b, shift_on_b); }
+
+ private:
+  static Eigen::VectorXd sum(const Eigen::VectorXd& force, const Eigen::VectorXd& shift) {
+    return shift.size() > 0 ? Eigen::VectorXd(force + shift) : force;
+  }
+};
+
+/// Mean deformation of a free block over a step.
+struct MeanDeformation {
+  std::shared_ptr<const BlockParts> parts;
+  Eigen::Matrix3d start = Eigen::Matrix3d::Identity();  ///< gradient at the start of the step
+
+  /// B of PairRows. @param change of the unknowns. @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d levers(const Eigen::VectorXd& change) const;
+};
+
+/// A block in the middle and at the end of a step, at a guess of its unknowns.
+struct BlockInStep {
+  const BlockModel* model;
+  Eigen::MatrixX3d middle;      ///< position, (p, 3)
+  Eigen::MatrixX3d end;         ///< position, (p, 3)
+  Eigen::MatrixX3d prescribed;  ///< change of the position by supports that move; empty: none
+};
+
+/// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed, (na, nb).
+struct PairTangent {
+  Eigen::MatrixXd aa;
+  Eigen::MatrixXd ab;
+  Eigen::MatrixXd bb;
+};
+
+/// Motion of a relative to b at each point along its normal and tangents, C_a ya - C_b yb, with ya, yb the changes of
+/// the blocks' unknowns (theory.md section 7, where H = C_a, Q = C_b). Rows are those at the start of the step until
+/// they are followed (notes/contact_at_the_end_of_a_step.md).
+///
+/// The force f of a point acts on a at x_a and on b at x_b, the places of the material points in the middle
+/// of the step. Where these differ, r = x_a - x_b, both forces of free blocks are shifted to the place half
+/// way between them, so that they have no couple: by -1/2 B (r f') on each block, with
+///   B = G inverse(F),  sum_k x_k B_k = I    G: mean gradients of the functions, F: mean deformation gradient
+/// in the middle of the step. That is the force at the common point of an affine block, and has its resultant
+/// and torque for any. Normal forces are not shifted along the normal.
+///
+/// Points are those of the pair that rows are made of, and given to all that need their frames.
+class PairRows {
+ public:
+  /// @param tie null for contacts; otherwise points stand for its functions. To outlive this
+  PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
+           const Tie* tie);
+
+  /// @return (3, #points), m
+  [[nodiscard]] Eigen::Matrix3Xd motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// What the gaps of the end of the step have beside the linear ones, m; empty: nothing.
+  [[nodiscard]] const Eigen::RowVectorXd& bent() const { return bent_; }
+
+  /// Motion that supports prescribe, beside that of the unknowns. @param change_a,change_b (p, 3), empty: none
+  void prescribe(const std::vector<ContactPoint>& points, const BlockModel& a,
+                 const Eigen::MatrixX3d& change_a, const BlockModel& b, const Eigen::MatrixX3d& change_b);
+  void prescribe_nothing() { prescribed_.resize(3, 0); }
+  /// Work of forces on motion that supports prescribe, J.
+  [[nodiscard]] double prescribed_work(const PairResponse& response) const;
+
+  /// Takes rows and frames of the points to the middle of the step and gaps to its end, at a guess of the unknowns.
+  void follow(std::vector<ContactPoint>& points, const BlockInStep& a, const BlockInStep& b,
+              const Eigen::VectorXd& ya, const Eigen::VectorXd& yb);
+  /// Takes rows and frames of the points to the end of the step.
+  void go_to_end(std::vector<ContactPoint>& points, const BlockInStep& a, const BlockInStep& b);
+
+  /// Sets the forces on the unknowns of both blocks. @param forces (3 #points), N
+  void set_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
+  /// Sets what shifts forces to common points, of free blocks.
+  void set_shifts(const std::vector<ContactPoint>& points, const Eigen::VectorXd& ya,
+                  const Eigen::VectorXd& yb, const Eigen::VectorXd& forces, PairResponse& response) const;
+
+  [[nodiscard]] PairTangent tangent(const PairResponse& response) const;
+  /// Adds to the forces of a and b what couplings of shear forces to gaps make of changes of the unknowns: the part of
+  /// the Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks. @param couplings (2, #points)
+  void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
+                    Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
+
+  /// Norm of the longest row of each block; 0: fixed.
+  [[nodiscard]] double longest_of_a() const;
+  [[nodiscard]] double longest_of_b() const;
+  /// What a force moves a row by in a step, m/N, mean of some rows: it does not depend on how axes lie.
+  /// @param inertia_a,inertia_b density over the step squared, kg/(m^3 s^2)
+  [[nodiscard]] double mobility(Eigen::Index first, Eigen::Index count, double inertia_a,
+                                double inertia_b) const;
+
+ private:
+  /// Takes rows and frames from contact points in a configuration.
+  void act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b,
+              std::vector<ContactPoint>& points);
+
+  /// (3 #points, unknowns): normal, tangent 1, tangent 2 of each point; empty if fixed
+  Eigen::MatrixXd rows_a_;
+  Eigen::MatrixXd rows_b_;
+  Eigen::Matrix3Xd prescribed_;  ///< change of both by supports that move; empty: none
+  Eigen::Index count_;           ///< of points
+  const Tie* tie_;
+  bool free_pair_;                 ///< nothing but the other block holds either
+  MeanDeformation deformation_a_;  ///< of free pairs
+  MeanDeformation deformation_b_;
+  Eigen::Matrix3Xd apart_;   ///< r in the middle of the step without motion
+  Eigen::RowVectorXd bent_;  ///< m; empty: none
+};
+
+}  // namespace ashlar
