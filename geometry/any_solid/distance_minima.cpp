@@ -1,3 +1,4 @@
+// Longer than other sources: one search, whose parts share the state of the pair of solids.
 #include "geometry/any_solid/distance_minima.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Longer than other sources: one overlay of two outlines, whose parts share exact coordinates and signs.
 #include "geometry/any_solid/face_polygon_overlap.hpp"
 
 #include <algorithm>

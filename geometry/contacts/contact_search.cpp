@@ -60,10 +60,19 @@ struct CellBelow {
 /// Where a block's face lies on a third block.
 using Hides = HiddenPlaces::Hides;
 
+/// Vertices of one surface over the cells of the other one.
+struct VertexSearch {
+  const PlacedSurface& with_vertex;
+  const PlacedSurface& with_cell;
+  bool vertex_of_a;
+  const ContactLimits& limits;
+  const Hides& hides;
+};
+
 /// Cells of one block that a vertex of the other is near, over or beyond edges of their faces.
-std::vector<CellBelow> near_below(const PlacedSurface& with_vertex, const Vector3& place,
-                                  const PlacedSurface& with_cell, const std::vector<int>& cells,
-                                  const ContactLimits& limits, const Hides& hides, DecisionCounts& counts) {
+std::vector<CellBelow> near_below(const VertexSearch& search, const Vector3& place,
+                                  const std::vector<int>& cells, DecisionCounts& counts) {
+  const auto& [with_vertex, with_cell, vertex_of_a, limits, hides] = search;
   std::vector<CellBelow> near;
   for (const int cell : cells) {
     const SurfaceCell& sides = with_cell.surface().cells[at(cell)];
@@ -107,15 +116,16 @@ std::vector<CellBelow> bounding_cells(const PlacedSurface& with_cell, const std:
 }
 
 /// Contacts of a vertex of one block with cells of the other.
-void find_vertex_contacts(const PlacedSurface& with_vertex, int vertex_index, const PlacedSurface& with_cell,
-                          const std::vector<int>& cells, bool vertex_of_a, const ContactLimits& limits,
-                          const Hides& hides, PairContacts& contacts) {
+void find_vertex_contacts(const VertexSearch& search, int vertex_index, const std::vector<int>& cells,
+                          PairContacts& contacts) {
+  const PlacedSurface& with_vertex = search.with_vertex;
+  const PlacedSurface& with_cell = search.with_cell;
+  const ContactLimits& limits = search.limits;
   const double cosine = std::cos(limits.angle);
   const double sine = std::sin(limits.angle);
   const SurfaceVertex& vertex = with_vertex.surface().vertices[at(vertex_index)];
   const Vector3& place = with_vertex.point(vertex.point);
-  std::vector<CellBelow> found = bounding_cells(
-      with_cell, near_below(with_vertex, place, with_cell, cells, limits, hides, contacts.counts));
+  std::vector<CellBelow> found = bounding_cells(with_cell, near_below(search, place, cells, contacts.counts));
   std::erase_if(found, [&](const CellBelow& below) {
     const Vector3& normal = with_cell.normal(below.cell);
     return !is_end(with_vertex, vertex, normal, sine) ||
@@ -137,7 +147,7 @@ void find_vertex_contacts(const PlacedSurface& with_vertex, int vertex_index, co
   const double area = kept.empty() ? 0.0 : tributary_area(with_vertex.surface(), vertex.cells);
   for (const CellBelow& below : kept)
     contacts.vertices.push_back(
-        {vertex_of_a, vertex.point, vertex.cells.front(), below.cell, below.gap, area});
+        {search.vertex_of_a, vertex.point, vertex.cells.front(), below.cell, below.gap, area});
 }
 
 /// Whether the block is on the far side of its edge seen from the normal's tip: both cells lean away from
@@ -284,17 +294,15 @@ NearFeatures near_edges(const PlacedSurface& s, const Box& around, double margin
 }
 
 /// All vertices of one block against cells of the other.
-void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatures& vertices,
-                              const PlacedSurface& with_cell, const NearFeatures& cells, bool vertex_of_a,
-                              const ContactLimits& limits, const Hides& hides, PairContacts& contacts) {
+void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& vertices,
+                              const NearFeatures& cells, PairContacts& contacts) {
   const auto pairs = meeting_boxes(vertices.boxes, cells.boxes);
   for (std::size_t first = 0; first < pairs.size();) {
     std::vector<int> met;
     std::size_t k = first;
     for (; k < pairs.size() && pairs[k][0] == pairs[first][0]; ++k)
       met.push_back(cells.indices[at(pairs[k][1])]);
-    find_vertex_contacts(with_vertex, vertices.indices[at(pairs[first][0])], with_cell, met, vertex_of_a,
-                         limits, hides, contacts);
+    find_vertex_contacts(search, vertices.indices[at(pairs[first][0])], met, contacts);
     first = k;
   }
 }
@@ -318,10 +326,10 @@ void find_all_vertex_contacts(const PlacedSurface& with_vertex, const NearFeatur
     auto overlap = overlap_of_cells(a, cell_a, b, cell_b, contacts.counts);
     if (overlap && within_limits(a, b, *overlap, limits)) contacts.overlaps.push_back(std::move(*overlap));
   }
-  find_all_vertex_contacts(a, near_vertices(a, b.box(), margin), b, cells_b, true, limits, hidden.of_b,
+  find_all_vertex_contacts({a, b, true, limits, hidden.of_b}, near_vertices(a, b.box(), margin), cells_b,
                            contacts);
-  find_all_vertex_contacts(b, near_vertices(b, a.box().grown(margin), 0.0), a, cells_a, false, limits,
-                           hidden.of_a, contacts);
+  find_all_vertex_contacts({b, a, false, limits, hidden.of_a}, near_vertices(b, a.box().grown(margin), 0.0),
+                           cells_a, contacts);
   const NearFeatures edges_a = near_edges(a, b.box(), margin);
   const NearFeatures edges_b = near_edges(b, a.box().grown(margin), 0.0);
   std::vector<EdgeCrossing> crossings;

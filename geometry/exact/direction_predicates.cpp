@@ -1,3 +1,5 @@
+// Longer than other sources: directions are evaluated in each number of the ladder by templates that all predicates
+// share.
 #include "geometry/exact/direction_predicates.hpp"
 
 #include <CGAL/Gmpq.h>

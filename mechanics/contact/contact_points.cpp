@@ -145,26 +145,34 @@ PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool 
   return {overlap.cell_a, overlap.cell_b, of_a, map.reference(end.point), map.reference(end.point + along)};
 }
 
+/// Two blocks whose points are made.
+struct Search {
+  const ContactBody& a;
+  const ContactBody& b;
+  const ContactPointSettings& settings;
+  const std::vector<PressureCut>& known;
+};
+
 /// Where an overlap is to be cut, if at all. @param points of the rule on all of it
 std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<Eigen::Vector2d>& outline,
                                   const PolygonRule& rule, const std::vector<ContactPoint>& points,
-                                  const OverlapPoints& make, double rounding,
-                                  const std::vector<PressureCut>& known) {
+                                  const OverlapPoints& make, const Search& search) {
+  const double rounding = coordinate_rounding(*search.a.placed, *search.b.placed);
   std::vector<double> gaps;
   gaps.reserve(points.size());
   for (const ContactPoint& point : points) gaps.push_back(point.gap);
-  const auto cut = std::find_if(known.begin(), known.end(), [&](const PressureCut& one) {
+  const auto cut = std::find_if(search.known.begin(), search.known.end(), [&](const PressureCut& one) {
     return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
   });
   std::optional<PressureEnd> last;
-  if (cut != known.end()) last = seen(*cut, make.map(cut->of_a));
+  if (cut != search.known.end()) last = seen(*cut, make.map(cut->of_a));
   return end_of_pressure(outline, rule, gaps, rounding, last);
 }
 
 /// Area springs: a quadrature rule on every cell overlap, or on both of its parts where pressure ends inside.
-void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap,
-                      bool master_is_a, const ContactPointSettings& settings,
-                      const std::vector<PressureCut>& known, ContactPoints& result) {
+void add_area_springs(const Search& search, const CellOverlap& overlap, bool master_is_a,
+                      ContactPoints& result) {
+  const auto& [a, b, settings, known] = search;
   // A uniform pressure acts on every function exactly, however coarse the division is.
   const int degree = std::max({2, a.model->order(), b.model->order()});
   const std::vector<Eigen::Vector2d> outline =
@@ -180,8 +188,7 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
   const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
   std::optional<PressureEnd> end;
-  if (true_gaps)
-    end = cut_of(overlap, outline, whole, points, make, coordinate_rounding(*a.placed, *b.placed), known);
+  if (true_gaps) end = cut_of(overlap, outline, whole, points, make, search);
   if (end) {
     points.clear();
     add_points(polygon_rule(part_under_pressure(outline, *end), degree));
@@ -193,15 +200,17 @@ void add_area_springs(const ContactBody& a, const ContactBody& b, const CellOver
 }
 
 /// Point springs: one at every vertex of the faces' overlap polygon, with an equal share of its area.
-void add_point_springs(const ContactBody& a, const ContactBody& b, const FaceOverlap& face,
+void add_point_springs(const Search& search, const FaceOverlap& face,
                        const std::vector<CellOverlap>& overlaps, bool master_is_a,
-                       const ContactPointSettings& settings, std::vector<ContactPoint>& points) {
+                       std::vector<ContactPoint>& points) {
+  const ContactBody& a = search.a;
+  const ContactBody& b = search.b;
   const bool divided = a.placed->surface().divided || b.placed->surface().divided;
   const FaceOutline outline = outline_of(face, overlaps, divided, outline_tolerance(*a.placed, *b.placed));
   const double area = outline.area / static_cast<double>(outline.corners.size());
   for (const FaceOverlapPoint& point : outline.corners) {
     const CellOverlap& overlap = overlaps[at(point.overlap)];
-    points.push_back(OverlapPoints(a, b, overlap, master_is_a, settings.curved)
+    points.push_back(OverlapPoints(a, b, overlap, master_is_a, search.settings.curved)
                          .at_place(overlap.corners[at(point.corner)].place, area));
   }
 }
@@ -283,14 +292,14 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                              const std::vector<bool>& masters, const ContactPointSettings& settings,
                              const std::vector<PressureCut>& known) {
+  const Search search{a, b, settings, known};
   ContactPoints result;
   if (settings.area_springs) {
     for (std::size_t n = 0; n < contacts.overlaps.size(); ++n)
-      add_area_springs(a, b, contacts.overlaps[n], masters[n], settings, known, result);
+      add_area_springs(search, contacts.overlaps[n], masters[n], result);
   } else {
     for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
-      add_point_springs(a, b, face, contacts.overlaps, masters[at(face.cells.front())], settings,
-                        result.points);
+      add_point_springs(search, face, contacts.overlaps, masters[at(face.cells.front())], result.points);
   }
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
