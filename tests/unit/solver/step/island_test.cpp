@@ -21,6 +21,8 @@ const BlockState& at_rest() {
 /// One spring between two blocks.
 ContactPair pair_of(int a, int b) {
   ContactPoint point{};
+  point.face_a = point.face_b = 0;
+  point.material_a = point.material_b = point.place_a = point.place_b = Vector3::Zero();
   point.normal = Vector3::UnitZ();
   point.tangent_1 = Vector3::UnitX();
   point.tangent_2 = Vector3::UnitY();
