@@ -59,6 +59,8 @@ PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector
                    const Tie* tie)
     : rows_a_(contact_rows(*a.model, points, tie != nullptr ? tie->a : values_at(*a.model, points, true))),
       rows_b_(contact_rows(*b.model, points, tie != nullptr ? tie->b : values_at(*b.model, points, false))),
+      longest_a_(largest_row(rows_a_)),
+      longest_b_(largest_row(rows_b_)),
       count_(static_cast<Eigen::Index>(points.size())),
       tie_(tie),
       // The forces of a tie are along the gap, so that they have no couple worth the name.
@@ -110,6 +112,8 @@ void PairRows::act_at(const std::vector<ContactPoint>& acting, const BlockInStep
                       std::vector<ContactPoint>& points) {
   rows_a_ = contact_rows(*a.model, acting, values_at(*a.model, acting, true));
   rows_b_ = contact_rows(*b.model, acting, values_at(*b.model, acting, false));
+  longest_a_ = largest_row(rows_a_);
+  longest_b_ = largest_row(rows_b_);
   prescribe(acting, *a.model, a.prescribed, *b.model, b.prescribed);
   for (std::size_t k = 0; k < acting.size(); ++k) {
     points[k].normal = acting[k].normal;
@@ -214,14 +218,6 @@ void PairRows::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::Vect
     if (da.size() > 0) to_a += rows_a_.middleRows<2>(3 * k + 1).transpose() * force;
     if (db.size() > 0) to_b -= rows_b_.middleRows<2>(3 * k + 1).transpose() * force;
   }
-}
-
-double PairRows::longest_of_a() const {
-  return largest_row(rows_a_);
-}
-
-double PairRows::longest_of_b() const {
-  return largest_row(rows_b_);
 }
 
 double PairRows::mobility(Eigen::Index first, Eigen::Index count, double inertia_a, double inertia_b) const {

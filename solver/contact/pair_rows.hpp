@@ -103,8 +103,8 @@ class PairRows {
                     Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
 
   /// Norm of the longest row of each block; 0: fixed.
-  [[nodiscard]] double longest_of_a() const;
-  [[nodiscard]] double longest_of_b() const;
+  [[nodiscard]] double longest_of_a() const { return longest_a_; }
+  [[nodiscard]] double longest_of_b() const { return longest_b_; }
   /// What a force moves a row by in a step, m/N, mean of some rows: it does not depend on how axes lie.
   /// @param inertia_a,inertia_b density over the step squared, kg/(m^3 s^2)
   [[nodiscard]] double mobility(Eigen::Index first, Eigen::Index count, double inertia_a,
@@ -118,6 +118,8 @@ class PairRows {
   /// (3 #points, unknowns): normal, tangent 1, tangent 2 of each point; empty if fixed
   Eigen::MatrixXd rows_a_;
   Eigen::MatrixXd rows_b_;
+  double longest_a_;  ///< norm of the longest row
+  double longest_b_;
   Eigen::Matrix3Xd prescribed_;  ///< change of both by supports that move; empty: none
   Eigen::Index count_;           ///< of points
   const Tie* tie_;

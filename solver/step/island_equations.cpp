@@ -57,7 +57,9 @@ void IslandProblem::respond() {
 
 Balance IslandProblem::balance() const {
   Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size),
-                 std::vector<double>(island_.bodies.size(), 0.0), 0.0};
+                 std::vector<double>(island_.bodies.size(), 0.0),
+                 0.0,
+                 {}};
   std::vector<double> scale(island_.bodies.size(), 0.0);
   std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
   std::vector<double> in_doubt(island_.bodies.size(), 0.0);
@@ -106,7 +108,13 @@ Balance IslandProblem::balance() const {
     result.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
     result.worst = std::max(result.worst, result.shares[k]);
   }
+  result.scales = std::move(scale);
   return result;
+}
+
+void IslandProblem::recall(const Balance& balance) {
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k)
+    bodies_[at(island_.bodies[k])].largest_force = balance.scales[k];
 }
 
 Eigen::VectorXd IslandProblem::contact_forces() const {
@@ -200,6 +208,20 @@ std::vector<Eigen::VectorXd> IslandProblem::guess() const {
 
 void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
   for (std::size_t k = 0; k < guess.size(); ++k) bodies_[at(island_.bodies[k])].change = guess[k];
+}
+
+Evaluation IslandProblem::set_aside() {
+  Evaluation result{guess(), {}, std::move(responses_)};
+  for (const int index : island_.bodies) result.elastic.push_back(std::move(bodies_[at(index)].elastic));
+  responses_.clear();
+  return result;
+}
+
+void IslandProblem::take_back(Evaluation evaluation) {
+  set_guess(evaluation.guess);
+  responses_ = std::move(evaluation.responses);
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k)
+    bodies_[at(island_.bodies[k])].elastic = std::move(evaluation.elastic[k]);
 }
 
 std::vector<ContactState> IslandProblem::states() const {

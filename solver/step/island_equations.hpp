@@ -14,7 +14,15 @@ struct Balance {
   Eigen::VectorXd left;        ///< N, in the island's unknowns
   std::vector<double> shares;  ///< of what each body may lack, what is left on it
   double worst = 0.0;          ///< the largest share; <= 1: settled
+  std::vector<double> scales;  ///< norm of the largest force on each body
   [[nodiscard]] bool settled() const { return worst <= 1.0; }
+};
+
+/// A guess with its responses.
+struct Evaluation {
+  std::vector<Eigen::VectorXd> guess;    ///< by body
+  std::vector<ElasticResponse> elastic;  ///< by body
+  std::vector<PairResponse> responses;   ///< by pair
 };
 
 /// Where a body is taken to go first.
@@ -37,6 +45,8 @@ class IslandProblem {
   /// Takes responses that are not those of the laws. @param responses of the island's pairs
   void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
   [[nodiscard]] Balance balance() const;
+  /// Takes a balance that was found at the present guess for that of the last call of balance().
+  void recall(const Balance& balance);
   /// Forces of the last responses alone, N, in the island's unknowns.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
   /// Assembles and factorises the symmetric part of the tangent at the last responses.
@@ -48,6 +58,10 @@ class IslandProblem {
 
   [[nodiscard]] std::vector<Eigen::VectorXd> guess() const;
   void set_guess(const std::vector<Eigen::VectorXd>& guess);
+  /// Moves the present guess out with its responses, for another one to be evaluated; back, as long as laws are the
+  /// same.
+  [[nodiscard]] Evaluation set_aside();
+  void take_back(Evaluation evaluation);
   /// States of all points at the last responses, in a fixed order.
   [[nodiscard]] std::vector<ContactState> states() const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace ashlar {
@@ -54,23 +55,22 @@ class OpenClose {
     problem_.predict(FirstGuess::falling);
     problem_.respond();
     if (problem_.scheme().from_rest || problem_.pairs() == 0) return;
-    const Balance falling = problem_.balance();
-    std::vector<Eigen::VectorXd> best = problem_.guess();
-    double least = falling.worst;
-    bool at_best = true;
-    const auto compare = [&](double worst) {
-      at_best = worst <= least_gain * least;
-      if (!at_best) return;
-      least = worst;
-      best = problem_.guess();
-    };
-    std::vector<Eigen::VectorXd> own = best;
-    std::vector<double> shares = falling.shares;
+    first_balance_ = problem_.balance();
+    double least = first_balance_->worst;
+    std::vector<double> shares = first_balance_->shares;
+    Evaluation best = problem_.set_aside();
+    std::vector<Eigen::VectorXd> own = best.guess;
     std::vector<FirstGuess> kinds(own.size(), FirstGuess::falling);
+    const auto compare = [&](Balance balance) {
+      if (!(balance.worst <= least_gain * least)) return;
+      least = balance.worst;
+      first_balance_ = std::move(balance);
+      best = problem_.set_aside();
+    };
     for (const FirstGuess kind : {FirstGuess::coasting, FirstGuess::staying}) {
       problem_.predict(kind);
       problem_.respond();
-      const Balance balance = problem_.balance();
+      Balance balance = problem_.balance();
       const std::vector<Eigen::VectorXd> guess = problem_.guess();
       for (std::size_t k = 0; k < own.size(); ++k) {
         if (balance.shares[k] > least_gain_of_one * shares[k]) continue;
@@ -78,27 +78,24 @@ class OpenClose {
         own[k] = guess[k];
         kinds[k] = kind;
       }
-      compare(balance.worst);
+      compare(std::move(balance));
     }
     if (std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) != kinds.end()) {
       problem_.set_guess(own);
       problem_.respond();
-      compare(problem_.balance().worst);
+      compare(problem_.balance());
     }
-    if (at_best) return;
-    problem_.set_guess(best);
-    problem_.respond();
+    problem_.take_back(std::move(best));
   }
 
   /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
   /// nothing damps make more of it. The last factor takes most of it away.
   void polish() {
-    const std::vector<Eigen::VectorXd> guess = problem_.guess();
-    problem_.apply(problem_.solve(problem_.balance().left, true), 1.0);
+    const Eigen::VectorXd change = problem_.solve(problem_.balance().left, true);
+    Evaluation settled = problem_.set_aside();
+    problem_.apply(change, 1.0);
     problem_.respond();
-    if (problem_.balance().settled()) return;
-    problem_.set_guess(guess);
-    problem_.respond();
+    if (!problem_.balance().settled()) problem_.take_back(std::move(settled));
   }
 
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
@@ -227,6 +224,15 @@ class OpenClose {
     return lowered;
   }
 
+  /// That of the present guess. The first one is known from the start.
+  [[nodiscard]] Balance next_balance() {
+    if (!first_balance_) return problem_.balance();
+    Balance balance = std::move(*first_balance_);
+    first_balance_.reset();
+    problem_.recall(balance);
+    return balance;
+  }
+
   /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
   Outcome newton(int most, bool closing) {
     std::vector<std::vector<ContactState>> seen;
@@ -240,7 +246,7 @@ class OpenClose {
         std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
-      const Balance balance = problem_.balance();
+      const Balance balance = next_balance();
       // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
       // wide.
       if (balance.settled() &&
@@ -390,11 +396,12 @@ class OpenClose {
   const SimulationSettings& settings_;
   IslandResult& result_;
   std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
-  double beyond_ = 0.5;                ///< multiples of a fall of force that multipliers are lowered below it
-  bool factorized_ = false;            ///< by newton()
-  bool followed_ = false;              ///< rows were taken anew since newton() was called
-  double least_ = 0.0;                 ///< Balance::worst of the last newton() at its best
-  std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
+  double beyond_ = 0.5;      ///< multiples of a fall of force that multipliers are lowered below it
+  bool factorized_ = false;  ///< by newton()
+  bool followed_ = false;    ///< rows were taken anew since newton() was called
+  std::optional<Balance> first_balance_;  ///< of the guess that start() has left, until it is asked for
+  double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
+  std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()
 };
 
 }  // namespace
