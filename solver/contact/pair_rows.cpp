@@ -69,8 +69,12 @@ PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector
   deformation_a_ = mean_deformation(a);
   deformation_b_ = mean_deformation(b);
   apart_.resize(3, count_);
+  // Forces act where the material points are. Places of points whose feet are on flat sub-faces are not there.
+  const PlacedBlock placed_a{a.model, &a.state->position};
+  const PlacedBlock placed_b{b.model, &b.state->position};
   for (std::size_t k = 0; k < points.size(); ++k)
-    apart_.col(static_cast<Eigen::Index>(k)) = in_frame(points[k], points[k].place_a - points[k].place_b);
+    apart_.col(static_cast<Eigen::Index>(k)) = in_frame(
+        points[k], place_of(placed_a, points[k].material_a) - place_of(placed_b, points[k].material_b));
 }
 
 Eigen::Matrix3Xd PairRows::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
