@@ -93,7 +93,10 @@ struct SimulationSettings {
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double multiplier_accuracy = 1e-6;
   /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew.
-  [[nodiscard]] double followed_gap() const { return multiplier_accuracy * penetration_tolerance; }
+  /// Springs give way by more than two blocks may meet by unseen
+  [[nodiscard]] double followed_gap() const {
+    return augmented ? multiplier_accuracy * penetration_tolerance : passing_share * contact_distance;
+  }
   /// >= 0, of contact points in a step after the first: each leaves about a thousandth of what the last left
   /// out
   int contact_evaluations = 3;

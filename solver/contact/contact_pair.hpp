@@ -202,7 +202,7 @@ class ContactPair {
   /// Whether cohesion or tensile strength is lost in the step anywhere. @param memory after it
   [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
 
-  // contact_pair.cpp
+  // contact_forces.cpp
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// Memory after an accepted step. @param laws that gave the response

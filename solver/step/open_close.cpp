@@ -103,9 +103,7 @@ class OpenClose {
 
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
   bool follow() {
-    if (problem_.scheme().from_rest) return false;
-    followed_ = problem_.follow_contacts(settings_.followed_gap());
-    return followed_;
+    return followed_ = !problem_.scheme().from_rest && problem_.follow_contacts(settings_.followed_gap());
   }
 
   /// Joints with tensile strength do not break, and those with cohesion do not lose it, before what pulls at
@@ -230,14 +228,12 @@ class OpenClose {
   /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
   Outcome newton(int most, bool closing) {
     std::vector<std::vector<ContactState>> seen;
-    least_ = std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    least_ = infinity;
     int without_gain = 0;
     bool last_factor = false;  // was used once more
-    // Rows that were taken anew hardly differ: the last factor will do as long as it takes most of what is
-    // left.
-    constexpr double most_of_it = 0.1;
-    double last =
-        std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
+    // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
+    double last = std::exchange(followed_, false) && factorized_ ? infinity : 0.0;
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
       const Balance balance = problem_.balance();
@@ -259,7 +255,7 @@ class OpenClose {
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
       seen.push_back(std::move(states));
       // The last factor will do for what is left.
-      const bool falls = balance.worst < most_of_it * last;
+      const bool falls = balance.worst < 0.1 * last;
       last = falls ? balance.worst : 0.0;
       const bool nearly = falls || (as_before && !last_factor && balance.worst <= settings_.nearly_settled);
       last_factor = nearly;
