@@ -76,6 +76,9 @@ struct IterationSettings {
       1e-10;  ///< of the largest force of a block: when an open-close iteration has settled
   /// of the largest force of a block, at most: what points that only rounding has closed may leave unbalanced
   double doubt_share = 1e-7;
+  /// >= 0, of contact points in a step after the first: each leaves about a thousandth of what the last left
+  /// out
+  int contact_evaluations = 3;
 };
 
 /// Of contact that multipliers hold (notes/augmented_contact.md).
@@ -89,12 +92,7 @@ struct MultiplierSettings {
   [[nodiscard]] double tolerated_depth() const { return (1.0 - share) * penetration_tolerance; }
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
   double accuracy = 1e-6;
-  /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew
-  /// (notes/contact_at_the_end_of_a_step.md).
-  [[nodiscard]] double followed_gap() const { return accuracy * penetration_tolerance; }
-  /// >= 0, of contact points in a step after the first: each leaves about a thousandth of what the last left
-  /// out
-  int contact_evaluations = 3;
+
   /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.hpp).
   /// Larger makes more of rounding, smaller lets forces alternate longer
   double stop_stiffness = 300.0;
@@ -158,6 +156,13 @@ struct SimulationSettings {
   double contact_distance =
       1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
+
+  /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew
+  /// (notes/contact_at_the_end_of_a_step.md). Springs give way by more than two blocks may meet by unseen.
+  [[nodiscard]] double followed_gap() const {
+    return augmented ? multipliers.accuracy * multipliers.penetration_tolerance
+                     : search.passing_share * contact_distance;
+  }
 
   SearchSettings search;
   DepthSettings depth;

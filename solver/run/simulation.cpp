@@ -77,7 +77,7 @@ StaticStatus Simulation::static_step(double end_time) {
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
-  return ashlar::moving_blocks(context());
+  return ashlar::moving_blocks(system_, state_);
 }
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
@@ -89,7 +89,7 @@ DroppedByOrder Simulation::change_order(int block, int order) {
 }
 
 SimulationSnapshot Simulation::snapshot() const {
-  return snapshot_of(context());
+  return snapshot_of(system_, state_, contacts_, factors_);
 }
 
 void Simulation::restore(const SimulationSnapshot& snapshot) {
@@ -117,7 +117,7 @@ Vector3 Simulation::angular_momentum() const {
 }
 
 SimulationCounts Simulation::counts() const {
-  return counts_of(context());
+  return counts_of(state_, contacts_, factors_);
 }
 
 }  // namespace ashlar

@@ -108,8 +108,6 @@ class Simulation {
 
  private:
   [[nodiscard]] RunContext context();
-  /// For what only reads.
-  [[nodiscard]] RunContext context() const { return const_cast<Simulation*>(this)->context(); }
 
   BlockSystem system_;
   RunState state_;

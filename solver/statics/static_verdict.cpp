@@ -171,16 +171,16 @@ StaticStatus give_up(const RunContext& run) {
   return run.state.statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
 }
 
-std::vector<MovingBlock> moving_blocks(const RunContext& run) {
-  const std::vector<bool> held = run.system.held_without_contacts();
+std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state) {
+  const std::vector<bool> held = system.held_without_contacts();
   std::vector<MovingBlock> result;
   std::vector<MovingBlock> later;
-  for (std::size_t k = 0; k < run.state.statics.progress.travels.size(); ++k) {
-    const BlockModel& block = run.blocks()[k];
-    if (!run.system.moving()[k] || held[k] ||
-        run.state.statics.progress.travels[k] <= taken_along_share * run.settings().statics.travel)
+  for (std::size_t k = 0; k < state.statics.progress.travels.size(); ++k) {
+    const BlockModel& block = system.blocks()[k];
+    if (!system.moving()[k] || held[k] ||
+        state.statics.progress.travels[k] <= taken_along_share * system.settings().statics.travel)
       continue;
-    const Eigen::MatrixX3d& a = run.state.statics.onset.unbalanced[k];
+    const Eigen::MatrixX3d& a = state.statics.onset.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());
     const Vector3 turn = 0.5 * Vector3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
                                        gradient(1, 0) - gradient(0, 1));

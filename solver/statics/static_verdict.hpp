@@ -29,6 +29,6 @@ void forget_accelerations(const RunContext& run);
 /// How a static analysis ends that goes no farther.
 [[nodiscard]] StaticStatus give_up(const RunContext& run);
 /// Blocks that were found to be moving, and others that move with them.
-[[nodiscard]] std::vector<MovingBlock> moving_blocks(const RunContext& run);
+[[nodiscard]] std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state);
 
 }  // namespace ashlar

@@ -105,7 +105,7 @@ class DynamicStep {
   void take_back_moves() {
     if (moves_ == 0) return;
     unmoved_->run.log = run_.state.log;
-    unmoved_->run.log.counts = counts_of(run_);
+    unmoved_->run.log.counts = counts_of(run_.state, run_.contacts, run_.factors);
     restore(run_, *unmoved_);
   }
 

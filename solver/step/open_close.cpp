@@ -34,7 +34,7 @@ class OpenClose {
       if (!break_joints()) {
         if (settings_.augmented && (stiffen() || lower_multipliers())) {
           if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
-        } else if (evaluations < settings_.multipliers.contact_evaluations && follow()) {
+        } else if (evaluations < settings_.iteration.contact_evaluations && follow()) {
           ++evaluations;
         } else {
           if (factorized_) polish();
@@ -100,9 +100,7 @@ class OpenClose {
 
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
   bool follow() {
-    if (problem_.scheme().from_rest) return false;
-    followed_ = problem_.follow_contacts(settings_.multipliers.followed_gap());
-    return followed_;
+    return followed_ = !problem_.scheme().from_rest && problem_.follow_contacts(settings_.followed_gap());
   }
 
   /// Joints with tensile strength do not break, and those with cohesion do not lose it, before what pulls at
@@ -239,8 +237,7 @@ class OpenClose {
     least_ = std::numeric_limits<double>::infinity();
     int without_gain = 0;
     bool last_factor = false;  // was used once more
-    // Rows that were taken anew hardly differ: the last factor will do as long as it takes most of what is
-    // left.
+        // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
     constexpr double most_of_it = 0.1;
     double last =
         std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;

@@ -30,21 +30,26 @@ std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapsho
 
 }  // namespace
 
-SimulationCounts counts_of(const RunContext& run) {
-  SimulationCounts counts = run.state.log.counts;
-  counts.finder = run.contacts.finder().counts();
-  counts.factors += run.factors.counts();
+SimulationCounts counts_of(const RunState& state, const StepContacts& contacts, const FactorCache& factors) {
+  SimulationCounts counts = state.log.counts;
+  counts.finder = contacts.finder().counts();
+  counts.factors += factors.counts();
   return counts;
 }
 
-SimulationSnapshot snapshot_of(const RunContext& run) {
-  SimulationSnapshot result{run.state, {}, run.contacts.finder().state()};
-  result.run.log.counts = counts_of(run);
-  for (int k = 0; k < run.system.count(); ++k) {
-    const BlockModel& block = run.blocks()[at(k)];
+SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state, const StepContacts& contacts,
+                               const FactorCache& factors) {
+  SimulationSnapshot result{state, {}, contacts.finder().state()};
+  result.run.log.counts = counts_of(state, contacts, factors);
+  for (int k = 0; k < system.count(); ++k) {
+    const BlockModel& block = system.blocks()[at(k)];
     if (block.incremental() != nullptr) result.carried.emplace(k, block.carried());
   }
   return result;
+}
+
+SimulationSnapshot snapshot_of(const RunContext& run) {
+  return snapshot_of(run.system, run.state, run.contacts, run.factors);
 }
 
 void restore(const RunContext& run, const SimulationSnapshot& snapshot) {

@@ -18,8 +18,11 @@ struct SimulationSnapshot {
 };
 
 /// Work done and skipped by a run so far.
-[[nodiscard]] SimulationCounts counts_of(const RunContext& run);
+[[nodiscard]] SimulationCounts counts_of(const RunState& state, const StepContacts& contacts,
+                                         const FactorCache& factors);
 
+[[nodiscard]] SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state,
+                                             const StepContacts& contacts, const FactorCache& factors);
 [[nodiscard]] SimulationSnapshot snapshot_of(const RunContext& run);
 /// @throws std::invalid_argument if the snapshot was taken of other blocks: nothing has changed then
 void restore(const RunContext& run, const SimulationSnapshot& snapshot);
