@@ -9,6 +9,7 @@ namespace ashlar::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 // A cube of 1 m and a beam 4 x 1 x 1 m of 2500 kg/m^3, 1e5 Pa on the beam's end.
