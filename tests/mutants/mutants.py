@@ -171,7 +171,9 @@ def layer_project(layer, folder, jobs):
     if shutil.which("ccache"):
         os.environ.update(CMAKE_C_COMPILER_LAUNCHER="ccache", CMAKE_CXX_COMPILER_LAUNCHER="ccache",
                           CCACHE_BASEDIR=str(source), CCACHE_NOHASHDIR="1")
-    if run(["cmake", "--preset", "release", "-DASHLAR_WARNINGS_AS_ERRORS=OFF"], cwd=source) != 0:
+    # With assertions, so that what reads beyond an array is noticed.
+    if run(["cmake", "--preset", "release", "-DASHLAR_WARNINGS_AS_ERRORS=OFF", "-DASHLAR_BUILD_BENCHMARKS=OFF",
+            "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -D_GLIBCXX_ASSERTIONS"], cwd=source) != 0:
         raise SystemExit(f"error: {source} cannot be configured")
     program = f"build/release/tests/{layer}_tests"
     everything = [program, "--gtest_brief=1", "--gtest_fail_fast"]
@@ -188,8 +190,8 @@ def choose(layer, pattern, seed, count):
         file = str(path.relative_to(ROOT))
         if fnmatch.fnmatch(file, pattern):
             candidates += mutants_of(file, path.read_text())
-    order = random.Random(seed)
-    return order.sample(candidates, min(count, len(candidates)))
+    random.Random(seed).shuffle(candidates)
+    return candidates[:count]
 
 
 def report(mutant, text, verdict):
