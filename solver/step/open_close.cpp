@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "solver/step/first_guess.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -23,7 +25,7 @@ class OpenClose {
 
   Outcome run() {
     bond();
-    start();
+    first_balance_ = take_best_guess(problem_);
     for (int rounds = 0, evaluations = 0;;) {
       Outcome outcome = newton(settings_.iteration.newton_iterations, false);
       if (outcome == Outcome::stalled) {
@@ -46,48 +48,6 @@ class OpenClose {
   }
 
  private:
-  /// Blocks at rest on others stay, those that slide coast, those that meet nothing fall: the guess that
-  /// lacks less balance, one for all bodies or for each its own.
-  void start() {
-    // Not 1/2 or 1, which symmetric scenes have but for rounding.
-    constexpr double least_gain = 0.45;
-    constexpr double least_gain_of_one = 0.9;
-    problem_.predict(FirstGuess::falling);
-    problem_.respond();
-    if (problem_.scheme().from_rest || problem_.pairs() == 0) return;
-    first_balance_ = problem_.balance();
-    double least = first_balance_->worst;
-    std::vector<double> shares = first_balance_->shares;
-    Evaluation best = problem_.set_aside();
-    std::vector<Eigen::VectorXd> own = best.guess;
-    std::vector<FirstGuess> kinds(own.size(), FirstGuess::falling);
-    const auto compare = [&](Balance balance) {
-      if (!(balance.worst <= least_gain * least)) return;
-      least = balance.worst;
-      first_balance_ = std::move(balance);
-      best = problem_.set_aside();
-    };
-    for (const FirstGuess kind : {FirstGuess::coasting, FirstGuess::staying}) {
-      problem_.predict(kind);
-      problem_.respond();
-      Balance balance = problem_.balance();
-      const std::vector<Eigen::VectorXd> guess = problem_.guess();
-      for (std::size_t k = 0; k < own.size(); ++k) {
-        if (balance.shares[k] > least_gain_of_one * shares[k]) continue;
-        shares[k] = balance.shares[k];
-        own[k] = guess[k];
-        kinds[k] = kind;
-      }
-      compare(std::move(balance));
-    }
-    if (std::adjacent_find(kinds.begin(), kinds.end(), std::not_equal_to<>()) != kinds.end()) {
-      problem_.set_guess(own);
-      problem_.respond();
-      compare(problem_.balance());
-    }
-    problem_.take_back(std::move(best));
-  }
-
   /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
   /// nothing damps make more of it. The last factor takes most of it away.
   void polish() {
@@ -396,7 +356,7 @@ class OpenClose {
   double beyond_ = 0.5;      ///< multiples of a fall of force that multipliers are lowered below it
   bool factorized_ = false;  ///< by newton()
   bool followed_ = false;    ///< rows were taken anew since newton() was called
-  std::optional<Balance> first_balance_;  ///< of the guess that start() has left, until it is asked for
+  std::optional<Balance> first_balance_;  ///< of the first guess, until it is asked for
   double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()
 };
