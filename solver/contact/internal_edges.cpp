@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "mechanics/contact/overlap_outline.hpp"
 
@@ -13,6 +15,10 @@ namespace {
 constexpr double faces_across = 0.985;
 constexpr double steep_sides = 0.5;
 constexpr double sides_along = 0.17;  // cosine of 80 degrees
+/// Cosine of a third of a degree: directions that differ by less are one way.
+constexpr double one_way = 0.99998;
+/// Cosine of 9.5 degrees: what a bundle's first way is this much across, all its ways are, see faces_across.
+constexpr double bundle_across = 0.9863;
 
 /// Largest cosine between a unit direction and any of some normals' lines.
 double largest_cosine(const Vector3& direction, const std::vector<Vector3>& normals) {
@@ -96,6 +102,21 @@ bool any_of(const PairContacts& contacts, const Condition& holds) {
 
 }  // namespace
 
+ContactNormals normals_of(const PlacedSurface& a, const PlacedSurface& b, const PairContacts& contacts) {
+  ContactNormals normals;
+  const auto add = [&](const auto& some) {
+    for (const auto& contact : some) normals.push_back(touching(a, b, contact).normals);
+  };
+  add(contacts.overlaps);
+  add(contacts.vertices);
+  add(contacts.edges);
+  return normals;
+}
+
+ContactNormals normals_of(const PlacedSurface& a, const PlacedSurface& b, const Touch& touch) {
+  return {std::visit([&](const auto& contact) { return touching(a, b, contact).normals; }, touch.contact)};
+}
+
 WaysOut::WaysOut(const PairHistories& histories) {
   for (const auto& [blocks, pair] : histories) {
     if (!(pair.memory.deepest() > 0.0)) continue;
@@ -105,15 +126,21 @@ WaysOut::WaysOut(const PairHistories& histories) {
 }
 
 void WaysOut::add(const std::array<int, 2>& blocks, const Vector3& normal, double depth) {
-  // Directions that differ by less than a third of a degree are one way.
-  constexpr double same_direction = 0.99998;
   const double height = depth > 0.0 ? 2.0 * depth : depth;
   const auto add_to = [&](int block, int other, const Vector3& direction) {
-    std::vector<OutOf>& known = ways_[block];
-    const bool there = std::any_of(known.begin(), known.end(), [&](const OutOf& way) {
-      return way.other == other && way.direction.dot(direction) >= same_direction && way.height >= height;
+    std::vector<Bundle>& bundles = ways_[block];
+    auto bundle = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& known) {
+      return known.direction.dot(direction) >= one_way;
     });
-    if (!there) known.push_back({other, direction, height});
+    if (bundle == bundles.end()) bundle = bundles.insert(bundles.end(), Bundle{direction, {}, {}});
+    std::vector<OutOf>& known = bundle->out_of[other];
+    if (std::any_of(known.begin(), known.end(), [&](const OutOf& way) { return way.height >= height; }))
+      return;
+    known.push_back({direction, height, count_++});
+    auto& [first, second] = bundle->highest;
+    if (height > first.height && other != first.other) second = std::exchange(first, {other, height});
+    if (height > first.height) first.height = height;
+    if (other != first.other && height > second.height) second = {other, height};
   };
   add_to(blocks[0], blocks[1], normal);
   add_to(blocks[1], blocks[0], -normal);
@@ -136,32 +163,50 @@ void WaysOut::add_touching(const std::array<int, 2>& blocks, const PlacedSurface
 double WaysOut::sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const {
   double highest = 0.0;
   if (const auto known = ways_.find(block); known != ways_.end()) {
-    for (const OutOf& way : known->second) {
-      if (way.other != but && std::abs(way.direction.dot(direction)) > faces_across)
-        highest = std::max(highest, way.height);
+    for (const Bundle& bundle : known->second) {
+      if (!(std::abs(bundle.direction.dot(direction)) > faces_across)) continue;
+      const Highest& high = bundle.highest[bundle.highest[0].other == but ? 1 : 0];
+      highest = std::max(highest, high.height);
     }
   }
   return given_way ? highest + 2.0 * given_way(block, direction) : highest;
 }
 
-std::vector<WayOut> WaysOut::of_pair(int a, int b, const GivenWay& given_way) const {
-  std::vector<WayOut> ways;
+std::vector<WayOut> WaysOut::of_pair(int a, int b, const ContactNormals& normals,
+                                     const GivenWay& given_way) const {
+  std::vector<std::pair<std::size_t, WayOut>> numbered;
+  const auto across_all = [&](const Vector3& direction) {
+    return std::all_of(normals.begin(), normals.end(), [&](const std::vector<Vector3>& of_contact) {
+      return largest_cosine(direction, of_contact) > bundle_across;
+    });
+  };
   const auto add = [&](int block, int side, double sign) {
     const auto known = ways_.find(block);
     if (known == ways_.end()) return;
-    for (const OutOf& way : known->second) {
-      const bool own = way.other == side;
-      const double supports = own ? 0.0
-                                  : sunk(way.other, block, way.direction, given_way) +
-                                        sunk(side, block, way.direction, given_way);
-      ways.push_back({sign * way.direction,
-                      way.height + supports,
-                      {std::min(block, way.other), std::max(block, way.other)},
-                      own});
+    for (const Bundle& bundle : known->second) {
+      if (across_all(bundle.direction)) continue;
+      for (const auto& [other, ways] : bundle.out_of) {
+        const bool own = other == side;
+        for (const OutOf& way : ways) {
+          const double supports = own ? 0.0
+                                      : sunk(other, block, way.direction, given_way) +
+                                            sunk(side, block, way.direction, given_way);
+          numbered.emplace_back(way.number, WayOut{sign * way.direction,
+                                                   way.height + supports,
+                                                   {std::min(block, other), std::max(block, other)},
+                                                   own});
+        }
+      }
     }
+    std::sort(numbered.begin(), numbered.end(),
+              [](const auto& x, const auto& y) { return x.first < y.first; });
   };
-  add(a, b, 1.0);
-  add(b, a, -1.0);
+  std::vector<WayOut> ways;
+  for (const auto& [block, side, sign] : {std::tuple{a, b, 1.0}, std::tuple{b, a, -1.0}}) {
+    numbered.clear();
+    add(block, side, sign);
+    for (const auto& [number, way] : numbered) ways.push_back(way);
+  }
   return ways;
 }
 
@@ -175,7 +220,8 @@ bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
   if (pair == found.end() || pair->blocks != way.out_of) return false;
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);
-  const std::vector<WayOut> others = of_pair(pair->blocks[0], pair->blocks[1], given_way);
+  const std::vector<WayOut> others =
+      of_pair(pair->blocks[0], pair->blocks[1], normals_of(a, b, pair->contacts), given_way);
   const Vector3& direction = way.direction;
   return any_of(pair->contacts, [&](const auto& contact) {
     return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&

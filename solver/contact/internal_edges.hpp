@@ -33,7 +33,14 @@ struct WayOut {
 /// By how much a block is shorter or longer along a unit direction than it is without load, m, >= 0.
 using GivenWay = std::function<double(int block, const Vector3& direction)>;
 
-/// Ways out of what each block had sunk into at the end of the last step.
+/// Unit normals across which each contact of a pair touches; only their lines count.
+using ContactNormals = std::vector<std::vector<Vector3>>;
+[[nodiscard]] ContactNormals normals_of(const PlacedSurface& a, const PlacedSurface& b,
+                                        const PairContacts& contacts);
+[[nodiscard]] ContactNormals normals_of(const PlacedSurface& a, const PlacedSurface& b, const Touch& touch);
+
+/// Ways out of what each block had sunk into at the end of the last step. A block has one bundle of ways for each
+/// direction, however many blocks lie on it: work is proportional to the ways that may matter to a pair.
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
@@ -44,8 +51,10 @@ class WaysOut {
   /// The same of all faces and vertices that lie or come to lie on a face.
   void add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
                     const PairContacts& contacts);
+  /// Ways of a pair, less those that are across the faces of all its contacts, which they do not undo.
   /// @param given_way empty: blocks are rigid
-  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b, const GivenWay& given_way) const;
+  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b, const ContactNormals& normals,
+                                            const GivenWay& given_way) const;
   /// Whether a block still lies on what a way leads out of, by a contact that no other way undoes: of two
   /// flanks of a ridge that has hardly gone in, each is beside the way out of the other.
   /// @param found contacts, ordered by blocks, with or without those of seams. @param placed surfaces of
@@ -56,15 +65,26 @@ class WaysOut {
 
  private:
   struct OutOf {
-    int other;  ///< what the block was in
     Vector3 direction;
     double height;
+    std::size_t number;  ///< counts ways in the order in which they were added
+  };
+  struct Highest {
+    int other = -1;
+    double height = 0.0;  ///< m, >= 0
+  };
+  /// Ways of a block whose directions differ from that of the first by less than a third of a degree.
+  struct Bundle {
+    Vector3 direction;                         ///< of the first
+    std::map<int, std::vector<OutOf>> out_of;  ///< by what the block was in
+    std::array<Highest, 2> highest;            ///< and the highest out of another block
   };
   /// Height of the highest of a block's ways out of any but another one, along a direction or against it, and
   /// twice what the block itself has given way, m.
   [[nodiscard]] double sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const;
 
-  std::map<int, std::vector<OutOf>> ways_;  ///< by block
+  std::map<int, std::vector<Bundle>> ways_;  ///< by block
+  std::size_t count_ = 0;
 };
 
 /// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns

@@ -110,9 +110,12 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   }
   const auto stands = standing_ways(system, state, found);
   const GivenWay given = given_way(system, state);
-  for (auto& [pair, contacts] : found)
-    leave_out_seams(finder_.placed(pair[0]), finder_.placed(pair[1]),
-                    ways_out_.of_pair(pair[0], pair[1], given), stands, contacts);
+  for (auto& [pair, contacts] : found) {
+    const PlacedSurface& a = finder_.placed(pair[0]);
+    const PlacedSurface& b = finder_.placed(pair[1]);
+    leave_out_seams(a, b, ways_out_.of_pair(pair[0], pair[1], normals_of(a, b, contacts), given), stands,
+                    contacts);
+  }
   return found;
 }
 
@@ -176,8 +179,11 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
   const auto stands = standing_ways(system, state, found);
   const GivenWay given = given_way(system, state);
   std::erase_if(passing, [&](const PassingBlocks& pair) {
-    const auto& [a, b] = pair.blocks;
-    return at_seam(finder_.placed(a), finder_.placed(b), ways_out_.of_pair(a, b, given), stands, pair.touch);
+    const PlacedSurface& a = finder_.placed(pair.blocks[0]);
+    const PlacedSurface& b = finder_.placed(pair.blocks[1]);
+    const std::vector<WayOut> ways =
+        ways_out_.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
+    return at_seam(a, b, ways, stands, pair.touch);
   });
   return passing;
 }
