@@ -103,6 +103,18 @@ struct MultiplierSettings {
   int rounds = 40;               ///< balances of a step with other stiffness or multipliers; more: it is cut
 };
 
+/// When islands of blocks are put to sleep (step/sleeping_islands.hpp).
+struct RestSettings {
+  bool sleeps = true;
+  int window = 30;  ///< steps, > 0: longer is surer and later
+  /// >= 0, of contact_distance: how far blocks may have moved in two windows
+  double way_share = 0.01;
+  /// 0 to 1: how much of the way of a window may be left in the next one. Motion that grows or goes on is no rest
+  double fading = 0.9;
+  /// >= 0, of the largest force on a block: what it may lack to be in balance
+  double unbalanced_share = 1e-4;
+};
+
 /// Of a static analysis (statics/static_analysis.hpp).
 struct StaticSettings {
   /// as residual_tolerance: tighter, as soft motions make more of a force that is not balanced
@@ -168,6 +180,7 @@ struct SimulationSettings {
   DepthSettings depth;
   IterationSettings iteration;
   MultiplierSettings multipliers;
+  RestSettings rest;
   StaticSettings statics;
 
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed

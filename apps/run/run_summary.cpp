@@ -30,6 +30,8 @@ nlohmann::ordered_json counts_of(const BuiltSimulation& built) {
           {"block_pairs_known_apart", finder.block_pairs_far},
           {"block_pairs_followed_through_a_step", finder.motions_checked},
           {"contacts_added_for_passing", counts.passing_contacts},
+          {"islands_put_to_sleep", counts.islands_put_to_sleep},
+          {"steps_of_sleeping_blocks", counts.sleeping_block_steps},
           {"changes_of_sub_faces", finder.divisions},
           {"searches_at_the_limit_of_sub_faces", finder.divisions_at_limit},
           {"contact_points", counts.contact_points},

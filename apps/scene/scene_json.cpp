@@ -45,6 +45,7 @@ Json to_json(const SceneAnalysis& analysis) {
   add_gravity(json, analysis);
   json["solver"] = name_of(solver_names, analysis.solver);
   json["mass_damping"] = analysis.mass_damping;
+  json["sleeping"] = analysis.sleeping;
   json["memory_limit"] = or_auto(analysis.memory_limit);
   return json;
 }

@@ -36,6 +36,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   }
   table.read_choice("solver", analysis.solver, solver_names);
   table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
+  table.read_bool("sleeping", analysis.sleeping);
   table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
 }
 

@@ -50,6 +50,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
     const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
     surfaces_.emplace_back(block, settings.search.subdivisions, axes_,
                            is_first ? nullptr : &surfaces_[twin->second]);
+    fixed_.push_back(block.fixed());
     moving_.push_back(!block.fixed());
     thickness_.push_back(block.basis().volume() / surface_area(block.solid().mesh()));
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
@@ -136,7 +137,7 @@ void ContactFinder::hide_fixed_sides() {
   fixed_sides_.emplace();
   std::vector<Box> boxes(surfaces_.size());
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    if (!moving_[k]) boxes[k] = box_of(surfaces_[k].surface().points).grown(settings_.contact_distance);
+    if (fixed_[k]) boxes[k] = box_of(surfaces_[k].surface().points).grown(settings_.contact_distance);
   }
   const ContactLimits flush{settings_.contact_distance, settings_.contact_distance,
                             settings_.search.contact_angle};
@@ -225,7 +226,8 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, Pa
   });
   for (std::size_t k = 0; k < open.size(); ++k)
     if (settled[k]) entrances.emplace(searched[open[k]].blocks, *settled[k]);
-  for (auto& [blocks, pair] : histories) pair.entrance.reset();
+  for (auto& [blocks, pair] : histories)
+    if (moving_[at(blocks[0])] || moving_[at(blocks[1])]) pair.entrance.reset();
   for (const auto& [blocks, name] : entrances) histories[blocks].entrance = name;
 }
 

@@ -76,6 +76,14 @@ class ContactFinder {
   ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
                 std::set<PairKey> left_out = {});
 
+  /// Takes note which blocks may move; no contacts are looked for between two that do not. @param moving by
+  /// block, of fixed blocks false
+  void watch(const std::vector<bool>& moving) { moving_ = moving; }
+  /// What the fastest point of a block has gone at most in the motion that was checked last, m.
+  [[nodiscard]] double checked_motion(int block) const {
+    return tracks_[static_cast<std::size_t>(block)].checked_motion;
+  }
+
   /// All contacts within reach at the start of a step.
   /// @param histories of pairs: how deep they were, clearances and entrances are read and noted
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
@@ -131,8 +139,9 @@ class ContactFinder {
   void settle_convex_pairs(std::vector<FoundContacts>& searched, PairHistories& histories);
 
   SimulationSettings settings_;
-  Eigen::Matrix3d axes_;      ///< of the boxes below
-  std::vector<bool> moving_;  ///< false for fixed blocks
+  Eigen::Matrix3d axes_;  ///< of the boxes below
+  std::vector<bool> fixed_;
+  std::vector<bool> moving_;  ///< false for fixed blocks, and for those that sleep
   std::set<PairKey> left_out_;
   std::vector<double>
       thickness_;  ///< volume over surface, m: a third of a ball's radius, half of a plate's thickness

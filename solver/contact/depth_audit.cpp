@@ -191,12 +191,12 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
                                        const std::vector<BlockSurface>& surfaces, const AuditScope& scope) {
   std::vector<Box> boxes;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    if (!blocks[k].fixed() || audited_[k].points.empty()) audited_[k] = placed_block(surfaces[k], states[k]);
+    if (scope.moving[k] || audited_[k].points.empty()) audited_[k] = placed_block(surfaces[k], states[k]);
     boxes.push_back(audited_[k].box);
   }
   std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
   std::erase_if(pairs, [&](const auto& pair) {
-    return (blocks[at(pair[0])].fixed() && blocks[at(pair[1])].fixed()) || !scope.pairs(pair[0], pair[1]);
+    return (!scope.moving[at(pair[0])] && !scope.moving[at(pair[1])]) || !scope.pairs(pair[0], pair[1]);
   });
   std::vector<std::optional<MaterialMap>> maps(blocks.size());
   for (const auto& pair : pairs) {

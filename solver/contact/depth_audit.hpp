@@ -70,6 +70,7 @@ struct AuditedBlock {
 /// What an audit looks at.
 struct AuditScope {
   std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
+  std::vector<bool> moving;             ///< by block; others are where they were in the last audit
   double resolution = 0.0;  ///< m, > 0: how exact depths of edges are in solids that are not convex
   int threads = 1;
 };

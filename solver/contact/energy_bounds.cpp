@@ -11,6 +11,7 @@ std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs, c
                                         const std::vector<bool>& moving) {
   std::map<PairKey, double> lost;  // by normal springs
   for (const auto& [blocks, pair] : histories) {
+    if (!moving[at(blocks[0])] && !moving[at(blocks[1])]) continue;
     if (pair.memory.held().normal > 0.0) lost[blocks] = pair.memory.held().normal;
   }
   std::vector<SpringEnergy> bounds;

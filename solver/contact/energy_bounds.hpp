@@ -11,7 +11,7 @@
 namespace ashlar {
 
 /// @param pairs as found anew, at rest on the surface. @param histories of the pairs of blocks at the end
-/// of the last step. @param moving blocks that springs' energy can go along with
+/// of the last step. @param moving blocks that springs' energy can go along with; springs between others are not found anew
 /// @return bounds for ContactPair::hold_at_most, one for each pair: with them, all normal springs together
 /// hold no more than at the end of the last step
 [[nodiscard]] std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs,

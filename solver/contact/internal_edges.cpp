@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/index.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
 
 namespace ashlar {
@@ -117,8 +118,9 @@ ContactNormals normals_of(const PlacedSurface& a, const PlacedSurface& b, const 
   return {std::visit([&](const auto& contact) { return touching(a, b, contact).normals; }, touch.contact)};
 }
 
-WaysOut::WaysOut(const PairHistories& histories) {
+WaysOut::WaysOut(const PairHistories& histories, const std::vector<bool>& moving) {
   for (const auto& [blocks, pair] : histories) {
+    if (!moving[at(blocks[0])] && !moving[at(blocks[1])]) continue;
     if (!(pair.memory.deepest() > 0.0)) continue;
     for (const ContactMemory::Entry& entry : pair.memory.entries())
       if (entry.memory.state != ContactState::open) add(blocks, entry.normal, pair.memory.deepest());

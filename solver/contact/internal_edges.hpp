@@ -44,7 +44,8 @@ using ContactNormals = std::vector<std::vector<Vector3>>;
 class WaysOut {
  public:
   WaysOut() = default;  ///< none
-  explicit WaysOut(const PairHistories& histories);
+  /// @param moving by block: two blocks that do not move are left out
+  WaysOut(const PairHistories& histories, const std::vector<bool>& moving);
   /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
   /// negative: the gap between them
   void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);

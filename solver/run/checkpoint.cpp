@@ -95,6 +95,21 @@ static void visit_members(Archive& archive, StaticState& state) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, BlockRest& rest) {
+  archive(rest.last_path, rest.path, rest.velocity);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, SleepingIsland& island) {
+  archive(island.blocks, island.held);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, Sleep& sleep) {
+  archive(sleep.rests, sleep.window_steps, sleep.window_time, sleep.islands);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, Ledger& ledger) {
   archive(ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction, ledger.damping,
           ledger.applied, ledger.numerical, ledger.refound_gained, ledger.refound_lost, ledger.residual);
@@ -159,7 +174,7 @@ static void visit_members(Archive& archive, FactorCounts& counts) {
 template <class Archive>
 static void visit_members(Archive& archive, SimulationCounts& counts) {
   archive(counts.finder, counts.contact_points, counts.open_close_iterations, counts.open_close_fallbacks,
-          counts.passing_contacts, counts.factors);
+          counts.passing_contacts, counts.islands_put_to_sleep, counts.sleeping_block_steps, counts.factors);
 }
 
 template <class Archive>
@@ -186,7 +201,8 @@ static void visit_members(Archive& archive, RunLog& log) {
 template <class Archive>
 static void visit_members(Archive& archive, RunState& run) {
   archive(run.clock, run.next_step, run.steps, run.remembers_statics, run.states, run.accelerations,
-          run.spin_debts, run.pairs, run.statics, run.ledger, run.report, run.records, run.extremes, run.log);
+          run.spin_debts, run.pairs, run.statics, run.sleep, run.ledger, run.report, run.records,
+          run.extremes, run.log);
 }
 
 template <class Archive>

@@ -9,6 +9,7 @@
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
 #include "solver/step/end_state.hpp"
+#include "solver/step/sleeping_islands.hpp"
 
 namespace ashlar {
 
@@ -22,6 +23,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
     const BlockModel& block = system_.blocks()[k];
     state_.states.push_back(block.initial_state());
     state_.spin_debts.push_back(0.0);
+    state_.sleep.rests.emplace_back();
     if (block.fixed()) continue;
     state_.states.back().velocity = block.rigid_velocity(motions[k].velocity, motions[k].angular_velocity);
   }
@@ -73,7 +75,12 @@ StepStatus Simulation::step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time) {
+  wake_all(context());
   return ashlar::static_step(context(), end_time);
+}
+
+void Simulation::wake() {
+  wake_all(context());
 }
 
 std::vector<MovingBlock> Simulation::moving_blocks() const {
@@ -85,6 +92,8 @@ std::vector<std::vector<int>> Simulation::loose_blocks() {
 }
 
 DroppedByOrder Simulation::change_order(int block, int order) {
+  wake_all(context());
+  state_.sleep.rests.at(at(block)) = BlockRest{};
   return ashlar::change_order(context(), block, order);
 }
 

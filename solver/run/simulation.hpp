@@ -59,6 +59,8 @@ class Simulation {
   [[nodiscard]] StaticStatus static_step(double end_time);
   /// Blocks that a static analysis found to be moving, and others that move with them.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
+  /// Wakes blocks that sleep (step/sleeping_islands.hpp). To be called where joint laws have changed.
+  void wake();
   /// Sets of blocks in contact with each other that no fixed block, contact or support keeps from moving: no
   /// static analysis can hold them. A block alone is one of them if its supports leave any rigid motion.
   [[nodiscard]] std::vector<std::vector<int>> loose_blocks();

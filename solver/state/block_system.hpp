@@ -43,7 +43,8 @@ class BlockSystem {
 
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()); }
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
-  /// By block: false for fixed blocks, and for those that are held at present.
+  /// By block: false for fixed blocks, and for those that are held at present: in statics loose ones, in motion
+  /// those that sleep.
   [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
   [[nodiscard]] JointLaw law(int a, int b) const { return law_(a, b); }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }

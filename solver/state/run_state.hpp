@@ -11,6 +11,7 @@
 #include "solver/contact/pair_history.hpp"
 #include "solver/linear/sparse_cholesky.hpp"
 #include "solver/state/ledger_keeper.hpp"
+#include "solver/state/sleep.hpp"
 #include "solver/state/static_state.hpp"
 #include "solver/state/step_clock.hpp"
 
@@ -52,6 +53,8 @@ struct SimulationCounts {
   std::uint64_t open_close_fallbacks = 0;  ///< times Newton went round in circles (open_close.hpp)
   std::uint64_t passing_contacts =
       0;  ///< contacts added because blocks at rest on each other's rim would pass
+  std::uint64_t islands_put_to_sleep = 0;
+  std::uint64_t sleeping_block_steps = 0;  ///< blocks that slept, summed over steps
   FactorCounts factors;
 };
 
@@ -133,6 +136,7 @@ struct RunState {
   std::vector<double> spin_debts;
   PairHistories pairs;
   StaticState statics;
+  Sleep sleep;
   LedgerKeeper ledger;
   StepReport report;
   std::vector<PairRecord> records;

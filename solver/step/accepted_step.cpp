@@ -12,7 +12,7 @@
 #include "solver/step/applied_force.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
-
+#include "solver/step/sleeping_islands.hpp"
 #include "solver/step/velocity_contact.hpp"
 
 namespace ashlar {
@@ -112,6 +112,7 @@ void keep_angular_momentum(const RunContext& run, const TimeScheme& scheme, cons
   }
   std::vector<double>& debts = run.state.spin_debts;
   for (const std::vector<int>& body : run.system.free_bodies()) {
+    if (!run.system.moving()[at(body.front())]) continue;
     Vector3 stray = Vector3::Zero();
     double limit = 0.0;
     const Vector3 origin = centroid_of(blocks, body, before);
@@ -135,14 +136,21 @@ void keep_angular_momentum(const RunContext& run, const TimeScheme& scheme, cons
   }
 }
 
+/// Whether one of two blocks moves; contacts between others stay as they were.
+bool is_live(const RunContext& run, int a, int b) {
+  return run.system.moving()[at(a)] || run.system.moving()[at(b)];
+}
+
 /// Books what the springs hold anew since the end of the last step.
 void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // Springs of one pair may take over what those of another one held.
   double change = 0.0;
   for (const ContactPair& pair : pairs)
     change += pair.tied() ? 0.0 : pair.start_energy();  // a tie is the same in every step
-  for (const PairRecord& record : run.state.records)
+  for (const PairRecord& record : run.state.records) {
+    if (!is_live(run, record.a, record.b)) continue;
     for (const PointResponse& response : record.responses) change -= response.energy();
+  }
   run.state.ledger.found_anew(change);
 }
 
@@ -163,11 +171,31 @@ void tally_friction(const std::vector<PointResponse>& acted, const std::vector<P
   }
 }
 
-void count_states(const PairResponse& response, StepReport& report) {
-  for (const PointResponse& point : response.points) {
+void count_states(const std::vector<PointResponse>& points, StepReport& report) {
+  for (const PointResponse& point : points) {
     ++(point.state == ContactState::open     ? report.open
        : point.state == ContactState::locked ? report.locked
                                              : report.sliding);
+  }
+}
+
+/// Of a pair's points that are below the surface, m, >= 0. Springs may be open and at rest there.
+double deepest_of(const std::vector<double>& gaps) {
+  double deepest = 0.0;
+  for (const double gap : gaps) deepest = std::max(deepest, -gap);
+  return deepest;
+}
+
+/// Leaves what is known of pairs of which no block moves, with its part of the report, and forgets the others.
+void keep_sleeping_pairs(const RunContext& run) {
+  StepReport& report = run.state.report;
+  for (auto& [blocks, pair] : run.state.pairs)
+    if (is_live(run, blocks[0], blocks[1])) pair.memory = ContactMemory();
+  std::erase_if(run.state.records,
+                [&run](const PairRecord& record) { return is_live(run, record.a, record.b); });
+  for (const PairRecord& record : run.state.records) {
+    count_states(record.responses, report);
+    report.penetration = std::max(report.penetration, deepest_of(record.gaps));
   }
 }
 
@@ -188,9 +216,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   const auto& [pair, response, laws, ya, yb, stopped] = accepted;
   const SimulationSettings& settings = run.settings();
   auto gaps = pair.gaps(ya, yb);
-  double deepest = 0.0;
-  // Springs may be open and at rest below the surface.
-  for (const double gap : gaps) deepest = std::max(deepest, -gap);
+  const double deepest = deepest_of(gaps);
   run.state.report.penetration = std::max(run.state.report.penetration, deepest);
   const double tearing_gap = settings.tearing_share * settings.contact_distance;
   std::vector<PointMemory> remembered = pair.memory_after(response, laws, ya, yb, tearing_gap);
@@ -236,10 +262,10 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
   LedgerKeeper& ledger = run.state.ledger;
   StepReport& report = run.state.report = StepReport{};
   report.step = scheme.step;
-  run.state.records.clear();
-  for (auto& [blocks, pair] : run.state.pairs) pair.memory = ContactMemory();
+  keep_sleeping_pairs(run);
   Bulges bulges(run);
   double held_by_all = 0.0;
+  for (const SleepingIsland& island : run.state.sleep.islands) held_by_all += island.held;
   double friction = 0.0;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const IslandResult& result = problem.results[i];
@@ -261,7 +287,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       friction += slid;
       if (run.settings().augmented && !scheme.from_rest)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
-      count_states(response, report);
+      count_states(response.points, report);
 
       remember(run, {pair, response, result.laws[n], ya, yb, stopped[index]}, scheme, work,
                bulges.of(pair.a()) + bulges.of(pair.b()));
@@ -289,10 +315,11 @@ void accept(const RunContext& run, const TimeScheme& scheme, StepProblem& proble
     start_carried_step(run, static_cast<int>(block), std::move(next));
   run.state.clock.advance(scheme.step);
   ++run.state.steps;
-  run.state.ledger.close_step(run.system, run.state.states);
   ContactExtremes& extremes = run.state.extremes;
   extremes.penetration = std::max(extremes.penetration, run.state.report.penetration);
   note_depths(run, problem.depths);
+  note_rest(run, scheme, problem);
+  run.state.ledger.close_step(run.system, run.state.states);
   drop_empty(run.state.pairs);
   validate(run.state.pairs, run.system.count());
 }

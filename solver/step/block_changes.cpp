@@ -12,7 +12,7 @@ namespace ashlar {
 bool carry_blocks(const RunContext& run, StepProblem& problem) {
   problem.carried.clear();
   for (std::size_t k = 0; k < run.blocks().size(); ++k) {
-    if (run.blocks()[k].incremental() == nullptr) continue;
+    if (run.blocks()[k].incremental() == nullptr || !run.system.moving()[k]) continue;
     const Eigen::MatrixX3d change = problem.bodies[k].motion();
     try {
       problem.carried.emplace(k, run.blocks()[k].carried_on(run.state.states[k].position + change));

@@ -8,6 +8,7 @@
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/position_projection.hpp"
+#include "solver/step/sleeping_islands.hpp"
 #include "solver/step/snapshot.hpp"
 #include "solver/step/step_problem.hpp"
 
@@ -57,13 +58,20 @@ class DynamicStep {
     const int most = run_.settings().multipliers.moves_apart;
     problem_.results.clear();
     problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
+    while (wake_touched(run_, problem_.pairs)) detect();
     while (moves_ < most && too_deep(run_, problem_.pairs)) {
       if (!unmoved_) unmoved_ = snapshot_of(run_);
       if (!project_positions(run_, step_, problem_, found_, most)) break;
       ++moves_;
-      found_ = run_.contacts.detect(run_.system, run_.state, step_);
-      problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
+      do {
+        detect();
+      } while (wake_touched(run_, problem_.pairs));
     }
+  }
+
+  void detect() {
+    found_ = run_.contacts.detect(run_.system, run_.state, step_);
+    problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::motion);
   }
 
   std::vector<PassingBlocks> blocks_that_pass() {
@@ -128,6 +136,7 @@ StepStatus take_step(const RunContext& run, double end_time) {
   if (left < step - time_rounding(run.settings().time_step, end_time)) step = left;
   if (run.settings().integrator == Integrator::generalized_alpha && run.state.accelerations.empty())
     run.state.accelerations = smooth_accelerations(run.system, run.state);
+  wake_for_loads(run, step);
   return DynamicStep(run, step).run();
 }
 

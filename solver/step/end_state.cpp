@@ -28,6 +28,7 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
 std::vector<PairDepth> measure_depths(const RunContext& run, const std::vector<BlockState>& states,
                                       bool fine) {
   const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
+                         run.system.moving(),
                          (fine ? run.settings().search.passing_share : 1.0) * run.settings().contact_distance,
                          run.settings().threads};
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope);
@@ -104,7 +105,10 @@ std::optional<StateFault> audit_present(const RunContext& run) {
 }
 
 void note_depths(const RunContext& run, const std::vector<PairDepth>& depths) {
-  for (auto& [blocks, pair] : run.state.pairs) pair.depth = 0.0;
+  for (auto& [blocks, pair] : run.state.pairs) {
+    if (run.system.moving()[at(blocks[0])] || run.system.moving()[at(blocks[1])]) pair.depth = 0.0;
+    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
+  }
   for (const PairDepth& pair : depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
     double& depth = run.state.pairs[{a, b}].depth;

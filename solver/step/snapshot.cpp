@@ -4,6 +4,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/step/block_changes.hpp"
+#include "solver/step/sleeping_islands.hpp"
 
 namespace ashlar {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 /// @throws std::invalid_argument if the snapshot was taken of other blocks
 std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapshot& snapshot) {
   const std::vector<BlockState>& states = snapshot.run.states;
-  bool fits = states.size() == run.blocks().size();
+  bool fits = states.size() == run.blocks().size() && snapshot.run.sleep.rests.size() == states.size();
   std::map<int, int> orders;
   for (int k = 0; fits && k < run.system.count(); ++k) {
     const Eigen::Index rows = states[at(k)].position.rows();
@@ -21,7 +22,7 @@ std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapsho
     if (rows == run.state.states[at(k)].position.rows()) continue;
     int order = 1;
     while (order < PolynomialBasis::max_order && polynomial_count(order) < rows) ++order;
-    fits = fits && polynomial_count(order) == rows && run.system.moving()[at(k)] && !incremental;
+    fits = fits && polynomial_count(order) == rows && !run.blocks()[at(k)].fixed() && !incremental;
     orders.emplace(k, order);
   }
   if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
@@ -56,6 +57,10 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
   for (const auto& [k, order] : changed_orders(run, snapshot))
     replace_model(run, k, run.blocks()[at(k)].with_order(order));
   run.state = snapshot.run;
+  hold_sleepers(run.system, run.state.sleep);
+  // What does not move is placed once.
+  for (const SleepingIsland& island : run.state.sleep.islands)
+    for (const int block : island.blocks) run.audit.forget(at(block));
   for (const auto& [block, shape] : snapshot.carried) {
     run.system.carry_on(block, run.blocks()[at(block)].with_shape(shape));
     run.contacts.finder().start_step(block);

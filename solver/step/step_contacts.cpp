@@ -102,8 +102,9 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   const std::vector<BlockState> driven = driven_states(system, state, step);
   const ExpectedMotion motion = driven.empty() ? finder_.expected_motion(state.states, step)
                                                : finder_.expected_motion(driven, step > 0.0 ? step : 1.0);
+  finder_.watch(system.moving());
   std::vector<FoundContacts> found = finder_.find(state.states, motion, state.pairs);
-  ways_out_ = WaysOut(state.pairs);
+  ways_out_ = WaysOut(state.pairs, system.moving());
   for (const auto& [blocks, contacts] : found) {
     if (!(history_of(state.pairs, blocks).memory.deepest() > 0.0))
       ways_out_.add_touching(blocks, finder_.placed(blocks[0]), finder_.placed(blocks[1]), contacts);
@@ -164,6 +165,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
     for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].hold_at_most(bounds[k]);
   }
   for (const TiedBlocks& tied : system.ties()) {
+    if (!system.moving()[at(tied.a)] && !system.moving()[at(tied.b)]) continue;
     pairs.emplace_back(PairBodies{tied.a, tied.b, body_at_start(system, state, tied.a, nullptr),
                                   body_at_start(system, state, tied.b, nullptr)},
                        tied.tie, tied.stiffness);

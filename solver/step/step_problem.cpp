@@ -20,6 +20,7 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
     body.roundoff_force = system.roundoff_force(static_cast<int>(k));
     if (block.fixed()) continue;
     body.change = Eigen::VectorXd::Zero(block.unknowns());
+    if (!system.moving()[k]) continue;
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     body.free_change = block.space().restrict(scheme.free_change(
         still, state.states[k].velocity, state.accelerations.empty() ? still : state.accelerations[k]));

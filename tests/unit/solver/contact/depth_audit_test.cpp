@@ -13,7 +13,7 @@ namespace {
 using test_support::block_of;
 
 const Material rock{2500.0, 1e10, 0.2};
-const AuditScope all_pairs{[](int, int) { return true; }, 1e-6, 1};
+const AuditScope all_pairs{[](int, int) { return true; }, std::vector<bool>(8, true), 1e-6, 1};
 
 /// Audits two blocks where they are placed.
 std::vector<PairDepth> audit(const Polyhedron& first, const Polyhedron& second, int order,
