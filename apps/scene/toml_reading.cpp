@@ -70,9 +70,43 @@ std::string describe(const toml::node& node) {
 }
 
 Place TomlReading::place(const toml::source_region& region) const {
-  if (!region.path || *region.path == file_)
-    return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-  return {*region.path, 0, 0};
+  const std::string& file = region.path ? *region.path : files_.front();
+  if (std::find(files_.begin(), files_.end(), file) == files_.end()) return {file, 0, 0};
+  return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
+}
+
+bool TomlReading::has_number(const toml::node& node) {
+  const auto* text = node.as_string();
+  return node.is_number() || (text != nullptr && is_formula(**text));
+}
+
+// The place of a character of a text in quotes. Where characters were escaped or the text has several lines,
+// they cannot be counted, and the place is that of the text.
+Place TomlReading::place_in_text(const toml::node& node, std::size_t offset) const {
+  Place start = place(node.source());
+  const toml::source_region& region = node.source();
+  const std::size_t quoted = (**node.as_string()).size() + 2;
+  const bool as_written = region.begin.line == region.end.line &&
+                          static_cast<std::size_t>(region.end.column - region.begin.column) == quoted;
+  if (start.line > 0 && as_written) start.column += 1 + static_cast<int>(offset);
+  return start;
+}
+
+std::optional<double> TomlReading::number(const toml::node& node, std::string_view key) {
+  return number(node, key, formulas_);
+}
+
+std::optional<double> TomlReading::number(const toml::node& node, std::string_view key,
+                                          const Formulas& formulas) {
+  if (node.is_number()) return node.value<double>();
+  try {
+    return formulas.value(**node.as_string());
+  } catch (const FormulaError& fault) {
+    if (*fault.what() != '\0')
+      error(place_in_text(node, fault.offset()),
+            fmt::format("{} ({}): {}", key, describe(node), fault.what()));
+    return std::nullopt;
+  }
 }
 
 TomlReading::KnownTable& TomlReading::add_table(const toml::table& table, std::string path,

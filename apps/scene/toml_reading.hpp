@@ -7,11 +7,15 @@
 
 #include <filesystem>
 #include <list>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "apps/scene/diagnostics.hpp"
+#include "apps/scene/formulas.hpp"
 #include "apps/scene/scene_places.hpp"
 
 namespace ashlar {
@@ -27,9 +31,10 @@ class TomlReading {
     std::set<std::string> keys;
   };
 
-  /// @param file name under which the document was parsed; nodes of any other source are taken as arguments.
-  TomlReading(std::string file, Diagnostics& diagnostics, ScenePlaces& places)
-      : file_(std::move(file)), diagnostics_(diagnostics), places_(places) {}
+  /// @param files names under which the document and those that it includes were parsed, its own first; nodes
+  /// of any other source are taken as arguments.
+  TomlReading(std::vector<std::string> files, Diagnostics& diagnostics, ScenePlaces& places)
+      : files_(std::move(files)), diagnostics_(diagnostics), places_(places) {}
 
   [[nodiscard]] Place place(const toml::source_region& region) const;
   /// Registers a table; places of its keys are recorded.
@@ -40,16 +45,35 @@ class TomlReading {
   [[nodiscard]] const ScenePlaces& places() const { return places_; }
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   /// That relative paths of the document are relative to.
-  [[nodiscard]] std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
+  [[nodiscard]] std::filesystem::path folder() const {
+    return std::filesystem::path(files_.front()).parent_path();
+  }
+
+  /// Counts pieces of masonry. @return all so far
+  double add_pieces(double pieces) { return pieces_ += pieces; }
+
+  /// The parameters of the document, which formulas use from then on.
+  void set_formulas(Formulas formulas) { formulas_ = std::move(formulas); }
+  /// Whether a node is a number or the text of a formula.
+  [[nodiscard]] static bool has_number(const toml::node& node);
+  /// The value of such a node; a formula's is finite. A fault of a formula is reported at the character that
+  /// it is at, with the key.
+  [[nodiscard]] std::optional<double> number(const toml::node& node, std::string_view key);
+  [[nodiscard]] std::optional<double> number(const toml::node& node, std::string_view key,
+                                             const Formulas& formulas);
 
   /// One error for each key of a registered table that was never asked for. A key known in another table only
   /// is said to belong there: TOML makes it easy to write a key below the wrong header.
   void report_unknown_keys();
 
  private:
-  std::string file_;
+  [[nodiscard]] Place place_in_text(const toml::node& node, std::size_t offset) const;
+
+  std::vector<std::string> files_;
   Diagnostics& diagnostics_;
   ScenePlaces& places_;
+  Formulas formulas_;
+  double pieces_ = 0.0;
   std::list<KnownTable> tables_;  // readers keep references
 };
 
