@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,8 +17,10 @@ namespace ashlar {
 /// Points and polygons as a file lists them.
 struct PolygonSoup {
   std::vector<Vector3> points;
-  std::vector<int> corners;    ///< point indices of all polygons, one after the other
-  std::vector<int> face_ends;  ///< face f has corners face_ends[f - 1] (or 0) up to face_ends[f] - 1
+  std::vector<int> corners;         ///< point indices of all polygons, one after the other
+  std::vector<int> face_ends;       ///< face f has corners face_ends[f - 1] (or 0) up to face_ends[f] - 1
+  std::vector<std::string> groups;  ///< names in the order of their first faces; OBJ only
+  std::vector<int> group_of_face;   ///< (#faces), indices into groups; OBJ only
 
   [[nodiscard]] std::size_t face_count() const { return face_ends.size(); }
   [[nodiscard]] std::span<const int> face(std::size_t f) const {
@@ -36,7 +39,8 @@ struct PolygonSoup {
 /// the binary, 4-dimensional and n-dimensional kinds.
 [[nodiscard]] PolygonSoup read_off(std::string_view text);
 
-/// OBJ: v and f statements, f with negative indices and with v/vt/vn; other known statements are passed over.
+/// OBJ: v and f statements, f with negative indices and with v/vt/vn; o and g statements name the faces that
+/// follow; other known statements are passed over.
 [[nodiscard]] PolygonSoup read_obj(std::string_view text);
 
 /// STL, text or binary: binary if the size is that of the number of triangles it states. Points with the same

@@ -1,5 +1,6 @@
 #include "geometry/mesh/mesh_io.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <limits>
@@ -73,6 +74,49 @@ TriangleMesh triangulated(PolygonSoup soup) {
     }
   }
   return mesh;
+}
+
+namespace {
+
+// The faces of one group with the points that they use, in the order of the file.
+std::vector<PolygonSoup> divided(const PolygonSoup& soup) {
+  std::vector<PolygonSoup> parts(soup.groups.size());
+  std::vector<std::vector<std::size_t>> faces(soup.groups.size());
+  for (std::size_t f = 0; f < soup.face_count(); ++f)
+    faces[static_cast<std::size_t>(soup.group_of_face[f])].push_back(f);
+  std::vector<int> place(soup.points.size(), -1);
+  for (std::size_t g = 0; g < parts.size(); ++g) {
+    PolygonSoup& part = parts[g];
+    for (const std::size_t f : faces[g])
+      for (const int corner : soup.face(f)) part.corners.push_back(corner);
+    std::vector<int> used = part.corners;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const int point : used) {
+      place[static_cast<std::size_t>(point)] = static_cast<int>(part.points.size());
+      part.points.push_back(soup.points[static_cast<std::size_t>(point)]);
+    }
+    for (int& corner : part.corners) corner = place[static_cast<std::size_t>(corner)];
+    int end = 0;
+    for (const std::size_t f : faces[g])
+      part.face_ends.push_back(end += static_cast<int>(soup.face(f).size()));
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<MeshGroup> read_mesh_groups(const fs::path& path) {
+  const Format& format = format_of(path);
+  if (format.read != read_obj)
+    throw MeshFileError("groups of a " + std::string(format.ending) + " file, only .obj files have groups", 0,
+                        0);
+  const std::string bytes = read_bytes(path);
+  const PolygonSoup soup = read_obj(bytes);
+  std::vector<MeshGroup> groups;
+  for (PolygonSoup& part : divided(soup))
+    groups.push_back({soup.groups[groups.size()], triangulated(std::move(part))});
+  return groups;
 }
 
 TriangleMesh read_mesh(const fs::path& path) {

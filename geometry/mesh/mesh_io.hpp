@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -31,5 +33,16 @@ class MeshFileError : public std::runtime_error {
 /// @throws MeshFileError: missing, unreadable, unknown ending, malformed, truncated, index out of range,
 /// coordinate beyond 1e150 (binary files: with the byte it begins at in the message), no faces.
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
+
+/// The faces below one name in a file, with the points that they use.
+struct MeshGroup {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+/// Reads an OBJ file whose objects and groups are bodies of their own: faces that follow an `o` or `g`
+/// statement belong to the name that it gives, faces before any to "default". Groups in the order in which
+/// their first faces stand. @throws MeshFileError as read_mesh, and for other formats, which have no groups
+[[nodiscard]] std::vector<MeshGroup> read_mesh_groups(const std::filesystem::path& path);
 
 }  // namespace ashlar

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "geometry/mesh/mesh_formats.hpp"
 #include "geometry/mesh/text_scanner.hpp"
@@ -9,10 +11,9 @@ namespace ashlar {
 namespace {
 
 // Statements without influence on the surface made of v and f.
-constexpr std::array<std::string_view, 21> passed_over = {
-    "vt",       "vn",       "vp",     "o",          "g",         "s",      "mg",
-    "l",        "p",        "usemtl", "mtllib",     "usemap",    "maplib", "bevel",
-    "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj", "cstype", "deg"};
+constexpr std::array<std::string_view, 19> passed_over = {
+    "vt",     "vn",    "vp",       "s",        "mg",  "l",          "p",         "usemtl", "mtllib", "usemap",
+    "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "cstype", "deg"};
 
 class ObjReader {
  public:
@@ -25,6 +26,8 @@ class ObjReader {
         read_point();
       } else if (statement == "f") {
         read_face();
+      } else if (statement == "o" || statement == "g") {
+        read_group();
       } else if (std::find(passed_over.begin(), passed_over.end(), statement) == passed_over.end()) {
         scan_.fail("unknown statement", "known are v, vt, vn, f, o, g, s, l, p, usemtl, mtllib");
       }
@@ -52,6 +55,16 @@ class ObjReader {
     if (further.word().empty() && fourth != 1.0) scan_.fail("weight", "must be 1");
   }
 
+  // A group of several names has one name of several words.
+  void read_group() {
+    group_name_.clear();
+    for (std::string_view word = scan_.word(); !word.empty(); word = scan_.word()) {
+      if (!group_name_.empty()) group_name_ += ' ';
+      group_name_ += word;
+    }
+    if (group_name_.empty()) group_name_ = "default";
+  }
+
   void read_face() {
     const std::size_t begin = soup_.corners.size();
     for (std::string_view corner = scan_.word(); !corner.empty(); corner = scan_.word()) {
@@ -63,6 +76,9 @@ class ObjReader {
           scan_.line(), 1);
     }
     soup_.face_ends.push_back(static_cast<int>(soup_.corners.size()));
+    const auto [group, is_new] = groups_.emplace(group_name_, static_cast<int>(soup_.groups.size()));
+    if (is_new) soup_.groups.push_back(group_name_);
+    soup_.group_of_face.push_back(group->second);
   }
 
   // Positive indices count from 1 and may name a point that follows; negative ones count back from the last.
@@ -96,6 +112,8 @@ class ObjReader {
 
   TextScanner scan_;
   PolygonSoup soup_;
+  std::string group_name_ = "default";
+  std::map<std::string, int> groups_;
   int largest_ = -1;
   int largest_line_ = 0;
   int largest_column_ = 0;
