@@ -7,7 +7,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "apps/scene/block_arrays.hpp"
 #include "apps/scene/history_reader.hpp"
+#include "apps/scene/scene_names.hpp"
 #include "apps/scene/support_history.hpp"
 
 namespace ashlar {
@@ -56,14 +58,35 @@ SceneShape read_box(TomlTableReader table) {
   return box;
 }
 
+// @return whether the key is absent or good
+bool read_flip(TomlTableReader& table, SceneMesh::Flip& flip) {
+  if (!table.given("flip")) return true;
+  std::string word;
+  const bool is_word = table.text_at("flip");
+  bool always = false;
+  if (is_word && table.read_text("flip", word) && word == "auto")
+    flip = SceneMesh::Flip::automatic;
+  else if (!is_word && table.read_bool("flip", always, " or \"auto\""))
+    flip = always ? SceneMesh::Flip::always : SceneMesh::Flip::never;
+  else if (is_word)
+    table.error_at_value("flip",
+                         fmt::format("unknown flip (\"{}\"), true or false or \"auto\" is needed", word));
+  else
+    return false;
+  return !is_word || word == "auto";
+}
+
 SceneShape read_mesh_shape(TomlTableReader table) {
   SceneMesh mesh;
   std::string file;
   table.require("file");
   const bool file_good = table.read_name("file", file);
   const bool scale_good = table.read_number("scale", mesh.scale, range::positive) || !table.given("scale");
+  const bool split_good = table.read_choice("split", mesh.split, split_names) || !table.given("split");
+  const bool weld_good = table.read_number("weld", mesh.weld, range::not_negative) || !table.given("weld");
+  const bool flip_good = read_flip(table, mesh.flip);
   mesh.file = file;
-  if (!file_good || !scale_good) return {};
+  if (!file_good || !scale_good || !split_good || !weld_good || !flip_good) return {};
   return mesh;
 }
 
@@ -195,6 +218,8 @@ bool check_history(TomlTableReader& table, const RecordKey& kind, const SceneFix
   return true;
 }
 
+}  // namespace
+
 SceneFix read_fix(TomlTableReader& table) {
   SceneFix fix;
   fix.where = read_where(table);
@@ -269,8 +294,6 @@ void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block) {
                            value.x(), value.y(), value.z()));
 }
 
-}  // namespace
-
 SceneBlock read_block(TomlTableReader& table) {
   SceneBlock block;
   table.require("name");
@@ -287,6 +310,7 @@ SceneBlock read_block(TomlTableReader& table) {
   block.fix = table.read_tables("fix", read_fix);
   block.load = table.read_tables("load", read_load);
   refuse_motion_if_fixed(table, block);
+  block.array = read_array(table);
   return block;
 }
 

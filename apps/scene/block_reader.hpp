@@ -10,4 +10,10 @@ namespace ashlar {
 /// left empty; points and planes that are faulty are not finite.
 [[nodiscard]] SceneBlock read_block(TomlTableReader& table);
 
+/// One [[block.fix]] and one [[block.load]], which other tables have too.
+[[nodiscard]] SceneFix read_fix(TomlTableReader& table);
+[[nodiscard]] SceneLoad read_load(TomlTableReader& table);
+/// Reports supports, loads and velocities of a block that never moves.
+void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block);
+
 }  // namespace ashlar

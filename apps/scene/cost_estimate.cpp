@@ -39,6 +39,7 @@ struct TriangleCount {
   double operator()(const SceneHull& hull) const { return 2.0 * static_cast<double>(hull.points.size()); }
   double operator()(const SceneSphere& sphere) const { return 20.0 * std::pow(4.0, sphere.subdivisions); }
   double operator()(const SceneMesh& mesh) const {
+    if (mesh.stone) return static_cast<double>(mesh.stone->triangles.size());
     std::error_code fault;
     const auto size = std::filesystem::file_size(folder / mesh.file, fault);
     return fault ? 0.0 : static_cast<double>(size) / bytes_per_mesh_triangle;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -70,8 +71,8 @@ struct SceneAnalysis {
   std::optional<SceneRecord> gravity_file;     ///< where it comes from, if not from the scene
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
-  bool sleeping = true;                        ///< whether islands that have come to rest are held until woken
-  std::optional<double> memory_limit;          ///< bytes, > 0, that the estimate may reach; empty: auto
+  bool sleeping = true;                ///< whether islands that have come to rest are held until woken
+  std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto
 };
 
 /// The law between the faces of two blocks. Strengths default to none: a joint's strength has to be stated.
@@ -133,10 +134,26 @@ struct SceneBox {
   Vector3 max = Vector3::Zero();  ///< m
 };
 
-/// mesh = { file, scale }
+/// mesh = { file, scale, split, weld, flip }
 struct SceneMesh {
+  enum class Split {
+    none,        ///< "none": the file is one stone
+    components,  ///< "components": each closed surface is one
+    groups,      ///< "groups": each object or group of an OBJ file is one
+  };
+  enum class Flip {
+    automatic,  ///< "auto": surfaces that are inside out are turned
+    always,     ///< true: all surfaces are turned
+    never,      ///< false
+  };
   std::filesystem::path file;  ///< as written; relative paths are relative to the scene file's folder
   double scale = 1.0;          ///< > 0
+  Split split = Split::none;
+  double weld = 0.0;  ///< m, >= 0: corners this near are one
+  Flip flip = Flip::never;
+  /// What a block gets of a file that is split, in the file's units, and its 1-based number there.
+  std::shared_ptr<const TriangleMesh> stone;
+  int number = 0;
 };
 
 /// hull = { points }
@@ -202,6 +219,13 @@ struct SceneLoad {
   std::optional<SceneRecord> file;   ///< where it comes from, if not from the scene
 };
 
+/// array = { count, step, stagger }
+struct SceneArray {
+  std::vector<int> count;             ///< (1 to 3), blocks in each direction, >= 1
+  std::vector<Vector3> step;          ///< as many, m, from one to the next
+  Vector3 stagger = Vector3::Zero();  ///< m, of every second one of the last direction
+};
+
 /// [[block]]
 struct SceneBlock {
   std::string name;      ///< unique; required
@@ -213,6 +237,20 @@ struct SceneBlock {
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
   bool fixed = false;                          ///< the whole block never moves; then no fix, load or velocity
+  std::vector<SceneFix> fix;
+  std::vector<SceneLoad> load;
+  std::optional<SceneArray> array;  ///< empty in a scene that has been read: there its copies are blocks
+};
+
+/// [[assign]]: properties of the blocks that patterns match; of several entries the last one counts, key by
+/// key, but supports and loads add up.
+struct SceneAssign {
+  std::vector<std::string> blocks;  ///< names or globs, each matches at least one block
+  std::optional<std::string> material;
+  std::optional<int> order;
+  std::optional<bool> fixed;
+  std::optional<Vector3> velocity;
+  std::optional<Vector3> angular_velocity;
   std::vector<SceneFix> fix;
   std::vector<SceneLoad> load;
 };
@@ -249,10 +287,12 @@ struct Scene {
   SceneContact contact;
   std::vector<SceneJoint> joint;        ///< in file order
   std::vector<SceneMaterial> material;  ///< in file order
-  std::vector<SceneBlock> block;        ///< in file order; at least one
+  std::vector<SceneBlock> block;        ///< in file order, then pieces of masonry; at least one
+  std::vector<SceneAssign> assign;      ///< in file order; already applied in a scene that has been read
   std::vector<SceneMeasure> measure;    ///< in file order
   SceneOutput output;
-  ScenePlaces places;  ///< of every key that was given
+  std::vector<std::string> notes;  ///< what was done with mesh files, a line each
+  ScenePlaces places;              ///< of every key that was given
 };
 
 /// What a joint gives replaces what the law had.

@@ -62,7 +62,8 @@ void check_materials(const Scene& scene, const std::vector<std::string>& known, 
     const SceneBlock& block = scene.block[i];
     const std::string key = entry_key("block", i, "material");
     check_known(scene, key, "material", block.material, known, diagnostics);
-    if (block.fixed || scene.places.contains(key) || !scene.places.contains(fmt::format("block.{}", i)))
+    if (block.fixed || !block.material.empty() || scene.places.contains(key) ||
+        !scene.places.contains(fmt::format("block.{}", i)))
       continue;
     const std::string allowed = known.empty()
                                     ? "there is no [[material]]"

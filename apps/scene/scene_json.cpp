@@ -97,7 +97,16 @@ struct ShapeToJson {
     json["box"] = {{"min", to_json(box.min)}, {"max", to_json(box.max)}};
   }
   void operator()(const SceneMesh& mesh) const {
-    json["mesh"] = {{"file", mesh.file.string()}, {"scale", mesh.scale}};
+    Json keys = {{"file", mesh.file.string()},
+                 {"scale", mesh.scale},
+                 {"split", name_of(split_names, mesh.split)},
+                 {"weld", mesh.weld}};
+    if (mesh.flip == SceneMesh::Flip::automatic)
+      keys["flip"] = "auto";
+    else
+      keys["flip"] = mesh.flip == SceneMesh::Flip::always;
+    if (mesh.number > 0) keys["number"] = mesh.number;
+    json["mesh"] = std::move(keys);
   }
   void operator()(const SceneHull& hull) const {
     Json points = Json::array();

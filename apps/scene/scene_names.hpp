@@ -43,6 +43,11 @@ inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
     {{"linear", SceneMaterial::Elasticity::linear},
      {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};
 
+inline constexpr ChoiceNames<SceneMesh::Split, 3> split_names = {
+    {{"none", SceneMesh::Split::none},
+     {"components", SceneMesh::Split::components},
+     {"groups", SceneMesh::Split::groups}}};
+
 inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 3> field_names = {
     {{"displacement", &SceneOutput::Fields::displacement},
      {"velocity", &SceneOutput::Fields::velocity},

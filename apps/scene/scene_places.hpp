@@ -20,19 +20,27 @@ class ScenePlaces {
   };
 
   void record(const std::string& path, KeyPlaces places) { places_[path] = std::move(places); }
-  [[nodiscard]] bool contains(const std::string& path) const { return places_.contains(path); }
+  [[nodiscard]] bool contains(const std::string& path) const { return places_.contains(origin_of(path)); }
   /// Place of the key's name, or of the innermost table around it that was given; the scene's start if none
   /// was.
   [[nodiscard]] Place key(const std::string& path) const { return find(path).key; }
   /// Same for the key's value.
   [[nodiscard]] Place value(const std::string& path) const { return find(path).value; }
+  /// Says that what is called `path` was written at another one: the places of "block.7" and its keys are
+  /// then those of "masonry.0" and its keys, but for those that are recorded under their own path.
+  void record_origin(const std::string& path, std::string origin) { origins_[path] = std::move(origin); }
+  /// Moves the places of a list's entries: what was recorded as "block.3.box" is from then on "FOLDER.3.box".
+  void move_list(const std::string& list, const std::string& folder);
   /// All given keys by path.
   [[nodiscard]] const std::map<std::string, KeyPlaces>& all() const { return places_; }
 
  private:
   [[nodiscard]] KeyPlaces find(std::string path) const;
+  /// Where a key was written.
+  [[nodiscard]] std::string origin_of(std::string path) const;
 
-  std::map<std::string, KeyPlaces> places_;  ///< "" is the start of the scene
+  std::map<std::string, KeyPlaces> places_;     ///< "" is the start of the scene
+  std::map<std::string, std::string> origins_;  ///< paths that were written elsewhere
 };
 
 }  // namespace ashlar

@@ -10,8 +10,13 @@
 #include <limits>
 #include <sstream>
 
+#include "apps/scene/assignments.hpp"
 #include "apps/scene/block_reader.hpp"
 #include "apps/scene/history_reader.hpp"
+#include "apps/scene/include.hpp"
+#include "apps/scene/masonry.hpp"
+#include "apps/scene/parameters.hpp"
+#include "apps/scene/scene_expansion.hpp"
 #include "apps/scene/scene_names.hpp"
 #include "apps/scene/scene_overrides.hpp"
 #include "apps/scene/toml_faults.hpp"
@@ -155,16 +160,23 @@ void read_output(TomlTableReader table, SceneOutput& output) {
 
 void read_tables(TomlTableReader top, Scene& scene) {
   top.read_text("title", scene.title);
+  (void)top.given("parameters");  // read before all others
   TomlTableReader analysis = top.table_or_empty("analysis");
   read_analysis(analysis, scene.analysis);
   read_contact(top.table_or_empty("contact"), scene.contact);
   scene.joint = top.read_tables("joint", read_joint);
   scene.material = top.read_tables("material", read_material);
   scene.block = top.read_tables("block", read_block);
+  std::vector<std::vector<SceneBlock>> masonry = top.read_tables("masonry", read_masonry);
+  scene.assign = top.read_tables("assign", read_assignment);
   scene.measure = top.read_tables("measure", read_measure);
   read_output(top.table_or_empty("output"), scene.output);
+  if (top.given("include"))
+    top.error_at_key("include", "include cannot be set (include), files are read before anything is set");
+  const bool has_blocks = !scene.block.empty() || !masonry.empty();
+  expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
   complete_times(analysis, scene);
-  if (scene.block.empty()) top.error_at_table("no block (0), at least one [[block]] is needed");
+  if (!has_blocks) top.error_at_table("no block (0), at least one [[block]] is needed");
 }
 
 }  // namespace
@@ -176,9 +188,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   const Place start{file.string(), 1, 1};
   scene.places.record("", {start, start});
   try {
-    toml::table document = parse_toml(text, start.origin);
+    auto [document, files] = parse_document(text, start.origin, diagnostics);
     apply_overrides(document, overrides, diagnostics);
-    TomlReading reading(start.origin, diagnostics, scene.places);
+    TomlReading reading(std::move(files), diagnostics, scene.places);
+    reading.set_formulas(read_parameters(document, reading));
     read_tables(TomlTableReader(reading, document, "", ""), scene);
     reading.report_unknown_keys();
   } catch (const toml::parse_error& error) {

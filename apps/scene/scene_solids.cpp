@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
+#include "apps/scene/exact_turn.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/mesh/mesh_io.hpp"
@@ -19,29 +19,6 @@
 
 namespace ashlar {
 namespace {
-
-// Sine and cosine of an angle in degrees, exact at multiples of 90.
-struct Turn {
-  double sine;
-  double cosine;
-};
-
-Turn turn_of(double degrees) {
-  int quarters = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarters) * std::numbers::pi / 180.0;
-  const double sine = std::sin(rest), cosine = std::cos(rest);
-  // remquo gives at least the three low bits of the quotient, with its sign.
-  switch (quarters & 3) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
-}
 
 // Rodrigues' rotation matrix: c I + (1 - c) a a' + s [a]x, a the unit axis.
 Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
@@ -116,7 +93,7 @@ std::string describe_defects(const MeshError& error) {
 Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
   const std::filesystem::path file = scene.file.parent_path() / shape.file;
   try {
-    TriangleMesh mesh = read_mesh(file);
+    TriangleMesh mesh = shape.stone ? *shape.stone : read_mesh(file);
     const double resolution = resolution_of(mesh.points);
     return not_lost(Polyhedron(std::move(mesh), resolution), resolution);
   } catch (const MeshFileError& error) {

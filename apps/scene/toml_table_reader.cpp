@@ -51,24 +51,29 @@ void TomlTableReader::wrong_type(const toml::node& node, std::string_view key, s
                  fmt::format("{} has the wrong type ({}), {} is needed{}", key, describe(node), words, hint));
 }
 
+// A formula with what it comes to.
+static std::string describe_number(const toml::node& node, double value) {
+  return node.is_string() ? fmt::format("{} = {}", describe(node), value) : describe(node);
+}
+
 std::optional<double> TomlTableReader::finite_number(const toml::node& node, std::string_view key,
                                                      std::string_view words) {
-  if (!node.is_number()) {
+  if (!TomlReading::has_number(node)) {
     const auto* text = node.as_string();
     wrong_type(node, key, words, text == nullptr ? "" : number_hint(**text));
     return std::nullopt;
   }
-  const double value = *node.value<double>();
-  if (std::isfinite(value)) return value;
+  const std::optional<double> value = reading_.number(node, key);
+  if (!value || std::isfinite(*value)) return value;
   reading_.error(node, fmt::format("{} is not finite ({}), {} is needed", key, describe(node), words));
   return std::nullopt;
 }
 
-bool TomlTableReader::read_bool(std::string_view key, bool& result) {
+bool TomlTableReader::read_bool(std::string_view key, bool& result, const char* form) {
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_boolean()) {
-    wrong_type(*node, key, "true or false");
+    wrong_type(*node, key, fmt::format("true or false{}", form));
     return false;
   }
   result = **node->as_boolean();
@@ -106,8 +111,8 @@ bool TomlTableReader::read_number(std::string_view key, double& result, const Nu
   const std::optional<double> value = finite_number(*node, key, range.words);
   if (!value) return false;
   if (!range.contains(*value)) {
-    reading_.error(*node,
-                   fmt::format("{} is out of range ({}), {} is needed", key, describe(*node), range.words));
+    reading_.error(*node, fmt::format("{} is out of range ({}), {} is needed", key,
+                                      describe_number(*node, *value), range.words));
     return false;
   }
   result = *value;
@@ -135,22 +140,49 @@ bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<do
                      {range.low, range.high, range.low_allowed, range.high_allowed, words.c_str()});
 }
 
+static std::string integer_words(int low, int high) {
+  return high == std::numeric_limits<int>::max() ? fmt::format("a whole number of at least {}", low)
+                                                 : fmt::format("a whole number from {} to {}", low, high);
+}
+
+std::optional<int> TomlTableReader::integer(const toml::node& node, std::string_view key, int low, int high) {
+  const std::string words = integer_words(low, high);
+  const bool formula = !node.is_number() && TomlReading::has_number(node);
+  if (!node.is_integer() && !formula) {
+    wrong_type(node, key, words);
+    return std::nullopt;
+  }
+  const std::optional<double> value = reading_.number(node, key);
+  if (!value) return std::nullopt;
+  if (*value != std::floor(*value)) {
+    reading_.error(node, fmt::format("{} is no whole number ({}), {} is needed; round(...) makes one", key,
+                                     describe_number(node, *value), words));
+    return std::nullopt;
+  }
+  if (*value < low || *value > high) {
+    reading_.error(node, fmt::format("{} is out of range ({}), {} is needed", key,
+                                     describe_number(node, *value), words));
+    return std::nullopt;
+  }
+  return static_cast<int>(*value);
+}
+
 bool TomlTableReader::read_integer(std::string_view key, int& result, int low, int high) {
   const toml::node* node = find(key);
   if (!node) return false;
-  const std::string words = high == std::numeric_limits<int>::max()
-                                ? fmt::format("a whole number of at least {}", low)
-                                : fmt::format("a whole number from {} to {}", low, high);
-  const auto* integer = node->as_integer();
-  if (!integer) {
-    wrong_type(*node, key, words);
-    return false;
-  }
-  if (**integer < low || **integer > high) {
-    reading_.error(*node, fmt::format("{} is out of range ({}), {} is needed", key, **integer, words));
-    return false;
-  }
-  result = static_cast<int>(**integer);
+  const std::optional<int> value = integer(*node, key, low, high);
+  if (value) result = *value;
+  return value.has_value();
+}
+
+bool TomlTableReader::read_integers(std::string_view key, std::vector<int>& result, int low, int high) {
+  const toml::array* array = find_array(key, fmt::format("an array of {}", integer_words(low, high)));
+  if (!array) return false;
+  std::vector<int> integers;
+  for (const toml::node& entry : *array)
+    if (const auto value = integer(entry, key, low, high)) integers.push_back(*value);
+  if (integers.size() != array->size()) return false;
+  result = std::move(integers);
   return true;
 }
 

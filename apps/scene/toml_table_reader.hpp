@@ -42,7 +42,13 @@ class TomlTableReader {
   void error_at_key(std::string_view key, std::string message);
   void error_at_value(std::string_view key, std::string message);
 
-  bool read_bool(std::string_view key, bool& result);
+  /// Whether the key holds a text. Makes it a known one.
+  [[nodiscard]] bool text_at(std::string_view key) {
+    const toml::node* node = find(key);
+    return node != nullptr && node->is_string();
+  }
+  /// @param form words for what else the key may hold
+  bool read_bool(std::string_view key, bool& result, const char* form = "");
   bool read_text(std::string_view key, std::string& result);
   /// A text of at least one character and no control characters (tabs, line breaks).
   bool read_name(std::string_view key, std::string& result);
@@ -52,6 +58,8 @@ class TomlTableReader {
   bool read_number_or_auto(std::string_view key, std::optional<double>& result, const NumberRange& range);
   bool read_integer(std::string_view key, int& result, int low, int high);
   bool read_integer(std::string_view key, std::optional<int>& result, int low, int high);
+  /// An array of some whole numbers.
+  bool read_integers(std::string_view key, std::vector<int>& result, int low, int high);
   bool read_vector(std::string_view key, Vector3& result);
   /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
   bool read_place(std::string_view key, Vector3& result);
@@ -111,6 +119,7 @@ class TomlTableReader {
   [[nodiscard]] std::optional<std::size_t> find_word(const toml::node& node, std::string_view key,
                                                      const std::vector<std::string>& words);
   [[nodiscard]] const toml::array* find_array(std::string_view key, const std::string& words);
+  [[nodiscard]] std::optional<int> integer(const toml::node& node, std::string_view key, int low, int high);
   [[nodiscard]] std::optional<double> finite_number(const toml::node& node, std::string_view key,
                                                     std::string_view words);
   [[nodiscard]] std::optional<std::vector<double>> read_row(const toml::node& node, std::string_view key,

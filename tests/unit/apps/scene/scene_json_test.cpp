@@ -19,7 +19,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
     "title": "",
     "analysis": {"type": "dynamic", "end_time": 1.0, "time_step": 0.01, "integrator": "dda", "spectral_radius": 0.8,
                  "formulation": "total", "initial_state": "as-placed", "gravity": [0.0, 0.0, -9.81],
-                 "solver": "auto", "mass_damping": 0.0, "memory_limit": "auto"},
+                 "solver": "auto", "mass_damping": 0.0, "sleeping": true, "memory_limit": "auto"},
     "contact": {"springs": "area", "surface": "curved", "normal_stiffness": "auto", "shear_stiffness": "auto",
                 "friction_angle": 30.0, "cohesion": 0.0, "tensile_strength": 0.0, "distance": "auto",
                 "angle": "auto", "chord_tolerance": "auto", "augmented": false, "penetration_tolerance": "auto",

@@ -1,0 +1,130 @@
+#include "apps/scene/assignments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "apps/scene/block_reader.hpp"
+#include "apps/scene/name_pattern.hpp"
+#include "apps/scene/nearest_name.hpp"
+
+namespace ashlar {
+namespace {
+
+class Assigner {
+ public:
+  Assigner(Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {
+    for (std::size_t k = 0; k < scene.block.size(); ++k) by_name_.emplace(scene.block[k].name, k);
+  }
+
+  void apply(std::size_t index) {
+    std::vector<bool> chosen(scene_.block.size(), false);
+    for (const std::string& pattern : scene_.assign[index].blocks) choose(pattern, index, chosen);
+    bool refused = false;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      if (!chosen[k]) continue;
+      assign(index, k);
+      if (!refused && moves_although_fixed(scene_.block[k])) refuse_motion(index, k);
+      refused = refused || moves_although_fixed(scene_.block[k]);
+    }
+  }
+
+ private:
+  void choose(const std::string& pattern, std::size_t index, std::vector<bool>& chosen) {
+    bool matched = false;
+    if (pattern.find_first_of("*?[\\") == std::string::npos) {
+      const auto found = by_name_.find(pattern);
+      matched = found != by_name_.end();
+      if (matched) chosen[found->second] = true;
+    } else {
+      for (std::size_t k = 0; k < chosen.size(); ++k) {
+        if (!pattern_matches(pattern, scene_.block[k].name)) continue;
+        chosen[k] = true;
+        matched = true;
+      }
+    }
+    if (matched) return;
+    std::vector<std::string> names;
+    for (const SceneBlock& block : scene_.block) names.push_back(block.name);
+    diagnostics_.error(scene_.places.value(fmt::format("assign.{}.blocks", index)),
+                       fmt::format("assign names no block (\"{}\"), {}the name of a [[block]] or a glob that "
+                                   "matches one is needed",
+                                   pattern, guess(pattern, names, "\"")));
+  }
+
+  void assign(std::size_t index, std::size_t k) {
+    const SceneAssign& given = scene_.assign[index];
+    SceneBlock& block = scene_.block[k];
+    const auto set = [&](const char* key, auto& member, const auto& value) {
+      if (!value) return;
+      member = *value;
+      written(fmt::format("block.{}.{}", k, key), fmt::format("assign.{}.{}", index, key));
+    };
+    set("material", block.material, given.material);
+    set("order", block.order, given.order);
+    set("fixed", block.fixed, given.fixed);
+    set("velocity", block.velocity, given.velocity);
+    set("angular_velocity", block.angular_velocity, given.angular_velocity);
+    const auto add = [&](const char* key, auto& list, const auto& added) {
+      for (std::size_t j = 0; j < added.size(); ++j) {
+        written(fmt::format("block.{}.{}.{}", k, key, list.size()),
+                fmt::format("assign.{}.{}.{}", index, key, j));
+        list.push_back(added[j]);
+      }
+    };
+    add("fix", block.fix, given.fix);
+    add("load", block.load, given.load);
+  }
+
+  static bool moves_although_fixed(const SceneBlock& block) {
+    return block.fixed && (!block.fix.empty() || !block.load.empty() || !block.velocity.isZero(0.0) ||
+                           !block.angular_velocity.isZero(0.0));
+  }
+
+  void refuse_motion(std::size_t index, std::size_t k) {
+    diagnostics_.error(
+        scene_.places.key(fmt::format("assign.{}", index)),
+        fmt::format("motion of a fixed block ({}), a block with fixed = true takes no fix, load "
+                    "or velocity",
+                    scene_.block[k].name));
+  }
+
+  void written(const std::string& path, std::string origin) {
+    scene_.places.record_origin(path, std::move(origin));
+  }
+
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+  std::unordered_map<std::string, std::size_t> by_name_;
+};
+
+}  // namespace
+
+SceneAssign read_assignment(TomlTableReader& table) {
+  SceneAssign assign;
+  table.require("blocks");
+  table.read_texts("blocks", assign.blocks);
+  const auto read = [](auto& result, auto value, auto reader) {
+    if (reader(value)) result = std::move(value);
+  };
+  read(assign.material, std::string(),
+       [&](std::string& value) { return table.read_name("material", value); });
+  read(assign.order, 1, [&](int& value) { return table.read_integer("order", value, 1, 12); });
+  read(assign.fixed, false, [&](bool& value) { return table.read_bool("fixed", value); });
+  read(assign.velocity, Vector3(), [&](Vector3& value) { return table.read_vector("velocity", value); });
+  read(assign.angular_velocity, Vector3(),
+       [&](Vector3& value) { return table.read_vector("angular_velocity", value); });
+  assign.fix = table.read_tables("fix", read_fix);
+  assign.load = table.read_tables("load", read_load);
+  return assign;
+}
+
+void apply_assignments(Scene& scene, Diagnostics& diagnostics) {
+  Assigner assigner(scene, diagnostics);
+  for (std::size_t index = 0; index < scene.assign.size(); ++index) assigner.apply(index);
+}
+
+}  // namespace ashlar

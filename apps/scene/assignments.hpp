@@ -1,0 +1,17 @@
+// [[assign]]: properties of blocks by the patterns of their names, given after the blocks.
+#pragma once
+
+#include "apps/scene/diagnostics.hpp"
+#include "apps/scene/scene.hpp"
+#include "apps/scene/toml_table_reader.hpp"
+
+namespace ashlar {
+
+[[nodiscard]] SceneAssign read_assignment(TomlTableReader& table);
+
+/// Gives blocks what the scene's assignments say: the last one that matches counts, key by key; supports and
+/// loads are added to those that a block has. Places of what was assigned are those of the assignment.
+/// Reported: a pattern that matches no block; supports, loads and velocities of a block that is fixed then.
+void apply_assignments(Scene& scene, Diagnostics& diagnostics);
+
+}  // namespace ashlar

@@ -1,0 +1,140 @@
+#include "apps/scene/mesh_stones.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "geometry/mesh/mesh_io.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr std::size_t listed_stones = 5;
+
+/// One file on its way to stones.
+class Import {
+ public:
+  Import(const SceneMesh& mesh, std::filesystem::path file) : mesh_(mesh), file_(std::move(file)) {}
+
+  /// @throws MeshFileError, std::invalid_argument of weld_corners
+  std::vector<MeshGroup> stones() {
+    std::vector<MeshGroup> stones;
+    if (mesh_.split == SceneMesh::Split::groups)
+      stones = read_mesh_groups(file_);
+    else
+      stones.push_back({"", read_mesh(file_)});
+    weld(stones);
+    if (mesh_.split == SceneMesh::Split::components) stones = components_of(std::move(stones.front().mesh));
+    turn(stones);
+    return stones;
+  }
+
+  /// What was done.
+  [[nodiscard]] std::string note(std::size_t stones) const {
+    std::string text = file_.string();
+    if (mesh_.split != SceneMesh::Split::none)
+      text += fmt::format(": {} stone{}", stones, stones == 1 ? "" : "s");
+    if (mesh_.weld > 0.0)
+      text += fmt::format(": {} corners welded to others within {:g} m, {} triangles that vanished left out",
+                          welded_, mesh_.weld, vanished_);
+    if (mesh_.flip != SceneMesh::Flip::never) {
+      text += fmt::format(": {} surface{} turned", turned_.size(), turned_.size() == 1 ? "" : "s");
+      if (!turned_.empty() && stones > 1) {
+        const std::size_t shown = std::min(turned_.size(), listed_stones);
+        text += fmt::format(" ({}{})",
+                            fmt::join(turned_.begin(), turned_.begin() + static_cast<int>(shown), ", "),
+                            shown < turned_.size() ? ", ..." : "");
+      }
+    }
+    return text;
+  }
+
+ private:
+  void weld(std::vector<MeshGroup>& stones) {
+    if (mesh_.weld == 0.0) return;
+    for (MeshGroup& stone : stones) {
+      const WeldCount count = weld_corners(stone.mesh, mesh_.weld / mesh_.scale);
+      welded_ += count.corners;
+      vanished_ += count.triangles;
+    }
+  }
+
+  std::vector<MeshGroup> components_of(TriangleMesh mesh) const {
+    // Where stones touch, which triangles belong together depends on which side is the inside.
+    const bool turned = mesh_.flip == SceneMesh::Flip::always ||
+                        (mesh_.flip == SceneMesh::Flip::automatic && rounded_volume(mesh) < 0.0);
+    if (turned) turn_inside_out(mesh);
+    std::vector<MeshGroup> stones;
+    for (TriangleMesh& component : closed_components(mesh)) {
+      if (turned) turn_inside_out(component);
+      stones.push_back({std::to_string(stones.size() + 1), std::move(component)});
+    }
+    return stones;
+  }
+
+  void turn(std::vector<MeshGroup>& stones) {
+    for (MeshGroup& stone : stones) {
+      const bool needed = mesh_.flip == SceneMesh::Flip::always ||
+                          (mesh_.flip == SceneMesh::Flip::automatic && rounded_volume(stone.mesh) < 0.0);
+      if (!needed) continue;
+      turn_inside_out(stone.mesh);
+      turned_.push_back(stone.name);
+    }
+  }
+
+  const SceneMesh& mesh_;
+  std::filesystem::path file_;
+  std::size_t welded_ = 0;
+  std::size_t vanished_ = 0;
+  std::vector<std::string> turned_;
+};
+
+SceneBlock block_of(const SceneBlock& block, MeshGroup stone, std::size_t number) {
+  SceneBlock result = block;
+  SceneMesh& mesh = std::get<SceneMesh>(result.shape);
+  mesh.stone = std::make_shared<const TriangleMesh>(std::move(stone.mesh));
+  if (mesh.split == SceneMesh::Split::none) return result;
+  mesh.number = static_cast<int>(number);
+  result.name = fmt::format("{}.{}", block.name, stone.name);
+  return result;
+}
+
+}  // namespace
+
+bool is_imported(const SceneBlock& block) {
+  const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
+  return mesh != nullptr && !mesh->stone &&
+         (mesh->split != SceneMesh::Split::none || mesh->weld > 0.0 || mesh->flip != SceneMesh::Flip::never);
+}
+
+std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const std::string& path,
+                                  Diagnostics& diagnostics) {
+  if (!is_imported(block)) return {block};
+  const SceneMesh& mesh = std::get<SceneMesh>(block.shape);
+  const Place place = scene.places.value(path + ".mesh.file");
+  const std::filesystem::path file = scene.file.parent_path() / mesh.file;
+  SceneBlock without_shape = block;
+  without_shape.shape = {};
+  Import import(mesh, file);
+  try {
+    std::vector<MeshGroup> stones = import.stones();
+    scene.notes.push_back(import.note(stones.size()));
+    std::vector<SceneBlock> blocks;
+    for (MeshGroup& stone : stones) blocks.push_back(block_of(block, std::move(stone), blocks.size() + 1));
+    return blocks;
+  } catch (const MeshFileError& error) {
+    diagnostics.error(
+        place, fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL or PLY file "
+                           "is needed",
+                           to_string(Place{file.string(), error.line(), error.column()}), error.what()));
+  } catch (const std::invalid_argument& error) {
+    diagnostics.error(place, fmt::format("corners cannot be welded ({})", error.what()));
+  }
+  return {without_shape};
+}
+
+}  // namespace ashlar
