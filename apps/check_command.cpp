@@ -36,6 +36,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
                      counted(scene.block.size(), "block"), counted(scene.material.size(), "material"),
                      counted(scene.joint.size(), "joint"), counted(scene.measure.size(), "measure"));
   out << to_string(loaded->cost, scene.block.size()) << '\n';
+  for (const std::string& line : scene.notes) out << line << '\n';
   for (const std::string& line : motion_left(scene)) out << line << '\n';
   return exit_status::done;
 }

@@ -29,6 +29,10 @@ dominoes        dominoes            --frame 60 --from 0.5,-1,0.4 --no-arrows --z
 shaken_tower    shaken_tower        --frame 88  --from 0.3,-1,0.2 --frame-range --contacts none
 wall            wall                --frame 75 --from 0.6,-1,0.3 --contacts none --scale 30 --frame-range
 rockfall        rockfall            --frame 45 --from 0.3,-1,0.4 --color velocity --frame-range --contacts none --zoom 1.8 --at 7,0,4.5
+masonry_bridge  masonry_bridge      --from 0.2,-1,0.2
+dome            dome                --from 0.6,-1,0.7 --color pressure --contacts none
+facade          facade              --from 0.3,-1,0.2 --contacts none
+drums           drums               --frame 57 --from 0.4,-1,0.2
 hertz           hertz               --from 0.3,-1,0.1 --color pressure --zoom 1.3 --at 0,0,0.06 --contacts none
 LIST
 }

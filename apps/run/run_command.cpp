@@ -334,6 +334,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   if (!options.quiet) {
     tell_choices(*built, err);
     err << to_string(loaded->cost, loaded->scene.block.size()) << '\n';
+    for (const std::string& line : loaded->scene.notes) err << line << '\n';
     for (const std::string& line : motion_left(loaded->scene)) err << line << '\n';
   }
   if (starts_from_statics(loaded->scene) && !earlier) {

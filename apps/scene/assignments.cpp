@@ -75,6 +75,7 @@ class Assigner {
         list.push_back(added[j]);
       }
     };
+    if (block.fixed) std::erase_if(block.load, [](const SceneLoad& load) { return load.of_fill; });
     add("fix", block.fix, given.fix);
     add("load", block.load, given.load);
   }

@@ -10,7 +10,7 @@ namespace ashlar {
 [[nodiscard]] SceneAssign read_assignment(TomlTableReader& table);
 
 /// Gives blocks what the scene's assignments say: the last one that matches counts, key by key; supports and
-/// loads are added to those that a block has. Places of what was assigned are those of the assignment.
+/// loads are added to those that a block has; an arch's fill does not load a voussoir that is fixed. Places of what was assigned are those of the assignment.
 /// Reported: a pattern that matches no block; supports, loads and velocities of a block that is fixed then.
 void apply_assignments(Scene& scene, Diagnostics& diagnostics);
 

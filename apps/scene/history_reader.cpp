@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "apps/scene/file_hash.hpp"
 #include "apps/scene/record_file.hpp"
 
 namespace ashlar {
@@ -49,6 +50,7 @@ std::optional<HistoryRows> read_history(TomlTableReader& table, std::string_view
   auto rows = read_record(*history.file, reading.folder(), reading.places().value(table.path(key) + ".file"),
                           reading.diagnostics());
   if (!rows) return std::nullopt;
+  history.file->sha256 = sha256_of(reading.folder() / history.file->file);
   history.rows = std::move(*rows);
   return history;
 }

@@ -131,6 +131,7 @@ SceneLoad weight_of_fill(const Arch& arch, int voussoir) {
   SceneLoad load;
   load.where = plane;
   load.kind = SceneLoad::Kind::force;
+  load.of_fill = true;
   load.vector = {0.0, 0.0, -arch.fill->weight * volume};
   return load;
 }

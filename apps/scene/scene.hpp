@@ -31,6 +31,7 @@ struct SceneRecord {
   std::string time;            ///< name of the column of times
   std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
   double scale = 1.0;               ///< of the values
+  std::string sha256;               ///< of the file as it was read
 };
 
 /// [analysis]
@@ -217,6 +218,7 @@ struct SceneLoad {
   Vector3 vector = Vector3::Zero();  ///< Pa or N
   std::vector<Factor> history;       ///< times increase; empty: factor 1 always
   std::optional<SceneRecord> file;   ///< where it comes from, if not from the scene
+  bool of_fill = false;              ///< weight of an arch's fill, which a fixed block does without
 };
 
 /// array = { count, step, stagger }

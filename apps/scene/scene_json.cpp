@@ -20,7 +20,8 @@ Json to_json(const SceneRecord& record) {
   return {{"file", record.file.string()},
           {"time", record.time},
           {"values", record.values},
-          {"scale", record.scale}};
+          {"scale", record.scale},
+          {"sha256", record.sha256}};
 }
 
 void add_gravity(Json& json, const SceneAnalysis& analysis) {

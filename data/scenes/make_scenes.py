@@ -57,46 +57,6 @@ def contact(kn, ks, friction, springs="area"):
     return f'springs = "{springs}"\nnormal_stiffness = {kn}\nshear_stiffness = {ks}\nfriction_angle = {friction}\n'
 
 
-def arch(name, share, kind, end, text):
-    count, thickness = 27, 0.10678 * share
-    result = HEAD.format(story=story(text), title="Semicircular arch", kind=kind, end=end, step="1e-3",
-                         contact=contact("1e8", "1e8", 60, "point"), modulus="1e11")
-    def joint(k):
-        angle = math.pi * k / count
-        return [(r * math.cos(angle), y, r * math.sin(angle))
-                for r in (1 - thickness / 2, 1 + thickness / 2) for y in (0, 0.2)]
-    for k in range(count):
-        result += hull(f"voussoir{k + 1}", joint(k) + joint(k + 1))
-    for side, place in (("right", 1), ("left", -1)):
-        result += box(side, (place - 0.3, -0.2, -0.3), (place + 0.3, 0.4, 0), fixed=True)
-    top = (0, 0.1, (1 + thickness / 2) * math.cos(math.pi / 54))
-    write(name, result + output(10, [("crown", "voussoir14", top)]))
-
-
-def wall():
-    length, height, depth = 0.5, 0.25, 0.25
-    result = HEAD.format(
-        story=story("""
-A dry wall of 10 courses of 10 bricks, pushed in the middle of its face.
-
-Odd courses end in half bricks, so that the wall is in bond and its ends are straight. The push grows to 3 kN on
-one brick of the seventh course within half a second and is then held: the wall gives way by some millimetres, most at
-its top, sways and stands. With --set 'block.brick7_6.load.0.force=[0, 9000, 0]' the brick is pushed out of it.
-"""), title="Dry wall, pushed", kind="dynamic", end=1.5, step="2e-3", contact=contact("2e9", "1e9", 35),
-        modulus="5e9")
-    result += box("ground", (-1, -2, -0.5), (6, 3, 0), fixed=True)
-    push = ("\n  [[block.load]]\n  plane = { point = [0, 0, 0], normal = [0, -1, 0] }\n"
-            "  force = [0, 3000, 0]\n  history = [[0, 0], [0.5, 1]]\n")
-    for course in range(10):
-        cuts = [k * length for k in range(11)] if course % 2 == 0 else \
-            [0] + [(k + 0.5) * length for k in range(10)] + [10 * length]
-        for k in range(len(cuts) - 1):
-            pushed = course == 6 and k == 5
-            result += box(f"brick{course + 1}_{k + 1}", (cuts[k], 0, course * height),
-                          (cuts[k + 1], depth, (course + 1) * height), push if pushed else "")
-    write("wall.toml", result + output(10, [("pushed", "brick7_6", (2.75, 0, 1.625))]))
-
-
 def dominoes():
     result = HEAD.format(
         story=story("""
@@ -222,19 +182,17 @@ The friction angle that just holds it is 33.36 degrees; here it is 20, and the w
     write("wedge.toml", result + output(10, [("tip", "wedge", tip)]))
 
 
+def pulses():
+    # Under half a sine, so that the base is at rest at its end.
+    with open("pulses.csv", "w", encoding="utf-8") as file:
+        file.write("# Acceleration of a base in g: three cycles of 1 Hz that grow and fade.\nt,a\n")
+        for k in range(301):
+            t = k / 100
+            file.write(f"{t:.2f},{0.35 * math.sin(math.pi * t / 3) * math.sin(2 * math.pi * t):.5f}\n")
+
+
 if __name__ == "__main__":
-    arch("arch_stands.toml", 1.05, "static", 1.0, """
-A semicircular arch of 27 voussoirs, 5 % thicker than it has to be: it stands.
-
-Without tension in the joints, the least thickness is 0.10678 of the radius. The static analysis ends in equilibrium;
-in contacts.pvd the joints have opened at the crown, at the haunches and at the springings, but nowhere through.
-""")
-    arch("arch_collapses.toml", 0.95, "dynamic", 1.0, """
-The same arch 5 % too thin: it folds up about hinges at the crown, the haunches and the springings and comes down.
-
-Compare arch_stands.toml.
-""")
-    wall()
+    pulses()
     dominoes()
     columns()
     tower()

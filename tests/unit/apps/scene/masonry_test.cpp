@@ -274,7 +274,8 @@ TEST(MasonryArch, BearsItsFill) {
   }
   EXPECT_THAT(faults_of(arch + "from = -10\n"),
               ElementsAre(StartsWith("s.toml:16:1: error: fill on faces that do")));
-  EXPECT_THAT(faults_of(arch + "[[assign]]\nblocks = [\"m.1\"]\nfixed = true\n"),
+  EXPECT_THAT(faults_of(arch + "[[assign]]\nblocks = [\"m.1\"]\nfixed = true\n"), IsEmpty());
+  EXPECT_THAT(faults_of(arch + "[[assign]]\nblocks = [\"m.1\"]\nfixed = true\nvelocity = [1, 0, 0]\n"),
               ElementsAre(StartsWith("s.toml:17:1: error: motion of a fixed block (m.1)")));
 }
 
