@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "apps/scene/block_arrays.hpp"
 #include "apps/scene/block_reader.hpp"
 #include "apps/scene/name_pattern.hpp"
 #include "apps/scene/nearest_name.hpp"
@@ -14,15 +15,31 @@
 namespace ashlar {
 namespace {
 
+/// About a second of work.
+constexpr double most_tests = 1e7;
+/// Of the places of what an entry gives a block, bytes.
+constexpr double memory_of_keys = 100.0;
+
 class Assigner {
  public:
   Assigner(Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {
     for (std::size_t k = 0; k < scene.block.size(); ++k) by_name_.emplace(scene.block[k].name, k);
   }
 
-  void apply(std::size_t index) {
+  /// @return whether there is room for more
+  bool apply(std::size_t index) {
+    const SceneAssign& given = scene_.assign[index];
     std::vector<bool> chosen(scene_.block.size(), false);
-    for (const std::string& pattern : scene_.assign[index].blocks) choose(pattern, index, chosen);
+    for (const std::string& pattern : given.blocks) {
+      tests_ += static_cast<double>(chosen.size());
+      if (tests_ > most_tests) return refuse_size(index);
+      choose(pattern, index, chosen);
+    }
+    double memory = memory_of_keys;
+    for (const SceneFix& fix : given.fix) memory += memory_of(fix) + memory_of_keys;
+    for (const SceneLoad& load : given.load) memory += memory_of(load) + memory_of_keys;
+    memory_ += memory * static_cast<double>(std::count(chosen.begin(), chosen.end(), true));
+    if (memory_ > most_laid_memory) return refuse_size(index);
     bool refused = false;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       if (!chosen[k]) continue;
@@ -30,9 +47,18 @@ class Assigner {
       if (!refused && moves_although_fixed(scene_.block[k])) refuse_motion(index, k);
       refused = refused || moves_although_fixed(scene_.block[k]);
     }
+    return true;
   }
 
  private:
+  bool refuse_size(std::size_t index) {
+    diagnostics_.error(scene_.places.key(fmt::format("assign.{}", index)),
+                       fmt::format("assignments are too many for their blocks ({} entries, {} blocks), fewer "
+                                   "patterns, supports or loads are needed",
+                                   scene_.assign.size(), scene_.block.size()));
+    return false;
+  }
+
   void choose(const std::string& pattern, std::size_t index, std::vector<bool>& chosen) {
     bool matched = false;
     if (pattern.find_first_of("*?[\\") == std::string::npos) {
@@ -100,6 +126,8 @@ class Assigner {
   Scene& scene_;
   Diagnostics& diagnostics_;
   std::unordered_map<std::string, std::size_t> by_name_;
+  double tests_ = 0.0;   ///< of names by patterns
+  double memory_ = 0.0;  ///< bytes of what was assigned
 };
 
 }  // namespace
@@ -125,7 +153,8 @@ SceneAssign read_assignment(TomlTableReader& table) {
 
 void apply_assignments(Scene& scene, Diagnostics& diagnostics) {
   Assigner assigner(scene, diagnostics);
-  for (std::size_t index = 0; index < scene.assign.size(); ++index) assigner.apply(index);
+  for (std::size_t index = 0; index < scene.assign.size(); ++index)
+    if (!assigner.apply(index)) return;
 }
 
 }  // namespace ashlar

@@ -11,7 +11,8 @@ namespace ashlar {
 
 /// Gives blocks what the scene's assignments say: the last one that matches counts, key by key; supports and
 /// loads are added to those that a block has; an arch's fill does not load a voussoir that is fixed. Places of what was assigned are those of the assignment.
-/// Reported: a pattern that matches no block; supports, loads and velocities of a block that is fixed then.
+/// Reported: a pattern that matches no block; entries that would take more than about a second or
+/// most_laid_memory for their blocks; supports, loads and velocities of a block that is fixed then.
 void apply_assignments(Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -29,6 +29,23 @@ SceneBlock moved(const SceneBlock& block, const Vector3& way, std::size_t number
 
 }  // namespace
 
+double memory_of(const SceneFix& fix) {
+  return sizeof(SceneFix) + static_cast<double>(fix.history.size() * sizeof(SceneFix::Motion));
+}
+
+double memory_of(const SceneLoad& load) {
+  return sizeof(SceneLoad) + static_cast<double>(load.history.size() * sizeof(SceneLoad::Factor));
+}
+
+double memory_of(const SceneBlock& block) {
+  double memory = sizeof(SceneBlock) + static_cast<double>(block.name.size() + block.material.size());
+  if (const SceneHull* hull = std::get_if<SceneHull>(&block.shape))
+    memory += static_cast<double>(hull->points.size() * sizeof(Vector3));
+  for (const SceneFix& fix : block.fix) memory += memory_of(fix);
+  for (const SceneLoad& load : block.load) memory += memory_of(load);
+  return memory;
+}
+
 std::optional<SceneArray> read_array(TomlTableReader& block) {
   std::optional<TomlTableReader> table = block.table("array");
   if (!table) return std::nullopt;

@@ -38,6 +38,16 @@ std::vector<SceneBlock> blocks_of(Scene& scene, const SceneBlock& block, const s
       blocks.push_back(std::move(stone));
       continue;
     }
+    double memory = memory_of(stone);
+    for (const int count : stone.array->count) memory *= count;
+    if (memory > most_laid_memory) {
+      diagnostics.error(
+          scene.places.value(path + ".array"),
+          fmt::format("copies of block \"{}\" take too much memory ({:.3g} bytes, of points and "
+                      "histories), at most {:.3g} are allowed",
+                      stone.name, memory, most_laid_memory));
+      continue;
+    }
     std::vector<SceneBlock> copies = blocks_of_array(stone);
     std::move(copies.begin(), copies.end(), std::back_inserter(blocks));
   }

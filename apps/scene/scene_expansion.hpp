@@ -13,7 +13,8 @@ namespace ashlar {
 /// adds the pieces of masonry, then applies the assignments. Places of a block are those of the [[block]] or
 /// [[masonry]] that it comes from.
 /// @param masonry the blocks of each [[masonry]], in file order
-/// Reported: more than most_laid_blocks blocks, at the entry that has most; what stones.hpp and
+/// Reported: more than most_laid_blocks blocks, at the entry that has most; copies of an array that take more
+/// than most_laid_memory; what stones.hpp and
 /// assignments.hpp report.
 void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, Diagnostics& diagnostics);
 

@@ -1,5 +1,6 @@
 #include "apps/scene/assignments.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "apps/scene/scene_checks.hpp"
@@ -58,6 +59,28 @@ TEST(Assignments, RefuseWhatNamesNoBlock) {
                   "that matches one is needed"));
   EXPECT_THAT(reading_faults(with("[[assign]]\norder = 2\n")),
               ElementsAre(StartsWith("s.toml:32:1: error: missing key (blocks)")));
+}
+
+TEST(Assignments, AreBounded) {
+  std::string blocks =
+      "[[block]]\nname = \"many\"\nmaterial = \"rock\"\nbox = { min = [9, 9, 9], max = [10, 10, 10] }\n"
+      "array = { count = [15000], step = [[2, 0, 0]] }\n";
+  std::string history = "[[0, 0]";
+  for (int k = 1; k < 2000; ++k) history += fmt::format(", [{}, 1]", k);
+  history += "]";
+  EXPECT_THAT(
+      reading_faults(with(blocks +
+                          "[[assign]]\nblocks = [\"many.*\"]\n[[assign.load]]\npoint = [9, 9, 9]\n"
+                          "force = [0, 0, 1]\nhistory = " +
+                          history + "\n")),
+      ElementsAre(StartsWith("s.toml:37:1: error: assignments are too many for their blocks (1 entries")));
+  std::string entries;
+  for (int k = 0; k < 1000; ++k) entries += "[[assign]]\nblocks = [\"*\"]\norder = 2\n";
+  EXPECT_THAT(reading_faults(with(blocks + entries)),
+              ElementsAre(::testing::HasSubstr("assignments are too many for their blocks (1000 entries")));
+  EXPECT_THAT(reading_faults(with(
+                  blocks + "[[block.load]]\npoint = [9, 9, 9]\nforce = [0, 0, 1]\nhistory = " + history)),
+              ElementsAre(StartsWith("s.toml:36:9: error: copies of block \"many\" take too much memory")));
 }
 
 TEST(Assignments, RefuseMotionOfFixedBlocks) {
