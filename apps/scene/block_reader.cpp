@@ -85,8 +85,9 @@ SceneShape read_mesh_shape(TomlTableReader table) {
   const bool split_good = table.read_choice("split", mesh.split, split_names) || !table.given("split");
   const bool weld_good = table.read_number("weld", mesh.weld, range::not_negative) || !table.given("weld");
   const bool flip_good = read_flip(table, mesh.flip);
+  const bool repair_good = table.read_bool("repair", mesh.repair) || !table.given("repair");
   mesh.file = file;
-  if (!file_good || !scale_good || !split_good || !weld_good || !flip_good) return {};
+  if (!file_good || !scale_good || !split_good || !weld_good || !flip_good || !repair_good) return {};
   return mesh;
 }
 

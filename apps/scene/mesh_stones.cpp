@@ -9,6 +9,7 @@
 
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
+#include "geometry/mesh/surface_repair.hpp"
 
 namespace ashlar {
 namespace {
@@ -29,6 +30,7 @@ class Import {
       stones.push_back({"", read_mesh(file_)});
     weld(stones);
     if (mesh_.split == SceneMesh::Split::components) stones = components_of(std::move(stones.front().mesh));
+    repair(stones);
     turn(stones);
     return stones;
   }
@@ -41,6 +43,10 @@ class Import {
     if (mesh_.weld > 0.0)
       text += fmt::format(": {} corners welded to others within {:g} m, {} triangles that vanished left out",
                           welded_, mesh_.weld, vanished_);
+    if (mesh_.repair)
+      text += fmt::format(
+          ": repaired: {} holes filled with {} triangles, {} triangles left out, {} surfaces turned",
+          repaired_.holes, repaired_.added, repaired_.removed, outward_);
     if (mesh_.flip != SceneMesh::Flip::never) {
       text += fmt::format(": {} surface{} turned", turned_.size(), turned_.size() == 1 ? "" : "s");
       if (!turned_.empty() && stones > 1) {
@@ -76,6 +82,22 @@ class Import {
     return stones;
   }
 
+  void repair(std::vector<MeshGroup>& stones) {
+    if (!mesh_.repair) return;
+    for (MeshGroup& stone : stones) {
+      for (const Vector3& point : stone.mesh.points)
+        if (!point.allFinite()) throw std::invalid_argument("a coordinate is not finite, numbers are needed");
+      const SurfaceRepair done = repair_surface(stone.mesh);
+      if (!done.complete)
+        throw std::invalid_argument(fmt::format("a hole cannot be filled{}, a simpler one is needed",
+                                                stone.name.empty() ? "" : " in " + stone.name));
+      repaired_.holes += done.holes;
+      repaired_.added += done.added;
+      repaired_.removed += done.removed;
+      outward_ += done.turned ? 1 : 0;
+    }
+  }
+
   void turn(std::vector<MeshGroup>& stones) {
     for (MeshGroup& stone : stones) {
       const bool needed = mesh_.flip == SceneMesh::Flip::always ||
@@ -90,6 +112,8 @@ class Import {
   std::filesystem::path file_;
   std::size_t welded_ = 0;
   std::size_t vanished_ = 0;
+  SurfaceRepair repaired_;
+  std::size_t outward_ = 0;
   std::vector<std::string> turned_;
 };
 
@@ -108,7 +132,8 @@ SceneBlock block_of(const SceneBlock& block, MeshGroup stone, std::size_t number
 bool is_imported(const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   return mesh != nullptr && !mesh->stone &&
-         (mesh->split != SceneMesh::Split::none || mesh->weld > 0.0 || mesh->flip != SceneMesh::Flip::never);
+         (mesh->split != SceneMesh::Split::none || mesh->weld > 0.0 || mesh->repair ||
+          mesh->flip != SceneMesh::Flip::never);
 }
 
 std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const std::string& path,
@@ -132,7 +157,7 @@ std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const s
                            "is needed",
                            to_string(Place{file.string(), error.line(), error.column()}), error.what()));
   } catch (const std::invalid_argument& error) {
-    diagnostics.error(place, fmt::format("corners cannot be welded ({})", error.what()));
+    diagnostics.error(place, fmt::format("mesh cannot be welded or repaired ({})", error.what()));
   }
   return {without_shape};
 }

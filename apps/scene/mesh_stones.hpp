@@ -1,5 +1,5 @@
-// Mesh files of many stones, or with corners that nearly meet, or inside out: mesh = { file, split, weld,
-// flip }. What is done to a file is what the scene asks for, and is told in the scene's notes.
+// Mesh files of many stones, or with corners that nearly meet, or with holes, or inside out: mesh = { file,
+// split, weld, repair, flip }. What is done to a file is what the scene asks for, and is told in the scene's notes.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ namespace ashlar {
 
 /// The blocks that a block with such a mesh stands for; any other block by itself. First corners are welded
 /// (each moves by at most `weld` onto one that comes earlier in the file), then the file is divided, then
-/// surfaces are turned.
+/// stones are repaired, then surfaces are turned.
 /// split = "none": the block itself. "components": NAME.1, NAME.2, ... in the order in which their first
 /// triangles stand in the file. "groups": NAME.GROUP for each object or group of an OBJ file that has faces.
 /// Reported at the file's name: one that cannot be read, one without groups, a weld below the rounding of
-/// coordinates or above a tenth of the file's width. Whether a stone bounds a solid is found out later.
+/// coordinates or above a tenth of the file's width, a hole that cannot be filled. Whether a stone bounds a solid is found out later.
 /// @param path of the block as in ScenePlaces
 [[nodiscard]] std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block,
                                                 const std::string& path, Diagnostics& diagnostics);

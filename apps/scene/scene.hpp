@@ -135,7 +135,7 @@ struct SceneBox {
   Vector3 max = Vector3::Zero();  ///< m
 };
 
-/// mesh = { file, scale, split, weld, flip }
+/// mesh = { file, scale, split, weld, flip, repair }
 struct SceneMesh {
   enum class Split {
     none,        ///< "none": the file is one stone
@@ -152,6 +152,7 @@ struct SceneMesh {
   Split split = Split::none;
   double weld = 0.0;  ///< m, >= 0: corners this near are one
   Flip flip = Flip::never;
+  bool repair = false;  ///< whether holes are filled and the like (surface_repair.hpp)
   /// What a block gets of a file that is split, in the file's units, and its 1-based number there.
   std::shared_ptr<const TriangleMesh> stone;
   int number = 0;

@@ -80,6 +80,9 @@ void refuse_number(const Scene& scene, const BlockList& list, Diagnostics& diagn
 }  // namespace
 
 void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, Diagnostics& diagnostics) {
+  // What has a fault has no pieces; names that would be theirs are no faults of their own.
+  const bool complete =
+      std::none_of(masonry.begin(), masonry.end(), [](const auto& pieces) { return pieces.empty(); });
   if (!std::all_of(scene.block.begin(), scene.block.end(), is_plain) || !masonry.empty()) {
     BlockList list;
     const std::vector<SceneBlock> written = std::move(scene.block);
@@ -97,7 +100,7 @@ void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, D
       scene.places.record_origin(fmt::format("block.{}", k), list.origins[k]);
     scene.block = std::move(list.blocks);
   }
-  apply_assignments(scene, diagnostics);
+  if (complete) apply_assignments(scene, diagnostics);
 }
 
 }  // namespace ashlar

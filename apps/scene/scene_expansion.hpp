@@ -10,7 +10,7 @@
 namespace ashlar {
 
 /// Puts in place of each block with an array, or a mesh that is split, the blocks that it stands for, then
-/// adds the pieces of masonry, then applies the assignments. Places of a block are those of the [[block]] or
+/// adds the pieces of masonry, then applies the assignments, unless a masonry has no pieces. Places of a block are those of the [[block]] or
 /// [[masonry]] that it comes from.
 /// @param masonry the blocks of each [[masonry]], in file order
 /// Reported: more than most_laid_blocks blocks, at the entry that has most; copies of an array that take more

@@ -106,6 +106,7 @@ struct ShapeToJson {
       keys["flip"] = "auto";
     else
       keys["flip"] = mesh.flip == SceneMesh::Flip::always;
+    keys["repair"] = mesh.repair;
     if (mesh.number > 0) keys["number"] = mesh.number;
     json["mesh"] = std::move(keys);
   }

@@ -22,6 +22,9 @@ constexpr double largest_weld = 0.1;
 // Of the largest coordinate: below it there is nothing between equal and apart.
 constexpr double smallest_weld = 0x1p-50;
 
+// Of an edge that stones share: more are a defect, and would take time with their square.
+constexpr std::size_t most_sides = 1000;
+
 /// Points in cubes of the side `distance`. Kept points are apart by more than that, so that a cube has few.
 class PointGrid {
  public:
@@ -195,7 +198,7 @@ std::vector<TriangleMesh> closed_components(const TriangleMesh& mesh) {
   for (const auto& [edge, sides] : sides_of_edges(mesh)) {
     if (sides.size() == 2)
       sets.unite(sides[0].triangle, sides[1].triangle);
-    else if (sides.size() > 2)
+    else if (sides.size() > 2 && sides.size() <= most_sides)
       unite_around(mesh, edge, sides, sets);
   }
   // A root is the first of its set, so that this is the order of first triangles.

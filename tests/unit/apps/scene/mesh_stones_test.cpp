@@ -90,11 +90,25 @@ TEST_F(MeshStones, AreTurnedWhereAsked) {
   EXPECT_FALSE(load(cubes(1, 2.0, "# "), "flip = true"));
 }
 
+TEST_F(MeshStones, AreRepairedWhereAsked) {
+  std::string open = cubes(2, 2.0, "# ");
+  open.erase(open.rfind("f "));
+  EXPECT_FALSE(load(open, "split = \"components\""));
+  const auto loaded = load(open, "split = \"components\", repair = true");
+  EXPECT_THAT(faults_, IsEmpty());
+  ASSERT_TRUE(loaded);
+  EXPECT_EQ(loaded->solids[1].volume(), 1.0);
+  EXPECT_THAT(loaded->scene.notes,
+              ElementsAre(HasSubstr("2 stones: repaired: 1 holes filled with 2 triangles, 0 "
+                                    "triangles left out, 0 surfaces turned")));
+}
+
 TEST_F(MeshStones, FaultsAreAtTheFile) {
   (void)load("v 0 0\n", "split = \"groups\"");
   EXPECT_THAT(faults_, ElementsAre(HasSubstr("s.toml:5:17: error: mesh file cannot be used")));
   (void)load(cubes(2, 2.0, "# "), "weld = 1");
-  EXPECT_THAT(faults_, ElementsAre(HasSubstr("corners cannot be welded (weld is 1 in units of the file, ")));
+  EXPECT_THAT(faults_,
+              ElementsAre(HasSubstr("mesh cannot be welded or repaired (weld is 1 in units of the file, ")));
   (void)load(cubes(2, 2.0, "# "), "flip = \"maybe\"");
   EXPECT_THAT(faults_,
               ElementsAre(HasSubstr("unknown flip (\"maybe\"), true or false or \"auto\" is needed")));

@@ -146,6 +146,23 @@ TEST_F(MeshIo, obj_face_before_its_points) {
       read("a.obj", "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
 }
 
+TEST_F(MeshIo, obj_groups_are_bodies_with_the_points_they_use) {
+  // A face before any group, one body in two parts, another that shares its points, and a group without faces.
+  write_text(folder_ / "m.obj",
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\no second one\nf 4 3 2\ng third\nf 2 3 1\n"
+             "g empty\no second  one\nf 1 3 4\n");
+  const std::vector<MeshGroup> groups = read_mesh_groups(folder_ / "m.obj");
+  ASSERT_THAT(groups, SizeIs(3));
+  EXPECT_EQ(groups[0].name, "default");
+  EXPECT_EQ(groups[1].name, "second one");
+  EXPECT_EQ(groups[2].name, "third");
+  EXPECT_THAT(groups[0].mesh.points, ElementsAre(Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)));
+  EXPECT_THAT(groups[1].mesh.triangles, ElementsAre(Triangle{3, 2, 1}, Triangle{0, 2, 3}));
+  EXPECT_THAT(groups[2].mesh.triangles, ElementsAre(Triangle{1, 2, 0}));
+  write_text(folder_ / "m.stl", "solid\nendsolid\n");
+  EXPECT_THROW(read_mesh_groups(folder_ / "m.stl"), MeshFileError);
+}
+
 TEST_F(MeshIo, stl_welds_equal_points) {
   const TriangleMesh frame = test_support::make_frame();
   for (const std::string& content : {binary_stl(frame), text_stl(frame)}) {
