@@ -10,6 +10,7 @@
 #include "apps/scene/scene_reader.hpp"
 #include "apps/scene/scene_solids.hpp"
 #include "apps/scene/soft_blocks.hpp"
+#include "apps/scene/survey_fit.hpp"
 
 namespace ashlar {
 
@@ -26,6 +27,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   if (!check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics)) return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
+  fit_to_survey(loaded.scene, solids, loaded.shapes, diagnostics);
   check_placement(loaded.scene, solids, diagnostics);
   check_limits(loaded.scene, solids, diagnostics);
   warn_of_mesh_units(loaded.scene, solids, diagnostics);

@@ -81,6 +81,7 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   bool augmented = false;
   if (table.read_bool("augmented", augmented)) contact.augmented = augmented;
   table.read_number_or_auto("penetration_tolerance", contact.penetration_tolerance, range::positive);
+  table.read_number("fit", contact.fit, range::not_negative);
   table.read_number_or_auto("allowed_depth", contact.allowed_depth, range::positive);
   if (contact.chord_tolerance && contact.subdivisions)
     table.error_at_key("subdivisions",
