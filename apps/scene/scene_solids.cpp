@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include "apps/scene/scene_json.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/exact/degree_turn.hpp"
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/shape_loss.hpp"
@@ -20,33 +20,10 @@
 namespace ashlar {
 namespace {
 
-// Sine and cosine of an angle in degrees, exact at multiples of 90.
-struct Turn {
-  double sine;
-  double cosine;
-};
-
-Turn turn_of(double degrees) {
-  int quarters = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarters) * std::numbers::pi / 180.0;
-  const double sine = std::sin(rest), cosine = std::cos(rest);
-  // remquo gives at least the three low bits of the quotient, with its sign.
-  switch (quarters & 3) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
-}
-
 // Rodrigues' rotation matrix: c I + (1 - c) a a' + s [a]x, a the unit axis.
 Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
   const Vector3 axis = rotation.axis.stableNormalized();
-  const auto [sine, cosine] = turn_of(rotation.angle);
+  const auto [sine, cosine] = degree_turn(rotation.angle);
   Eigen::Matrix3d cross;
   cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
   return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;

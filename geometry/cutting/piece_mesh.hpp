@@ -1,0 +1,22 @@
+// Rounded views of parts of a cell complex: their surface as triangles, and how far a section is. Only sources
+// of this layer include this file.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "geometry/cutting/cell_complex.hpp"
+
+namespace ashlar {
+
+/// The surface that faces make up, outward. A face is divided the same way for both of its cells. Points that
+/// round to one are one, and a face that is left with fewer than three is left out.
+/// @param faces and whether the body is below the plane of each
+[[nodiscard]] TriangleMesh mesh_of_faces(const CellComplex& complex,
+                                         const std::vector<std::pair<int, bool>>& faces);
+
+/// m: from a point of a plane to what the plane cuts out of a cell, rounded; infinite if it parts it not.
+[[nodiscard]] double distance_from_section(const CellComplex& complex, int cell, const ExactPlane& plane,
+                                           const ExactPoint& from);
+
+}  // namespace ashlar
