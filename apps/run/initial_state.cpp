@@ -5,16 +5,19 @@
 
 #include <algorithm>
 
+#include "apps/scene/joint_table.hpp"
+
 namespace ashlar {
 namespace {
 
-bool has_tie(const Scene& scene, const std::string& name) {
+bool has_tie(const Scene& scene, std::size_t block) {
   if (std::none_of(scene.joint.begin(), scene.joint.end(),
                    [](const SceneJoint& joint) { return joint.tied.value_or(false); }))
     return false;
-  return std::any_of(scene.block.begin(), scene.block.end(), [&](const SceneBlock& other) {
-    return other.name != name && joint_law_between(scene, name, other.name).tied;
-  });
+  const JointTable table(scene);
+  for (std::size_t other = 0; other < scene.block.size(); ++other)
+    if (other != block && table.law_between(block, other).tied) return true;
+  return false;
 }
 
 /// Whether some corner's neighbourhood has no volume any more.
@@ -46,7 +49,7 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
     }
     if (block.fixed() || is_settled) continue;
     as_placed.push_back(block.name());
-    if (!block.space().held() || has_tie(scene, block.name())) continue;
+    if (!block.space().held() || has_tie(scene, k)) continue;
     any_held = true;
     diagnostics.warning(place,
                         fmt::format("initial_state (\"equilibrium\") was not found for block \"{}\": it "

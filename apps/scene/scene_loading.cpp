@@ -6,6 +6,7 @@
 #include "apps/scene/idle_keys.hpp"
 #include "apps/scene/initial_overlap.hpp"
 #include "apps/scene/scene_checks.hpp"
+#include "apps/scene/scene_cuts.hpp"
 #include "apps/scene/scene_limits.hpp"
 #include "apps/scene/scene_reader.hpp"
 #include "apps/scene/scene_solids.hpp"
@@ -20,6 +21,14 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
     if (preparation != nullptr) preparation->phase(words);
   };
   LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}, {}};
+  if (!loaded.scene.cut.empty()) {
+    // Names of pieces are known once they are cut, and only what can be read is cut.
+    check_cuts(loaded.scene, diagnostics);
+    if (!diagnostics.good() || !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
+      return std::nullopt;
+    cut_scene(loaded.scene, diagnostics, preparation);
+    if (!diagnostics.good()) return std::nullopt;
+  }
   check_references(loaded.scene, diagnostics);
   check_availability(loaded.scene, diagnostics);
   // Nothing of a scene that is too large is built.

@@ -46,14 +46,6 @@ double largest_coordinate_of(const std::vector<Vector3>& points) {
   return largest;
 }
 
-// What given coordinates are known to, m: they may have been turned before, in double precision and some
-// operations, by whoever wrote them.
-double resolution_of(const std::vector<Vector3>& points) {
-  constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
-  const double largest = largest_coordinate_of(points);
-  return std::isfinite(largest) ? share * largest : 0.0;
-}
-
 // A shape that bounds no solid, with the whole message.
 struct ShapeError : std::runtime_error {
   using runtime_error::runtime_error;
@@ -123,6 +115,7 @@ struct SolidBuilder {
   Polyhedron operator()(const SceneSphere& sphere) const {
     return Polyhedron(make_sphere(sphere.center, sphere.radius, sphere.subdivisions));
   }
+  Polyhedron operator()(const ScenePiece& piece) const { return *piece.solid; }
 };
 
 // Up to translate.
@@ -155,7 +148,7 @@ Polyhedron translated(const Polyhedron& shape, const Vector3& way) {
 }
 
 const char* shape_key(const SceneShape& shape) {
-  constexpr std::array<const char*, 5> keys = {"", "box", "mesh", "hull", "sphere"};
+  constexpr std::array<const char*, 6> keys = {"", "box", "mesh", "hull", "sphere", ""};
   return keys[shape.index()];
 }
 
@@ -168,19 +161,30 @@ Place shape_place(const Scene& scene, std::size_t index) {
 
 }  // namespace
 
+double resolution_of(const std::vector<Vector3>& points) {
+  constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
+  const double largest = largest_coordinate_of(points);
+  return std::isfinite(largest) ? share * largest : 0.0;
+}
+
 std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics,
                                                     std::vector<std::shared_ptr<const Polyhedron>>* shapes,
                                                     Preparation* preparation) {
   std::vector<std::optional<Polyhedron>> solids(scene.block.size());
   if (shapes != nullptr) shapes->assign(scene.block.size(), nullptr);
-  const nlohmann::ordered_json json = to_json(scene);
+  const nlohmann::ordered_json json = blocks_to_json(scene.block);
   std::map<std::string, std::shared_ptr<const Polyhedron>> built;  // by what the scene says of the shape
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];
     if (std::holds_alternative<std::monostate>(block.shape)) continue;
     if (preparation != nullptr)
       preparation->phase(fmt::format("solid of block {} ({} of {})", block.name, i + 1, scene.block.size()));
-    const auto& keys = json.at("block").at(i);
+    if (const auto* piece = std::get_if<ScenePiece>(&block.shape)) {
+      solids[i].emplace(*piece->solid);
+      if (shapes != nullptr) (*shapes)[i] = piece->solid;
+      continue;
+    }
+    const auto& keys = json.at(i);
     const std::string said = shape_key(block.shape) + keys.at(shape_key(block.shape)).dump() +
                              (keys.contains("rotate") ? keys.at("rotate").dump() : "");
     try {

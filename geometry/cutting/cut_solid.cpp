@@ -72,7 +72,6 @@ struct CutSolid::State {
       piece_of[cell] = index;
       for (const int point : complex.points_of(cell)) piece.box.include(complex.point(point).place.rounded);
     }
-    measures.reset();
   }
 
   /// -1 or 1 if all of a piece is below or above, else 0; `parted` if a cell is parted, not only the piece.
@@ -197,11 +196,9 @@ struct CutSolid::State {
       groups[{of.plane, below, other < 0 ? -1 : piece_of[other], of.mark}].push_back(face);
     }
     std::vector<PieceFace> result;
-    for (const auto& [key, members] : groups) {
+    for (auto& [key, members] : groups) {
       const auto& [plane, below, neighbour, mark] = key;
-      const Vector3 normal = complex.plane(plane).unit_normal();
-      result.push_back({plane, below, neighbour, mark, measure().area(members),
-                        below ? normal : Vector3(-normal + Vector3::Zero())});
+      result.push_back({plane, below, neighbour, mark, std::move(members)});
     }
     return result;
   }
@@ -289,6 +286,15 @@ double CutSolid::volume(int piece) const {
 
 std::vector<PieceFace> CutSolid::faces(int piece) const {
   return state_->faces(piece);
+}
+
+double CutSolid::area(const PieceFace& face) const {
+  return state_->measure().area(face.parts);
+}
+
+Vector3 CutSolid::normal(const PieceFace& face) const {
+  const Vector3 normal = state_->complex.plane(face.plane).unit_normal();
+  return face.below ? normal : Vector3(Vector3::Zero() - normal);
 }
 
 TriangleMesh CutSolid::mesh(int piece) const {

@@ -22,12 +22,11 @@ inline constexpr int most_surface_cells = 200000;
 
 /// A part of a piece's surface: all that is in one plane, on one side of it and next to one neighbour.
 struct PieceFace {
-  int plane;       ///< the same number: the same plane
-  bool below;      ///< the piece is below it
-  int neighbour;   ///< piece on the other side, -1: outside of the solid
-  int mark;        ///< of the cut that made it, -1: of the solid's own surface
-  double area;     ///< m^2, rounded once
-  Vector3 normal;  ///< outward, unit, rounded once
+  int plane;               ///< the same number: the same plane
+  bool below;              ///< the piece is below it
+  int neighbour;           ///< piece on the other side, -1: outside of the solid
+  int mark;                ///< of the cut that made it, -1: of the solid's own surface
+  std::vector<int> parts;  ///< convex parts, by numbers that the neighbour's face has too
 };
 
 /// A face that holds a piece in its place.
@@ -71,8 +70,12 @@ class CutSolid {
 
   /// m^3, rounded once.
   [[nodiscard]] double volume(int piece) const;
-  /// By plane, side and neighbour.
+  /// By plane, side, neighbour and mark.
   [[nodiscard]] std::vector<PieceFace> faces(int piece) const;
+  /// m^2, rounded once.
+  [[nodiscard]] double area(const PieceFace& face) const;
+  /// Outward, unit, rounded once.
+  [[nodiscard]] Vector3 normal(const PieceFace& face) const;
   /// Corners rounded once. Two points of a sliver may round to one; what then has no area is left out.
   [[nodiscard]] TriangleMesh mesh(int piece) const;
   /// @param held faces of the piece; KeyBlock::faces are indices into it. @param force any length but zero

@@ -84,8 +84,7 @@ double rounded(const Rational& number) {
 
 }  // namespace
 
-PieceMeasures::PieceMeasures(const CellComplex& complex)
-    : complex_(complex), fixed_(complex.point_count()), known_(complex.point_count(), false) {
+PieceMeasures::PieceMeasures(const CellComplex& complex) : complex_(complex) {
   double largest = 0.0;
   for (std::size_t k = 0; k < complex.point_count(); ++k)
     largest = std::max(largest, complex.point(static_cast<int>(k)).place.rounded.cwiseAbs().maxCoeff());
@@ -96,20 +95,22 @@ PieceMeasures::PieceMeasures(const CellComplex& complex)
 
 const PieceMeasures::FixedPoint& PieceMeasures::fixed(int point) {
   const auto k = static_cast<std::size_t>(point);
-  if (!known_[k]) {
+  if (k >= fixed_.size()) fixed_.resize(complex_.point_count());
+  if (!fixed_[k]) {
     const ExactPoint& place = complex_.point(point).place;
     const std::array<const Integer*, 3> x = {&place.x, &place.y, &place.z};
+    FixedPoint cut_off;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Integer numerator = *x[axis], denominator = place.w;
       if (shift_ >= 0)
         numerator <<= static_cast<unsigned long>(shift_);
       else
         denominator <<= static_cast<unsigned long>(-shift_);
-      mpz_fdiv_q(fixed_[k][axis].get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
+      mpz_fdiv_q(cut_off[axis].get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
     }
-    known_[k] = true;
+    fixed_[k] = std::make_unique<const FixedPoint>(std::move(cut_off));
   }
-  return fixed_[k];
+  return *fixed_[k];
 }
 
 // Differences are off by less than a unit each. A determinant of differences of at most D is off by six products

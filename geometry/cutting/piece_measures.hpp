@@ -8,7 +8,7 @@
 #pragma once
 
 #include <array>
-#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace ashlar {
 
 class PieceMeasures {
  public:
-  /// @param complex outlives this and does not change
+  /// @param complex outlives this. Its cells may be parted later: that makes no larger coordinates.
   explicit PieceMeasures(const CellComplex& complex);
 
   /// m^3. @param faces a closed surface: faces, and whether the body is below the plane of each
@@ -32,8 +32,7 @@ class PieceMeasures {
 
   const CellComplex& complex_;
   long shift_ = 0;  ///< a fixed coordinate is 2^shift_ times the coordinate, cut off
-  std::vector<FixedPoint> fixed_;
-  std::vector<bool> known_;
+  std::vector<std::unique_ptr<const FixedPoint>> fixed_;  ///< by point, null until asked for
 };
 
 }  // namespace ashlar

@@ -43,10 +43,10 @@ TEST(CutSolid, CubeByThreeSetsIsUnitCubes) {
     const std::vector<PieceFace> faces = solid.faces(piece);
     ASSERT_EQ(faces.size(), 6U);
     for (const PieceFace& face : faces) {
-      EXPECT_EQ(face.area, 1.0);
+      EXPECT_EQ(solid.area(face), 1.0);
       if (face.neighbour < 0) continue;
       ++shared;
-      EXPECT_EQ(std::abs(face.normal[face.mark]), 1.0);
+      EXPECT_EQ(std::abs(solid.normal(face)[face.mark]), 1.0);
     }
     const Polyhedron block(solid.mesh(piece));
     EXPECT_EQ(block.mesh().points.size(), 8U);
@@ -124,9 +124,9 @@ TEST(CutSolid, RandomSetsConserve) {
     for (const int piece : solid.pieces()) {
       for (const PieceFace& face : solid.faces(piece)) {
         if (face.neighbour < 0)
-          surface += face.area;
+          surface += solid.area(face);
         else
-          areas[{piece, face.neighbour}] += face.area;
+          areas[{piece, face.neighbour}] += solid.area(face);
       }
       const Polyhedron block = resolved(solid.mesh(piece));
       EXPECT_TRUE(block.convex());
