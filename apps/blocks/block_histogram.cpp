@@ -14,6 +14,8 @@ namespace {
 constexpr double left = 70.0, right = histogram_width - 70.0;
 constexpr double top = 50.0, bottom = histogram_height - 70.0;
 
+constexpr int most_fine_classes = 18;
+
 /// Number of a bound: 3 for each power of ten.
 double bound(int number) {
   constexpr std::array<double, 3> mantissas = {1.0, 2.0, 5.0};
@@ -81,10 +83,13 @@ std::vector<SizeClass> size_classes(const std::vector<double>& volumes) {
   if (volumes.empty()) return {};
   const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
   const int first = class_of(*least), last = class_of(*most);
+  // Whole powers of ten where finer classes would be too many.
+  const int step = last - first < most_fine_classes ? 1 : 3;
+  const int start = step == 1 ? first : 3 * static_cast<int>(std::floor(first / 3.0));
   std::vector<SizeClass> classes;
-  for (int k = first; k <= last; ++k) classes.push_back({bound(k), bound(k + 1)});
+  for (int k = start; k <= last; k += step) classes.push_back({bound(k), bound(k + step)});
   for (const double volume : volumes) {
-    SizeClass& of = classes[static_cast<std::size_t>(class_of(volume) - first)];
+    SizeClass& of = classes[static_cast<std::size_t>((class_of(volume) - start) / step)];
     ++of.blocks;
     of.volume += volume;
   }

@@ -1,6 +1,7 @@
 #include "apps/scene/scene_cuts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -16,15 +17,22 @@ namespace {
 
 using Pieces = std::vector<std::shared_ptr<const Polyhedron>>;
 
-/// The cuts whose planes bound a piece, in words.
+/// The planes of cuts that bound a piece, in words: the first few.
 std::string planes_of(const Scene& scene, const CutRock& rock, const CutSolid& solid, int piece) {
-  std::string text;
+  constexpr std::size_t named = 6;
+  std::vector<std::string> planes;
   for (const PieceFace& face : solid.faces(piece)) {
     if (face.mark < 0) continue;
     const auto& [cut, plane] = rock.marks[static_cast<std::size_t>(face.mark)];
-    text += fmt::format("{}plane {} of cut \"{}\"", text.empty() ? "" : ", ", plane, scene.cut[cut].name);
+    const std::string of_cut = fmt::format("cut \"{}\"", scene.cut[cut].name);
+    planes.push_back(scene.cut[cut].kind == SceneCut::Kind::planes ? fmt::format("plane {} of {}", plane, of_cut)
+                                                                   : of_cut);
   }
-  return text;
+  std::sort(planes.begin(), planes.end());
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  const bool more = planes.size() > named;
+  if (more) planes.resize(named);
+  return fmt::format("{}{}", fmt::join(planes, ", "), more ? ", ..." : "");
 }
 
 /// The last cut that made a face of a piece.

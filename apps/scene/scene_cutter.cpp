@@ -9,7 +9,9 @@
 #include "apps/scene/name_pattern.hpp"
 #include "apps/scene/nearest_name.hpp"
 #include "apps/scene/scene_solids.hpp"
+#include "geometry/boxes/box.hpp"
 #include "geometry/cutting/small_pieces.hpp"
+#include "geometry/solid/solid_location.hpp"
 
 namespace ashlar {
 namespace {
@@ -46,6 +48,19 @@ double reach_of(const CutSolid& solid, const std::vector<int>& pieces) {
     }
   }
   return 0.5 * (high - low).norm();
+}
+
+/// Points inside a solid, evenly spread: of a box around it, those that are inside.
+std::vector<Vector3> random_points(const Polyhedron& solid, int count, std::mt19937_64& random) {
+  const Box box = box_of(solid.mesh().points);
+  std::vector<Vector3> points;
+  while (static_cast<int>(points.size()) < count) {
+    Vector3 share;
+    for (int axis = 0; axis < 3; ++axis) share[axis] = random_share(random);
+    const Vector3 point = box.low + share.cwiseProduct(box.high - box.low);
+    if (is_inside(solid.mesh(), point)) points.push_back(point);
+  }
+  return points;
 }
 
 /// Pieces that come about in a cut belong to it as those do that it began with.
@@ -183,6 +198,17 @@ void SceneCutter::cut_by_solid(std::size_t index, const std::vector<Target>& tar
   for (const Target& target : targets) solid_of(target.block).cut_along(*surface, mark, 1, choice_of(target));
 }
 
+void SceneCutter::cut_by_points(std::size_t index, const std::vector<Target>& targets) {
+  const SceneCut& cut = scene_.cut[index];
+  if (!check_number(index, static_cast<double>(targets.size()) * (cut.count - 1.0))) return;
+  for (const Target& target : targets) {
+    std::mt19937_64 random =
+        random_stream(cut.seed, RandomStream::points, 0, static_cast<int>(target.block));
+    const std::vector<Vector3> points = random_points(*shapes_[target.block], cut.count, random);
+    solid_of(target.block).cut_into_cells(points, add_mark(index, 0));
+  }
+}
+
 void SceneCutter::make_cut(std::size_t index) {
   const SceneCut& cut = scene_.cut[index];
   try {
@@ -200,6 +226,7 @@ void SceneCutter::make_cut(std::size_t index) {
     }
     if (cut.kind == SceneCut::Kind::planes) cut_by_set(index, targets);
     if (cut.kind == SceneCut::Kind::solid) cut_by_solid(index, targets);
+    if (cut.kind == SceneCut::Kind::voronoi) cut_by_points(index, targets);
     if (cut.min_volume == 0.0) return;
     for (const Target& target : targets)
       rock_.glued[index] += glue_small_pieces(solid_of(target.block), cut.min_volume, choice_of(target));

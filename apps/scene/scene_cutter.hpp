@@ -42,6 +42,7 @@ class SceneCutter {
   [[nodiscard]] PlaneRange range_of(const SceneCut& cut, const Target& target);
   void cut_by_set(std::size_t index, const std::vector<Target>& targets);
   void cut_by_solid(std::size_t index, const std::vector<Target>& targets);
+  void cut_by_points(std::size_t index, const std::vector<Target>& targets);
   int add_mark(std::size_t cut, int plane);
   void error(std::size_t cut, const char* key, std::string message);
 

@@ -1,7 +1,6 @@
 #include "geometry/cutting/cell_complex.hpp"
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 namespace ashlar {
@@ -50,6 +49,45 @@ int CellComplex::add_cell(const ConvexShape& shape) {
   }
   for (int f = 0; f < shape.facet_count(); ++f)
     for (const int edge : shape.edges_of_facet(f)) faces_[first_face + f].edges.push_back(first_edge + edge);
+  return cell;
+}
+
+int CellComplex::seam_point(const ExactPoint& place, int plane, CellSeams& seams) {
+  const auto [found, is_new] = seams.points.emplace(std::array{place.x, place.y, place.z, place.w}, -1);
+  if (is_new) found->second = add_point({place, {}});
+  std::vector<int>& planes = points_[found->second].planes;
+  if (std::find(planes.begin(), planes.end(), plane) == planes.end()) planes.push_back(plane);
+  return found->second;
+}
+
+int CellComplex::seam_edge(int from, int to, int plane, CellSeams& seams) {
+  const auto [found, is_new] = seams.edges.emplace(std::array{std::min(from, to), std::max(from, to)}, -1);
+  if (is_new) found->second = add_edge(from, to, {plane, -1});
+  std::array<int, 2>& planes = edges_[found->second].planes;
+  if (planes[0] != plane && planes[1] < 0) planes[1] = plane;
+  return found->second;
+}
+
+int CellComplex::add_cell(const std::vector<CellFace>& faces, CellSeams& seams) {
+  const int cell = cell_count();
+  cells_.emplace_back();
+  for (const CellFace& of : faces) {
+    std::vector<int> points;
+    for (const ExactPoint& place : of.loop) points.push_back(seam_point(place, of.plane, seams));
+    std::vector<int> sorted = points;
+    std::sort(sorted.begin(), sorted.end());
+    const auto [found, is_new] = seams.faces.emplace(std::move(sorted), static_cast<int>(faces_.size()));
+    cells_[cell].push_back(found->second);
+    if (is_new) {
+      ComplexFace face{of.plane, points, {}, {-1, -1}, of.mark};
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        face.edges.push_back(seam_edge(points[k], points[(k + 1) % points.size()], of.plane, seams));
+        edges_[face.edges.back()].faces.push_back(found->second);
+      }
+      faces_.push_back(std::move(face));
+    }
+    faces_[found->second].cells[of.below ? 0 : 1] = cell;
+  }
   return cell;
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -36,6 +37,21 @@ struct ComplexFace {
   int mark = -1;                  ///< of the cut that made it; -1: of the solid's surface
 };
 
+/// A face of a cell that is put together with others.
+struct CellFace {
+  int plane;
+  bool below;                     ///< the cell is below the plane
+  int mark;                       ///< as in ComplexFace
+  std::vector<ExactPoint> loop;   ///< corners, counter-clockwise as seen from above the plane
+};
+
+/// What cells that are put together have in common.
+struct CellSeams {
+  std::map<std::array<Integer, 4>, int> points;  ///< by coordinates
+  std::map<std::array<int, 2>, int> edges;       ///< by points, increasing
+  std::map<std::vector<int>, int> faces;         ///< by points, increasing
+};
+
 /// Points, edges, faces, cells and planes are numbered from 0 and keep their numbers.
 class CellComplex {
  public:
@@ -44,6 +60,8 @@ class CellComplex {
   int add_plane(const ExactPlane& plane);
   /// A convex solid as a cell of its own. @pre not flat
   int add_cell(const ConvexShape& shape);
+  /// A convex cell beside others that it fits to: common points, edges and faces are those that are there.
+  int add_cell(const std::vector<CellFace>& faces, CellSeams& seams);
 
   [[nodiscard]] const ExactPlane& plane(int index) const { return planes_[index]; }
   [[nodiscard]] const ComplexPoint& point(int index) const { return points_[index]; }
@@ -69,6 +87,8 @@ class CellComplex {
  private:
   int add_point(ComplexPoint point);
   int add_edge(int from, int to, std::array<int, 2> planes);
+  int seam_point(const ExactPoint& place, int plane, CellSeams& seams);
+  int seam_edge(int from, int to, int plane, CellSeams& seams);
   void divide_edge(int edge, int plane);
   void divide_face(int face, int plane);
   void add_section(int below, int above, int plane, int mark);

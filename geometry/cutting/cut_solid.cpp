@@ -12,6 +12,7 @@
 #include "geometry/cutting/piece_measures.hpp"
 #include "geometry/cutting/piece_mesh.hpp"
 #include "geometry/cutting/surface_partition.hpp"
+#include "geometry/cutting/voronoi_complex.hpp"
 #include "geometry/exact/rounding_mode.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "geometry/union_find.hpp"
@@ -117,6 +118,19 @@ struct CutSolid::State {
       divide(index, sorted, mark);
       for (const auto& [inside, cell] : sorted)
         if (inside != 0) pieces[piece_of[cell]].label = label;
+    }
+  }
+
+  [[gnu::noinline]] void cut_into_cells(const std::vector<Vector3>& points, int mark) {
+    if (pieces.size() != 1 || pieces[0].cells.size() != 1)
+      throw CutError("cells around points need a block that is convex and was not cut before");
+    complex = voronoi_complex(complex, points, mark);
+    measures.reset();
+    pieces.clear();
+    piece_of.clear();
+    for (int cell = 0; cell < complex.cell_count(); ++cell) {
+      pieces.push_back({{cell}, {}, 0, cell + 1 < complex.cell_count() ? cell + 1 : -1});
+      settle(cell);
     }
   }
 
@@ -274,6 +288,11 @@ void CutSolid::cut(const CutPlane& plane, int mark, const Choice& chosen) {
 void CutSolid::cut_along(const Polyhedron& surface, int mark, int label, const Choice& chosen) {
   const NearestRounding nearest;
   state_->cut_along(surface, mark, label, chosen);
+}
+
+void CutSolid::cut_into_cells(const std::vector<Vector3>& points, int mark) {
+  const NearestRounding nearest;
+  state_->cut_into_cells(points, mark);
 }
 
 void CutSolid::glue(int piece, int into) {

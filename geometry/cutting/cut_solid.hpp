@@ -65,6 +65,10 @@ class CutSolid {
   /// Parts pieces along the surface of a solid. @param label of what is inside
   /// @throws CutError if that takes too many cells
   void cut_along(const Polyhedron& surface, int mark, int label, const Choice& chosen);
+  /// Parts the whole into the Voronoi cells of points: all that is nearer to one of them than to any other. Cells
+  /// follow the order of the points; those that do not meet the solid are left out. @param mark as of cut()
+  /// @throws CutError if the solid is not convex or was cut before, or two points are one
+  void cut_into_cells(const std::vector<Vector3>& points, int mark);
   /// Makes two pieces one. @param into keeps its number
   void glue(int piece, int into);
 

@@ -1,12 +1,12 @@
 #include "geometry/cutting/piece_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
-
-#include "geometry/mesh/polygon_triangulation.hpp"
+#include <stdexcept>
 
 namespace ashlar {
 namespace {
@@ -28,33 +28,107 @@ Vector3 crossing(const ExactPlane& plane, const Vector3& from, const Vector3& to
   return from + std::clamp(low / (low - high), 0.0, 1.0) * (to - from);
 }
 
+/// A face's loop seen along the axis nearest to its normal, turned so that it is counter-clockwise.
+class FlatLoop {
+ public:
+  FlatLoop(const CellComplex& complex, const ComplexFace& face) : complex_(complex), face_(face) {
+    const auto& [a, b, c, d] = complex.plane(face.plane).coefficients();
+    const std::array<const Integer*, 3> normal = {&a, &b, &c};
+    for (std::size_t k = 1; k < 3; ++k)
+      if (mpz_cmpabs(normal[k]->get_mpz_t(), normal[axis_]->get_mpz_t()) > 0) axis_ = k;
+    way_ = sgn(*normal[axis_]);
+  }
+
+  /// 1 if the loop's points i, j, k make a left turn, 0 if they are in one line.
+  [[nodiscard]] int turn(int i, int j, int k) const {
+    const std::array<const ExactPoint*, 3> p = {&at(i), &at(j), &at(k)};
+    if (const int quick = quick_turn(p[0]->rounded, p[1]->rounded, p[2]->rounded)) return quick;
+    const auto minor = [&](std::size_t m, std::size_t n) {
+      return Integer(first(*p[m]) * second(*p[n]) - second(*p[m]) * first(*p[n]));
+    };
+    const Integer determinant = p[0]->w * minor(1, 2) - p[1]->w * minor(0, 2) + p[2]->w * minor(0, 1);
+    return way_ * sgn(determinant);
+  }
+
+ private:
+  [[nodiscard]] const ExactPoint& at(int k) const {
+    return complex_.point(face_.points[static_cast<std::size_t>(k)]).place;
+  }
+  [[nodiscard]] const Integer& first(const ExactPoint& p) const {
+    return axis_ == 0 ? p.y : axis_ == 1 ? p.z : p.x;
+  }
+  [[nodiscard]] const Integer& second(const ExactPoint& p) const {
+    return axis_ == 0 ? p.z : axis_ == 1 ? p.x : p.y;
+  }
+  /// Each coordinate is off by u, each difference by u more, products and their difference by two more: less than
+  /// 12 u times the largest coordinate times the sum of the differences. 0: it does not tell.
+  [[nodiscard]] int quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) const {
+    const auto u = static_cast<Eigen::Index>((axis_ + 1) % 3), v = static_cast<Eigen::Index>((axis_ + 2) % 3);
+    const double p = b[u] - a[u], q = b[v] - a[v], r = c[u] - a[u], s = c[v] - a[v];
+    const double value = p * s - q * r;
+    const double largest = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+    const double bound =
+        12.0 * 0x1p-53 * largest * (std::abs(p) + std::abs(q) + std::abs(r) + std::abs(s)) + 0x1p-1000;
+    return value > bound ? way_ : value < -bound ? -way_ : 0;
+  }
+
+  const CellComplex& complex_;
+  const ComplexFace& face_;
+  std::size_t axis_ = 0;
+  int way_ = 1;
+};
+
+/// Triangles of a convex loop that may have points in its straight sides. A corner is cut off where that leaves
+/// some area and takes some, decided on the exact points: else a point in the side of two faces could get
+/// a sliver of a triangle in both, one upon the other.
+std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const ComplexFace& face) {
+  const FlatLoop flat(complex, face);
+  std::vector<int> loop(face.points.size());
+  std::iota(loop.begin(), loop.end(), 0);
+  std::vector<std::array<int, 3>> triangles;
+  const auto is_ear = [&](std::size_t k) {
+    const std::size_t count = loop.size();
+    const int before = loop[(k + count - 1) % count], here = loop[k], after = loop[(k + 1) % count];
+    if (flat.turn(before, here, after) == 0) return false;
+    return std::any_of(loop.begin(), loop.end(), [&](int other) {
+      return other != before && other != here && other != after && flat.turn(before, after, other) != 0;
+    });
+  };
+  // Ears next to the first point make a fan around it, where all corners are strict.
+  std::size_t place = 1;
+  while (loop.size() > 3) {
+    std::size_t tried = 0;
+    while (!is_ear(place % loop.size())) {
+      ++place;
+      if (++tried > loop.size()) throw std::logic_error("a convex loop of more than three corners has an ear");
+    }
+    const std::size_t k = place % loop.size(), count = loop.size();
+    triangles.push_back({loop[(k + count - 1) % count], loop[k], loop[(k + 1) % count]});
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(k));
+    place = k == 0 ? 0 : std::min(k, loop.size() - 1);
+  }
+  triangles.push_back({loop[0], loop[1], loop[2]});
+  return triangles;
+}
+
 }  // namespace
 
 TriangleMesh mesh_of_faces(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
   TriangleMesh mesh;
   std::map<std::array<double, 3>, int> places;
   for (const auto& [index, below] : faces) {
-    std::vector<Vector3> corners;
-    for (const int point : complex.face(index).points) {
-      const Vector3& place = complex.point(point).place.rounded;
-      if (corners.empty() || (corners.back() != place && corners.front() != place)) corners.push_back(place);
-    }
-    if (corners.size() < 3) continue;
-    std::vector<int> loop(corners.size());
-    std::iota(loop.begin(), loop.end(), 0);
-    std::vector<std::array<int, 3>> triangles;
-    std::size_t tests_left = std::numeric_limits<std::size_t>::max();
-    triangulate_polygon(corners, loop, triangles, tests_left);
-    for (auto& triangle : triangles) {
+    const ComplexFace& face = complex.face(index);
+    for (auto triangle : triangles_of(complex, face)) {
       for (int& corner : triangle) {
-        const Vector3& place = corners[corner];
-        const auto [found, is_new] =
-            places.emplace(std::array{place.x(), place.y(), place.z()}, static_cast<int>(mesh.points.size()));
+        const Vector3& place = complex.point(face.points[static_cast<std::size_t>(corner)]).place.rounded;
+        const auto [found, is_new] = places.emplace(std::array{place.x(), place.y(), place.z()},
+                                                    static_cast<int>(mesh.points.size()));
         if (is_new) mesh.points.push_back(place);
         corner = found->second;
       }
       if (!below) std::swap(triangle[1], triangle[2]);
-      mesh.triangles.push_back(triangle);
+      const auto& [a, b, c] = triangle;
+      if (a != b && b != c && c != a) mesh.triangles.push_back(triangle);
     }
   }
   return mesh;

@@ -10,7 +10,7 @@
 namespace ashlar {
 
 /// The surface that faces make up, outward. A face is divided the same way for both of its cells. Points that
-/// round to one are one, and a face that is left with fewer than three is left out.
+/// round to one are one, and a triangle that is left with fewer than three is left out.
 /// @param faces and whether the body is below the plane of each
 [[nodiscard]] TriangleMesh mesh_of_faces(const CellComplex& complex,
                                          const std::vector<std::pair<int, bool>>& faces);
