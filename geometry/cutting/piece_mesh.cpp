@@ -6,7 +6,10 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <stdexcept>
+
+#include "geometry/mesh/polygon_triangulation.hpp"
 
 namespace ashlar {
 namespace {
@@ -111,27 +114,125 @@ std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const C
   return triangles;
 }
 
-}  // namespace
+/// Faces of a surface that lie in one plane on one side, and their outline.
+struct FlatGroup {
+  std::array<Integer, 4> plane;  ///< outward
+  std::vector<std::pair<int, bool>> faces;
+  std::vector<int> outline;  ///< counter-clockwise from outside
+};
 
-TriangleMesh mesh_of_faces(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
-  TriangleMesh mesh;
-  std::map<std::array<double, 3>, int> places;
+std::vector<FlatGroup> groups_of(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
+  std::map<std::array<Integer, 4>, std::size_t> places;
+  std::vector<FlatGroup> groups;
+  for (const auto& [index, below] : faces) {
+    std::array<Integer, 4> plane = complex.plane(complex.face(index).plane).coefficients();
+    if (!below)
+      for (Integer& number : plane) number = -number;
+    const auto [found, is_new] = places.emplace(plane, groups.size());
+    if (is_new) groups.push_back({std::move(plane), {}, {}});
+    groups[found->second].faces.emplace_back(index, below);
+  }
+  return groups;
+}
+
+/// @return false if a group has more than one outline, or one that touches itself
+bool trace_outline(const CellComplex& complex, FlatGroup& group) {
+  std::set<std::pair<int, int>> sides;
+  for (const auto& [index, below] : group.faces) {
+    const std::vector<int>& points = complex.face(index).points;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      std::pair<int, int> side(points[k], points[(k + 1) % points.size()]);
+      if (!below) std::swap(side.first, side.second);
+      if (sides.erase({side.second, side.first}) == 0) sides.insert(side);
+    }
+  }
+  std::map<int, int> next;
+  for (const auto& [from, to] : sides)
+    if (!next.emplace(from, to).second) return false;
+  int point = next.begin()->first;
+  do {
+    group.outline.push_back(point);
+    point = next.at(point);
+  } while (point != group.outline.front());
+  return group.outline.size() == next.size();
+}
+
+/// Leaves the corners: points in which three groups meet. @return false if an outline has fewer than three
+bool drop_straight_points(std::vector<FlatGroup>& groups) {
+  std::map<int, int> group_counts;
+  for (const FlatGroup& group : groups)
+    for (const int point : group.outline) ++group_counts[point];
+  for (FlatGroup& group : groups) {
+    std::erase_if(group.outline, [&](int point) { return group_counts.at(point) < 3; });
+    if (group.outline.size() < 3) return false;
+  }
+  return true;
+}
+
+/// Points by their rounded places, and triangles of them.
+class MeshBuilder {
+ public:
+  int add(const Vector3& place) {
+    const auto [found, is_new] =
+        places_.emplace(std::array{place.x(), place.y(), place.z()}, static_cast<int>(mesh_.points.size()));
+    if (is_new) mesh_.points.push_back(place);
+    return found->second;
+  }
+  void add(const std::array<int, 3>& triangle) {
+    const auto& [a, b, c] = triangle;
+    if (a != b && b != c && c != a) mesh_.triangles.push_back(triangle);
+  }
+  [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  TriangleMesh mesh_;
+  std::map<std::array<double, 3>, int> places_;
+};
+
+TriangleMesh mesh_of_outlines(const CellComplex& complex, const std::vector<FlatGroup>& groups) {
+  MeshBuilder builder;
+  for (const FlatGroup& group : groups) {
+    std::vector<Vector3> corners;
+    for (const int point : group.outline) {
+      const Vector3& place = complex.point(point).place.rounded;
+      if (corners.empty() || (corners.back() != place && corners.front() != place)) corners.push_back(place);
+    }
+    if (corners.size() < 3) continue;
+    std::vector<int> loop(corners.size());
+    std::iota(loop.begin(), loop.end(), 0);
+    std::vector<std::array<int, 3>> triangles;
+    std::size_t tests_left = std::numeric_limits<std::size_t>::max();
+    triangulate_polygon(corners, loop, triangles, tests_left);
+    for (auto& triangle : triangles) {
+      for (int& corner : triangle) corner = builder.add(corners[static_cast<std::size_t>(corner)]);
+      builder.add(triangle);
+    }
+  }
+  return builder.take();
+}
+
+TriangleMesh mesh_of_loops(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
+  MeshBuilder builder;
   for (const auto& [index, below] : faces) {
     const ComplexFace& face = complex.face(index);
     for (auto triangle : triangles_of(complex, face)) {
-      for (int& corner : triangle) {
-        const Vector3& place = complex.point(face.points[static_cast<std::size_t>(corner)]).place.rounded;
-        const auto [found, is_new] = places.emplace(std::array{place.x(), place.y(), place.z()},
-                                                    static_cast<int>(mesh.points.size()));
-        if (is_new) mesh.points.push_back(place);
-        corner = found->second;
-      }
+      for (int& corner : triangle)
+        corner = builder.add(complex.point(face.points[static_cast<std::size_t>(corner)]).place.rounded);
       if (!below) std::swap(triangle[1], triangle[2]);
-      const auto& [a, b, c] = triangle;
-      if (a != b && b != c && c != a) mesh.triangles.push_back(triangle);
+      builder.add(triangle);
     }
   }
-  return mesh;
+  return builder.take();
+}
+
+}  // namespace
+
+TriangleMesh mesh_of_faces(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
+  std::vector<FlatGroup> groups = groups_of(complex, faces);
+  const bool simple = std::all_of(groups.begin(), groups.end(),
+                                  [&](FlatGroup& group) { return trace_outline(complex, group); });
+  if (simple && drop_straight_points(groups)) return mesh_of_outlines(complex, groups);
+  return mesh_of_loops(complex, faces);
 }
 
 double distance_from_section(const CellComplex& complex, int cell, const ExactPlane& plane,

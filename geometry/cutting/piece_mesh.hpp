@@ -9,8 +9,9 @@
 
 namespace ashlar {
 
-/// The surface that faces make up, outward. A face is divided the same way for both of its cells. Points that
-/// round to one are one, and a triangle that is left with fewer than three is left out.
+/// The surface that faces make up, outward: its corners, and the faces between them divided into triangles. Where
+/// an outline in one plane has holes or touches itself, the faces' own loops are divided instead, with points
+/// in straight sides. Points that round to one are one, and triangles that are left without area are left out.
 /// @param faces and whether the body is below the plane of each
 [[nodiscard]] TriangleMesh mesh_of_faces(const CellComplex& complex,
                                          const std::vector<std::pair<int, bool>>& faces);
