@@ -182,9 +182,7 @@ void add_planes(Json& json, const SceneCut& cut) {
   json["dip"] = cut.dip;
   json["dip_direction"] = cut.dip_direction;
   json["point"] = to_json(cut.point);
-  if (cut.spacing && cut.deviation == 0.0)
-    json["spacing"] = *cut.spacing;
-  else if (cut.spacing)
+  if (cut.spacing)
     json["spacing"] = {{"mean", *cut.spacing},
                        {"deviation", cut.deviation},
                        {"distribution", name_of(spacing_names, cut.law)}};
