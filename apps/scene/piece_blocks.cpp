@@ -45,13 +45,11 @@ std::vector<double> shares_of(const Pieces& pieces, const std::variant<ScenePlan
 
 Vector3 centroid_of(const Polyhedron& solid) {
   const std::vector<double> m = moments(solid.mesh(), 1);
+  const auto exponents = monomial_exponents(1);
   Vector3 centroid = Vector3::Zero();
-  for (int k = 1; k < 4; ++k) {
-    const auto& exponents = monomial_exponents(1)[static_cast<std::size_t>(k)];
+  for (std::size_t k = 1; k < 4; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (exponents[axis] == 1)
-        centroid[static_cast<Eigen::Index>(axis)] = m[static_cast<std::size_t>(k)] / m[0];
-  }
+      if (exponents[k][axis] == 1) centroid[static_cast<Eigen::Index>(axis)] = m[k] / m[0];
   return centroid;
 }
 

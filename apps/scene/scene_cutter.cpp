@@ -165,7 +165,7 @@ void SceneCutter::cut_by_set(std::size_t index, const std::vector<Target>& targe
   if (!check_number(index, added)) return;
   for (const PlaneRange& range : ranges) {
     const double farthest = std::max(std::abs(range.low), std::abs(range.high));
-    if (!cut.spacing || farthest / *cut.spacing < largest_plane_number) continue;
+    if (!cut.spacing || cut.number || farthest / *cut.spacing < largest_plane_number) continue;
     error(
         index, "point",
         fmt::format("point is too far from the blocks for this spacing ({:.3g} m), less than {:.0e} spacings "
