@@ -31,10 +31,10 @@ void read_spacing_law(TomlTableReader table, SceneCut& cut) {
   const double mean = *cut.spacing;
   if (cut.law == SceneCut::Spacing::exponential) {
     if (given && cut.deviation != mean)
-      table.error_at_value("deviation",
-                           fmt::format("deviation of exponential spacings is not their mean ({}), {} is needed; "
-                                       "it may be left out",
-                                       cut.deviation, mean));
+      table.error_at_value(
+          "deviation", fmt::format("deviation of exponential spacings is not their mean ({}), {} is needed; "
+                                   "it may be left out",
+                                   cut.deviation, mean));
     cut.deviation = mean;
     return;
   }

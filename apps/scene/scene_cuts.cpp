@@ -25,8 +25,9 @@ std::string planes_of(const Scene& scene, const CutRock& rock, const CutSolid& s
     if (face.mark < 0) continue;
     const auto& [cut, plane] = rock.marks[static_cast<std::size_t>(face.mark)];
     const std::string of_cut = fmt::format("cut \"{}\"", scene.cut[cut].name);
-    planes.push_back(scene.cut[cut].kind == SceneCut::Kind::planes ? fmt::format("plane {} of {}", plane, of_cut)
-                                                                   : of_cut);
+    planes.push_back(scene.cut[cut].kind == SceneCut::Kind::planes
+                         ? fmt::format("plane {} of {}", plane, of_cut)
+                         : of_cut);
   }
   std::sort(planes.begin(), planes.end());
   planes.erase(std::unique(planes.begin(), planes.end()), planes.end());

@@ -202,8 +202,7 @@ void SceneCutter::cut_by_points(std::size_t index, const std::vector<Target>& ta
   const SceneCut& cut = scene_.cut[index];
   if (!check_number(index, static_cast<double>(targets.size()) * (cut.count - 1.0))) return;
   for (const Target& target : targets) {
-    std::mt19937_64 random =
-        random_stream(cut.seed, RandomStream::points, 0, static_cast<int>(target.block));
+    std::mt19937_64 random = random_stream(cut.seed, RandomStream::points, 0, static_cast<int>(target.block));
     const std::vector<Vector3> points = random_points(*shapes_[target.block], cut.count, random);
     solid_of(target.block).cut_into_cells(points, add_mark(index, 0));
   }

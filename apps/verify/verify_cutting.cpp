@@ -109,9 +109,9 @@ void find_overlap(const CutSolid& solid, Faults& faults) {
     boxes.push_back(box_of(bodies.back().mesh().points));
   }
   for (const auto& [a, b] : meeting_boxes(boxes))
-    faults.overlap = std::max(faults.overlap, overlap_depth(bodies[static_cast<std::size_t>(a)],
-                                                            bodies[static_cast<std::size_t>(b)])
-                                                  .depth);
+    faults.overlap = std::max(
+        faults.overlap,
+        overlap_depth(bodies[static_cast<std::size_t>(a)], bodies[static_cast<std::size_t>(b)]).depth);
 }
 
 std::vector<VerificationCheck> cut_conserves() {
@@ -231,10 +231,12 @@ std::vector<VerificationCheck> wedge_geometry() {
     for (const PieceFace& face : faces) {
       const auto i = static_cast<std::size_t>(face.mark);
       const double area = 3.0 * volume * minors[i] * planes[i].normal.norm() / whole;
-      checks.push_back(check_relative(fmt::format("area on plane {}, m^2", face.mark + 1), rock.area(face), area, 1e-12));
+      checks.push_back(
+          check_relative(fmt::format("area on plane {}, m^2", face.mark + 1), rock.area(face), area, 1e-12));
     }
   }
-  checks.push_back(check_absolute("tetrahedra of the four planes", static_cast<double>(checks.size()) / 5.0, 1, 0));
+  checks.push_back(
+      check_absolute("tetrahedra of the four planes", static_cast<double>(checks.size()) / 5.0, 1, 0));
   return checks;
 }
 

@@ -40,9 +40,9 @@ struct ComplexFace {
 /// A face of a cell that is put together with others.
 struct CellFace {
   int plane;
-  bool below;                     ///< the cell is below the plane
-  int mark;                       ///< as in ComplexFace
-  std::vector<ExactPoint> loop;   ///< corners, counter-clockwise as seen from above the plane
+  bool below;                    ///< the cell is below the plane
+  int mark;                      ///< as in ComplexFace
+  std::vector<ExactPoint> loop;  ///< corners, counter-clockwise as seen from above the plane
 };
 
 /// What cells that are put together have in common.

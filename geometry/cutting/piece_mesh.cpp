@@ -69,7 +69,8 @@ class FlatLoop {
     const auto u = static_cast<Eigen::Index>((axis_ + 1) % 3), v = static_cast<Eigen::Index>((axis_ + 2) % 3);
     const double p = b[u] - a[u], q = b[v] - a[v], r = c[u] - a[u], s = c[v] - a[v];
     const double value = p * s - q * r;
-    const double largest = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+    const double largest =
+        std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
     const double bound =
         12.0 * 0x1p-53 * largest * (std::abs(p) + std::abs(q) + std::abs(r) + std::abs(s)) + 0x1p-1000;
     return value > bound ? way_ : value < -bound ? -way_ : 0;
@@ -103,7 +104,8 @@ std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const C
     std::size_t tried = 0;
     while (!is_ear(place % loop.size())) {
       ++place;
-      if (++tried > loop.size()) throw std::logic_error("a convex loop of more than three corners has an ear");
+      if (++tried > loop.size())
+        throw std::logic_error("a convex loop of more than three corners has an ear");
     }
     const std::size_t k = place % loop.size(), count = loop.size();
     triangles.push_back({loop[(k + count - 1) % count], loop[k], loop[(k + 1) % count]});

@@ -86,8 +86,8 @@ class VoronoiCells {
     for (int j = others.next(); j >= 0; j = others.next()) {
       const double distance = (points_[j] - points_[i]).norm();
       if (points_[j] == points_[i])
-        throw CutError("two points of a Voronoi cut are one (" + std::to_string(i) + " and " + std::to_string(j) +
-                       "), different ones are needed");
+        throw CutError("two points of a Voronoi cut are one (" + std::to_string(i) + " and " +
+                       std::to_string(j) + "), different ones are needed");
       double farthest = 0.0;
       for (const int point : cells.points_of(cell))
         farthest = std::max(farthest, (cells.point(point).place.rounded - points_[i]).norm());
@@ -119,9 +119,9 @@ class VoronoiCells {
   int mark_;
   CellComplex result_;
   CellSeams seams_;
-  std::map<int, int> own_planes_;               ///< of the whole: in the result
-  std::map<std::array<int, 2>, int> planes_;    ///< between two points: in the result
-  std::map<int, int> others_of_plane_;          ///< of the cell at work: the point beyond a plane
+  std::map<int, int> own_planes_;             ///< of the whole: in the result
+  std::map<std::array<int, 2>, int> planes_;  ///< between two points: in the result
+  std::map<int, int> others_of_plane_;        ///< of the cell at work: the point beyond a plane
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace ashlar {
 /// @param whole its cell 0 is divided. @param points finite
 /// @param mark of faces between cells
 /// @throws CutError if two points are one
-[[nodiscard]] CellComplex voronoi_complex(const CellComplex& whole, const std::vector<Vector3>& points, int mark);
+[[nodiscard]] CellComplex voronoi_complex(const CellComplex& whole, const std::vector<Vector3>& points,
+                                          int mark);
 
 }  // namespace ashlar
