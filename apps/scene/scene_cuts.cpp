@@ -53,7 +53,7 @@ Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, dou
   for (const int piece : solid.pieces()) {
     std::string fault;
     try {
-      Polyhedron body(solid.mesh(piece), resolution);
+      Polyhedron body(solid.mesh(piece, resolution), resolution);
       if (!is_lost_in_rounding(body)) {
         pieces.push_back(std::make_shared<const Polyhedron>(std::move(body)));
         continue;

@@ -35,6 +35,8 @@ struct CutSolid::State {
   std::vector<Piece> pieces;
   std::vector<int> piece_of;  ///< by cell
   mutable std::optional<PieceMeasures> measures;
+  mutable std::vector<int> merged_points;  ///< for one resolution; empty: not known
+  mutable double merged_to = 0.0;
 
   [[gnu::noinline]] void start(const Polyhedron& solid) {
     Piece whole;
@@ -69,6 +71,7 @@ struct CutSolid::State {
     Piece& piece = pieces[index];
     piece.box = Box();
     piece_of.resize(static_cast<std::size_t>(complex.cell_count()), -1);
+    merged_points.clear();
     for (const int cell : piece.cells) {
       piece_of[cell] = index;
       for (const int point : complex.points_of(cell)) piece.box.include(complex.point(point).place.rounded);
@@ -197,6 +200,14 @@ struct CutSolid::State {
     return result;
   }
 
+  [[nodiscard]] const std::vector<int>& merged(double resolution) const {
+    if (merged_points.empty() || merged_to != resolution) {
+      merged_points = merge_points(complex, resolution);
+      merged_to = resolution;
+    }
+    return merged_points;
+  }
+
   [[nodiscard]] PieceMeasures& measure() const {
     if (!measures) measures.emplace(complex);
     return *measures;
@@ -316,8 +327,8 @@ Vector3 CutSolid::normal(const PieceFace& face) const {
   return face.below ? normal : Vector3(Vector3::Zero() - normal);
 }
 
-TriangleMesh CutSolid::mesh(int piece) const {
-  return mesh_of_faces(state_->complex, state_->surface(piece));
+TriangleMesh CutSolid::mesh(int piece, double resolution) const {
+  return mesh_of_faces(state_->complex, state_->surface(piece), state_->merged(resolution));
 }
 
 KeyBlock CutSolid::key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force) const {

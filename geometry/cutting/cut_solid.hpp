@@ -80,8 +80,10 @@ class CutSolid {
   [[nodiscard]] double area(const PieceFace& face) const;
   /// Outward, unit, rounded once.
   [[nodiscard]] Vector3 normal(const PieceFace& face) const;
-  /// Corners rounded once. Two points of a sliver may round to one; what then has no area is left out.
-  [[nodiscard]] TriangleMesh mesh(int piece) const;
+  /// Corners rounded once. Points of the solid within a resolution of each other are one, the first in number,
+  /// for all pieces alike: so a face that is a sliver between two others goes, and these meet. What is left without
+  /// area is left out. @param resolution m, >= 0
+  [[nodiscard]] TriangleMesh mesh(int piece, double resolution = 0.0) const;
   /// @param held faces of the piece; KeyBlock::faces are indices into it. @param force any length but zero
   [[nodiscard]] KeyBlock key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force) const;
 

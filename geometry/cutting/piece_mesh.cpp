@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "geometry/mesh/polygon_triangulation.hpp"
+#include "geometry/union_find.hpp"
 
 namespace ashlar {
 namespace {
@@ -174,9 +175,8 @@ bool drop_straight_points(std::vector<FlatGroup>& groups) {
 /// Points by their rounded places, and triangles of them.
 class MeshBuilder {
  public:
-  int add(const Vector3& place) {
-    const auto [found, is_new] =
-        places_.emplace(std::array{place.x(), place.y(), place.z()}, static_cast<int>(mesh_.points.size()));
+  int add(int point, const Vector3& place) {
+    const auto [found, is_new] = places_.emplace(point, static_cast<int>(mesh_.points.size()));
     if (is_new) mesh_.points.push_back(place);
     return found->second;
   }
@@ -188,38 +188,59 @@ class MeshBuilder {
 
  private:
   TriangleMesh mesh_;
-  std::map<std::array<double, 3>, int> places_;
+  std::map<int, int> places_;  ///< by point of the complex
 };
 
-TriangleMesh mesh_of_outlines(const CellComplex& complex, const std::vector<FlatGroup>& groups) {
+/// Without points that merge with the one before, and without ways there and back.
+std::vector<int> merged_outline(const std::vector<int>& outline, const std::vector<int>& merged) {
+  std::vector<int> loop;
+  for (const int point : outline) loop.push_back(merged[static_cast<std::size_t>(point)]);
+  for (std::size_t k = 0; k < loop.size() && loop.size() >= 3;) {
+    const std::size_t next = (k + 1) % loop.size(), after = (k + 2) % loop.size();
+    if (loop[k] == loop[next] || loop[k] == loop[after]) {
+      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(next));
+      k = 0;
+    } else {
+      ++k;
+    }
+  }
+  return loop;
+}
+
+TriangleMesh mesh_of_outlines(const CellComplex& complex, const std::vector<FlatGroup>& groups,
+                              const std::vector<int>& merged) {
   MeshBuilder builder;
   for (const FlatGroup& group : groups) {
+    const std::vector<int> outline = merged_outline(group.outline, merged);
+    if (outline.size() < 3) continue;
     std::vector<Vector3> corners;
-    for (const int point : group.outline) {
-      const Vector3& place = complex.point(point).place.rounded;
-      if (corners.empty() || (corners.back() != place && corners.front() != place)) corners.push_back(place);
-    }
-    if (corners.size() < 3) continue;
+    for (const int point : outline) corners.push_back(complex.point(point).place.rounded);
     std::vector<int> loop(corners.size());
     std::iota(loop.begin(), loop.end(), 0);
     std::vector<std::array<int, 3>> triangles;
     std::size_t tests_left = std::numeric_limits<std::size_t>::max();
     triangulate_polygon(corners, loop, triangles, tests_left);
     for (auto& triangle : triangles) {
-      for (int& corner : triangle) corner = builder.add(corners[static_cast<std::size_t>(corner)]);
+      for (int& corner : triangle) {
+        const auto k = static_cast<std::size_t>(corner);
+        corner = builder.add(outline[k], corners[k]);
+      }
       builder.add(triangle);
     }
   }
   return builder.take();
 }
 
-TriangleMesh mesh_of_loops(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
+TriangleMesh mesh_of_loops(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces,
+                           const std::vector<int>& merged) {
   MeshBuilder builder;
   for (const auto& [index, below] : faces) {
     const ComplexFace& face = complex.face(index);
     for (auto triangle : triangles_of(complex, face)) {
-      for (int& corner : triangle)
-        corner = builder.add(complex.point(face.points[static_cast<std::size_t>(corner)]).place.rounded);
+      for (int& corner : triangle) {
+        const int point = merged[static_cast<std::size_t>(face.points[static_cast<std::size_t>(corner)])];
+        corner = builder.add(point, complex.point(point).place.rounded);
+      }
       if (!below) std::swap(triangle[1], triangle[2]);
       builder.add(triangle);
     }
@@ -229,12 +250,47 @@ TriangleMesh mesh_of_loops(const CellComplex& complex, const std::vector<std::pa
 
 }  // namespace
 
-TriangleMesh mesh_of_faces(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
+std::vector<int> merge_points(const CellComplex& complex, double resolution) {
+  const std::size_t count = complex.point_count();
+  std::vector<int> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](int point) -> const Vector3& { return complex.point(point).place.rounded; };
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::lexicographical_compare(place(a).begin(), place(a).end(), place(b).begin(), place(b).end());
+  });
+  UnionFind merged(count);
+  // Runs of points whose first coordinates follow each other within the resolution, of these runs by the second, and
+  // neighbours by the third: points on grids have many equal coordinates.
+  for (std::size_t start = 0; start < count;) {
+    std::size_t end = start + 1;
+    while (end < count && place(order[end])[0] - place(order[end - 1])[0] <= resolution) ++end;
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(start),
+              order.begin() + static_cast<std::ptrdiff_t>(end),
+              [&](int a, int b) { return place(a)[1] < place(b)[1]; });
+    for (std::size_t from = start; from < end;) {
+      std::size_t to = from + 1;
+      while (to < end && place(order[to])[1] - place(order[to - 1])[1] <= resolution) ++to;
+      std::sort(order.begin() + static_cast<std::ptrdiff_t>(from),
+                order.begin() + static_cast<std::ptrdiff_t>(to),
+                [&](int a, int b) { return place(a)[2] < place(b)[2]; });
+      for (std::size_t k = from; k + 1 < to; ++k)
+        if (place(order[k + 1])[2] - place(order[k])[2] <= resolution) merged.unite(order[k], order[k + 1]);
+      from = to;
+    }
+    start = end;
+  }
+  std::vector<int> first(count);
+  for (std::size_t k = 0; k < count; ++k) first[k] = merged.find(static_cast<int>(k));
+  return first;
+}
+
+TriangleMesh mesh_of_faces(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces,
+                           const std::vector<int>& merged) {
   std::vector<FlatGroup> groups = groups_of(complex, faces);
   const bool simple = std::all_of(groups.begin(), groups.end(),
                                   [&](FlatGroup& group) { return trace_outline(complex, group); });
-  if (simple && drop_straight_points(groups)) return mesh_of_outlines(complex, groups);
-  return mesh_of_loops(complex, faces);
+  if (simple && drop_straight_points(groups)) return mesh_of_outlines(complex, groups, merged);
+  return mesh_of_loops(complex, faces, merged);
 }
 
 double distance_from_section(const CellComplex& complex, int cell, const ExactPlane& plane,

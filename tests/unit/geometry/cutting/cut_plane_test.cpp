@@ -17,6 +17,13 @@ TEST(CutPlane, MultiplesOf90DegreesAreExact) {
   EXPECT_EQ(plane_normal(90, 720 + 90), Vector3::UnitX());
 }
 
+// So that a plane of 45 degrees goes through two edges of a box exactly.
+TEST(CutPlane, ComponentsOf45DegreesAreEqual) {
+  EXPECT_EQ(plane_normal(45, 90).x(), plane_normal(45, 90).z());
+  EXPECT_EQ(plane_normal(90, 315).x(), -plane_normal(90, 315).y());
+  EXPECT_EQ(plane_normal(45, 90).x(), std::sqrt(0.5));
+}
+
 // A plane that dips to the south-east: a step down the dip lowers z by the tangent of the dip.
 TEST(CutPlane, DipsTowardsTheDipDirection) {
   const double degree = std::acos(-1.0) / 180.0;

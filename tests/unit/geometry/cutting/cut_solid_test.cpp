@@ -295,5 +295,27 @@ TEST(SmallPieces, AreGluedToTheNeighbourWithMostArea) {
   EXPECT_EQ(Polyhedron(solid.mesh(solid.pieces()[0])).faces().size(), 6U);
 }
 
+// Three upright sets at 60 degrees meet three at a time in lines, but for rounding: slivers of 1e-30 m^3 between
+// prisms, and sliver faces. Once the slivers are glued, each prism is a solid at the resolution of its coordinates.
+TEST(SmallPieces, HexagonalJointsLeavePrisms) {
+  CutSolid solid(cube(10.0));
+  for (int set = 0; set < 3; ++set)
+    for (int k = -4; k <= 4; ++k)
+      solid.cut({plane_normal(90, 60.0 * set), Vector3::Constant(5.0), 2.0 * k}, set, always);
+  const std::size_t cut = solid.pieces().size();
+  const int glued = glue_small_pieces(solid, 1e-9, always);
+  EXPECT_GT(glued, 10);
+  EXPECT_EQ(solid.pieces().size(), cut - static_cast<std::size_t>(glued));
+  constexpr double resolution = 0x1p-46 * 10.0;
+  double sum = 0.0;
+  for (const int piece : solid.pieces()) {
+    const Polyhedron body(solid.mesh(piece, resolution), resolution);
+    EXPECT_TRUE(body.convex());
+    EXPECT_NEAR(body.volume(), solid.volume(piece), 1e-12);
+    sum += solid.volume(piece);
+  }
+  EXPECT_NEAR(sum, 1000.0, 1e-10);
+}
+
 }  // namespace
 }  // namespace ashlar
