@@ -100,8 +100,9 @@ void BlockReport::add_contact(std::size_t a, std::size_t b) {
 void BlockReport::add_border(std::size_t block, std::size_t other, const Vector3& normal, double area) {
   const auto [of, piece] = solid(block);
   const std::vector<PieceFace> faces = of->faces(piece);
+  const auto along = [&normal, &cut = *of](const PieceFace& face) { return cut.normal(face).dot(normal); };
   const auto best = std::max_element(faces.begin(), faces.end(), [&](const PieceFace& f, const PieceFace& g) {
-    return of->normal(f).dot(normal) < of->normal(g).dot(normal);
+    return along(f) < along(g);
   });
   blocks_[block].borders.push_back({other, area, std::nullopt, best->plane, best->below});
 }
