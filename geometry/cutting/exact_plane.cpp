@@ -6,10 +6,30 @@
 namespace ashlar {
 namespace {
 
+/// Correctly rounded, without the greatest common divisor that a fraction would need: a quotient of 64 or 65 bits
+/// whose last bit also stands for the remainder. @param denominator > 0
 double rounded_ratio(const Integer& numerator, const Integer& denominator) {
-  Rational ratio(numerator, denominator);
-  ratio.canonicalize();
-  return round_to_nearest(ratio.get_mpq_t());
+  if (sgn(numerator) == 0) return 0.0;
+  const auto bits = [](const Integer& number) {
+    return static_cast<long>(mpz_sizeinbase(number.get_mpz_t(), 2));
+  };
+  const long shift = 65 - (bits(numerator) - bits(denominator));
+  constexpr long ordinary = 900;  // far from over- and underflow
+  if (std::abs(shift) > ordinary) {
+    Rational ratio(numerator, denominator);
+    ratio.canonicalize();
+    return round_to_nearest(ratio.get_mpq_t());
+  }
+  Integer quotient = abs(numerator), divisor = denominator, rest;
+  (shift >= 0 ? quotient : divisor) <<= static_cast<unsigned long>(std::abs(shift));
+  mpz_tdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), quotient.get_mpz_t(), divisor.get_mpz_t());
+  if (sgn(rest) != 0) mpz_setbit(quotient.get_mpz_t(), 0);
+  const long dropped = bits(quotient) - 53;
+  Integer kept = quotient >> static_cast<unsigned long>(dropped);
+  const Integer lost = quotient - (kept << static_cast<unsigned long>(dropped));
+  const int above_half = cmp(lost, Integer(1) << static_cast<unsigned long>(dropped - 1));
+  if (above_half > 0 || (above_half == 0 && mpz_odd_p(kept.get_mpz_t()) != 0)) ++kept;
+  return sgn(numerator) * std::ldexp(kept.get_d(), static_cast<int>(dropped - shift));
 }
 
 void round_coordinates(ExactPoint& point) {

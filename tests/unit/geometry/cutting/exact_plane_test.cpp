@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
 
 namespace ashlar {
 namespace {
@@ -47,6 +50,34 @@ TEST(ExactPlane, CommonPointIsExactAndRoundedOnce) {
   EXPECT_EQ(other->x, point->x);
   EXPECT_EQ(other->w, point->w);
   EXPECT_FALSE(common_point(xy, yz, ExactPlane(CutPlane{{1, 0, -1}, {5, 0, 0}})));
+}
+
+// Against fractions in lowest terms, rounded as everywhere in this layer.
+TEST(ExactPlane, CommonPointsAreCorrectlyRounded) {
+  std::mt19937_64 random(9);
+  const auto number = [&] {
+    return std::ldexp(static_cast<double>(random() % 2001) - 1000.0, -static_cast<int>(random() % 20));
+  };
+  const auto plane = [&] {
+    Vector3 normal, point;
+    for (double& x : normal) x = number();
+    for (double& x : point) x = number();
+    return ExactPlane(CutPlane{normal + Vector3(1e-9, 0, 0), point});
+  };
+  for (int round = 0; round < 2000; ++round) {
+    const auto point = common_point(plane(), plane(), plane());
+    if (!point) continue;
+    const RationalVector exact = point->rational();
+    EXPECT_EQ(point->rounded, round_to_nearest(exact));
+  }
+  // Ties go to even: x = p + s with p = 1 and s = 2^-53 is half way to the next double, s = 3 2^-53 after it.
+  for (const auto& [offset, rounded] : {std::pair(0x1p-53, 1.0), std::pair(3 * 0x1p-53, 1.0 + 0x1p-51)}) {
+    const auto tie =
+        common_point(ExactPlane(CutPlane{{1, 0, 0}, {1, 0, 0}, offset}),
+                     ExactPlane(CutPlane{{0, 1, 0}, {0, 0, 0}}), ExactPlane(CutPlane{{0, 0, 1}, {0, 0, 0}}));
+    ASSERT_TRUE(tie);
+    EXPECT_EQ(tie->rounded.x(), rounded);
+  }
 }
 
 TEST(ExactPlane, HugeAndTinyCoordinates) {
