@@ -97,12 +97,13 @@ std::vector<SizeClass> size_classes(const std::vector<double>& volumes) {
 }
 
 std::string histogram_svg(const std::string& title, const std::vector<SizeClass>& classes) {
-  std::string svg = fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="13">)"
-      "\n"
-      R"(<rect width="{0}" height="{1}" fill="#ffffff"/>)"
-      "\n",
-      histogram_width, histogram_height);
+  std::string svg =
+      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" )"
+                  R"(font-family="sans-serif" font-size="13">)"
+                  "\n"
+                  R"(<rect width="{0}" height="{1}" fill="#ffffff"/>)"
+                  "\n",
+                  histogram_width, histogram_height);
   svg += text(0.5 * (left + right), 28.0, "middle", escape_xml(title));
   if (!classes.empty()) svg += draw_bars(classes) + draw_share(classes);
   svg += fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" stroke="#000000"/>)"

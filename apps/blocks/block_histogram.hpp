@@ -6,8 +6,8 @@
 
 namespace ashlar {
 
-/// Classes of size whose bounds are 1, 2 and 5 times powers of ten, or powers of ten alone where these would be
-/// too many, without empty ones at the ends.
+/// Classes of size whose bounds are 1, 2 and 5 times powers of ten, or powers of ten alone where these would
+/// be too many, without empty ones at the ends.
 struct SizeClass {
   double from, to;  ///< m^3; a volume equal to `to` belongs to the next class
   int blocks = 0;

@@ -13,9 +13,10 @@ namespace ashlar {
 [[nodiscard]] std::string report_text(const BlockReport& report,
                                       const std::vector<RemovableBlock>* removable);
 
-/// { count, volume, blocks: [{ name, volume, faces, material, neighbours: [{ block, area, cut }], key }] }; cut
-/// is null where no cut parted the two, material where a fixed block has none. `key` is there for blocks that
-/// were looked at: { finite, removable, mode, direction, factor_of_safety }, the factor null if infinite.
+/// { count, volume, blocks: [{ name, volume, faces, material, neighbours: [{ block, area, cut }], key }] };
+/// cut is null where no cut parted the two, material where a fixed block has none. `key` is there for blocks
+/// that were looked at: { finite, removable, mode, direction, factor_of_safety }, the factor null if
+/// infinite.
 [[nodiscard]] nlohmann::ordered_json report_json(const BlockReport& report,
                                                  const std::vector<RemovableBlock>* removable);
 

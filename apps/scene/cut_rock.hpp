@@ -1,4 +1,5 @@
-// What the cuts of a scene have made: which block is a piece of which, and which cut made the faces between two.
+// What the cuts of a scene have made: which block is a piece of which, and which cut made the faces between
+// two.
 #pragma once
 
 #include <map>
@@ -36,8 +37,8 @@ struct CutRock {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> common;  ///< see cuts_between
   std::vector<std::vector<Side>> sides;                                            ///< by block, sorted
 
-  /// The cuts that made common faces of two blocks; where they have none, those on whose planes they have faces
-  /// on opposite sides: there they may come to touch. Increasing.
+  /// The cuts that made common faces of two blocks; where they have none, those on whose planes they have
+  /// faces on opposite sides: there they may come to touch. Increasing.
   [[nodiscard]] std::vector<std::size_t> cuts_between(std::size_t a, std::size_t b) const;
   /// Fills `common` and `sides` from the other members.
   void find_borders();

@@ -1,6 +1,6 @@
 // The planes of a set of joints. Spacings and orientations are drawn by a generator that the C++ standard
-// fixes, and by formulas given here, so that a seed means the same planes everywhere. Which planes there are does
-// not depend on the blocks that they are asked for.
+// fixes, and by formulas given here, so that a seed means the same planes everywhere. Which planes there are
+// does not depend on the blocks that they are asked for.
 #pragma once
 
 #include <random>
@@ -14,7 +14,8 @@ namespace ashlar {
 /// What is drawn from a seed has a stream of its own, which nothing else that is drawn disturbs.
 enum class RandomStream { spacing_above, spacing_below, orientation, persistence, points };
 
-/// std::mt19937_64 seeded by std::seed_seq of the four numbers. @param number of a plane @param block its index
+/// std::mt19937_64 seeded by std::seed_seq of the four numbers. @param number of a plane @param block its
+/// index
 [[nodiscard]] std::mt19937_64 random_stream(int seed, RandomStream stream, int number = 0, int block = 0);
 
 /// A number between 0 and 1, both excluded: the upper 53 bits and a half.
@@ -42,8 +43,8 @@ struct PlaneRange {
 /// Number of planes in a range, before they are made; of drawn spacings the mean number.
 [[nodiscard]] double estimate_planes(const SceneCut& cut, const PlaneRange& range);
 
-/// The planes of a cut in a range, from below. Those of discs and of scattered orientation have their centre as
-/// the point, no offset.
+/// The planes of a cut in a range, from below. Those of discs and of scattered orientation have their centre
+/// as the point, no offset.
 [[nodiscard]] std::vector<JointPlane> joint_planes(const SceneCut& cut, const PlaneRange& range);
 
 }  // namespace ashlar

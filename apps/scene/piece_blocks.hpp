@@ -15,8 +15,8 @@ struct PieceBlock {
 };
 
 /// Pieces have the material, order, velocities and everything else of the block. A support or load on a plane
-/// goes to the pieces that have a face in it, a force in parts by area; one at a point to the piece that has it.
-/// A plane without any is reported. @param index of the block in the scene, whose places are used
+/// goes to the pieces that have a face in it, a force in parts by area; one at a point to the piece that has
+/// it. A plane without any is reported. @param index of the block in the scene, whose places are used
 /// @param pieces solids, at least one @param names one for each
 [[nodiscard]] std::vector<PieceBlock> make_piece_blocks(
     const Scene& scene, std::size_t index, const std::vector<std::shared_ptr<const Polyhedron>>& pieces,

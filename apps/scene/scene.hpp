@@ -227,7 +227,8 @@ struct SceneBlock {
   std::vector<SceneLoad> load;
 };
 
-/// [[cut]]: what cuts the blocks that match: parallel planes, the faces of a solid, or the cells around points.
+/// [[cut]]: what cuts the blocks that match: parallel planes, the faces of a solid, or the cells around
+/// points.
 struct SceneCut {
   enum class Kind { planes, solid, voronoi };
   enum class Spacing { normal, lognormal, uniform, exponential };

@@ -44,7 +44,8 @@ std::size_t last_cut_of(const CutRock& rock, const CutSolid& solid, int piece) {
   return last;
 }
 
-/// The solids of a block's pieces; those that are lost in rounding are reported with the planes that bound them.
+/// The solids of a block's pieces; those that are lost in rounding are reported with the planes that bound
+/// them.
 Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, double resolution,
                  Diagnostics& diagnostics) {
   const CutSolid& solid = *rock.solids[block];

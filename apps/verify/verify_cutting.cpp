@@ -165,8 +165,8 @@ std::vector<HeldFace> joints_of(const CutSolid& solid, int piece) {
 }
 
 /// Three joints of 60 degrees to the roof z = 0 of a tunnel. Where they meet above the roof the block between
-/// them gets narrower upward: a key block. Where they meet below, it gets wider and is held, under a joint at z =
-/// 5, by its own shape. And the wedge of two planes of the case `wedge`, whose friction angle is known.
+/// them gets narrower upward: a key block. Where they meet below, it gets wider and is held, under a joint at
+/// z = 5, by its own shape. And the wedge of two planes of the case `wedge`, whose friction angle is known.
 std::vector<VerificationCheck> removable() {
   const Vector3 down(0, 0, -1);
   const auto roof = [&](double apex) {
@@ -195,10 +195,10 @@ std::vector<VerificationCheck> removable() {
           check_absolute("its friction angle at rest, deg", critical, 33.357, 5e-4)};
 }
 
-/// The tetrahedron of four planes n_i . x = h_i: with M the determinant of the rows (n_i, h_i) and D_i that of the
-/// normals without n_i, V = |M|^3 / (6 |D_1 D_2 D_3 D_4|), and the face in plane i has the area 3 V / H_i with
-/// its height H_i = |M / D_i| / |n_i|. The D_i are the minors m, n, p, q of the wedge formulas of Hoek and Bray,
-/// Rock Slope Engineering, appendix 2; the planes are those of their example.
+/// The tetrahedron of four planes n_i . x = h_i: with M the determinant of the rows (n_i, h_i) and D_i that
+/// of the normals without n_i, V = |M|^3 / (6 |D_1 D_2 D_3 D_4|), and the face in plane i has the area 3 V /
+/// H_i with its height H_i = |M / D_i| / |n_i|. The D_i are the minors m, n, p, q of the wedge formulas of
+/// Hoek and Bray, Rock Slope Engineering, appendix 2; the planes are those of their example.
 std::vector<VerificationCheck> wedge_geometry() {
   const std::array<CutPlane, 4> planes = {{{plane_normal(45, 105), Vector3::Zero()},
                                            {plane_normal(70, 235), Vector3::Zero()},

@@ -1,6 +1,6 @@
-// A solid as convex cells that fit together: any two of them meet in common faces, edges and points, and a face
-// between two cells is one object, not two that are equal. So what a plane does to a face, it does to both
-// cells, and neither gaps nor overlaps can come about. Only sources of this layer include this file.
+// A solid as convex cells that fit together: any two of them meet in common faces, edges and points, and a
+// face between two cells is one object, not two that are equal. So what a plane does to a face, it does to
+// both cells, and neither gaps nor overlaps can come about. Only sources of this layer include this file.
 //
 // Every point is the common point of three planes that were given, never of what was computed before, so its
 // integers do not grow with the number of cuts. A plane that parts a cell needs no more than the side of each

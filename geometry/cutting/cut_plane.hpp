@@ -5,8 +5,8 @@
 
 namespace ashlar {
 
-/// All x with normal . (x - point) = offset, exactly as the doubles say. The side that the normal points to is
-/// above.
+/// All x with normal . (x - point) = offset, exactly as the doubles say. The side that the normal points to
+/// is above.
 struct CutPlane {
   Vector3 normal;       ///< not zero, any length
   Vector3 point;        ///< m

@@ -1,8 +1,8 @@
 // A solid that planes and surfaces cut into pieces which fit together exactly; notes/cutting.md says why.
 //
-// Every corner is the common point of three given planes, decided exactly and rounded once, so that neighbours
-// have the same corners to the last bit. Pieces are made of convex cells: those of a convex solid of one, until
-// some are glued.
+// Every corner is the common point of three given planes, decided exactly and rounded once, so that
+// neighbours have the same corners to the last bit. Pieces are made of convex cells: those of a convex solid
+// of one, until some are glued.
 #pragma once
 
 #include <functional>
@@ -35,8 +35,8 @@ struct HeldFace {
   bool below;
 };
 
-/// Pieces are numbered from 0, the solid as a whole first. One that is cut or glued away is no more; its number
-/// is not used again, but for the first part of what was cut.
+/// Pieces are numbered from 0, the solid as a whole first. One that is cut or glued away is no more; its
+/// number is not used again, but for the first part of what was cut.
 class CutSolid {
  public:
   /// Whether a piece that is met is to be cut.
@@ -59,14 +59,15 @@ class CutSolid {
   /// it does not part the piece.
   [[nodiscard]] double distance_in_plane(int piece, const CutPlane& plane) const;
 
-  /// Parts pieces. A plane that only touches a piece, or misses it, does nothing, and does not ask. What is not
-  /// connected over faces is several pieces. @param mark >= 0, of the faces that come about.
+  /// Parts pieces. A plane that only touches a piece, or misses it, does nothing, and does not ask. What is
+  /// not connected over faces is several pieces. @param mark >= 0, of the faces that come about.
   void cut(const CutPlane& plane, int mark, const Choice& chosen);
   /// Parts pieces along the surface of a solid. @param label of what is inside
   /// @throws CutError if that takes too many cells
   void cut_along(const Polyhedron& surface, int mark, int label, const Choice& chosen);
-  /// Parts the whole into the Voronoi cells of points: all that is nearer to one of them than to any other. Cells
-  /// follow the order of the points; those that do not meet the solid are left out. @param mark as of cut()
+  /// Parts the whole into the Voronoi cells of points: all that is nearer to one of them than to any other.
+  /// Cells follow the order of the points; those that do not meet the solid are left out. @param mark as of
+  /// cut()
   /// @throws CutError if the solid is not convex or was cut before, or two points are one
   void cut_into_cells(const std::vector<Vector3>& points, int mark);
   /// Makes two pieces one. @param into keeps its number
@@ -80,9 +81,9 @@ class CutSolid {
   [[nodiscard]] double area(const PieceFace& face) const;
   /// Outward, unit, rounded once.
   [[nodiscard]] Vector3 normal(const PieceFace& face) const;
-  /// Corners rounded once. Points of the solid within a resolution of each other are one, the first in number,
-  /// for all pieces alike: so a face that is a sliver between two others goes, and these meet. What is left without
-  /// area is left out. @param resolution m, >= 0
+  /// Corners rounded once. Points of the solid within a resolution of each other are one, the first in
+  /// number, for all pieces alike: so a face that is a sliver between two others goes, and these meet. What
+  /// is left without area is left out. @param resolution m, >= 0
   [[nodiscard]] TriangleMesh mesh(int piece, double resolution = 0.0) const;
   /// @param held faces of the piece; KeyBlock::faces are indices into it. @param force any length but zero
   [[nodiscard]] KeyBlock key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force) const;

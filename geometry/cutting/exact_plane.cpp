@@ -6,8 +6,8 @@
 namespace ashlar {
 namespace {
 
-/// Correctly rounded, without the greatest common divisor that a fraction would need: a quotient of 64 or 65 bits
-/// whose last bit also stands for the remainder. @param denominator > 0
+/// Correctly rounded, without the greatest common divisor that a fraction would need: a quotient of 64 or 65
+/// bits whose last bit also stands for the remainder. @param denominator > 0
 double rounded_ratio(const Integer& numerator, const Integer& denominator) {
   if (sgn(numerator) == 0) return 0.0;
   const auto bits = [](const Integer& number) {

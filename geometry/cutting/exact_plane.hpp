@@ -1,10 +1,11 @@
 // Planes and points with integer coefficients, for cuts that are decided exactly. Only sources of this layer
 // include this file.
 //
-// A plane is (a, b, c, d) with a x + b y + c z = d, a point (x, y, z, w) stands for (x/w, y/w, z/w). Each point
-// also has its coordinates correctly rounded, and each plane its coefficients: the side of a point is a sum of
-// four products of doubles with an error of at most 8 u times the sum of their sizes (u = 2^-53: each factor is
-// off by u, a product by another, three sums by three more), and only where that does not tell, of integers.
+// A plane is (a, b, c, d) with a x + b y + c z = d, a point (x, y, z, w) stands for (x/w, y/w, z/w). Each
+// point also has its coordinates correctly rounded, and each plane its coefficients: the side of a point is a
+// sum of four products of doubles with an error of at most 8 u times the sum of their sizes (u = 2^-53: each
+// factor is off by u, a product by another, three sums by three more), and only where that does not tell, of
+// integers.
 #pragma once
 
 #include <gmpxx.h>

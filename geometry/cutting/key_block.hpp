@@ -1,12 +1,12 @@
-// Whether a block can leave its place, and how it would move: the block theory of Goodman and Shi, Block Theory
-// and Its Application to Rock Engineering (1985), for one block.
+// Whether a block can leave its place, and how it would move: the block theory of Goodman and Shi, Block
+// Theory and Its Application to Rock Engineering (1985), for one block.
 //
-// A block that is held by faces with outward normals n_i can move along s if n_i . s <= 0 for all of them: these s
-// are the joint pyramid. A block is removable if the pyramid has a direction other than zero (their theorem, in
-// terms of moves). Under a force r the block moves along the direction of the pyramid that is nearest to r:
-// r itself (falling, or lifting), the projection of r on one face, or on the line of two faces (sliding). The
-// remainder r - s is what the faces push back with: r - s = sum of l_i n_i with l_i >= 0. All of this is decided
-// by the signs of integers.
+// A block that is held by faces with outward normals n_i can move along s if n_i . s <= 0 for all of them:
+// these s are the joint pyramid. A block is removable if the pyramid has a direction other than zero (their
+// theorem, in terms of moves). Under a force r the block moves along the direction of the pyramid that is
+// nearest to r: r itself (falling, or lifting), the projection of r on one face, or on the line of two faces
+// (sliding). The remainder r - s is what the faces push back with: r - s = sum of l_i n_i with l_i >= 0. All
+// of this is decided by the signs of integers.
 #pragma once
 
 #include <array>

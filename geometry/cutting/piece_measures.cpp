@@ -113,8 +113,8 @@ const PieceMeasures::FixedPoint& PieceMeasures::fixed(int point) {
   return *fixed_[k];
 }
 
-// Differences are off by less than a unit each. A determinant of differences of at most D is off by six products
-// times 3 D^2 + 3 D + 1, less than 18 (D + 1)^2.
+// Differences are off by less than a unit each. A determinant of differences of at most D is off by six
+// products times 3 D^2 + 3 D + 1, less than 18 (D + 1)^2.
 double PieceMeasures::volume(const std::vector<std::pair<int, bool>>& faces) {
   const auto place = [&](int point) -> const FixedPoint& { return fixed(point); };
   const Integer sum = six_volumes<Integer>(complex_, faces, place);

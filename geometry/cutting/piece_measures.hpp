@@ -2,9 +2,9 @@
 // include this file.
 //
 // A point of a complex is a fraction of integers of some hundred bits, and a sum of products of many such
-// fractions is slow. So coordinates are cut off to 240 bits below the largest one first; each is then too small
-// by less than one unit, which bounds the error of the sum. Only where both bounds do not round to the same
-// double, which takes a value half way between two of them, are fractions added.
+// fractions is slow. So coordinates are cut off to 240 bits below the largest one first; each is then too
+// small by less than one unit, which bounds the error of the sum. Only where both bounds do not round to the
+// same double, which takes a value half way between two of them, are fractions added.
 #pragma once
 
 #include <array>

@@ -64,8 +64,8 @@ class FlatLoop {
   [[nodiscard]] const Integer& second(const ExactPoint& p) const {
     return axis_ == 0 ? p.z : axis_ == 1 ? p.x : p.y;
   }
-  /// Each coordinate is off by u, each difference by u more, products and their difference by two more: less than
-  /// 12 u times the largest coordinate times the sum of the differences. 0: it does not tell.
+  /// Each coordinate is off by u, each difference by u more, products and their difference by two more: less
+  /// than 12 u times the largest coordinate times the sum of the differences. 0: it does not tell.
   [[nodiscard]] int quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) const {
     const auto u = static_cast<Eigen::Index>((axis_ + 1) % 3), v = static_cast<Eigen::Index>((axis_ + 2) % 3);
     const double p = b[u] - a[u], q = b[v] - a[v], r = c[u] - a[u], s = c[v] - a[v];
@@ -83,9 +83,9 @@ class FlatLoop {
   int way_ = 1;
 };
 
-/// Triangles of a convex loop that may have points in its straight sides. A corner is cut off where that leaves
-/// some area and takes some, decided on the exact points: else a point in the side of two faces could get
-/// a sliver of a triangle in both, one upon the other.
+/// Triangles of a convex loop that may have points in its straight sides. A corner is cut off where that
+/// leaves some area and takes some, decided on the exact points: else a point in the side of two faces could
+/// get a sliver of a triangle in both, one upon the other.
 std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const ComplexFace& face) {
   const FlatLoop flat(complex, face);
   std::vector<int> loop(face.points.size());
@@ -259,8 +259,8 @@ std::vector<int> merge_points(const CellComplex& complex, double resolution) {
     return std::lexicographical_compare(place(a).begin(), place(a).end(), place(b).begin(), place(b).end());
   });
   UnionFind merged(count);
-  // Runs of points whose first coordinates follow each other within the resolution, of these runs by the second, and
-  // neighbours by the third: points on grids have many equal coordinates.
+  // Runs of points whose first coordinates follow each other within the resolution, of these runs by the
+  // second, and neighbours by the third: points on grids have many equal coordinates.
   for (std::size_t start = 0; start < count;) {
     std::size_t end = start + 1;
     while (end < count && place(order[end])[0] - place(order[end - 1])[0] <= resolution) ++end;

@@ -1,6 +1,6 @@
 // The surface of a solid as a cut: cells divided along the planes of its triangles until none of them passes
-// through the inner points of a cell. Then each cell is inside the solid or outside. A plane divides only cells
-// that a triangle of its own passes through. Only sources of this layer include this file.
+// through the inner points of a cell. Then each cell is inside the solid or outside. A plane divides only
+// cells that a triangle of its own passes through. Only sources of this layer include this file.
 #pragma once
 
 #include <vector>

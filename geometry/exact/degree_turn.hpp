@@ -1,4 +1,5 @@
-// Sine and cosine of an angle in degrees, exact at multiples of 90, and of the same size at odd multiples of 45.
+// Sine and cosine of an angle in degrees, exact at multiples of 90, and of the same size at odd multiples of
+// 45.
 #pragma once
 
 namespace ashlar {

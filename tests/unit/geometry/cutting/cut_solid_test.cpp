@@ -295,8 +295,9 @@ TEST(SmallPieces, AreGluedToTheNeighbourWithMostArea) {
   EXPECT_EQ(Polyhedron(solid.mesh(solid.pieces()[0])).faces().size(), 6U);
 }
 
-// Three upright sets at 60 degrees meet three at a time in lines, but for rounding: slivers of 1e-30 m^3 between
-// prisms, and sliver faces. Once the slivers are glued, each prism is a solid at the resolution of its coordinates.
+// Three upright sets at 60 degrees meet three at a time in lines, but for rounding: slivers of 1e-30 m^3
+// between prisms, and sliver faces. Once the slivers are glued, each prism is a solid at the resolution of
+// its coordinates.
 TEST(SmallPieces, HexagonalJointsLeavePrisms) {
   CutSolid solid(cube(10.0));
   for (int set = 0; set < 3; ++set)
