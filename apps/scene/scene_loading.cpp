@@ -21,9 +21,9 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
     if (preparation != nullptr) preparation->phase(words);
   };
   LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}, {}};
+  check_cuts(loaded.scene, diagnostics);
   if (!loaded.scene.cut.empty()) {
     // Names of pieces are known once they are cut, and only what can be read is cut.
-    check_cuts(loaded.scene, diagnostics);
     if (!diagnostics.good() || !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
       return std::nullopt;
     cut_scene(loaded.scene, diagnostics, preparation);

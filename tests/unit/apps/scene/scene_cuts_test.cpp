@@ -213,6 +213,7 @@ TEST(SceneCuts, FaultsHaveTheirPlaces) {
            {head + "voronoi = { count = 3000000 }\n",
             "s.toml:20:11: error: cut \"c\" makes too many blocks (about 3e+06 in the scene), at most "
             "most_blocks"},
+           {"[[joint]]\ncut = \"y\"\n", "s.toml:18:7: error: unknown cut (\"y\"), there is no [[cut]]"},
            {along_x + along_x, "s.toml:23:8: error: cut named twice (\"x\", first at "},
            {along_x + "[[joint]]\ncut = \"y\"\n",
             "s.toml:23:7: error: unknown cut (\"y\"), the name of a [[cut]] is needed"},
