@@ -1,6 +1,8 @@
 // Reading one [[block]] of a scene: its shape, placing, supports and loads.
 #pragma once
 
+#include <string>
+
 #include "apps/scene/scene.hpp"
 #include "apps/scene/toml_table_reader.hpp"
 
@@ -9,5 +11,8 @@ namespace ashlar {
 /// Faults go to the table's diagnostics. A shape that is missing, given twice, faulty or not placed well is
 /// left empty; points and planes that are faulty are not finite.
 [[nodiscard]] SceneBlock read_block(TomlTableReader& table);
+
+/// The one of box, mesh, hull and sphere that a table gives. @param what the table in words
+[[nodiscard]] SceneShape read_shape(TomlTableReader& table, const std::string& what);
 
 }  // namespace ashlar

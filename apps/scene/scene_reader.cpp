@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "apps/scene/block_reader.hpp"
+#include "apps/scene/cut_reader.hpp"
 #include "apps/scene/history_reader.hpp"
 #include "apps/scene/scene_names.hpp"
 #include "apps/scene/scene_overrides.hpp"
@@ -93,7 +94,8 @@ void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::
 SceneJoint read_joint(TomlTableReader& table) {
   SceneJoint joint;
   std::vector<std::string> blocks;
-  table.require("blocks");
+  if (!table.read_name("cut", joint.cut)) table.require("blocks");
+  if (!joint.cut.empty()) joint.blocks = {"*", "*"};
   if (table.read_texts("blocks", blocks)) {
     if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
       table.error_at_value(
@@ -161,6 +163,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
   scene.joint = top.read_tables("joint", read_joint);
   scene.material = top.read_tables("material", read_material);
   scene.block = top.read_tables("block", read_block);
+  scene.cut = top.read_tables("cut", read_cut);
   scene.measure = top.read_tables("measure", read_measure);
   read_output(top.table_or_empty("output"), scene.output);
   complete_times(analysis, scene);

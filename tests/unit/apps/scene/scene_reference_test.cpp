@@ -49,6 +49,32 @@ hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }
 name = "D"
 material = "rock"
 sphere = { radius = 1 }
+[[cut]]
+name = "set"
+blocks = ["A"]
+dip = 0
+dip_direction = 0
+spacing = { mean = 1 }
+[[cut]]
+name = "inside a box"
+blocks = ["A"]
+solid = { box = { min = [0, 0, 0], max = [1, 1, 1] } }
+[[cut]]
+name = "inside a mesh"
+blocks = ["A"]
+solid = { mesh = { file = "b.off" } }
+[[cut]]
+name = "inside a hull"
+blocks = ["A"]
+solid = { hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] } }
+[[cut]]
+name = "inside a sphere"
+blocks = ["A"]
+solid = { sphere = { radius = 1 } }
+[[cut]]
+name = "cells"
+blocks = ["A"]
+voronoi = { count = 2 }
 [[measure]]
 name = "tip"
 block = "A"
@@ -73,6 +99,18 @@ mesh = {}
 hull = {}
 [[block]]
 sphere = {}
+[[cut]]
+spacing = {}
+[[cut]]
+solid = { box = {} }
+[[cut]]
+solid = { mesh = {} }
+[[cut]]
+solid = { hull = {} }
+[[cut]]
+solid = { sphere = {} }
+[[cut]]
+voronoi = {}
 )";
 
 struct Row {
@@ -128,7 +166,7 @@ std::set<std::string> known_keys() {
   std::string text = fmt::format("unknown = 0\n{}", least_scene);
   for (const std::string header :
        {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n", "[[block]]\n", "[[block.fix]]\n",
-        "[[block.load]]\n", "[[measure]]\n", "[output]\n"})
+        "[[block.load]]\n", "[[cut]]\n", "[[measure]]\n", "[output]\n"})
     text.insert(text.find(header) + header.size(), "unknown = 0\n");
   for (std::size_t at = 0; (at = text.find("{ ", at)) != std::string::npos; at += 2)
     text.replace(at, 2, "{ unknown = 0, ");
@@ -154,7 +192,7 @@ TEST(SceneReference, NamesEveryKeyAndNoOther) {
 
 // "block.fix.point" as --set takes it: "block.0.fix.0.point".
 std::string path_in(std::string path, int block) {
-  for (const std::string list : {"joint.", "material.", "measure."})
+  for (const std::string list : {"joint.", "material.", "cut.", "measure."})
     if (path.starts_with(list)) path.insert(list.size(), "0.");
   if (path.starts_with("block.")) path.insert(6, fmt::format("{}.", block));
   for (const std::string list : {".fix.", ".load."})
