@@ -74,8 +74,8 @@ struct SceneAnalysis {
   std::optional<SceneRecord> gravity_file;     ///< where it comes from, if not from the scene
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
-  bool sleeping = true;                        ///< whether islands that have come to rest are held until woken
-  std::optional<double> memory_limit;          ///< bytes, > 0, that the estimate may reach; empty: auto
+  bool sleeping = true;                ///< whether islands that have come to rest are held until woken
+  std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto
 };
 
 /// The law between the faces of two blocks. Strengths default to none: a joint's strength has to be stated.
