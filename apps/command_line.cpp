@@ -8,6 +8,7 @@
 #include <array>
 #include <ostream>
 
+#include "apps/blocks/blocks_command.hpp"
 #include "apps/check_command.hpp"
 #include "apps/contacts/contacts_command.hpp"
 #include "apps/contacts/integrate_command.hpp"
@@ -23,9 +24,10 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 8> commands = {
-    declare_run_command,      declare_view_command,      declare_picture_command, declare_check_command,
-    declare_contacts_command, declare_integrate_command, declare_verify_command,  declare_study_command};
+constexpr std::array<CommandDeclaration, 9> commands = {
+    declare_run_command,       declare_view_command,   declare_picture_command,
+    declare_check_command,     declare_blocks_command, declare_contacts_command,
+    declare_integrate_command, declare_verify_command, declare_study_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

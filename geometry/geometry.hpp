@@ -11,6 +11,7 @@
 #include "geometry/contacts/convex_search.hpp"
 #include "geometry/contacts/motion_check.hpp"
 #include "geometry/convex/convex_contact.hpp"
+#include "geometry/cutting/cut_solid.hpp"
 #include "geometry/library_versions.hpp"
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/hull_solid.hpp"

@@ -56,6 +56,10 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
 #else
 
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
+  if (threads == 1 || count < 2) {
+    for (std::size_t k = 0; k < count; ++k) work(k);
+    return;
+  }
   // More than the machine has would make TBB print a warning and go on with fewer.
   tbb::task_arena arena(std::min(threads, available_threads()));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });

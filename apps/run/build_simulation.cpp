@@ -216,6 +216,11 @@ class JointLaws {
 /// Calls visit(a, b) for each pair of blocks, a < b, that a joint matches until it returns false.
 template <class Visit>
 void for_each_pair(const JointTable& table, std::size_t joint, Visit visit) {
+  if (table.is_of_cut(joint)) {
+    for (const auto& [a, b] : table.pairs_parted_by(joint))
+      if (!visit(a, b)) return;
+    return;
+  }
   for (const std::size_t first : table.matched(joint, 0)) {
     for (const std::size_t second : table.matched(joint, 1)) {
       if (first == second) continue;

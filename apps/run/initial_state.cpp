@@ -5,16 +5,18 @@
 
 #include <algorithm>
 
+#include "apps/scene/joint_table.hpp"
+
 namespace ashlar {
 namespace {
 
-bool has_tie(const Scene& scene, const std::string& name) {
+bool has_tie(const Scene& scene, const JointTable& table, std::size_t block) {
   if (std::none_of(scene.joint.begin(), scene.joint.end(),
                    [](const SceneJoint& joint) { return joint.tied.value_or(false); }))
     return false;
-  return std::any_of(scene.block.begin(), scene.block.end(), [&](const SceneBlock& other) {
-    return other.name != name && joint_law_between(scene, name, other.name).tied;
-  });
+  for (std::size_t other = 0; other < scene.block.size(); ++other)
+    if (other != block && table.law_between(block, other).tied) return true;
+  return false;
 }
 
 /// Whether some corner's neighbourhood has no volume any more.
@@ -36,6 +38,7 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
   const Place place = scene.places.value("analysis.initial_state");
   std::vector<std::string> as_placed;
   bool any_held = false;
+  const JointTable table(scene);
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     const BlockModel& block = simulation.blocks()[k];
     const bool is_settled = std::find(settled.begin(), settled.end(), static_cast<int>(k)) != settled.end();
@@ -46,7 +49,7 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
     }
     if (block.fixed() || is_settled) continue;
     as_placed.push_back(block.name());
-    if (!block.space().held() || has_tie(scene, block.name())) continue;
+    if (!block.space().held() || has_tie(scene, table, k)) continue;
     any_held = true;
     diagnostics.warning(place,
                         fmt::format("initial_state (\"equilibrium\") was not found for block \"{}\": it "

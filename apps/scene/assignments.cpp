@@ -9,6 +9,7 @@
 
 #include "apps/scene/block_arrays.hpp"
 #include "apps/scene/block_reader.hpp"
+#include "apps/scene/cut_rock.hpp"
 #include "apps/scene/name_pattern.hpp"
 #include "apps/scene/nearest_name.hpp"
 
@@ -19,6 +20,27 @@ namespace {
 constexpr double most_tests = 1e7;
 /// Of the places of what an entry gives a block, bytes.
 constexpr double memory_of_keys = 100.0;
+
+bool is_glob(const std::string& pattern) {
+  return pattern.find_first_of("*?[\\") != std::string::npos;
+}
+
+/// Marks the pieces that a pattern means, see apply_assignments_to_pieces. @return whether it matches a block
+/// or a piece
+bool choose_pieces(const Scene& scene, const std::string& pattern, std::vector<bool>& chosen) {
+  const bool glob = is_glob(pattern);
+  const auto matches = [&](const std::string& name) {
+    return glob ? pattern_matches(pattern, name) : pattern == name;
+  };
+  bool matched = false;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const bool of_block = matches(scene.uncut[scene.rock->origin[k].uncut].name);
+    const bool of_piece = !of_block && matches(scene.block[k].name);
+    chosen[k] = chosen[k] || of_piece;
+    matched = matched || of_block || of_piece;
+  }
+  return matched;
+}
 
 class Assigner {
  public:
@@ -33,7 +55,9 @@ class Assigner {
     for (const std::string& pattern : given.blocks) {
       tests_ += static_cast<double>(chosen.size());
       if (tests_ > most_tests) return refuse_size(index);
-      choose(pattern, index, chosen);
+      const bool matched = scene_.rock ? choose_pieces(scene_, pattern, chosen) : choose(pattern, chosen);
+      // A pattern that means no block may mean a piece, once there are any.
+      if (!matched && (scene_.rock || scene_.cut.empty())) refuse_pattern(index, pattern);
     }
     double memory = memory_of_keys;
     for (const SceneFix& fix : given.fix) memory += memory_of(fix) + memory_of_keys;
@@ -59,20 +83,23 @@ class Assigner {
     return false;
   }
 
-  void choose(const std::string& pattern, std::size_t index, std::vector<bool>& chosen) {
+  bool choose(const std::string& pattern, std::vector<bool>& chosen) const {
     bool matched = false;
-    if (pattern.find_first_of("*?[\\") == std::string::npos) {
+    if (!is_glob(pattern)) {
       const auto found = by_name_.find(pattern);
       matched = found != by_name_.end();
       if (matched) chosen[found->second] = true;
-    } else {
-      for (std::size_t k = 0; k < chosen.size(); ++k) {
-        if (!pattern_matches(pattern, scene_.block[k].name)) continue;
-        chosen[k] = true;
-        matched = true;
-      }
+      return matched;
     }
-    if (matched) return;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      if (!pattern_matches(pattern, scene_.block[k].name)) continue;
+      chosen[k] = true;
+      matched = true;
+    }
+    return matched;
+  }
+
+  void refuse_pattern(std::size_t index, const std::string& pattern) {
     std::vector<std::string> names;
     for (const SceneBlock& block : scene_.block) names.push_back(block.name);
     diagnostics_.error(scene_.places.value(fmt::format("assign.{}.blocks", index)),
@@ -155,6 +182,22 @@ void apply_assignments(Scene& scene, Diagnostics& diagnostics) {
   Assigner assigner(scene, diagnostics);
   for (std::size_t index = 0; index < scene.assign.size(); ++index)
     if (!assigner.apply(index)) return;
+}
+
+void apply_assignments_to_pieces(Scene& scene, Diagnostics& diagnostics) {
+  if (scene.rock) apply_assignments(scene, diagnostics);
+}
+
+std::vector<std::vector<std::size_t>> assigned_pieces(const Scene& scene) {
+  std::vector<std::vector<std::size_t>> pieces(scene.assign.size());
+  if (!scene.rock) return pieces;
+  for (std::size_t index = 0; index < scene.assign.size(); ++index) {
+    std::vector<bool> chosen(scene.block.size(), false);
+    for (const std::string& pattern : scene.assign[index].blocks) (void)choose_pieces(scene, pattern, chosen);
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+      if (chosen[k]) pieces[index].push_back(k);
+  }
+  return pieces;
 }
 
 }  // namespace ashlar

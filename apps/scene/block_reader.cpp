@@ -109,8 +109,9 @@ SceneShape read_sphere(TomlTableReader table) {
   return sphere;
 }
 
-// @param block the block in words
-SceneShape read_shape(TomlTableReader& table, const std::string& block) {
+}  // namespace
+
+SceneShape read_shape(TomlTableReader& table, const std::string& what) {
   struct Kind {
     const char* key;
     SceneShape (*read)(TomlTableReader);
@@ -125,12 +126,14 @@ SceneShape read_shape(TomlTableReader& table, const std::string& block) {
       if (auto content = table.table(kind.key)) shape = kind.read(*content);
     }
   if (given.size() == 1) return shape;
-  const std::string what =
-      given.empty() ? fmt::format("{} has no shape", block)
-                    : fmt::format("{} has {} shapes ({})", block, given.size(), fmt::join(given, ", "));
-  table.error_at_table(what + ", exactly one of box, mesh, hull, sphere is needed");
+  const std::string fault =
+      given.empty() ? fmt::format("{} has no shape", what)
+                    : fmt::format("{} has {} shapes ({})", what, given.size(), fmt::join(given, ", "));
+  table.error_at_table(fault + ", exactly one of box, mesh, hull, sphere is needed");
   return {};
 }
+
+namespace {
 
 SceneRotation read_rotation(TomlTableReader table) {
   SceneRotation rotation;

@@ -1,6 +1,8 @@
 // Reading one [[block]] of a scene: its shape, placing, supports and loads.
 #pragma once
 
+#include <string>
+
 #include "apps/scene/scene.hpp"
 #include "apps/scene/toml_table_reader.hpp"
 
@@ -15,5 +17,7 @@ namespace ashlar {
 [[nodiscard]] SceneLoad read_load(TomlTableReader& table);
 /// Reports supports, loads and velocities of a block that never moves.
 void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block);
+/// The one of box, mesh, hull and sphere that a table gives. @param what the table in words
+[[nodiscard]] SceneShape read_shape(TomlTableReader& table, const std::string& what);
 
 }  // namespace ashlar

@@ -38,6 +38,9 @@ struct TriangleCount {
   double operator()(const SceneBox&) const { return 12.0; }
   double operator()(const SceneHull& hull) const { return 2.0 * static_cast<double>(hull.points.size()); }
   double operator()(const SceneSphere& sphere) const { return 20.0 * std::pow(4.0, sphere.subdivisions); }
+  double operator()(const ScenePiece& piece) const {
+    return static_cast<double>(piece.solid->mesh().triangles.size());
+  }
   double operator()(const SceneMesh& mesh) const {
     if (mesh.stone) return static_cast<double>(mesh.stone->triangles.size());
     std::error_code fault;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 
+#include "apps/scene/cut_rock.hpp"
 #include "apps/scene/name_pattern.hpp"
 
 namespace ashlar {
@@ -42,6 +44,15 @@ std::vector<std::size_t> JointTable::joints_between(std::size_t a, std::size_t b
   std::erase_if(candidates, [&](std::size_t joint) {
     return !(matches(joint, 0, a) && matches(joint, 1, b)) && !(matches(joint, 0, b) && matches(joint, 1, a));
   });
+  if (std::any_of(candidates.begin(), candidates.end(),
+                  [&](std::size_t joint) { return is_of_cut(joint); })) {
+    std::set<std::string> cuts;
+    if (scene_.rock)
+      for (const std::size_t cut : scene_.rock->cuts_between(a, b)) cuts.insert(scene_.cut[cut].name);
+    std::erase_if(candidates, [&](std::size_t joint) {
+      return is_of_cut(joint) && !cuts.contains(scene_.joint[joint].cut);
+    });
+  }
   return candidates;
 }
 
@@ -49,6 +60,21 @@ SceneJointLaw JointTable::law_between(std::size_t a, std::size_t b) const {
   SceneJointLaw law = scene_.contact.law;
   for (const std::size_t joint : joints_between(a, b)) override_law(law, scene_.joint[joint]);
   return law;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> JointTable::pairs_parted_by(std::size_t joint) const {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  if (!scene_.rock) return pairs;
+  for (const auto& [pair, cuts] : scene_.rock->common) {
+    const bool parted = std::any_of(cuts.begin(), cuts.end(), [&](std::size_t cut) {
+      return scene_.cut[cut].name == scene_.joint[joint].cut;
+    });
+    const auto& [a, b] = pair;
+    if (parted &&
+        ((matches(joint, 0, a) && matches(joint, 1, b)) || (matches(joint, 0, b) && matches(joint, 1, a))))
+      pairs.push_back(pair);
+  }
+  return pairs;
 }
 
 bool JointTable::matches_a_pair(std::size_t joint) const {

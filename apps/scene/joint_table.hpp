@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/scene/scene.hpp"
@@ -30,7 +31,11 @@ class JointTable {
   [[nodiscard]] const std::vector<std::size_t>& matched(std::size_t joint, std::size_t side) const {
     return *matched_[2 * joint + side];
   }
-  /// Whether some two different blocks are matched.
+  /// Whether a joint is of the faces that a cut made, not of all between the blocks it names.
+  [[nodiscard]] bool is_of_cut(std::size_t joint) const { return !scene_.joint[joint].cut.empty(); }
+  /// Pairs (a < b) that a joint matches and its cut has given a common face, sorted.
+  [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> pairs_parted_by(std::size_t joint) const;
+  /// Whether some two different blocks are matched, cuts aside.
   [[nodiscard]] bool matches_a_pair(std::size_t joint) const;
 
  private:

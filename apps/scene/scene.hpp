@@ -15,10 +15,13 @@
 #include <vector>
 
 #include "apps/scene/scene_places.hpp"
+#include "geometry/solid/polyhedron.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "mechanics/supports/recorded_motion.hpp"
 
 namespace ashlar {
+
+struct CutRock;
 
 /// Times of a static analysis of constant loads that does not give them, s; each gives way to the other one
 /// where that is given.
@@ -110,6 +113,8 @@ struct SceneContact {
 /// key.
 struct SceneJoint {
   std::array<std::string, 2> blocks;  ///< names or globs (* ? [...]), in any order; match at least one pair
+  std::string cut;  ///< if not empty, only pairs that this [[cut]] has parted; blocks are then "*" by default
+  bool of_glued_cut = false;  ///< it stands in no scene: a [[cut]] with `glued` ties what it has parted
   /// An outer empty optional: not given here. An inner empty one: given as "auto".
   std::optional<std::optional<double>> normal_stiffness;
   std::optional<std::optional<double>> shear_stiffness;
@@ -171,8 +176,13 @@ struct SceneSphere {
   int subdivisions = 3;              ///< 0 to 7
 };
 
+/// A piece of a block that a [[cut]] has cut, already placed. No scene can say it.
+struct ScenePiece {
+  std::shared_ptr<const Polyhedron> solid;
+};
+
 /// Empty (monostate) only if the scene has a fault there.
-using SceneShape = std::variant<std::monostate, SceneBox, SceneMesh, SceneHull, SceneSphere>;
+using SceneShape = std::variant<std::monostate, SceneBox, SceneMesh, SceneHull, SceneSphere, ScenePiece>;
 
 /// rotate = { axis, angle, about }
 struct SceneRotation {
@@ -259,6 +269,33 @@ struct SceneAssign {
   std::vector<SceneLoad> load;
 };
 
+/// [[cut]]: what cuts the blocks that match: parallel planes, the faces of a solid, or the cells around
+/// points.
+struct SceneCut {
+  enum class Kind { planes, solid, voronoi };
+  enum class Spacing { normal, lognormal, uniform, exponential };
+
+  std::string name;                 ///< unique; required
+  std::vector<std::string> blocks;  ///< names or globs; each matches a block or its pieces; required
+  Kind kind = Kind::planes;
+  double dip = 0.0;                 ///< deg, 0 to 90
+  double dip_direction = 0.0;       ///< deg from north (y) towards east (x)
+  Vector3 point = Vector3::Zero();  ///< m, on the plane numbered 0
+  std::optional<double> spacing;    ///< m, > 0, the mean; empty: one plane
+  Spacing law = Spacing::normal;    ///< of spacings, if they deviate
+  double deviation = 0.0;           ///< m, >= 0, standard deviation of spacings
+  double fisher = 0.0;              ///< Fisher's k, >= 0; 0: no scatter of orientation
+  double persistence = 1.0;         ///< 0 to 1, chance that a plane cuts a block that it meets
+  std::optional<double> radius;     ///< m, > 0, of the discs that planes are; empty: infinite
+  std::optional<int> number;        ///< planes to each side of `point`, >= 0; empty: as many as meet blocks
+  int seed = 1;                     ///< >= 0
+  double min_volume = 0.0;          ///< m^3, >= 0
+  bool glued = false;               ///< blocks on both sides are tied
+  int most_blocks = 100000;         ///< >= 1, of all blocks of the scene after the cut
+  SceneShape solid;                 ///< box, mesh, hull or sphere; kind solid
+  int count = 0;                    ///< >= 1; kind voronoi: points in each block
+};
+
 /// [[measure]]: a material point whose motion is written to the history.
 struct SceneMeasure {
   std::string name;                 ///< unique; required; heads columns of the history
@@ -293,17 +330,20 @@ struct Scene {
   std::vector<SceneMaterial> material;  ///< in file order
   std::vector<SceneBlock> block;        ///< in file order, then pieces of masonry; at least one
   std::vector<SceneAssign> assign;      ///< in file order; already applied in a scene that has been read
+  std::vector<SceneCut> cut;            ///< in file order
   std::vector<SceneMeasure> measure;    ///< in file order
   SceneOutput output;
-  std::vector<std::string> notes;  ///< what was done with mesh files, a line each
-  ScenePlaces places;              ///< of every key that was given
+  std::vector<std::string> notes;       ///< what was done with mesh files, a line each
+  ScenePlaces places;                   ///< of every key that was given
+  std::vector<SceneBlock> uncut;        ///< if there are cuts: `block` as the file has it
+  std::shared_ptr<const CutRock> rock;  ///< which block is a piece of what (cut_rock.hpp); null without cuts
 };
 
 /// What a joint gives replaces what the law had.
 void override_law(SceneJointLaw& law, const SceneJoint& joint);
 
-/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair. Of many pairs
-/// ask a JointTable.
+/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair and is not of a
+/// [[cut]]. Of many pairs, and of cuts, ask a JointTable.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
 

@@ -98,6 +98,7 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
   for (std::size_t i = 0; i < scene.joint.size(); ++i) {
     const SceneJoint& joint = scene.joint[i];
     if (joint.blocks[0].empty() && joint.blocks[1].empty()) continue;  // not read
+    if (joint.of_glued_cut) continue;
     const Place place = scene.places.value(entry_key("joint", i, "blocks"));
     bool all_match = true;
     for (const std::size_t side : {0U, 1U}) {
@@ -262,6 +263,14 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     check_known(scene, entry_key("measure", i, "block"), "block", scene.measure[i].block, blocks,
                 diagnostics);
   check_joints(scene, blocks, diagnostics);
+}
+
+void check_cuts(const Scene& scene, Diagnostics& diagnostics) {
+  check_names(scene, scene.block, "block", diagnostics);
+  check_names(scene, scene.cut, "cut", diagnostics);
+  const std::vector<std::string> cuts = names_of(scene.cut);
+  for (std::size_t i = 0; i < scene.joint.size(); ++i)
+    check_known(scene, entry_key("joint", i, "cut"), "cut", scene.joint[i].cut, cuts, diagnostics);
 }
 
 void check_placement(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,

@@ -14,6 +14,10 @@ namespace ashlar {
 /// the step fits the time. A value that the reader has already refused is not complained about again.
 void check_references(const Scene& scene, Diagnostics& diagnostics);
 
+/// Before anything is cut: names of cuts are unique, joints name cuts that there are, and names of blocks are
+/// unique.
+void check_cuts(const Scene& scene, Diagnostics& diagnostics);
+
 /// Points of measures, supports and loads are points of their block, and planes have a face of it. Points are
 /// held to the solid's bounding box (see placement_tolerance), blocks without a solid are passed over.
 /// @param solids one per scene.block.

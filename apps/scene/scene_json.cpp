@@ -1,5 +1,7 @@
 #include "apps/scene/scene_json.hpp"
 
+#include "apps/scene/assignments.hpp"
+#include "apps/scene/name_pattern.hpp"
 #include "apps/scene/scene_names.hpp"
 
 namespace ashlar {
@@ -74,6 +76,7 @@ Json to_json(const SceneContact& contact, bool augmented) {
 
 Json to_json(const SceneJoint& joint) {
   Json json = {{"blocks", joint.blocks}};
+  if (!joint.cut.empty()) json["cut"] = joint.cut;
   if (joint.normal_stiffness) json["normal_stiffness"] = or_auto(*joint.normal_stiffness);
   if (joint.shear_stiffness) json["shear_stiffness"] = or_auto(*joint.shear_stiffness);
   if (joint.friction_angle) json["friction_angle"] = *joint.friction_angle;
@@ -120,6 +123,7 @@ struct ShapeToJson {
     json["sphere"] = {
         {"center", to_json(sphere.center)}, {"radius", sphere.radius}, {"subdivisions", sphere.subdivisions}};
   }
+  void operator()(const ScenePiece&) const {}
 };
 
 void add_where(Json& json, const std::variant<ScenePlane, Vector3>& where) {
@@ -161,6 +165,7 @@ Json to_json(const SceneLoad& load) {
 }
 
 Json to_json(const SceneBlock& block);
+Json to_json(const SceneCut& cut);
 Json to_json(const SceneMeasure& measure);
 
 template <typename Entry>
@@ -188,8 +193,60 @@ Json to_json(const SceneBlock& block) {
   return json;
 }
 
+void add_planes(Json& json, const SceneCut& cut) {
+  json["dip"] = cut.dip;
+  json["dip_direction"] = cut.dip_direction;
+  json["point"] = to_json(cut.point);
+  if (cut.spacing)
+    json["spacing"] = {{"mean", *cut.spacing},
+                       {"deviation", cut.deviation},
+                       {"distribution", name_of(spacing_names, cut.law)}};
+  json["fisher"] = cut.fisher;
+  json["persistence"] = cut.persistence;
+  if (cut.radius) json["radius"] = *cut.radius;
+  if (cut.number) json["number"] = *cut.number;
+}
+
+Json to_json(const SceneCut& cut) {
+  Json json = {{"name", cut.name}, {"blocks", cut.blocks}};
+  if (cut.kind == SceneCut::Kind::planes) add_planes(json, cut);
+  if (cut.kind == SceneCut::Kind::solid) {
+    json["solid"] = Json::object();
+    std::visit(ShapeToJson{json["solid"]}, cut.solid);
+  }
+  if (cut.kind == SceneCut::Kind::voronoi)
+    json["voronoi"] = {{"count", cut.count}, {"seed", cut.seed}};
+  else
+    json["seed"] = cut.seed;
+  json["min_volume"] = cut.min_volume;
+  json["glued"] = cut.glued;
+  json["most_blocks"] = cut.most_blocks;
+  return json;
+}
+
 Json to_json(const SceneMeasure& measure) {
   return {{"name", measure.name}, {"block", measure.block}, {"point", to_json(measure.point)}};
+}
+
+/// Those to blocks are in the blocks.
+Json assignments_to_pieces(const Scene& scene) {
+  Json list = Json::array();
+  const std::vector<std::vector<std::size_t>> pieces = assigned_pieces(scene);
+  for (std::size_t index = 0; index < pieces.size(); ++index) {
+    if (pieces[index].empty()) continue;
+    const SceneAssign& given = scene.assign[index];
+    Json json = {{"blocks", Json::array()}};
+    for (const std::size_t k : pieces[index]) json["blocks"].push_back(pattern_of(scene.block[k].name));
+    if (given.material) json["material"] = *given.material;
+    if (given.order) json["order"] = *given.order;
+    if (given.fixed) json["fixed"] = *given.fixed;
+    if (given.velocity) json["velocity"] = to_json(*given.velocity);
+    if (given.angular_velocity) json["angular_velocity"] = to_json(*given.angular_velocity);
+    if (!given.fix.empty()) json["fix"] = list_to_json(given.fix);
+    if (!given.load.empty()) json["load"] = list_to_json(given.load);
+    list.push_back(std::move(json));
+  }
+  return list;
 }
 
 Json to_json(const SceneOutput& output) {
@@ -206,13 +263,22 @@ Json to_json(const SceneOutput& output) {
 
 }  // namespace
 
+nlohmann::ordered_json blocks_to_json(const std::vector<SceneBlock>& blocks) {
+  return list_to_json(blocks);
+}
+
 nlohmann::ordered_json to_json(const Scene& scene) {
   Json json = {{"title", scene.title},
                {"analysis", to_json(scene.analysis)},
                {"contact", to_json(scene.contact, has_multipliers(scene))}};
-  if (!scene.joint.empty()) json["joint"] = list_to_json(scene.joint);
+  std::vector<SceneJoint> joints = scene.joint;
+  std::erase_if(joints, [](const SceneJoint& joint) { return joint.of_glued_cut; });
+  if (!joints.empty()) json["joint"] = list_to_json(joints);
   json["material"] = list_to_json(scene.material);
-  json["block"] = list_to_json(scene.block);
+  json["block"] = blocks_to_json(scene.rock ? scene.uncut : scene.block);
+  if (!scene.cut.empty()) json["cut"] = list_to_json(scene.cut);
+  if (const Json assignments = assignments_to_pieces(scene); !assignments.empty())
+    json["assign"] = assignments;
   if (!scene.measure.empty()) json["measure"] = list_to_json(scene.measure);
   json["output"] = to_json(scene.output);
   return json;

@@ -12,4 +12,7 @@ namespace ashlar {
 /// were not given are left out, and so are excluded ones (interval beside every).
 [[nodiscard]] nlohmann::ordered_json to_json(const Scene& scene);
 
+/// The array of its blocks alone.
+[[nodiscard]] nlohmann::ordered_json blocks_to_json(const std::vector<SceneBlock>& blocks);
+
 }  // namespace ashlar

@@ -6,6 +6,7 @@
 #include "apps/scene/idle_keys.hpp"
 #include "apps/scene/initial_overlap.hpp"
 #include "apps/scene/scene_checks.hpp"
+#include "apps/scene/scene_cuts.hpp"
 #include "apps/scene/scene_limits.hpp"
 #include "apps/scene/scene_reader.hpp"
 #include "apps/scene/scene_solids.hpp"
@@ -16,15 +17,24 @@ namespace ashlar {
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides, Diagnostics& diagnostics,
-                                      Preparation* preparation) {
+                                      Preparation* preparation, LoadPurpose purpose) {
   const auto phase = [&](const char* words) {
     if (preparation != nullptr) preparation->phase(words);
   };
   LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}, {}};
+  check_cuts(loaded.scene, diagnostics);
+  if (!loaded.scene.cut.empty()) {
+    // Names of pieces are known once they are cut, and only what can be read is cut.
+    if (!diagnostics.good() || !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
+      return std::nullopt;
+    cut_scene(loaded.scene, diagnostics, preparation);
+    if (!diagnostics.good()) return std::nullopt;
+  }
   check_references(loaded.scene, diagnostics);
   check_availability(loaded.scene, diagnostics);
   // Nothing of a scene that is too large is built.
-  if (!check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics)) return std::nullopt;
+  if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
+    return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
   fit_to_survey(loaded.scene, solids, loaded.shapes, diagnostics);
@@ -36,7 +46,7 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   if (!diagnostics.good()) return std::nullopt;
   phase("sizes of the scene");
   loaded.cost = estimate_cost(loaded.scene, &solids);
-  if (!check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
+  if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_idle_keys(loaded.scene, diagnostics);
   warn_of_doubtful_keys(loaded.scene, diagnostics);
   warn_of_jumping_supports(loaded.scene, diagnostics);

@@ -23,6 +23,11 @@ struct LoadedScene {
   CostEstimate cost;
 };
 
+enum class LoadPurpose {
+  run,     ///< the cost of a run may refuse the scene
+  blocks,  ///< only its blocks are looked at
+};
+
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
 /// soft_blocks.hpp, idle_keys.hpp.
 /// @param overrides "key.path=value" each, as given to --set, applied in order.
@@ -31,6 +36,7 @@ struct LoadedScene {
 [[nodiscard]] std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                                     const std::vector<std::string>& overrides,
                                                     Diagnostics& diagnostics,
-                                                    Preparation* preparation = nullptr);
+                                                    Preparation* preparation = nullptr,
+                                                    LoadPurpose purpose = LoadPurpose::run);
 
 }  // namespace ashlar

@@ -39,6 +39,12 @@ inline constexpr ChoiceNames<SceneContact::Springs, 2> springs_names = {
 inline constexpr ChoiceNames<SceneContact::Surface, 2> surface_names = {
     {{"curved", SceneContact::Surface::curved}, {"flat", SceneContact::Surface::flat}}};
 
+inline constexpr ChoiceNames<SceneCut::Spacing, 4> spacing_names = {
+    {{"normal", SceneCut::Spacing::normal},
+     {"lognormal", SceneCut::Spacing::lognormal},
+     {"uniform", SceneCut::Spacing::uniform},
+     {"exponential", SceneCut::Spacing::exponential}}};
+
 inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
     {{"linear", SceneMaterial::Elasticity::linear},
      {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};

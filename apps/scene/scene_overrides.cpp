@@ -19,6 +19,7 @@ namespace {
 const std::vector<std::vector<std::string_view>> exclusive_keys = {
     {"every", "interval"},
     {"box", "mesh", "hull", "sphere"},
+    {"solid", "voronoi"},
     {"chord_tolerance", "subdivisions"},
     {"traction", "force"},
     {"plane", "point"},

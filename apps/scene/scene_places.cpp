@@ -1,17 +1,22 @@
 #include "apps/scene/scene_places.hpp"
 
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace ashlar {
 
 std::string ScenePlaces::origin_of(std::string path) const {
-  if (origins_.empty() || (places_.contains(path) && !origins_.contains(path))) return path;
-  // An origin is a path of what was read, which has no origin of its own.
-  for (std::size_t end = path.size(); end != std::string::npos; end = path.rfind('.', end - 1)) {
-    const auto found = origins_.find(path.substr(0, end));
-    if (found != origins_.end()) return found->second + path.substr(end);
-    if (end == 0) break;
+  for (bool found = true; found;) {
+    found = false;
+    if (origins_.empty() || (places_.contains(path) && !origins_.contains(path))) break;
+    for (std::size_t end = path.size(); end != std::string::npos && end > 0; end = path.rfind('.', end - 1)) {
+      const auto origin = origins_.find(path.substr(0, end));
+      if (origin == origins_.end()) continue;
+      path = origin->second + path.substr(end);
+      found = true;
+      break;
+    }
   }
   return path;
 }
@@ -29,13 +34,17 @@ ScenePlaces::KeyPlaces ScenePlaces::find(std::string path) const {
 
 void ScenePlaces::move_list(const std::string& list, const std::string& folder) {
   const std::string start = list + ".";
-  std::vector<std::pair<std::string, KeyPlaces>> moved;
-  auto place = places_.lower_bound(start);
-  while (place != places_.end() && place->first.starts_with(start)) {
-    moved.emplace_back(folder + place->first.substr(list.size()), std::move(place->second));
-    place = places_.erase(place);
-  }
-  for (auto& [path, places] : moved) places_[path] = std::move(places);
+  const auto move = [&](auto& paths) {
+    std::vector<typename std::remove_reference_t<decltype(paths)>::node_type> moved;
+    for (auto at = paths.lower_bound(start); at != paths.end() && at->first.starts_with(start);)
+      moved.push_back(paths.extract(at++));
+    for (auto& node : moved) {
+      node.key() = folder + node.key().substr(list.size());
+      paths.insert(std::move(node));
+    }
+  };
+  move(places_);
+  move(origins_);
 }
 
 }  // namespace ashlar

@@ -27,9 +27,11 @@ class ScenePlaces {
   /// Same for the key's value.
   [[nodiscard]] Place value(const std::string& path) const { return find(path).value; }
   /// Says that what is called `path` was written at another one: the places of "block.7" and its keys are
-  /// then those of "masonry.0" and its keys, but for those that are recorded under their own path.
+  /// then those of "masonry.0" and its keys, but for those that are recorded under their own path. An origin
+  /// may have one of its own; no path is its own origin, over however many.
   void record_origin(const std::string& path, std::string origin) { origins_[path] = std::move(origin); }
-  /// Moves the places of a list's entries: what was recorded as "block.3.box" is from then on "FOLDER.3.box".
+  /// Moves the places of a list's entries, and their origins: what was recorded as "block.3.box" is from then
+  /// on "FOLDER.3.box".
   void move_list(const std::string& list, const std::string& folder);
   /// All given keys by path.
   [[nodiscard]] const std::map<std::string, KeyPlaces>& all() const { return places_; }

@@ -12,6 +12,7 @@
 
 #include "apps/scene/assignments.hpp"
 #include "apps/scene/block_reader.hpp"
+#include "apps/scene/cut_reader.hpp"
 #include "apps/scene/history_reader.hpp"
 #include "apps/scene/include.hpp"
 #include "apps/scene/masonry.hpp"
@@ -99,7 +100,8 @@ void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::
 SceneJoint read_joint(TomlTableReader& table) {
   SceneJoint joint;
   std::vector<std::string> blocks;
-  table.require("blocks");
+  if (!table.read_name("cut", joint.cut)) table.require("blocks");
+  if (!joint.cut.empty()) joint.blocks = {"*", "*"};
   if (table.read_texts("blocks", blocks)) {
     if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
       table.error_at_value(
@@ -170,6 +172,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
   scene.block = top.read_tables("block", read_block);
   std::vector<std::vector<SceneBlock>> masonry = top.read_tables("masonry", read_masonry);
   scene.assign = top.read_tables("assign", read_assignment);
+  scene.cut = top.read_tables("cut", read_cut);
   scene.measure = top.read_tables("measure", read_measure);
   read_output(top.table_or_empty("output"), scene.output);
   if (top.given("include"))

@@ -12,6 +12,7 @@
 #include "apps/scene/exact_turn.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
+#include "geometry/exact/degree_turn.hpp"
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/shape_loss.hpp"
@@ -23,7 +24,7 @@ namespace {
 // Rodrigues' rotation matrix: c I + (1 - c) a a' + s [a]x, a the unit axis.
 Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
   const Vector3 axis = rotation.axis.stableNormalized();
-  const auto [sine, cosine] = turn_of(rotation.angle);
+  const auto [sine, cosine] = degree_turn(rotation.angle);
   Eigen::Matrix3d cross;
   cross << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
   return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;
@@ -44,14 +45,6 @@ double largest_coordinate_of(const std::vector<Vector3>& points) {
   double largest = 0.0;
   for (const Vector3& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
   return largest;
-}
-
-// What given coordinates are known to, m: they may have been turned before, in double precision and some
-// operations, by whoever wrote them.
-double resolution_of(const std::vector<Vector3>& points) {
-  constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
-  const double largest = largest_coordinate_of(points);
-  return std::isfinite(largest) ? share * largest : 0.0;
 }
 
 // A shape that bounds no solid, with the whole message.
@@ -123,6 +116,7 @@ struct SolidBuilder {
   Polyhedron operator()(const SceneSphere& sphere) const {
     return Polyhedron(make_sphere(sphere.center, sphere.radius, sphere.subdivisions));
   }
+  Polyhedron operator()(const ScenePiece& piece) const { return *piece.solid; }
 };
 
 // Up to translate.
@@ -155,7 +149,7 @@ Polyhedron translated(const Polyhedron& shape, const Vector3& way) {
 }
 
 const char* shape_key(const SceneShape& shape) {
-  constexpr std::array<const char*, 5> keys = {"", "box", "mesh", "hull", "sphere"};
+  constexpr std::array<const char*, 6> keys = {"", "box", "mesh", "hull", "sphere", ""};
   return keys[shape.index()];
 }
 
@@ -168,19 +162,30 @@ Place shape_place(const Scene& scene, std::size_t index) {
 
 }  // namespace
 
+double resolution_of(const std::vector<Vector3>& points) {
+  constexpr double share = 0x1p-46;  // 64 units in the last place of the largest
+  const double largest = largest_coordinate_of(points);
+  return std::isfinite(largest) ? share * largest : 0.0;
+}
+
 std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnostics& diagnostics,
                                                     std::vector<std::shared_ptr<const Polyhedron>>* shapes,
                                                     Preparation* preparation) {
   std::vector<std::optional<Polyhedron>> solids(scene.block.size());
   if (shapes != nullptr) shapes->assign(scene.block.size(), nullptr);
-  const nlohmann::ordered_json json = to_json(scene);
+  const nlohmann::ordered_json json = blocks_to_json(scene.block);
   std::map<std::string, std::shared_ptr<const Polyhedron>> built;  // by what the scene says of the shape
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];
     if (std::holds_alternative<std::monostate>(block.shape)) continue;
     if (preparation != nullptr)
       preparation->phase(fmt::format("solid of block {} ({} of {})", block.name, i + 1, scene.block.size()));
-    const auto& keys = json.at("block").at(i);
+    if (const auto* piece = std::get_if<ScenePiece>(&block.shape)) {
+      solids[i].emplace(*piece->solid);
+      if (shapes != nullptr) (*shapes)[i] = piece->solid;
+      continue;
+    }
+    const auto& keys = json.at(i);
     const std::string said = shape_key(block.shape) + keys.at(shape_key(block.shape)).dump() +
                              (keys.contains("rotate") ? keys.at("rotate").dump() : "");
     try {

@@ -13,6 +13,10 @@
 
 namespace ashlar {
 
+/// What given coordinates are known to, m: they may have been turned before, in double precision and some
+/// operations, by whoever wrote them.
+[[nodiscard]] double resolution_of(const std::vector<Vector3>& points);
+
 /// Builds and places the shape of every block, in the scene's order. Faces are merged before placing: where
 /// they are exactly flat, of meshes and hulls also where they are flat to 2^-46 of the largest coordinate
 /// (1.4e-14), so that a rotated box still has six. Without rotate a box keeps exactly its corners (plus

@@ -26,6 +26,12 @@ const toml::node* TomlTableReader::find(std::string_view key) {
   return known_.table->get(key);
 }
 
+bool TomlTableReader::holds_infinity(std::string_view key) {
+  const toml::node* node = find(key);
+  return node != nullptr && node->is_floating_point() &&
+         *node->value<double>() == std::numeric_limits<double>::infinity();
+}
+
 void TomlTableReader::require(std::string_view key) {
   if (given(key)) return;
   const std::string where = known_.name.empty() ? "the top of the file" : known_.name;

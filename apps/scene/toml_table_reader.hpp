@@ -30,6 +30,8 @@ class TomlTableReader {
   [[nodiscard]] std::string path(std::string_view key) const;
   /// Whether the key is there, good or not. Makes it a known one.
   [[nodiscard]] bool given(std::string_view key) { return find(key) != nullptr; }
+  /// Whether the key holds inf. Makes it a known one.
+  [[nodiscard]] bool holds_infinity(std::string_view key);
   /// The table that the key holds, null if it holds none. Makes it a known one.
   [[nodiscard]] const toml::table* table_at(std::string_view key) {
     const toml::node* node = find(key);

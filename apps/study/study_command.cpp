@@ -18,7 +18,6 @@
 #include "apps/study/orders_study.hpp"
 #include "apps/study/stability_study.hpp"
 #include "apps/study/sub_face_study.hpp"
-#include "apps/view/headless_browser.hpp"
 #include "apps/view/svg_picture.hpp"
 
 namespace ashlar {
@@ -39,20 +38,6 @@ std::vector<std::string> names() {
   list.reserve(studies.size());
   for (const Study& study : studies) list.emplace_back(study.name);
   return list;
-}
-
-/// The picture as PNG beside the SVG; without a browser, or with one that fails, the SVG alone has to do.
-/// @return what to tell the user
-std::string make_png(const std::string& svg, const std::filesystem::path& picture) {
-  const auto browser = find_browser();
-  if (!browser) return "no PNG beside it: there is no chromium in PATH, and ASHLAR_BROWSER is not set";
-  try {
-    const std::string png = png_of_svg(*browser, svg, plot_width, plot_height);
-    write_file_atomically(picture, png, Durability::process);
-    return "picture: " + picture.string();
-  } catch (const std::exception& error) {
-    return fmt::format("no PNG beside it: {}", error.what());
-  }
 }
 
 }  // namespace
@@ -82,7 +67,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   out << table_text(result);
   for (const std::string& finding : result.findings) out << finding << '\n';
   out << fmt::format("table: {}\npicture: {}\n", table.string(), picture.string());
-  out << make_png(svg, folder / (options.name + ".png")) << '\n';
+  out << write_png(svg, folder / (options.name + ".png"), plot_width, plot_height) << '\n';
   return result.holds ? exit_status::done : exit_status::failed;
 }
 

@@ -73,6 +73,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> impact_cases();
 /// Supports that move.
 [[nodiscard]] std::span<const VerificationCase> support_cases();
+/// Rock cut by joints.
+[[nodiscard]] std::span<const VerificationCase> cutting_cases();
 /// The paper's example.
 [[nodiscard]] std::span<const VerificationCase> falling_block_cases();
 

@@ -46,4 +46,15 @@ std::string png_of_svg(const std::filesystem::path& browser, const std::string& 
   return from_base64(*picture);
 }
 
+std::string write_png(const std::string& svg, const std::filesystem::path& picture, int width, int height) {
+  const auto browser = find_browser();
+  if (!browser) return "no PNG beside it: there is no chromium in PATH, and ASHLAR_BROWSER is not set";
+  try {
+    write_file_atomically(picture, png_of_svg(*browser, svg, width, height), Durability::process);
+    return "picture: " + picture.string();
+  } catch (const std::exception& error) {
+    return fmt::format("no PNG beside it: {}", error.what());
+  }
+}
+
 }  // namespace ashlar

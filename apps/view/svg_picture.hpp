@@ -12,4 +12,9 @@ namespace ashlar {
 [[nodiscard]] std::string png_of_svg(const std::filesystem::path& browser, const std::string& svg, int width,
                                      int height);
 
+/// Writes that PNG beside an SVG; without a browser, or with one that fails, the SVG alone has to do.
+/// @return what to tell the user
+[[nodiscard]] std::string write_png(const std::string& svg, const std::filesystem::path& picture, int width,
+                                    int height);
+
 }  // namespace ashlar

@@ -110,19 +110,9 @@ Eigen::MatrixXd AdmissibleSpace::restrict(const Eigen::MatrixXd& matrix) const {
   return result;
 }
 
-Eigen::MatrixXd AdmissibleSpace::rows(const Eigen::MatrixXd& phi, const Eigen::MatrixX3d& directions) const {
-  Eigen::MatrixXd result(phi.rows(), unknowns());
-  Eigen::Index start = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto direction = directions.col(static_cast<Eigen::Index>(axis));
-    if (free_) {
-      result.middleCols(start, columns(axis)) = direction.asDiagonal() * phi;
-    } else {
-      result.middleCols(start, columns(axis)).noalias() = direction.asDiagonal() * (phi * null_space_[axis]);
-    }
-    start += columns(axis);
-  }
-  return result;
+Eigen::MatrixXd AdmissibleSpace::component_values(const Eigen::MatrixXd& phi, int axis) const {
+  if (free_) return phi;
+  return phi * null_space_[static_cast<std::size_t>(axis)];
 }
 
 }  // namespace ashlar

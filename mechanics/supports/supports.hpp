@@ -59,9 +59,9 @@ class AdmissibleSpace {
   [[nodiscard]] Eigen::VectorXd restrict(const Eigen::MatrixX3d& f) const;
   /// Z' K Z. @param matrix (3p, 3p). @return (unknowns, unknowns)
   [[nodiscard]] Eigen::MatrixXd restrict(const Eigen::MatrixXd& matrix) const;
-  /// Rows that give the displacement along some directions at some points.
-  /// @param phi (m, p) basis values; @param directions (m, 3). @return (m, unknowns)
-  [[nodiscard]] Eigen::MatrixXd rows(const Eigen::MatrixXd& phi, const Eigen::MatrixX3d& directions) const;
+  /// Values at some points that give one component of the displacement with the unknowns of that component. Unknowns
+  /// are those of x, then y, then z. @param phi (m, p) basis values. @return (m, unknowns of the component)
+  [[nodiscard]] Eigen::MatrixXd component_values(const Eigen::MatrixXd& phi, int axis) const;
 
  private:
   [[nodiscard]] Eigen::Index columns(std::size_t axis) const {

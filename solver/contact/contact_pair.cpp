@@ -177,7 +177,11 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
 }
 
 Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  Eigen::Matrix3Xd result = start_ + motion(ya, yb);
+  return after(motion(ya, yb));
+}
+
+Eigen::Matrix3Xd ContactPair::after(const Eigen::Matrix3Xd& moved) const {
+  Eigen::Matrix3Xd result = start_ + moved;
   if (rows_.bent().size() > 0) result.row(0) += rows_.bent();
   return result;
 }
@@ -239,8 +243,11 @@ double ContactPair::spring_work(const PairResponse& response, const Eigen::Vecto
 
 PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
                                   const std::vector<PointLaw>& laws) const {
-  const Eigen::Matrix3Xd place = relative(ya, yb);
+  const Eigen::Matrix3Xd moved = motion(ya, yb);
+  const Eigen::Matrix3Xd place = after(moved);
   PairResponse response;
+  response.points.reserve(points_.size());
+  response.means.reserve(points_.size());
   Eigen::VectorXd forces(place.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
@@ -257,7 +264,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     forces.segment<3>(3 * column) = response.means.back().force;
   }
   rows_.set_forces(forces, response);
-  rows_.set_shifts(points_, ya, yb, forces, response);
+  rows_.set_shifts(moved, ya, yb, forces, response);
   return response;
 }
 

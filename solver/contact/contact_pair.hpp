@@ -198,6 +198,8 @@ class ContactPair {
   void rest_at(std::vector<double> rests);
   /// Gap over the rest and trial slip of every point at the end of the step. @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// The same of a motion that is known. @param moved (3, #points), m
+  [[nodiscard]] Eigen::Matrix3Xd after(const Eigen::Matrix3Xd& moved) const;
 
   int a_;
   int b_;

@@ -1,6 +1,8 @@
 #include "solver/contact/pair_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ashlar {
 namespace {
@@ -14,27 +16,19 @@ Eigen::MatrixXd values_at(const BlockModel& model, const std::vector<ContactPoin
   return model.basis().values(material);
 }
 
-/// Rows that give the motion of a block along the three directions of each contact point.
-Eigen::MatrixXd contact_rows(const BlockModel& model, const std::vector<ContactPoint>& points,
-                             const Eigen::MatrixXd& phi) {
-  if (model.fixed()) return {};
-  const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd rows(3 * count, model.unknowns());
-  for (int direction = 0; direction < 3; ++direction) {
-    Eigen::MatrixX3d directions(count, 3);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const ContactPoint& point = points[static_cast<std::size_t>(k)];
-      directions.row(k) = direction == 0 ? point.normal : direction == 1 ? point.tangent_1 : point.tangent_2;
-    }
-    const Eigen::MatrixXd part = model.space().rows(phi, directions);
-    for (Eigen::Index k = 0; k < count; ++k) rows.row(3 * k + direction) = part.row(k);
-  }
-  return rows;
+/// Rows of a block at the points. @param phi values of its functions there
+BlockRows rows_of(const BlockModel& model, const Eigen::MatrixXd& phi) {
+  return model.fixed() ? BlockRows() : BlockRows(model.space(), phi);
 }
 
-/// Norm of the longest row.
-double largest_row(const Eigen::MatrixXd& rows) {
-  return rows.size() > 0 ? std::sqrt(rows.rowwise().squaredNorm().maxCoeff()) : 0.0;
+/// Normal and tangents of each point, as columns. @return (3, 3 #points)
+Eigen::Matrix3Xd frames_of(const std::vector<ContactPoint>& points) {
+  Eigen::Matrix3Xd frames(3, 3 * static_cast<Eigen::Index>(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    frames.middleCols<3>(3 * static_cast<Eigen::Index>(k)) << points[k].normal, points[k].tangent_1,
+        points[k].tangent_2;
+  }
+  return frames;
 }
 
 bool is_free(const ContactBody& body) {
@@ -57,14 +51,15 @@ Eigen::MatrixX3d MeanDeformation::levers(const Eigen::VectorXd& change) const {
 
 PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
                    const Tie* tie)
-    : rows_a_(contact_rows(*a.model, points, tie != nullptr ? tie->a : values_at(*a.model, points, true))),
-      rows_b_(contact_rows(*b.model, points, tie != nullptr ? tie->b : values_at(*b.model, points, false))),
-      longest_a_(largest_row(rows_a_)),
-      longest_b_(largest_row(rows_b_)),
+    : a_(rows_of(*a.model, tie != nullptr ? tie->a : values_at(*a.model, points, true))),
+      b_(rows_of(*b.model, tie != nullptr ? tie->b : values_at(*b.model, points, false))),
+      frames_(frames_of(points)),
       count_(static_cast<Eigen::Index>(points.size())),
       tie_(tie),
       // The forces of a tie are along the gap, so that they have no couple worth the name.
       free_pair_(tie == nullptr && is_free(a) && is_free(b)) {
+  longest_a_ = longest_row(a_);
+  longest_b_ = longest_row(b_);
   if (!free_pair_) return;
   deformation_a_ = mean_deformation(a);
   deformation_b_ = mean_deformation(b);
@@ -77,11 +72,18 @@ PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector
         points[k], place_of(placed_a, points[k].material_a) - place_of(placed_b, points[k].material_b));
 }
 
+double PairRows::longest_row(const BlockRows& rows) const {
+  double longest = 0.0;
+  for (Eigen::Index column = 0; column < frames_.cols(); ++column)
+    longest = std::max(longest, rows.squared_row(column / 3, frames_.col(column)));
+  return std::sqrt(longest);
+}
+
 Eigen::Matrix3Xd PairRows::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, count_);
-  Eigen::Map<Eigen::VectorXd> flat(result.data(), result.size());
-  if (rows_a_.cols() > 0) flat.noalias() += rows_a_ * ya;
-  if (rows_b_.cols() > 0) flat.noalias() -= rows_b_ * yb;
+  a_.add_motion(ya, 1.0, result);
+  b_.add_motion(yb, -1.0, result);
+  for (Eigen::Index k = 0; k < count_; ++k) result.col(k) = (frame(k).transpose() * result.col(k)).eval();
   if (prescribed_.size() > 0) result += prescribed_;
   return result;
 }
@@ -114,10 +116,11 @@ double PairRows::prescribed_work(const PairResponse& response) const {
 
 void PairRows::act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b,
                       std::vector<ContactPoint>& points) {
-  rows_a_ = contact_rows(*a.model, acting, values_at(*a.model, acting, true));
-  rows_b_ = contact_rows(*b.model, acting, values_at(*b.model, acting, false));
-  longest_a_ = largest_row(rows_a_);
-  longest_b_ = largest_row(rows_b_);
+  a_ = rows_of(*a.model, values_at(*a.model, acting, true));
+  b_ = rows_of(*b.model, values_at(*b.model, acting, false));
+  frames_ = frames_of(acting);
+  longest_a_ = longest_row(a_);
+  longest_b_ = longest_row(b_);
   prescribe(acting, *a.model, a.prescribed, *b.model, b.prescribed);
   for (std::size_t k = 0; k < acting.size(); ++k) {
     points[k].normal = acting[k].normal;
@@ -153,25 +156,30 @@ void PairRows::go_to_end(std::vector<ContactPoint>& points, const BlockInStep& a
   act_at(end, a, b, points);
 }
 
-void PairRows::set_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
-  if (rows_a_.cols() > 0) response.force_on_a = rows_a_.transpose() * forces;
-  if (rows_b_.cols() > 0) response.force_on_b = -(rows_b_.transpose() * forces);
+Eigen::Matrix3Xd PairRows::along_axes(const Eigen::VectorXd& forces) const {
+  Eigen::Matrix3Xd result(3, count_);
+  for (Eigen::Index k = 0; k < count_; ++k) result.col(k).noalias() = frame(k) * forces.segment<3>(3 * k);
+  return result;
 }
 
-void PairRows::set_shifts(const std::vector<ContactPoint>& points, const Eigen::VectorXd& ya,
+void PairRows::set_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
+  const Eigen::Matrix3Xd acting = along_axes(forces);
+  if (!a_.fixed()) response.force_on_a = a_.force(acting);
+  if (!b_.fixed()) response.force_on_b = -b_.force(acting);
+}
+
+void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd& ya,
                           const Eigen::VectorXd& yb, const Eigen::VectorXd& forces,
                           PairResponse& response) const {
   if (!free_pair_) return;
-  const Eigen::Matrix3Xd apart = apart_ + 0.5 * motion(ya, yb);
-  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // r f'
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    const ContactPoint& point = points[k];
-    const Vector3 force = forces.segment<3>(3 * column);
-    const Vector3 r = apart.col(column);
-    const Vector3 along = out_of_frame(point, {0.0, force[1], force[2]});
-    moment += force[0] * out_of_frame(point, {0.0, r[1], r[2]}) * point.normal.transpose() +
-              out_of_frame(point, r) * along.transpose();
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // r f', less that of normal forces along the normal
+  for (Eigen::Index k = 0; k < count_; ++k) {
+    Vector3 r = apart_.col(k) + 0.5 * motion.col(k);
+    Vector3 along = forces.segment<3>(3 * k);
+    const Vector3 across(0.0, r[1], r[2]);
+    const double push = std::exchange(along[0], 0.0);
+    moment += push * (frame(k) * across) * frame(k).col(0).transpose() +
+              (frame(k) * r) * (frame(k) * along).transpose();
   }
   response.shift_on_a = (-0.5 * deformation_a_.levers(ya) * moment).reshaped();
   response.shift_on_b = (-0.5 * deformation_b_.levers(yb) * moment).reshaped();
@@ -182,53 +190,47 @@ PairTangent PairRows::tangent(const PairResponse& response) const {
   for (std::size_t k = 0; k < response.means.size(); ++k) {
     if (!response.means[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
   }
-  const auto gather = [&](const Eigen::MatrixXd& rows, bool times_tangent) {
-    Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(active.size()), rows.cols());
-    for (std::size_t n = 0; n < active.size(); ++n) {
-      const Eigen::Index k = active[n];
-      const auto target = static_cast<Eigen::Index>(3 * n);
-      if (times_tangent) {
-        result.middleRows<3>(target).noalias() =
-            response.means[static_cast<std::size_t>(k)].tangent * rows.middleRows<3>(3 * k);
-      } else {
-        result.middleRows<3>(target) = rows.middleRows<3>(3 * k);
-      }
-    }
-    return result;
-  };
+  PointStiffnesses stiffnesses(9, static_cast<Eigen::Index>(active.size()));
+  for (std::size_t n = 0; n < active.size(); ++n) {
+    const auto of_point = frame(active[n]);
+    const Eigen::Matrix3d along_axes =
+        of_point * response.means[static_cast<std::size_t>(active[n])].tangent * of_point.transpose();
+    stiffnesses.col(static_cast<Eigen::Index>(n)) = along_axes.reshaped();
+  }
+  const bool all = static_cast<Eigen::Index>(active.size()) == count_;
+  const BlockRows some_a = all || a_.fixed() ? BlockRows() : a_.at_points(active);
+  const BlockRows some_b = all || b_.fixed() ? BlockRows() : b_.at_points(active);
+  const BlockRows& of_a = all ? a_ : some_a;
+  const BlockRows& of_b = all ? b_ : some_b;
   PairTangent tangent;
-  Eigen::MatrixXd scaled_b;
-  if (rows_b_.cols() > 0) {
-    scaled_b = gather(rows_b_, true);
-    tangent.bb = gather(rows_b_, false).transpose() * scaled_b;
-  }
-  if (rows_a_.cols() > 0) {
-    const Eigen::MatrixXd plain_a = gather(rows_a_, false);
-    tangent.aa = plain_a.transpose() * gather(rows_a_, true);
-    if (rows_b_.cols() > 0) tangent.ab = -(plain_a.transpose() * scaled_b);
-  }
+  if (!a_.fixed()) tangent.aa = of_a.tangent(stiffnesses, of_a);
+  if (!b_.fixed()) tangent.bb = of_b.tangent(stiffnesses, of_b);
+  if (!a_.fixed() && !b_.fixed()) tangent.ab = -of_a.tangent(stiffnesses, of_b);
   return tangent;
 }
 
 void PairRows::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da,
                             const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
                             Eigen::Ref<Eigen::VectorXd> to_b) const {
-  for (Eigen::Index k = 0; k < couplings.cols(); ++k) {
-    if (couplings.col(k).isZero(0.0)) continue;
-    double opening = 0.0;
-    if (da.size() > 0) opening += rows_a_.row(3 * k).dot(da);
-    if (db.size() > 0) opening -= rows_b_.row(3 * k).dot(db);
-    const Eigen::Vector2d force = opening * couplings.col(k);
-    if (da.size() > 0) to_a += rows_a_.middleRows<2>(3 * k + 1).transpose() * force;
-    if (db.size() > 0) to_b -= rows_b_.middleRows<2>(3 * k + 1).transpose() * force;
+  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count_);
+  if (da.size() > 0) a_.add_motion(da, 1.0, moved);
+  if (db.size() > 0) b_.add_motion(db, -1.0, moved);
+  for (Eigen::Index k = 0; k < count_; ++k) {
+    const double opening = frame(k).col(0).dot(moved.col(k));
+    moved.col(k) = opening * (frame(k).rightCols<2>() * couplings.col(k));
   }
+  if (da.size() > 0) to_a += a_.force(moved);
+  if (db.size() > 0) to_b -= b_.force(moved);
 }
 
 double PairRows::mobility(Eigen::Index first, Eigen::Index count, double inertia_a, double inertia_b) const {
-  const auto part = [&](const Eigen::MatrixXd& rows, double inertia) {
-    return rows.cols() > 0 ? rows.middleRows(first, count).squaredNorm() / inertia : 0.0;
-  };
-  return (part(rows_a_, inertia_a) + part(rows_b_, inertia_b)) / static_cast<double>(count);
+  double sum = 0.0;
+  for (Eigen::Index row = first; row < first + count; ++row) {
+    const Vector3 direction = frames_.col(row);
+    if (!a_.fixed()) sum += a_.squared_row(row / 3, direction) / inertia_a;
+    if (!b_.fixed()) sum += b_.squared_row(row / 3, direction) / inertia_b;
+  }
+  return sum / static_cast<double>(count);
 }
 
 }  // namespace ashlar

@@ -9,6 +9,7 @@
 #include "mechanics/contact/contact_points.hpp"
 #include "mechanics/contact/joint_law.hpp"
 #include "mechanics/contact/tie.hpp"
+#include "solver/contact/block_rows.hpp"
 
 namespace ashlar {
 
@@ -92,9 +93,9 @@ class PairRows {
 
   /// Sets the forces on the unknowns of both blocks. @param forces (3 #points), N
   void set_forces(const Eigen::VectorXd& forces, PairResponse& response) const;
-  /// Sets what shifts forces to common points, of free blocks.
-  void set_shifts(const std::vector<ContactPoint>& points, const Eigen::VectorXd& ya,
-                  const Eigen::VectorXd& yb, const Eigen::VectorXd& forces, PairResponse& response) const;
+  /// Sets what shifts forces to common points, of free blocks. @param motion at ya and yb
+  void set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
+                  const Eigen::VectorXd& forces, PairResponse& response) const;
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const;
   /// Adds to the forces of a and b what couplings of shear forces to gaps make of changes of the unknowns: the part of
@@ -115,11 +116,18 @@ class PairRows {
   void act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b,
               std::vector<ContactPoint>& points);
 
-  /// (3 #points, unknowns): normal, tangent 1, tangent 2 of each point; empty if fixed
-  Eigen::MatrixXd rows_a_;
-  Eigen::MatrixXd rows_b_;
-  double longest_a_;  ///< norm of the longest row
-  double longest_b_;
+  /// Norm of the longest row of a block.
+  [[nodiscard]] double longest_row(const BlockRows& rows) const;
+  /// Normal, tangent 1 and tangent 2 of a point, as columns.
+  [[nodiscard]] auto frame(Eigen::Index point) const { return frames_.middleCols<3>(3 * point); }
+  /// Forces along normals and tangents as forces along x, y, z. @param forces (3 #points). @return (3, #points)
+  [[nodiscard]] Eigen::Matrix3Xd along_axes(const Eigen::VectorXd& forces) const;
+
+  BlockRows a_;
+  BlockRows b_;
+  Eigen::Matrix3Xd frames_;  ///< (3, 3 #points)
+  double longest_a_ = 0.0;   ///< norm of the longest row
+  double longest_b_ = 0.0;
   Eigen::Matrix3Xd prescribed_;  ///< change of both by supports that move; empty: none
   Eigen::Index count_;           ///< of points
   const Tie* tie_;

@@ -121,9 +121,15 @@ IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep
 IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
                           const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                           const SimulationSettings& settings, IslandSolvers& solvers) {
+  return solve_island(island, bodies, pairs, scheme, settings,
+                      solver_of(island, bodies, pairs, SystemRole::step, solvers));
+}
+
+IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                          const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                          const SimulationSettings& settings, IslandSolvers::Entry& solver) {
   IslandResult result;
-  IslandProblem problem(island, bodies, pairs, scheme, settings,
-                        solver_of(island, bodies, pairs, SystemRole::step, solvers));
+  IslandProblem problem(island, bodies, pairs, scheme, settings, solver);
   iterate_open_close(problem, settings, result);
   return result;
 }

@@ -98,5 +98,9 @@ enum class SystemRole { step, stop };
 [[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
                                         const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                                         const SimulationSettings& settings, IslandSolvers& solvers);
+/// The same with its solver at hand: islands may be solved at the same time.
+[[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
+                                        const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
+                                        const SimulationSettings& settings, IslandSolvers::Entry& solver);
 
 }  // namespace ashlar

@@ -1,11 +1,13 @@
 #include "solver/step/island_equations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "geometry/index.hpp"
 #include "solver/linear/gmres.hpp"
+#include "solver/parallel_for.hpp"
 
 namespace ashlar {
 
@@ -15,6 +17,11 @@ IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies
     : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme), solver_(solver) {
   for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
   for (const int pair : island.pairs) laws_.push_back(pairs[at(pair)].laws());
+}
+
+int IslandProblem::threads() const {
+  constexpr std::size_t worth_it = 32;  // pairs: less work than it takes to share it out
+  return pairs() < worth_it ? 1 : settings_.threads;
 }
 
 int IslandProblem::place(int block) const {
@@ -44,15 +51,15 @@ Eigen::MatrixX3d IslandProblem::taken_at(const BodyStep& body) const {
 }
 
 void IslandProblem::respond() {
-  for (const int index : island_.bodies) {
-    BodyStep& body = bodies_[at(index)];
+  parallel_for(threads(), island_.bodies.size(), [&](std::size_t k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
     body.elastic = body.model->elastic(taken_at(body));
-  }
-  responses_.clear();
-  for (std::size_t k = 0; k < pairs(); ++k) {
-    responses_.push_back(pair(k).respond(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change,
-                                         scheme_.mean_contacts, laws_[k]));
-  }
+  });
+  responses_.assign(pairs(), {});
+  parallel_for(threads(), pairs(), [&](std::size_t k) {
+    responses_[k] = pair(k).respond(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change,
+                                    scheme_.mean_contacts, laws_[k]);
+  });
 }
 
 Balance IslandProblem::balance() const {
@@ -75,15 +82,19 @@ Balance IslandProblem::balance() const {
     add(place, -scheme_.force_weight * body.model->space().restrict(body.elastic.force));
     add(place, -density * scheme_.inertia * (body.change - body.free_change));
   }
+  std::vector<std::array<double, 2>> errors(pairs());
+  parallel_for(threads(), pairs(), [&](std::size_t k) {
+    const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
+    const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
+    errors[k] = {pair(k).force_rounding(ya, yb, laws_[k]),
+                 pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k])};
+  });
   for (std::size_t k = 0; k < pairs(); ++k) {
     const int a = place(pair(k).a());
     const int b = place(pair(k).b());
     if (a >= 0) add(a, responses_[k].total_on_a());
     if (b >= 0) add(b, responses_[k].total_on_b());
-    const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
-    const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
-    const double rounding = pair(k).force_rounding(ya, yb, laws_[k]);
-    const double doubt = pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k]);
+    const auto& [rounding, doubt] = errors[k];
     for (const int body : {a, b}) {
       if (body < 0) continue;
       contact_rounding[at(body)] += rounding;
@@ -142,8 +153,10 @@ void IslandProblem::assemble(bool positive) {
     }
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
   }
+  std::vector<PairTangent> tangents(pairs());
+  parallel_for(threads(), pairs(), [&](std::size_t k) { tangents[k] = pair(k).tangent(responses_[k]); });
   for (std::size_t k = 0; k < pairs(); ++k) {
-    const PairTangent tangent = pair(k).tangent(responses_[k]);
+    const PairTangent& tangent = tangents[k];
     const int a = place(pair(k).a());
     const int b = place(pair(k).b());
     if (a >= 0) matrix.add_diagonal(a, tangent.aa);

@@ -82,6 +82,8 @@ class IslandProblem {
   void hand_over(IslandResult& result);
 
  private:
+  /// That work over pairs is shared out to; what is found does not depend on it.
+  [[nodiscard]] int threads() const;
   [[nodiscard]] int place(int block) const;
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   void assemble(bool positive);

@@ -9,7 +9,7 @@
 #include "mechanics/contact/contact_master.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
 #include "solver/contact/energy_bounds.hpp"
-#include "solver/contact/surface_continuation.hpp"
+#include "solver/parallel_for.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/step/step_problem.hpp"
 #include "solver/stopwatch.hpp"
@@ -120,6 +120,43 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   return found;
 }
 
+std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, const RunState& state,
+                                                 const FoundContacts& found, JointLaw law, PairUse use,
+                                                 const CoveredFaces& covered) const {
+  const auto& [blocks, contacts] = found;
+  const auto [a, b] = blocks;
+  const ContactBody body_a = body_at_start(system, state, a, &finder_.placed(a));
+  const ContactBody body_b = body_at_start(system, state, b, &finder_.placed(b));
+  const PairHistory& known = history_of(state.pairs, blocks);
+  const SimulationSettings& settings = system.settings();
+  const bool goes_on = use == PairUse::motion && state.has_begun();
+  law.augmented = settings.augmented && !law.gives_way;
+  const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented};
+  const std::vector<bool> masters =
+      first_is_master(body_a, body_b, contacts.overlaps, [&covered, a = a, b = b](const RimPlace& rim) {
+        return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
+      });
+  auto [points, cuts] =
+      contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
+  // Faces that share no area to the last bit are found, but have no points.
+  if (points.empty()) return std::nullopt;
+  auto memory = known.memory.recall(
+      points, state.has_begun() ? -std::numeric_limits<double>::infinity() : settings.contact_distance,
+      use == PairUse::statics && settings.area_springs);
+  law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
+  std::vector<Vector3> moved;
+  if (use == PairUse::statics && !state.statics.level_start.empty()) {
+    moved = moved_in_level(system, state, blocks, points);
+    if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
+  }
+  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory),
+                   std::move(cuts));
+  if (goes_on && law.augmented) pair.hold_where_found(known.taken);
+  if (!moved.empty()) pair.count_slip(moved);
+  if (use == PairUse::statics && state.statics.holds_bonds) pair.hold_bonds();
+  return pair;
+}
+
 std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState& state,
                                              const std::vector<FoundContacts>& found, PairUse use) const {
   const Stopwatch watch(state.log.seconds.contact_points);
@@ -129,36 +166,16 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   const CoveredFaces covered(
       found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
       settings.contact_distance);
-  for (const auto& [blocks, contacts] : found) {
-    const auto [a, b] = blocks;
-    const ContactBody body_a = body_at_start(system, state, a, &finder_.placed(a));
-    const ContactBody body_b = body_at_start(system, state, b, &finder_.placed(b));
-    const PairHistory& known = history_of(state.pairs, blocks);
-    JointLaw law = system.law(a, b);
-    law.augmented = settings.augmented && !law.gives_way;
-    const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented};
-    const std::vector<bool> masters =
-        first_is_master(body_a, body_b, contacts.overlaps, [&covered, a = a, b = b](const RimPlace& rim) {
-          return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
-        });
-    auto [points, cuts] =
-        contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
-    state.log.counts.contact_points += points.size();
-    // Faces that share no area to the last bit are found, but have no points.
-    if (points.empty()) continue;
-    auto memory = known.memory.recall(
-        points, state.has_begun() ? -std::numeric_limits<double>::infinity() : settings.contact_distance,
-        use == PairUse::statics && settings.area_springs);
-    law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
-    std::vector<Vector3> moved;
-    if (use == PairUse::statics && !state.statics.level_start.empty()) {
-      moved = moved_in_level(system, state, blocks, points);
-      if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
-    }
-    pairs.emplace_back(PairBodies{a, b, body_a, body_b}, law, points, std::move(memory), std::move(cuts));
-    if (goes_on && law.augmented) pairs.back().hold_where_found(known.taken);
-    if (!moved.empty()) pairs.back().count_slip(moved);
-    if (use == PairUse::statics && state.statics.holds_bonds) pairs.back().hold_bonds();
+  // Laws are the caller's, who need not expect several threads.
+  std::vector<JointLaw> laws;
+  for (const FoundContacts& pair : found) laws.push_back(system.law(pair.blocks[0], pair.blocks[1]));
+  std::vector<std::optional<ContactPair>> made(found.size());
+  parallel_for(settings.threads, found.size(),
+               [&](std::size_t n) { made[n] = pair_of(system, state, found[n], laws[n], use, covered); });
+  for (std::optional<ContactPair>& pair : made) {
+    if (!pair) continue;
+    state.log.counts.contact_points += pair->points().size();
+    pairs.push_back(std::move(*pair));
   }
   if (goes_on) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, state.pairs, system.moving());

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/contact_pair.hpp"
 #include "solver/contact/internal_edges.hpp"
+#include "solver/contact/surface_continuation.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
 
@@ -45,6 +47,10 @@ class StepContacts {
   [[nodiscard]] ContactFinder& finder() { return finder_; }
 
  private:
+  /// One pair of a list; none if its contacts have no points.
+  [[nodiscard]] std::optional<ContactPair> pair_of(const BlockSystem& system, const RunState& state,
+                                                   const FoundContacts& found, JointLaw law, PairUse use,
+                                                   const CoveredFaces& covered) const;
   /// By how much blocks have given way, at the present state.
   [[nodiscard]] static GivenWay given_way(const BlockSystem& system, const RunState& state);
   /// Which ways out count among some contacts. All must outlive the answer.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/parallel_for.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -32,6 +33,30 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
   return bodies;
 }
 
+/// Solves all islands, also where one does not settle: what is done does not depend on the number of threads.
+std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& scheme,
+                                        const SimulationSettings& settings, FactorCache& factors) {
+  std::vector<IslandResult> results(problem.islands.size());
+  std::vector<std::pair<std::size_t, IslandSolvers::Entry*>> left;
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    const Island& island = problem.islands[k];
+    std::optional<IslandResult> lone;
+    if (island.bodies.size() == 1 && island.pairs.empty())
+      lone = solve_lone_body(problem.bodies[at(island.bodies[0])], scheme, settings, factors.lone);
+    if (lone) {
+      results[k] = std::move(*lone);
+    } else {
+      left.emplace_back(k,
+                        &solver_of(island, problem.bodies, problem.pairs, SystemRole::step, factors.islands));
+    }
+  }
+  parallel_for(settings.threads, left.size(), [&](std::size_t n) {
+    const auto& [k, solver] = left[n];
+    results[k] = solve_island(problem.islands[k], problem.bodies, problem.pairs, scheme, settings, *solver);
+  });
+  return results;
+}
+
 }  // namespace
 
 IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme, FactorCache& factors,
@@ -52,21 +77,16 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
                    system.blocks()[at(pair.b())], problem.bodies[at(pair.b())].prescribed);
     if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
   }
+  problem.results = solve_islands(problem, scheme, settings, factors);
   SimulationCounts& counts = state.log.counts;
-  for (const Island& island : problem.islands) {
-    std::optional<IslandResult> lone;
-    if (island.bodies.size() == 1 && island.pairs.empty())
-      lone = solve_lone_body(problem.bodies[at(island.bodies[0])], scheme, settings, factors.lone);
-    problem.results.push_back(
-        lone ? std::move(*lone)
-             : solve_island(island, problem.bodies, problem.pairs, scheme, settings, factors.islands));
-    IslandResult& result = problem.results.back();
+  IslandStatus status = IslandStatus::settled;
+  for (IslandResult& result : problem.results) {
     swap_followed(result);
     counts.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
     counts.open_close_fallbacks += static_cast<std::uint64_t>(result.fallbacks);
-    if (result.status != IslandStatus::settled) return result.status;
+    if (status == IslandStatus::settled) status = result.status;
   }
-  return IslandStatus::settled;
+  return status;
 }
 
 Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,

@@ -17,6 +17,14 @@ TEST(NamePattern, KnowsTheGlobsOfTheShell) {
   EXPECT_FALSE(pattern_matches("row[1-3]", "row4"));
 }
 
+TEST(NamePattern, PatternOfANameMatchesNoOther) {
+  EXPECT_EQ(pattern_of("rock.1"), "rock.1");
+  for (const std::string name : {"a*", "a?", "[ab]", "a\\"})
+    EXPECT_TRUE(pattern_matches(pattern_of(name), name));
+  EXPECT_FALSE(pattern_matches(pattern_of("a*"), "ab"));
+  EXPECT_FALSE(pattern_matches(pattern_of("[ab]"), "a"));
+}
+
 TEST(NamePattern, MatchesPairsInEitherOrder) {
   EXPECT_TRUE(pattern_matches_pair({"A", "B*"}, "A", "B2"));
   EXPECT_TRUE(pattern_matches_pair({"A", "B*"}, "B2", "A"));

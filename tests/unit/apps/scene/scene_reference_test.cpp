@@ -81,6 +81,32 @@ courses = 1
 voussoirs = 9
 [[assign]]
 blocks = ["arch.*"]
+[[cut]]
+name = "set"
+blocks = ["A"]
+dip = 0
+dip_direction = 0
+spacing = { mean = 1 }
+[[cut]]
+name = "inside a box"
+blocks = ["A"]
+solid = { box = { min = [0, 0, 0], max = [1, 1, 1] } }
+[[cut]]
+name = "inside a mesh"
+blocks = ["A"]
+solid = { mesh = { file = "b.off" } }
+[[cut]]
+name = "inside a hull"
+blocks = ["A"]
+solid = { hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] } }
+[[cut]]
+name = "inside a sphere"
+blocks = ["A"]
+solid = { sphere = { radius = 1 } }
+[[cut]]
+name = "cells"
+blocks = ["A"]
+voronoi = { count = 2 }
 [[measure]]
 name = "tip"
 block = "A"
@@ -112,6 +138,18 @@ mesh = {}
 hull = {}
 [[block]]
 sphere = {}
+[[cut]]
+spacing = {}
+[[cut]]
+solid = { box = {} }
+[[cut]]
+solid = { mesh = {} }
+[[cut]]
+solid = { hull = {} }
+[[cut]]
+solid = { sphere = {} }
+[[cut]]
+voronoi = {}
 )";
 
 struct Row {
@@ -167,7 +205,7 @@ std::set<std::string> known_keys() {
   std::string text = fmt::format("unknown = 0\n{}", least_scene);
   for (const std::string header :
        {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n", "[[block]]\n", "[[block.fix]]\n",
-        "[[block.load]]\n", "[[masonry]]\n", "[[assign]]\n", "[[measure]]\n", "[output]\n"})
+        "[[block.load]]\n", "[[masonry]]\n", "[[assign]]\n", "[[cut]]\n", "[[measure]]\n", "[output]\n"})
     for (std::size_t at = 0; (at = text.find(header, at)) != std::string::npos;)
       text.insert(at += header.size(), "unknown = 0\n");
   for (std::size_t at = 0; (at = text.find("{ ", at)) != std::string::npos; at += 2)
@@ -194,7 +232,7 @@ TEST(SceneReference, NamesEveryKeyAndNoOther) {
 
 // "block.fix.point" as --set takes it: "block.0.fix.0.point".
 std::string path_in(std::string path, int block) {
-  for (const std::string list : {"joint.", "material.", "measure.", "assign."})
+  for (const std::string list : {"joint.", "material.", "cut.", "measure.", "assign."})
     if (path.starts_with(list)) path.insert(list.size(), "0.");
   if (path.starts_with("block.")) path.insert(6, fmt::format("{}.", block));
   if (path.starts_with("masonry.")) path.insert(8, fmt::format("{}.", block));

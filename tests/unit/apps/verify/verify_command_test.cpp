@@ -61,6 +61,10 @@ TEST(VerifyCommand, ListsCasesOfRecord) {
                            "base-record",
                            "joint-wave",
                            "rocking-block",
+                           "cut-cube",
+                           "cut-conserves",
+                           "removable",
+                           "wedge-geometry",
                            "falling-block"})
     EXPECT_NE(answer.out.find(std::string(name) + " "), std::string::npos) << name;
 }

@@ -1,0 +1,58 @@
+// What blocks a scene has: their sizes, their neighbours, and what cuts parted them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/scene/cut_rock.hpp"
+#include "apps/scene/scene_loading.hpp"
+
+namespace ashlar {
+
+/// A face, or a part of one, that a block has in common with another.
+struct BlockBorder {
+  std::size_t block;               ///< the other one
+  double area;                     ///< m^2
+  std::optional<std::size_t> cut;  ///< that made it; none: the blocks were apart before
+  int plane;                       ///< of the block's CutSolid, and its side
+  bool below;
+};
+
+struct BlockEntry {
+  double volume;                     ///< m^3, the exact value rounded once
+  std::vector<BlockBorder> borders;  ///< by other block and cut
+  double surface = 0.0;              ///< m^2, of the whole block
+};
+
+/// The solid that a block is a piece of, made for blocks that were not cut.
+struct BlockSolid {
+  const CutSolid* solid;
+  int piece;
+};
+
+class BlockReport {
+ public:
+  /// Borders of pieces of one block are exact, each area rounded once. Those of other blocks are where faces
+  /// meet to within the overlap that a scene may have, with areas of rounded corners.
+  /// @param loaded outlives the report
+  explicit BlockReport(const LoadedScene& loaded);
+
+  [[nodiscard]] const std::vector<BlockEntry>& blocks() const { return blocks_; }
+  [[nodiscard]] BlockSolid solid(std::size_t block) const;
+  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  /// m^3, of all blocks; m^2, of the faces that each cut made, by index in Scene::cut.
+  [[nodiscard]] double volume() const;
+  [[nodiscard]] std::vector<double> areas_by_cut() const;
+
+ private:
+  void add_borders_of_pieces();
+  void add_contacts();
+  void add_contact(std::size_t a, std::size_t b);
+  void add_border(std::size_t block, std::size_t other, const Vector3& normal, double area);
+
+  const LoadedScene& loaded_;
+  std::vector<std::optional<CutSolid>> whole_;  ///< by block, those that are no pieces
+  std::vector<BlockEntry> blocks_;
+};
+
+}  // namespace ashlar

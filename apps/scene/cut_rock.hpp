@@ -1,0 +1,47 @@
+// What the cuts of a scene have made: which block is a piece of which, and which cut made the faces between
+// two.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/cutting/cut_solid.hpp"
+
+namespace ashlar {
+
+struct CutRock {
+  struct Origin {
+    std::size_t uncut;  ///< index into Scene::uncut
+    int piece = -1;     ///< of its CutSolid; -1: no cut parted the block
+  };
+  /// What a mark on a face stands for.
+  struct Mark {
+    std::size_t cut;  ///< index into Scene::cut
+    int plane;        ///< number of the plane among those of the cut; 0 if it has none
+  };
+  /// A plane of a cut that a block has a face in.
+  struct Side {
+    std::size_t uncut;
+    int plane;
+    bool below;
+    std::size_t cut;
+    friend auto operator<=>(const Side&, const Side&) = default;
+  };
+
+  std::vector<std::optional<CutSolid>> solids;  ///< by uncut block; none where no cut matched
+  std::vector<Origin> origin;                   ///< by block
+  std::vector<Mark> marks;                      ///< by mark
+  std::vector<int> glued;                       ///< by cut: pieces glued to others
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> common;  ///< see cuts_between
+  std::vector<std::vector<Side>> sides;                                            ///< by block, sorted
+
+  /// The cuts that made common faces of two blocks; where they have none, those on whose planes they have
+  /// faces on opposite sides: there they may come to touch. Increasing.
+  [[nodiscard]] std::vector<std::size_t> cuts_between(std::size_t a, std::size_t b) const;
+  /// Fills `common` and `sides` from the other members.
+  void find_borders();
+};
+
+}  // namespace ashlar

@@ -1,0 +1,55 @@
+// The state of a scene while it is cut: which block is in which pieces, and what they are called.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/scene/cut_rock.hpp"
+#include "apps/scene/diagnostics.hpp"
+#include "apps/scene/joint_planes.hpp"
+#include "apps/scene/scene.hpp"
+
+namespace ashlar {
+
+/// The name of each piece of a block, in order; see scene_cuts.hpp.
+[[nodiscard]] std::vector<std::string> piece_names(const std::string& block, const CutSolid& solid);
+
+class SceneCutter {
+ public:
+  /// @param solids placed, one per block; those without a solid are not cut
+  SceneCutter(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
+              Diagnostics& diagnostics);
+
+  /// Makes one cut, or reports why it cannot be made.
+  void make_cut(std::size_t index);
+  [[nodiscard]] CutRock&& take() { return std::move(rock_); }
+
+ private:
+  /// Pieces of one block that a cut is for.
+  struct Target {
+    std::size_t block;
+    std::vector<int> pieces;  ///< increasing
+    int newest;               ///< those with larger numbers come about in the cut
+  };
+
+  [[nodiscard]] std::vector<Target> targets_of(const SceneCut& cut);
+  [[nodiscard]] CutSolid& solid_of(std::size_t block);
+  /// Reports a cut that would make too many blocks. @return whether it may be made
+  bool check_number(std::size_t index, double added);
+  void cut_by_planes(std::size_t index, const Target& target, const PlaneRange& range);
+  [[nodiscard]] PlaneRange range_of(const SceneCut& cut, const Target& target);
+  void cut_by_set(std::size_t index, const std::vector<Target>& targets);
+  void cut_by_solid(std::size_t index, const std::vector<Target>& targets);
+  void cut_by_points(std::size_t index, const std::vector<Target>& targets);
+  int add_mark(std::size_t cut, int plane);
+  void error(std::size_t cut, const char* key, std::string message);
+
+  const Scene& scene_;
+  const std::vector<std::optional<Polyhedron>>& shapes_;
+  Diagnostics& diagnostics_;
+  CutRock rock_;
+};
+
+}  // namespace ashlar

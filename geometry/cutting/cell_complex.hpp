@@ -1,0 +1,104 @@
+// A solid as convex cells that fit together: any two of them meet in common faces, edges and points, and a
+// face between two cells is one object, not two that are equal. So what a plane does to a face, it does to
+// both cells, and neither gaps nor overlaps can come about. Only sources of this layer include this file.
+//
+// Every point is the common point of three planes that were given, never of what was computed before, so its
+// integers do not grow with the number of cuts. A plane that parts a cell needs no more than the side of each
+// of the cell's points. Where only one of two neighbours is parted, the face between them is divided all the
+// same: then faces of one cell may be coplanar, and points of a face's loop may lie in straight sides.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "geometry/convex/convex_shape.hpp"
+#include "geometry/cutting/exact_plane.hpp"
+
+namespace ashlar {
+
+struct ComplexPoint {
+  ExactPoint place;
+  std::vector<int> planes;  ///< some of those that it lies on, in the order in which that was found
+};
+
+struct ComplexEdge {
+  std::array<int, 2> points;
+  std::array<int, 2> planes;  ///< two planes whose common line carries it
+  std::vector<int> faces;     ///< around it
+};
+
+struct ComplexFace {
+  int plane = -1;
+  std::vector<int> points;        ///< convex loop, counter-clockwise as seen from above the plane
+  std::vector<int> edges;         ///< edge k joins points k and k + 1
+  std::array<int, 2> cells = {};  ///< the one below the plane and the one above; -1: none
+  int mark = -1;                  ///< of the cut that made it; -1: of the solid's surface
+};
+
+/// A face of a cell that is put together with others.
+struct CellFace {
+  int plane;
+  bool below;                    ///< the cell is below the plane
+  int mark;                      ///< as in ComplexFace
+  std::vector<ExactPoint> loop;  ///< corners, counter-clockwise as seen from above the plane
+};
+
+/// What cells that are put together have in common.
+struct CellSeams {
+  std::map<std::array<Integer, 4>, int> points;  ///< by coordinates
+  std::map<std::array<int, 2>, int> edges;       ///< by points, increasing
+  std::map<std::vector<int>, int> faces;         ///< by points, increasing
+};
+
+/// Points, edges, faces, cells and planes are numbered from 0 and keep their numbers.
+class CellComplex {
+ public:
+  CellComplex() = default;
+
+  int add_plane(const ExactPlane& plane);
+  /// A convex solid as a cell of its own. @pre not flat
+  int add_cell(const ConvexShape& shape);
+  /// A convex cell beside others that it fits to: common points, edges and faces are those that are there.
+  int add_cell(const std::vector<CellFace>& faces, CellSeams& seams);
+
+  [[nodiscard]] const ExactPlane& plane(int index) const { return planes_[index]; }
+  [[nodiscard]] const ComplexPoint& point(int index) const { return points_[index]; }
+  [[nodiscard]] const ComplexFace& face(int index) const { return faces_[index]; }
+  /// Of a cell.
+  [[nodiscard]] const std::vector<int>& faces(int cell) const { return cells_[cell]; }
+  [[nodiscard]] int cell_count() const { return static_cast<int>(cells_.size()); }
+  [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+  /// Each once, increasing.
+  [[nodiscard]] std::vector<int> points_of(int cell) const;
+
+  /// 1 above the plane, 0 on it, -1 below.
+  [[nodiscard]] int side(int plane, int point) const;
+  /// 1 or -1 if all of the cell is above or below, points on the plane left aside; 0 if the plane parts it.
+  [[nodiscard]] int side_of_cell(int plane, int cell) const;
+  /// Parts a cell: it keeps what is below. @pre the plane parts it. @param mark of the face between the two
+  /// @return the cell above
+  int part(int cell, int plane, int mark);
+  void set_mark(int face, int mark) { faces_[face].mark = mark; }
+  /// Takes a cell away; it keeps its number and has no faces.
+  void remove(int cell);
+
+ private:
+  int add_point(ComplexPoint point);
+  int add_edge(int from, int to, std::array<int, 2> planes);
+  int seam_point(const ExactPoint& place, int plane, CellSeams& seams);
+  int seam_edge(int from, int to, int plane, CellSeams& seams);
+  void divide_edge(int edge, int plane);
+  void divide_face(int face, int plane);
+  void add_section(int below, int above, int plane, int mark);
+  void exchange_cell(int face, int old_cell, int new_cell);
+
+  std::vector<ExactPlane> planes_;
+  mutable std::vector<ComplexPoint> points_;  ///< their planes grow as they are found
+  std::vector<ComplexEdge> edges_;
+  std::vector<ComplexFace> faces_;
+  std::vector<std::vector<int>> cells_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,22 @@
+// The joint pyramid of a block and the motion of a block in it; see key_block.hpp. Only sources of this layer
+// include this file.
+#pragma once
+
+#include <vector>
+
+#include "geometry/cutting/exact_plane.hpp"
+#include "geometry/cutting/key_block.hpp"
+
+namespace ashlar {
+
+using IntegerVector = std::array<Integer, 3>;
+
+/// Whether some s other than zero has n . s <= 0 for all n.
+[[nodiscard]] bool has_direction(const std::vector<IntegerVector>& normals);
+
+/// @param held outward normals of the faces that hold the block; KeyBlock::faces are indices into it.
+/// @param free those of its other faces. @param force any length but zero
+[[nodiscard]] KeyBlock find_key_block(const std::vector<IntegerVector>& held,
+                                      const std::vector<IntegerVector>& free, const Vector3& force);
+
+}  // namespace ashlar

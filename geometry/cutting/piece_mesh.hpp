@@ -1,0 +1,29 @@
+// Rounded views of parts of a cell complex: their surface as triangles, and how far a section is. Only
+// sources of this layer include this file.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "geometry/cutting/cell_complex.hpp"
+
+namespace ashlar {
+
+/// The surface that faces make up, outward: its corners, and the faces between them divided into triangles.
+/// Where an outline in one plane has holes or touches itself, the faces' own loops are divided instead, with
+/// points in straight sides. Points that round to one are one, and triangles that are left without area are
+/// left out.
+/// @param faces and whether the body is below the plane of each. @param merged (#points) see merge_points
+[[nodiscard]] TriangleMesh mesh_of_faces(const CellComplex& complex,
+                                         const std::vector<std::pair<int, bool>>& faces,
+                                         const std::vector<int>& merged);
+
+/// (#points): the first of the points that each is one with: those that round to within a resolution of each
+/// other in every coordinate, and what is connected by such. @param resolution m, >= 0
+[[nodiscard]] std::vector<int> merge_points(const CellComplex& complex, double resolution);
+
+/// m: from a point of a plane to what the plane cuts out of a cell, rounded; infinite if it parts it not.
+[[nodiscard]] double distance_from_section(const CellComplex& complex, int cell, const ExactPlane& plane,
+                                           const ExactPoint& from);
+
+}  // namespace ashlar

@@ -1,0 +1,26 @@
+// The surface of a solid as a cut: cells divided along the planes of its triangles until none of them passes
+// through the inner points of a cell. Then each cell is inside the solid or outside. A plane divides only
+// cells that a triangle of its own passes through. Only sources of this layer include this file.
+#pragma once
+
+#include <vector>
+
+#include "geometry/cutting/cell_complex.hpp"
+#include "geometry/triangle_mesh.hpp"
+
+namespace ashlar {
+
+struct CellSide {
+  int cell;
+  bool inside;
+};
+
+/// @param cells of the complex. @param surface bounds a solid. @param mark of the faces that come about.
+/// @param most_cells that the complex may have
+/// @return the given cells and what was parted off them, those that come from one next to each other
+/// @throws CutError if there were more cells
+[[nodiscard]] std::vector<CellSide> partition_by_surface(CellComplex& complex, const std::vector<int>& cells,
+                                                         const TriangleMesh& surface, int mark,
+                                                         int most_cells);
+
+}  // namespace ashlar

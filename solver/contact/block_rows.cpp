@@ -1,0 +1,84 @@
+#include "solver/contact/block_rows.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A product with the transpose. Of few columns the blocked product has more to prepare than to do.
+Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
+  constexpr Eigen::Index few = 12;
+  if (x.cols() <= few && y.cols() <= few) return x.transpose().lazyProduct(y);
+  return x.transpose() * y;
+}
+
+}  // namespace
+
+BlockRows::BlockRows(const AdmissibleSpace& space, const Eigen::MatrixXd& phi) : same_(space.free()) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto n = static_cast<std::size_t>(axis);
+    if (!same_ || axis == 0) {
+      values_[n] = space.component_values(phi, axis);
+      squares_[n] = values_[n].rowwise().squaredNorm();
+    }
+    starts_[n + 1] = starts_[n] + values(axis).cols();
+  }
+}
+
+void BlockRows::add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3Xd& motion) const {
+  if (fixed()) return;
+  for (int axis = 0; axis < 3; ++axis)
+    motion.row(axis).transpose() += sign * (values(axis) * y.segment(start(axis), count(axis)));
+}
+
+Eigen::VectorXd BlockRows::force(const Eigen::Matrix3Xd& forces) const {
+  Eigen::VectorXd result(unknowns());
+  for (int axis = 0; axis < 3; ++axis)
+    result.segment(start(axis), count(axis)).noalias() =
+        values(axis).transpose() * forces.row(axis).transpose();
+  return result;
+}
+
+Eigen::MatrixXd BlockRows::tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const {
+  Eigen::MatrixXd result(unknowns(), other.unknowns());
+  const bool itself = this == &other;
+  // t is symmetric.
+  const bool mirrored = itself || (same_ && other.same_);
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i <= (mirrored ? j : 2); ++i) {
+      const Eigen::MatrixXd scaled = stiffnesses.row(3 * j + i).transpose().asDiagonal() * other.values(j);
+      result.block(start(i), other.start(j), count(i), other.count(j)) =
+          transposed_product(values(i), scaled);
+    }
+  }
+  for (int j = 0; mirrored && j < 3; ++j) {
+    for (int i = j + 1; i < 3; ++i) {
+      const auto known = result.block(start(j), other.start(i), count(j), other.count(i));
+      auto part = result.block(start(i), other.start(j), count(i), other.count(j));
+      if (itself)
+        part = known.transpose();
+      else
+        part = known;
+    }
+  }
+  return result;
+}
+
+BlockRows BlockRows::at_points(const std::vector<Eigen::Index>& points) const {
+  BlockRows result;
+  result.same_ = same_;
+  result.starts_ = starts_;
+  for (std::size_t n = 0; n < (same_ ? 1 : 3); ++n) {
+    result.values_[n] = values_[n](points, Eigen::all);
+    result.squares_[n] = squares_[n](points);
+  }
+  return result;
+}
+
+double BlockRows::squared_row(Eigen::Index point, const Eigen::Vector3d& direction) const {
+  if (fixed()) return 0.0;
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += direction[axis] * direction[axis] * squares_[static_cast<std::size_t>(same_ ? 0 : axis)][point];
+  return sum;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,322 @@
+#include "geometry/cutting/cut_solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+
+#include "geometry/cutting/small_pieces.hpp"
+#include "geometry/solid/shapes.hpp"
+
+namespace ashlar {
+namespace {
+
+const CutSolid::Choice always = [](int) { return true; };
+
+Polyhedron cube(double size) {
+  return Polyhedron(make_box(Vector3::Zero(), Vector3::Constant(size)));
+}
+
+Polyhedron resolved(const TriangleMesh& mesh) {
+  double largest = 0.0;
+  for (const Vector3& point : mesh.points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  return Polyhedron(mesh, 0x1p-46 * largest);
+}
+
+double total_volume(const CutSolid& solid) {
+  double sum = 0.0;
+  for (const int piece : solid.pieces()) sum += solid.volume(piece);
+  return sum;
+}
+
+TEST(CutSolid, CubeByThreeSetsIsUnitCubes) {
+  CutSolid solid(cube(10.0));
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 1; k < 10; ++k)
+      solid.cut({Vector3::Unit(axis), Vector3::Zero(), static_cast<double>(k)}, axis, always);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 1000U);
+  int shared = 0;
+  for (const int piece : pieces) {
+    EXPECT_EQ(solid.volume(piece), 1.0);
+    const std::vector<PieceFace> faces = solid.faces(piece);
+    ASSERT_EQ(faces.size(), 6U);
+    for (const PieceFace& face : faces) {
+      EXPECT_EQ(solid.area(face), 1.0);
+      if (face.neighbour < 0) continue;
+      ++shared;
+      EXPECT_EQ(std::abs(solid.normal(face)[face.mark]), 1.0);
+    }
+    const Polyhedron block(solid.mesh(piece));
+    EXPECT_EQ(block.mesh().points.size(), 8U);
+    EXPECT_EQ(block.faces().size(), 6U);
+  }
+  // 9 planes of 100 faces for each axis, seen from both sides.
+  EXPECT_EQ(shared, 2 * 3 * 9 * 100);
+}
+
+TEST(CutSolid, PlanesThatTouchOrMissDoNothing) {
+  CutSolid solid(cube(1.0));
+  int asked = 0;
+  const auto ask = [&](int) {
+    ++asked;
+    return true;
+  };
+  // A face, an edge, a corner; and beside the cube.
+  solid.cut({Vector3::UnitX(), Vector3::Zero()}, 0, ask);
+  solid.cut({Vector3(1, 1, 0), Vector3::Zero()}, 0, ask);
+  solid.cut({Vector3(1, 2, 3), Vector3::Ones()}, 0, ask);
+  solid.cut({Vector3(1, 2, 3), Vector3::Constant(1.5)}, 0, ask);
+  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(solid.pieces().size(), 1U);
+  EXPECT_EQ(solid.volume(0), 1.0);
+}
+
+// The planes x = y, y = z and x = z share the diagonal: six tetrahedra of 1/6.
+TEST(CutSolid, ThreePlanesThroughOneLine) {
+  CutSolid solid(cube(1.0));
+  solid.cut({Vector3(1, -1, 0), Vector3::Zero()}, 0, always);
+  solid.cut({Vector3(0, 1, -1), Vector3::Zero()}, 1, always);
+  solid.cut({Vector3(1, 0, -1), Vector3::Zero()}, 2, always);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 6U);
+  for (const int piece : pieces) {
+    EXPECT_EQ(solid.volume(piece), 1.0 / 6.0);
+    const Polyhedron block(solid.mesh(piece));
+    EXPECT_EQ(block.corners().size(), 4U);
+  }
+}
+
+TEST(CutSolid, SlabsOfABillionthOfTheCube) {
+  CutSolid solid(cube(10.0));
+  const Vector3 normal = plane_normal(90.0, 90.0);
+  EXPECT_EQ(normal, Vector3::UnitX());
+  for (const double offset : {0.0, 1e-8, 2e-8})
+    solid.cut({normal, Vector3::Constant(5.0), offset}, 0, always);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 4U);
+  // The doubles 1e-8 and 2e-8 are exact offsets.
+  EXPECT_EQ(solid.volume(pieces[1]), 1e-8 * 100.0);
+  EXPECT_EQ(solid.volume(pieces[0]), 500.0);
+  EXPECT_NEAR(solid.volume(pieces[2]), 1e-6, 1e-21);
+  for (const int piece : pieces) EXPECT_EQ(resolved(solid.mesh(piece)).faces().size(), 6U);
+}
+
+Vector3 random_normal(std::mt19937_64& random) {
+  std::normal_distribution<double> part;
+  return Vector3(part(random), part(random), part(random)).normalized();
+}
+
+// Neighbours have the same corners on common faces, no two pieces overlap, and volumes add up.
+TEST(CutSolid, RandomSetsConserve) {
+  std::mt19937_64 random(5);
+  for (int round = 0; round < 5; ++round) {
+    CutSolid solid(cube(10.0));
+    for (int set = 0; set < 3 + round % 4; ++set) {
+      const Vector3 normal = random_normal(random);
+      for (int k = -3; k <= 3; ++k) solid.cut({normal, Vector3::Constant(5.0), 1.9 * k}, set, always);
+    }
+    EXPECT_NEAR(total_volume(solid), 1000.0, 1e-9);
+    std::map<std::pair<int, int>, double> areas;
+    double surface = 0.0;
+    for (const int piece : solid.pieces()) {
+      for (const PieceFace& face : solid.faces(piece)) {
+        if (face.neighbour < 0)
+          surface += solid.area(face);
+        else
+          areas[{piece, face.neighbour}] += solid.area(face);
+      }
+      const Polyhedron block = resolved(solid.mesh(piece));
+      EXPECT_TRUE(block.convex());
+      EXPECT_NEAR(block.volume(), solid.volume(piece), 1e-12 * 100.0);
+    }
+    EXPECT_NEAR(surface, 600.0, 1e-9);
+    for (const auto& [pair, area] : areas) EXPECT_EQ((areas.at({pair.second, pair.first})), area);
+  }
+}
+
+/// An L of three unit cubes: at the origin, beside it along x and along y.
+Polyhedron angle() {
+  TriangleMesh mesh;
+  for (const double z : {0.0, 1.0})
+    for (const auto& [x, y] :
+         std::initializer_list<std::pair<double, double>>{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})
+      mesh.points.emplace_back(x, y, z);
+  for (int k = 0; k < 6; ++k) {
+    const int next = (k + 1) % 6;
+    mesh.triangles.push_back({k, next, next + 6});
+    mesh.triangles.push_back({k, next + 6, k + 6});
+  }
+  for (const auto& [a, b, c] :
+       std::initializer_list<std::array<int, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
+    mesh.triangles.push_back({a, c, b});
+    mesh.triangles.push_back({a + 6, b + 6, c + 6});
+  }
+  return Polyhedron(std::move(mesh));
+}
+
+TEST(CutSolid, NonConvexSolidIsOnePieceUntilCut) {
+  CutSolid solid(angle());
+  ASSERT_EQ(solid.pieces().size(), 1U);
+  EXPECT_EQ(solid.volume(0), 3.0);
+  EXPECT_EQ(Polyhedron(solid.mesh(0)).faces().size(), 8U);
+  // x + y = 2 goes through the reflex corner and cuts the two arms apart from the corner: two triangles.
+  solid.cut({Vector3(1, 1, 0), Vector3(2, 0, 0)}, 0, always);
+  std::vector<double> volumes;
+  for (const int piece : solid.pieces()) volumes.push_back(solid.volume(piece));
+  EXPECT_EQ(volumes, (std::vector<double>{2.0, 0.5, 0.5}));
+}
+
+// A plane along a face inside the decomposition must part the arms there too.
+TEST(CutSolid, PlaneAlongAnInnerFaceParts) {
+  CutSolid solid(angle());
+  solid.cut({Vector3::UnitX(), Vector3(1, 0, 0)}, 3, always);
+  ASSERT_EQ(solid.pieces().size(), 2U);
+  for (const int piece : solid.pieces()) {
+    int shared = 0;
+    for (const PieceFace& face : solid.faces(piece)) {
+      if (face.neighbour < 0) continue;
+      ++shared;
+      EXPECT_EQ(face.mark, 3);
+      EXPECT_EQ(solid.area(face), 1.0);
+    }
+    EXPECT_EQ(shared, 1);
+  }
+}
+
+TEST(CutSolid, AlongABoxLeavesAHole) {
+  CutSolid solid(cube(4.0));
+  const Polyhedron tunnel(make_box({1, -1, 1}, {2, 5, 3}));
+  solid.cut_along(tunnel, 0, 1, always);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 2U);
+  double inside = 0.0, outside = 0.0;
+  for (const int piece : pieces) (solid.label(piece) == 1 ? inside : outside) += solid.volume(piece);
+  EXPECT_EQ(inside, 1.0 * 4.0 * 2.0);
+  EXPECT_EQ(outside, 64.0 - 8.0);
+  for (const int piece : pieces) {
+    const Polyhedron body(solid.mesh(piece));
+    EXPECT_EQ(body.volume(), solid.volume(piece));
+    EXPECT_EQ(body.faces().size(), solid.label(piece) == 1 ? 6U : 10U);
+  }
+  // A joint then cuts both.
+  solid.cut({Vector3::UnitZ(), Vector3(0, 0, 2)}, 1, always);
+  EXPECT_EQ(solid.pieces().size(), 4U);
+  EXPECT_EQ(total_volume(solid), 64.0);
+}
+
+TEST(CutSolid, ChoiceLeavesPiecesWholeAndFacesFit) {
+  CutSolid solid(cube(2.0));
+  solid.cut({Vector3::UnitX(), Vector3::Ones()}, 0, always);
+  const int left = solid.pieces().front();
+  solid.cut({Vector3::UnitZ(), Vector3::Ones()}, 1, [&](int piece) { return piece == left; });
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 3U);
+  const int right = pieces.back();
+  EXPECT_EQ(solid.volume(right), 4.0);
+  // The whole half has two neighbours of half its face each, and is still a box.
+  double shared = 0.0;
+  for (const PieceFace& face : solid.faces(right))
+    if (face.neighbour >= 0) shared += solid.area(face);
+  EXPECT_EQ(shared, 4.0);
+  EXPECT_EQ(solid.mesh(right).points.size(), 8U);
+}
+
+TEST(CutSolid, DiscMeetsWhatIsWithinItsRadius) {
+  CutSolid solid(cube(2.0));
+  const CutPlane plane{Vector3::UnitZ(), Vector3(3, 1, 1)};
+  EXPECT_EQ(solid.distance_in_plane(0, plane), 1.0);
+  EXPECT_EQ(solid.distance_in_plane(0, {Vector3::UnitZ(), Vector3::Ones()}), 0.0);
+  EXPECT_EQ(solid.distance_in_plane(0, {Vector3::UnitZ(), Vector3(1, 1, 5)}),
+            std::numeric_limits<double>::infinity());
+}
+
+// Eight points at the corners of a cube within the cube: its octants.
+TEST(CutSolid, VoronoiCellsOfALatticeAreCubes) {
+  CutSolid solid(cube(2.0));
+  std::vector<Vector3> points;
+  for (int k = 0; k < 8; ++k) points.emplace_back(0.5 + k % 2, 0.5 + k / 2 % 2, 0.5 + k / 4);
+  solid.cut_into_cells(points, 0);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 8U);
+  for (const int piece : pieces) {
+    EXPECT_EQ(solid.volume(piece), 1.0);
+    int neighbours = 0;
+    for (const PieceFace& face : solid.faces(piece)) neighbours += face.neighbour >= 0 ? 1 : 0;
+    EXPECT_EQ(neighbours, 3);
+  }
+  EXPECT_THROW(solid.cut_into_cells(points, 0), CutError);
+}
+
+TEST(CutSolid, VoronoiCellsHoldTheirPointsAndFit) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> place(0.0, 3.0);
+  std::vector<Vector3> points;
+  for (int k = 0; k < 60; ++k) {
+    Vector3 point;
+    for (double& x : point) x = place(random);
+    points.push_back(point);
+  }
+  CutSolid solid(cube(3.0));
+  solid.cut_into_cells(points, 0);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), points.size());
+  EXPECT_NEAR(total_volume(solid), 27.0, 1e-12);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    for (const PieceFace& face : solid.faces(pieces[k])) {
+      const Vector3 normal = solid.normal(face);
+      EXPECT_GT(solid.extent(pieces[k], {normal, points[k]}).second, 0.0);
+      EXPECT_TRUE(face.neighbour >= 0 || face.mark < 0) << "cut faces are shared";
+    }
+  }
+  solid.cut({plane_normal(40, 70), Vector3::Constant(1.5)}, 1, always);
+  EXPECT_NEAR(total_volume(solid), 27.0, 1e-12);
+  points.push_back(points.front());
+  CutSolid other(cube(3.0));
+  EXPECT_THROW(other.cut_into_cells(points, 0), CutError);
+}
+
+TEST(SmallPieces, AreGluedToTheNeighbourWithMostArea) {
+  CutSolid solid(cube(1.0));
+  solid.cut({Vector3::UnitX(), Vector3(0.75, 0, 0)}, 0, always);
+  solid.cut({Vector3::UnitZ(), Vector3(0, 0, 0.9)}, 1, always);
+  // 0.675, 0.075, 0.225, 0.025: the last goes to the third (0.25), not to the second (0.1).
+  EXPECT_EQ(glue_small_pieces(solid, 0.05, always), 1);
+  std::vector<double> volumes;
+  for (const int piece : solid.pieces()) volumes.push_back(solid.volume(piece));
+  ASSERT_EQ(volumes.size(), 3U);
+  EXPECT_NEAR(volumes[2], 0.25, 1e-15);
+  EXPECT_EQ(Polyhedron(solid.mesh(solid.pieces()[2])).mesh().points.size(), 8U) << "the two are a box again";
+  EXPECT_EQ(glue_small_pieces(solid, 10.0, always), 2) << "all become one";
+  EXPECT_EQ(solid.pieces().size(), 1U);
+  EXPECT_EQ(Polyhedron(solid.mesh(solid.pieces()[0])).faces().size(), 6U);
+}
+
+// Three upright sets at 60 degrees meet three at a time in lines, but for rounding: slivers of 1e-30 m^3
+// between prisms, and sliver faces. Once the slivers are glued, each prism is a solid at the resolution of
+// its coordinates.
+TEST(SmallPieces, HexagonalJointsLeavePrisms) {
+  CutSolid solid(cube(10.0));
+  for (int set = 0; set < 3; ++set)
+    for (int k = -4; k <= 4; ++k)
+      solid.cut({plane_normal(90, 60.0 * set), Vector3::Constant(5.0), 2.0 * k}, set, always);
+  const std::size_t cut = solid.pieces().size();
+  const int glued = glue_small_pieces(solid, 1e-9, always);
+  EXPECT_GT(glued, 10);
+  EXPECT_EQ(solid.pieces().size(), cut - static_cast<std::size_t>(glued));
+  constexpr double resolution = 0x1p-46 * 10.0;
+  double sum = 0.0;
+  for (const int piece : solid.pieces()) {
+    const Polyhedron body(solid.mesh(piece, resolution), resolution);
+    EXPECT_TRUE(body.convex());
+    EXPECT_NEAR(body.volume(), solid.volume(piece), 1e-12);
+    sum += solid.volume(piece);
+  }
+  EXPECT_NEAR(sum, 1000.0, 1e-10);
+}
+
+}  // namespace
+}  // namespace ashlar
