@@ -23,7 +23,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
     Preparation preparation(false, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
     if (loaded) built = build_simulation(*loaded, 1, diagnostics, &preparation);
-    if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+    if (built && is_static(loaded->scene.analysis))
       refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
   }
   diagnostics.print(err);

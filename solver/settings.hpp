@@ -169,6 +169,8 @@ struct SimulationSettings {
       1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 
+  /// What a point without pressure may be open by and still have its cohesion, m.
+  [[nodiscard]] double tearing_gap() const { return tearing_share * contact_distance; }
   /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew
   /// (notes/contact_at_the_end_of_a_step.md). Springs give way by more than two blocks may meet by unseen.
   [[nodiscard]] double followed_gap() const {

@@ -12,7 +12,9 @@
 #include <type_traits>
 
 #include "apps/run/initial_state.hpp"
+#include "apps/scene/cut_rock.hpp"
 #include "apps/scene/joint_table.hpp"
+#include "apps/scene/name_pattern.hpp"
 #include "apps/scene/support_history.hpp"
 #include "apps/scene/turned_supports.hpp"
 #include "solver/state/automatic.hpp"
@@ -26,7 +28,13 @@ BlockPlace place_of(const Where& where) {
   return std::get<Vector3>(where);
 }
 
-BlockDefinition define_block(const LoadedScene& loaded, std::size_t index) {
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const std::string& pattern) { return pattern_matches(pattern, name); });
+}
+
+/// @param load_factor of the block's loads
+BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, double load_factor) {
   const Scene& scene = loaded.scene;
   const SceneBlock& block = scene.block[index];
   BlockDefinition definition;
@@ -58,8 +66,8 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index) {
       history.times.push_back(point.time);
       history.values.push_back(point.factor);
     }
-    definition.loads.push_back(
-        {place_of(load.where), load.kind == SceneLoad::Kind::traction, load.vector, std::move(history)});
+    definition.loads.push_back({place_of(load.where), load.kind == SceneLoad::Kind::traction,
+                                load_factor * load.vector, std::move(history)});
   }
   return definition;
 }
@@ -126,22 +134,57 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   return settings;
 }
 
+/// The joints whose strength a search for a factor of safety divides.
+class ReducedJoints {
+ public:
+  explicit ReducedJoints(const Scene& scene) : rock_(scene.rock), cut_(scene.cut.size()) {
+    const std::vector<std::string>& patterns = scene.analysis.safety.of;
+    for (const SceneBlock& block : scene.block) block_.push_back(matches_any(patterns, block.name));
+    for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k] = matches_any(patterns, scene.cut[k].name);
+  }
+
+  [[nodiscard]] bool contains(std::size_t a, std::size_t b) const {
+    if (block_[a] || block_[b]) return true;
+    if (!rock_) return false;
+    const std::vector<std::size_t> cuts = rock_->cuts_between(a, b);
+    return std::any_of(cuts.begin(), cuts.end(), [&](std::size_t cut) { return cut_[cut]; });
+  }
+
+ private:
+  std::shared_ptr<const CutRock> rock_;
+  std::vector<bool> block_, cut_;  ///< (#blocks), (#cuts) whether they are named
+};
+
+/// The law with its strength divided by a factor.
+JointLaw reduced(JointLaw law, double factor) {
+  for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.residual->friction,
+                           &law.residual->cohesion, &law.residual->tensile_strength})
+    *strength /= factor;
+  return law;
+}
+
 /// Laws between blocks.
 class JointLaws {
  public:
   JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks,
-            std::shared_ptr<const JointTable> table, std::vector<AutomaticChoice>& choices)
+            std::shared_ptr<const JointTable> table, double strength_factor,
+            std::vector<AutomaticChoice>& choices)
       : area_(scene.contact.springs == SceneContact::Springs::area),
         multipliers_(has_multipliers(scene)),
         asked_for_(scene.contact.augmented.value_or(false)),
-        table_(std::move(table)) {
+        table_(std::move(table)),
+        strength_factor_(strength_factor),
+        reduced_(scene) {
     source_.reserve(blocks.size());
     for (const BlockModel& block : blocks) source_.push_back(stiffness_source(block));
     if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
   }
 
   JointLaw operator()(int a, int b) const {
-    return law(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    const auto first = static_cast<std::size_t>(a), second = static_cast<std::size_t>(b);
+    const JointLaw whole = law(first, second);
+    return strength_factor_ != 1.0 && reduced_.contains(first, second) ? reduced(whole, strength_factor_)
+                                                                       : whole;
   }
 
  private:
@@ -156,9 +199,15 @@ class JointLaws {
     result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
-    result.friction = std::tan(given.friction_angle * std::numbers::pi / 180.0);
+    const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
+    result.friction = tangent(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
+    // One entry may give the residual and a later one less strength.
+    result.residual = {
+        std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),
+        std::min(result.cohesion, given.cohesion_residual.value_or(0.0)),
+        std::min(result.tensile_strength, given.tensile_strength_residual.value_or(0.0))};
     return result;
   }
 
@@ -210,6 +259,8 @@ class JointLaws {
   bool asked_for_;  ///< for all joints, whatever stiffness they are given
   AutomaticRatios ratios_;
   std::shared_ptr<const JointTable> table_;
+  double strength_factor_;
+  ReducedJoints reduced_;
   std::vector<StiffnessSource> source_;  ///< (#blocks)
 };
 
@@ -291,7 +342,8 @@ void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& 
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
-                                                Diagnostics& diagnostics, Preparation* preparation) {
+                                                Diagnostics& diagnostics, Preparation* preparation,
+                                                const TrialFactors& factors) {
   const Scene& scene = loaded.scene;
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions;
@@ -301,7 +353,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     if (preparation != nullptr)
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
-      blocks.emplace_back(define_block(loaded, k), parts);
+      const double load_factor = matches_any(scene.analysis.capacity.of, block.name) ? factors.load : 1.0;
+      blocks.emplace_back(define_block(loaded, k, load_factor), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(
           scene.places.value(fmt::format("block.{}.order", k)),
@@ -320,7 +373,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   std::vector<AutomaticChoice> choices;
   const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
   const auto table = std::make_shared<const JointTable>(scene);
-  JointLaws laws(scene, blocks, table, choices);
+  JointLaws laws(scene, blocks, table, factors.strength, choices);
   const std::vector<TieRequest> ties = ties_of(scene, *table, blocks);
   if (!ties.empty() && scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
     diagnostics.error(scene.places.key("analysis.formulation"),

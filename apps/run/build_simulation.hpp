@@ -27,10 +27,18 @@ struct BuiltSimulation {
   std::vector<std::string> as_placed;
 };
 
+/// What a search for a factor makes of a scene (analysis.safety, analysis.capacity).
+struct TrialFactors {
+  double strength =
+      1.0;            ///< > 0; tan(phi), cohesion and tensile strength of the chosen joints are divided by it
+  double load = 1.0;  ///< > 0; loads of the chosen blocks are multiplied by it
+};
+
 /// @param threads >= 1
 /// @return nothing if a block cannot be built (named in diagnostics at its key)
 [[nodiscard]] std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
                                                               Diagnostics& diagnostics,
-                                                              Preparation* preparation = nullptr);
+                                                              Preparation* preparation = nullptr,
+                                                              const TrialFactors& factors = {});
 
 }  // namespace ashlar

@@ -13,6 +13,7 @@
 #include "apps/results/json_text.hpp"
 #include "apps/results/result_folder.hpp"
 #include "apps/run/checkpoint_schedule.hpp"
+#include "apps/run/factor_analysis.hpp"
 #include "apps/run/folder_claim.hpp"
 #include "apps/run/initial_state.hpp"
 #include "apps/run/interrupt_guard.hpp"
@@ -30,6 +31,7 @@ namespace ashlar {
 namespace {
 
 constexpr const char* checkpoint_name = "checkpoint";
+constexpr const char* trials_name = "factor_trials.json";
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -66,9 +68,12 @@ int exit_status_of(RunStatus status) {
 class Run {
  public:
   /// @param interval s between checkpoints; empty: growing, see CheckpointSchedule
+  /// @param bracket of a search for a factor, whose motion this run shows
   Run(const LoadedScene& loaded, BuiltSimulation built, const FolderClaim& claim,
-      const std::optional<RunCheckpoint>& earlier, std::optional<double> interval)
+      const std::optional<RunCheckpoint>& earlier, std::optional<double> interval,
+      std::optional<FactorBracket> bracket)
       : scene_(loaded.scene),
+        bracket_(std::move(bracket)),
         hash_(scene_hash(loaded)),
         built_(std::move(built)),
         claim_(claim),
@@ -86,11 +91,11 @@ class Run {
     RunStatus status = RunStatus::failed;
     try {
       save(start);
-      const bool is_static = scene_.analysis.type == SceneAnalysis::Type::statics;
-      status = is_static ? find_equilibrium(start, progress) : take_steps(start, progress);
+      status = is_static(scene_.analysis) ? find_equilibrium(start, progress) : take_steps(start, progress);
       // Before the last frame, which a run that goes on has only if it is due.
       save(start);
       if (status == RunStatus::completed) status = audited();
+      if (bracket_) status = answered(status);
       folder_.add_end(built_.simulation);
     } catch (const std::exception& error) {
       status = saved_after(error, start);
@@ -138,6 +143,14 @@ class Run {
     return RunStatus::failed;
   }
 
+  /// Of a search for a factor: what was found, once its motion has been shown.
+  RunStatus answered(RunStatus status) {
+    if (status == RunStatus::interrupted) return status;
+    const std::string motion = status == RunStatus::moving ? "; " + message_ : "";
+    message_ = describe(*bracket_, scene_.analysis) + motion;
+    return bracket_->resolved ? RunStatus::completed : RunStatus::not_converged;
+  }
+
   RunStatus find_equilibrium(double start, ProgressLine& progress) {
     Simulation& simulation = built_.simulation;
     CheckpointSchedule schedule(interval_, seconds_now());
@@ -145,7 +158,8 @@ class Run {
       const int before = simulation.steps();
       StaticStatus status = StaticStatus::balancing;
       try {
-        status = simulation.static_step(scene_.analysis.end_time);
+        status = bracket_ ? trial_step(simulation, scene_.analysis.end_time)
+                          : simulation.static_step(scene_.analysis.end_time);
       } catch (const std::exception& error) {
         return failed_in_step(error);
       }
@@ -177,7 +191,7 @@ class Run {
 
   RunStatus interrupted_here() {
     message_ = fmt::format("interrupted after step {}", built_.simulation.steps());
-    if (scene_.analysis.type == SceneAnalysis::Type::dynamic)
+    if (!is_static(scene_.analysis))
       message_ +=
           fmt::format(" at t = {:.9g} s of {:.9g} s", built_.simulation.time(), scene_.analysis.end_time);
     return RunStatus::interrupted;
@@ -225,8 +239,9 @@ class Run {
   RunStatus summarised(RunStatus status, double start) {
     const auto write = [&] {
       claim_.check();
-      const auto summary =
+      auto summary =
           run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
+      if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
       write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n",
                             Durability::process);
     };
@@ -251,6 +266,7 @@ class Run {
   }
 
   const Scene& scene_;
+  std::optional<FactorBracket> bracket_;
   std::uint64_t hash_;
   BuiltSimulation built_;
   const FolderClaim& claim_;
@@ -278,6 +294,33 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
     diagnostics.error({path.string()}, error.what());
     return std::nullopt;
   }
+}
+
+/// Whether a search for a factor was ended before its motion was shown.
+bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
+  return seeks_factor(scene.analysis) && std::filesystem::exists(folder / trials_name) &&
+         !std::filesystem::exists(folder / checkpoint_name);
+}
+
+/// Looks for the scene's factor. What earlier trials in the folder found counts.
+FactorBracket seek_factor(const LoadedScene& loaded, const RunOptions& options, const FolderClaim& claim,
+                          std::ostream& err) {
+  TrialFile known(claim.folder() / trials_name, scene_hash(loaded), options.resume);
+  const auto attempt = [&](double factor) {
+    std::optional<FactorTrial> trial = known.find(factor);
+    if (!trial) {
+      trial = run_trial(loaded, std::max(options.threads, 1), factor,
+                        [] { return !InterruptGuard::interrupted(); });
+      if (!trial) return trial;
+      claim.check();
+      known.add(*trial);
+    }
+    if (!options.quiet)
+      err << fmt::format("factor {:.5g}: {} ({} iterations)\n", factor, to_string(trial->outcome),
+                         trial->iterations);
+    return trial;
+  };
+  return find_factor(search_of(loaded.scene.analysis), attempt);
 }
 
 /// The folder for this run alone. @return null: refused, and told why
@@ -312,11 +355,12 @@ int run_command(const RunOptions& options, std::ostream& err) {
     Preparation preparation(options.quiet, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
     if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics, &preparation);
-    if (built && loaded->scene.analysis.type == SceneAnalysis::Type::statics)
+    if (built && is_static(loaded->scene.analysis))
       refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
   }
   // Where there is nothing to go on from, nothing is made.
-  if (built && options.resume && !std::filesystem::exists(folder / checkpoint_name))
+  const bool resumes = options.resume && !(loaded && is_in_search(folder, loaded->scene));
+  if (built && resumes && !std::filesystem::exists(folder / checkpoint_name))
     (void)find_checkpoint(folder, *loaded, diagnostics);
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
@@ -324,7 +368,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const std::unique_ptr<FolderClaim> claim = claim_folder(folder, options, err);
   if (!claim) return exit_status::bad_input;
   std::optional<RunCheckpoint> earlier;
-  if (options.resume) {
+  if (resumes) {
     Diagnostics faults;
     earlier = find_checkpoint(folder, *loaded, faults);
     faults.print(err);
@@ -346,7 +390,23 @@ int run_command(const RunOptions& options, std::ostream& err) {
   }
   std::optional<Run> started;
   try {
-    started.emplace(*loaded, std::move(*built), *claim, earlier, options.checkpoint);
+    std::optional<FactorBracket> bracket;
+    if (seeks_factor(loaded->scene.analysis)) {
+      bracket = seek_factor(*loaded, options, *claim, err);
+      if (bracket->interrupted) {
+        err << fmt::format(
+            "ashlar: interrupted after {} static analyses; they are in {}, the same command with "
+            "--resume goes on\n",
+            bracket->trials.size(), folder.string());
+        return exit_status::interrupted;
+      }
+      Diagnostics ignored;
+      const double shown = shown_factor(*bracket, search_of(loaded->scene.analysis));
+      built = build_simulation(*loaded, std::max(options.threads, 1), ignored, nullptr,
+                               trial_factors(loaded->scene.analysis, shown));
+      if (earlier) built->simulation.restore(earlier->simulation);
+    }
+    started.emplace(*loaded, std::move(*built), *claim, earlier, options.checkpoint, std::move(bracket));
   } catch (const std::exception& error) {
     // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
     err << "ashlar: error: " << error.what() << '\n';

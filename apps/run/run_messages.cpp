@@ -132,6 +132,7 @@ void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet
       if (!quiet) err << (message.empty() ? "equilibrium" : message) << '\n';
       break;
     case RunStatus::completed:
+      if (!quiet && !message.empty()) err << message << '\n';
       break;
   }
 }

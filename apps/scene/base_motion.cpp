@@ -56,7 +56,7 @@ Jump largest_jump(const SupportHistory& history, double step, double end_time) {
 }  // namespace
 
 void warn_of_jumping_supports(const Scene& scene, Diagnostics& diagnostics) {
-  if (scene.analysis.type == SceneAnalysis::Type::statics) return;
+  if (is_static(scene.analysis)) return;
   const double step = scene.analysis.time_step;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     for (std::size_t n = 0; n < scene.block[k].fix.size(); ++n) {

@@ -76,19 +76,31 @@ bool read_flip(TomlTableReader& table, SceneMesh::Flip& flip) {
   return !is_word || word == "auto";
 }
 
-SceneShape read_mesh_shape(TomlTableReader table) {
+/// Of a file whose surface is one solid as it is.
+SceneShape read_mesh_as_it_is(TomlTableReader table) {
   SceneMesh mesh;
   std::string file;
   table.require("file");
   const bool file_good = table.read_name("file", file);
   const bool scale_good = table.read_number("scale", mesh.scale, range::positive) || !table.given("scale");
-  const bool split_good = table.read_choice("split", mesh.split, split_names) || !table.given("split");
-  const bool weld_good = table.read_number("weld", mesh.weld, range::not_negative) || !table.given("weld");
-  const bool flip_good = read_flip(table, mesh.flip);
-  const bool repair_good = table.read_bool("repair", mesh.repair) || !table.given("repair");
   mesh.file = file;
-  if (!file_good || !scale_good || !split_good || !weld_good || !flip_good || !repair_good) return {};
+  if (!file_good || !scale_good) return {};
   return mesh;
+}
+
+/// Of a file of one or many stones, which may be mended.
+SceneShape read_stones(TomlTableReader table) {
+  SceneMesh mends;
+  const bool split_good = table.read_choice("split", mends.split, split_names) || !table.given("split");
+  const bool weld_good = table.read_number("weld", mends.weld, range::not_negative) || !table.given("weld");
+  const bool flip_good = read_flip(table, mends.flip);
+  const bool repair_good = table.read_bool("repair", mends.repair) || !table.given("repair");
+  SceneShape shape = read_mesh_as_it_is(std::move(table));
+  auto* mesh = std::get_if<SceneMesh>(&shape);
+  if (mesh == nullptr || !split_good || !weld_good || !flip_good || !repair_good) return {};
+  mends.file = std::move(mesh->file);
+  mends.scale = mesh->scale;
+  return mends;
 }
 
 SceneShape read_hull(TomlTableReader table) {
@@ -111,13 +123,15 @@ SceneShape read_sphere(TomlTableReader table) {
 
 }  // namespace
 
-SceneShape read_shape(TomlTableReader& table, const std::string& what) {
+SceneShape read_shape(TomlTableReader& table, const std::string& what, MeshKeys mesh) {
   struct Kind {
     const char* key;
     SceneShape (*read)(TomlTableReader);
   };
-  constexpr std::array<Kind, 4> kinds = {
-      {{"box", read_box}, {"mesh", read_mesh_shape}, {"hull", read_hull}, {"sphere", read_sphere}}};
+  const std::array<Kind, 4> kinds = {{{"box", read_box},
+                                      {"mesh", mesh == MeshKeys::mending ? read_stones : read_mesh_as_it_is},
+                                      {"hull", read_hull},
+                                      {"sphere", read_sphere}}};
   std::vector<std::string> given;
   SceneShape shape;
   for (const Kind& kind : kinds)
@@ -305,7 +319,8 @@ SceneBlock read_block(TomlTableReader& table) {
   table.read_bool("fixed", block.fixed);
   table.read_name("material", block.material);
   table.read_integer("order", block.order, 1, 12);
-  block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name));
+  block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name),
+                           MeshKeys::mending);
   if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);
   if (table.given("rotate") && !(block.rotate && block.rotate->axis.allFinite())) block.shape = {};
   if (!table.read_place("translate", block.translate) && table.given("translate")) block.shape = {};

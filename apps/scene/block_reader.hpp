@@ -17,7 +17,9 @@ namespace ashlar {
 [[nodiscard]] SceneLoad read_load(TomlTableReader& table);
 /// Reports supports, loads and velocities of a block that never moves.
 void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block);
+/// Keys of a mesh: `file` and `scale` only, or also those that divide and mend what is in the file.
+enum class MeshKeys { as_it_is, mending };
 /// The one of box, mesh, hull and sphere that a table gives. @param what the table in words
-[[nodiscard]] SceneShape read_shape(TomlTableReader& table, const std::string& what);
+[[nodiscard]] SceneShape read_shape(TomlTableReader& table, const std::string& what, MeshKeys mesh);
 
 }  // namespace ashlar

@@ -90,7 +90,7 @@ SceneCut read_cut(TomlTableReader& table) {
   read_planes(table, cut, !solid && !voronoi);
   if (solid) {
     cut.kind = SceneCut::Kind::solid;
-    if (auto shape = table.table("solid")) cut.solid = read_shape(*shape, "solid");
+    if (auto shape = table.table("solid")) cut.solid = read_shape(*shape, "solid", MeshKeys::as_it_is);
     refuse_plane_keys(table, "solid");
   }
   table.read_integer("seed", cut.seed, 0, largest_integer);

@@ -25,7 +25,7 @@ class IdleKeys {
 
 void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   const SceneAnalysis& analysis = scene.analysis;
-  if (analysis.type == SceneAnalysis::Type::statics) {
+  if (is_static(analysis)) {
     for (const char* key :
          {"analysis.integrator", "analysis.spectral_radius", "analysis.mass_damping", "analysis.sleeping"})
       keys.warn(key, "a static analysis has no motion in time");
@@ -34,19 +34,22 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   } else if (analysis.integrator != SceneAnalysis::Integrator::generalized_alpha) {
     keys.warn("analysis.spectral_radius", "only integrator = \"generalized-alpha\" has one");
   }
+  if (analysis.type != SceneAnalysis::Type::safety)
+    keys.warn("analysis.safety", "only type = \"factor-of-safety\" looks for one");
+  if (analysis.type != SceneAnalysis::Type::capacity)
+    keys.warn("analysis.capacity", "only type = \"capacity\" looks for one");
   if (!analysis.gravity_history.empty()) keys.warn("analysis.gravity", "gravity_history is in its place");
   if (!has_multipliers(scene)) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
 }
 
 void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
-  const bool is_static = scene.analysis.type == SceneAnalysis::Type::statics;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     const auto path = [&](const char* key) { return fmt::format("block.{}.{}", k, key); };
     if (block.fixed) keys.warn(path("order"), "a fixed block does not deform");
-    if (is_static && !block.velocity.isZero(0.0))
+    if (is_static(scene.analysis) && !block.velocity.isZero(0.0))
       keys.warn(path("velocity"), "a static analysis has no motion in time");
-    if (is_static && !block.angular_velocity.isZero(0.0))
+    if (is_static(scene.analysis) && !block.angular_velocity.isZero(0.0))
       keys.warn(path("angular_velocity"), "a static analysis has no motion in time");
   }
 }
@@ -60,7 +63,8 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
     };
     if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
     for (const char* key :
-         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength"})
+         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength",
+          "friction_angle_residual", "cohesion_residual", "tensile_strength_residual"})
       keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
   }
 }

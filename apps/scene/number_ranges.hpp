@@ -29,6 +29,7 @@ inline constexpr NumberRange positive = {0.0, no_limit, false, false, "a number 
 inline constexpr NumberRange positive_length = {0.0, largest_coordinate, false, true,
                                                 "a number > 0 and <= 1e150"};
 inline constexpr NumberRange not_negative = {0.0, no_limit, true, false, "a number >= 0"};
+inline constexpr NumberRange positive_to_one = {0.0, 1.0, false, true, "a number > 0 and <= 1"};
 inline constexpr NumberRange zero_to_one = {0.0, 1.0, true, true, "a number from 0 to 1"};
 inline constexpr NumberRange zero_to_below_half = {0.0, 0.5, true, false, "a number >= 0 and < 0.5"};
 inline constexpr NumberRange zero_to_45 = {0.0, 45.0, true, true, "a number of degrees from 0 to 45"};

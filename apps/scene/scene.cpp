@@ -12,6 +12,12 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   law.friction_angle = joint.friction_angle.value_or(law.friction_angle);
   law.cohesion = joint.cohesion.value_or(law.cohesion);
   law.tensile_strength = joint.tensile_strength.value_or(law.tensile_strength);
+  const auto replace = [](std::optional<double>& value, const std::optional<double>& given) {
+    if (given) value = given;
+  };
+  replace(law.friction_angle_residual, joint.friction_angle_residual);
+  replace(law.cohesion_residual, joint.cohesion_residual);
+  replace(law.tensile_strength_residual, joint.tensile_strength_residual);
   law.tied = joint.tied.value_or(law.tied);
 }
 
@@ -36,6 +42,10 @@ const char* history_key(const SceneFix& fix) {
   return "displacement_history";
 }
 
+bool is_static(const SceneAnalysis& analysis) {
+  return analysis.type != SceneAnalysis::Type::dynamic;
+}
+
 bool starts_from_statics(const Scene& scene) {
   return scene.analysis.type == SceneAnalysis::Type::dynamic &&
          scene.analysis.initial_state == SceneAnalysis::InitialState::statics;
@@ -50,7 +60,7 @@ bool has_multipliers(const Scene& scene) {
     });
   };
   using Stiffness = std::optional<std::optional<double>>;
-  if (scene.analysis.type == SceneAnalysis::Type::statics)
+  if (is_static(scene.analysis))
     return !given || any_joint([](const Stiffness& stiffness) { return stiffness && !*stiffness; });
   return starts_from_statics(scene) && !given &&
          !any_joint([](const Stiffness& stiffness) { return stiffness && *stiffness; });

@@ -40,8 +40,10 @@ struct SceneRecord {
 /// [analysis]
 struct SceneAnalysis {
   enum class Type {
-    dynamic,  ///< "dynamic": motion in time
-    statics,  ///< "static": equilibrium
+    dynamic,   ///< "dynamic": motion in time
+    statics,   ///< "static": equilibrium
+    safety,    ///< "factor-of-safety": static analyses with less and less strength
+    capacity,  ///< "capacity": static analyses with more and more load
   };
   enum class Integrator {
     dda,                   ///< "dda": Newmark beta 1/2, gamma 1
@@ -55,6 +57,15 @@ struct SceneAnalysis {
     statics,      ///< "static": a static analysis of all blocks comes first, contacts on
   };
   enum class Solver { automatic, cholmod, cg, dual };
+  /// safety = { joints, tolerance, lower, upper }, capacity = { blocks, tolerance, lower, upper }
+  struct FactorSearch {
+    /// Names or globs: of cuts, and of blocks on either side, whose joints lose strength; of blocks whose
+    /// loads grow.
+    std::vector<std::string> of = {"*"};
+    double tolerance = 0.01;  ///< > 0, at most 1: relative width of the bracket
+    double lower = 0.1;       ///< > 0
+    double upper = 10.0;      ///< > lower
+  };
   struct Gravity {
     double time = 0.0;                ///< s
     Vector3 value = Vector3::Zero();  ///< m/s^2
@@ -76,6 +87,8 @@ struct SceneAnalysis {
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
   bool sleeping = true;                ///< whether islands that have come to rest are held until woken
+  FactorSearch safety;                 ///< of type safety
+  FactorSearch capacity;               ///< of type capacity
   std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto
 };
 
@@ -86,7 +99,9 @@ struct SceneJointLaw {
   double friction_angle = 0.0;             ///< deg, 0 to less than 90
   double cohesion = 0.0;                   ///< Pa, >= 0
   double tensile_strength = 0.0;           ///< Pa, >= 0
-  bool tied = false;                       ///< bonded over the common face; a key of [[joint]] only
+  /// Of what has failed, or touches later; at most the values above. Empty: friction_angle, no cohesion, none
+  std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
+  bool tied = false;  ///< bonded over the common face; a key of [[joint]] only
 
   [[nodiscard]] bool gives_stiffness() const { return normal_stiffness || shear_stiffness; }
 };
@@ -121,6 +136,7 @@ struct SceneJoint {
   std::optional<double> friction_angle;
   std::optional<double> cohesion;
   std::optional<double> tensile_strength;
+  std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   std::optional<bool> tied;
 };
 
@@ -346,6 +362,9 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint);
 /// [[cut]]. Of many pairs, and of cuts, ask a JointTable.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
+
+/// Whether nothing moves in time.
+[[nodiscard]] bool is_static(const SceneAnalysis& analysis);
 
 /// Whether a static analysis comes before the first step of a motion in time.
 [[nodiscard]] bool starts_from_statics(const Scene& scene);

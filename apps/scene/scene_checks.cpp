@@ -10,12 +10,17 @@
 #include <string>
 
 #include "apps/scene/joint_table.hpp"
+#include "apps/scene/name_pattern.hpp"
 #include "apps/scene/nearest_name.hpp"
+#include "apps/scene/scene_names.hpp"
 #include "mechanics/material/poisson_limit.hpp"
 #include "mechanics/supports/face_selection.hpp"
 
 namespace ashlar {
 namespace {
+
+/// Of joints, with a residual value each.
+constexpr std::array strength_keys = {"friction_angle", "cohesion", "tensile_strength"};
 
 std::string entry_key(const char* table, std::size_t index, const char* key) {
   return fmt::format("{}.{}.{}", table, index, key);
@@ -118,6 +123,62 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
   }
 }
 
+/// A joint that failed bears no more than one that has not. @param path of the table that gave the last of both
+void check_residuals(const Scene& scene, const SceneJointLaw& law, const std::string& path,
+                     Diagnostics& diagnostics) {
+  const auto check = [&](const char* key, double strength, const std::optional<double>& residual,
+                         const char* unit) {
+    if (!residual || *residual <= strength) return;
+    const std::string name = fmt::format("{}_residual", key);
+    const bool given = scene.places.contains(fmt::format("{}.{}", path, name));
+    diagnostics.error(scene.places.value(fmt::format("{}.{}", path, given ? name : key)),
+                      fmt::format("{} is above {} ({} {}), at most {} {} is allowed", name, key, *residual,
+                                  unit, strength, unit));
+  };
+  check("friction_angle", law.friction_angle, law.friction_angle_residual, "degrees");
+  check("cohesion", law.cohesion, law.cohesion_residual, "Pa");
+  check("tensile_strength", law.tensile_strength, law.tensile_strength_residual, "Pa");
+}
+
+void check_residuals(const Scene& scene, Diagnostics& diagnostics) {
+  check_residuals(scene, scene.contact.law, "contact", diagnostics);
+  for (std::size_t i = 0; i < scene.joint.size(); ++i) {
+    const std::string path = fmt::format("joint.{}", i);
+    const bool given = std::any_of(strength_keys.begin(), strength_keys.end(), [&](const char* key) {
+      return scene.places.contains(fmt::format("{}.{}", path, key)) ||
+             scene.places.contains(fmt::format("{}.{}_residual", path, key));
+    });
+    if (!given) continue;
+    SceneJointLaw law = scene.contact.law;
+    override_law(law, scene.joint[i]);
+    check_residuals(scene, law, path, diagnostics);
+  }
+}
+
+/// What a search for a factor is of.
+void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
+  const bool of_joints = scene.analysis.type == SceneAnalysis::Type::safety;
+  if (!of_joints && scene.analysis.type != SceneAnalysis::Type::capacity) return;
+  std::vector<std::string> names;
+  for (const SceneBlock& block : scene.block)
+    if (of_joints || !block.load.empty()) names.push_back(block.name);
+  if (of_joints)
+    for (const SceneCut& cut : scene.cut) names.push_back(cut.name);
+  const std::string key = of_joints ? "analysis.safety.joints" : "analysis.capacity.blocks";
+  const char* needed =
+      of_joints ? "the name of a [[block]] or a [[cut]]" : "the name of a [[block]] with loads";
+  for (const std::string& pattern : (of_joints ? scene.analysis.safety : scene.analysis.capacity).of) {
+    if (std::any_of(names.begin(), names.end(),
+                    [&](const std::string& name) { return pattern_matches(pattern, name); }))
+      continue;
+    diagnostics.error(
+        scene.places.value(key),
+        fmt::format("search for a factor names no {} (\"{}\"), {}{} or a glob that matches one "
+                    "is needed",
+                    of_joints ? "joint" : "load", pattern, guess(pattern, names, "\""), needed));
+  }
+}
+
 // What the incremental formulation has no meaning for.
 void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
   if (scene.analysis.formulation != SceneAnalysis::Formulation::incremental) return;
@@ -125,8 +186,9 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
     diagnostics.error(scene.places.value(key),
                       what + ", leave it out or choose analysis.formulation = \"total\"");
   };
-  if (scene.analysis.type == SceneAnalysis::Type::statics)
-    refuse("analysis.type", "static analysis of incremental blocks (type = \"static\")");
+  if (is_static(scene.analysis))
+    refuse("analysis.type", fmt::format("static analysis of incremental blocks (type = \"{}\")",
+                                        name_of(analysis_type_names, scene.analysis.type)));
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::statics)
     refuse("analysis.initial_state", "static analysis of incremental blocks (initial_state = \"static\")");
   if (scene.contact.surface == SceneContact::Surface::curved && scene.places.contains("contact.surface"))
@@ -263,6 +325,8 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     check_known(scene, entry_key("measure", i, "block"), "block", scene.measure[i].block, blocks,
                 diagnostics);
   check_joints(scene, blocks, diagnostics);
+  check_residuals(scene, diagnostics);
+  check_factor_search(scene, diagnostics);
 }
 
 void check_cuts(const Scene& scene, Diagnostics& diagnostics) {

@@ -37,6 +37,10 @@ void add_gravity(Json& json, const SceneAnalysis& analysis) {
   }
 }
 
+Json to_json(const SceneAnalysis::FactorSearch& search, const char* of) {
+  return {{of, search.of}, {"tolerance", search.tolerance}, {"lower", search.lower}, {"upper", search.upper}};
+}
+
 Json to_json(const SceneAnalysis& analysis) {
   Json json = {{"type", name_of(analysis_type_names, analysis.type)},
                {"end_time", analysis.end_time},
@@ -48,9 +52,19 @@ Json to_json(const SceneAnalysis& analysis) {
   add_gravity(json, analysis);
   json["solver"] = name_of(solver_names, analysis.solver);
   json["mass_damping"] = analysis.mass_damping;
+  json["safety"] = to_json(analysis.safety, "joints");
+  json["capacity"] = to_json(analysis.capacity, "blocks");
   json["sleeping"] = analysis.sleeping;
   json["memory_limit"] = or_auto(analysis.memory_limit);
   return json;
+}
+
+/// @param law a SceneJointLaw or a SceneJoint
+template <class Law>
+void add_residuals(Json& json, const Law& law) {
+  if (law.friction_angle_residual) json["friction_angle_residual"] = *law.friction_angle_residual;
+  if (law.cohesion_residual) json["cohesion_residual"] = *law.cohesion_residual;
+  if (law.tensile_strength_residual) json["tensile_strength_residual"] = *law.tensile_strength_residual;
 }
 
 Json to_json(const SceneContact& contact, bool augmented) {
@@ -63,6 +77,7 @@ Json to_json(const SceneContact& contact, bool augmented) {
                {"tensile_strength", contact.law.tensile_strength},
                {"distance", or_auto(contact.distance)},
                {"angle", or_auto(contact.angle)}};
+  add_residuals(json, contact.law);
   if (contact.subdivisions)
     json["subdivisions"] = *contact.subdivisions;
   else
@@ -82,6 +97,7 @@ Json to_json(const SceneJoint& joint) {
   if (joint.friction_angle) json["friction_angle"] = *joint.friction_angle;
   if (joint.cohesion) json["cohesion"] = *joint.cohesion;
   if (joint.tensile_strength) json["tensile_strength"] = *joint.tensile_strength;
+  add_residuals(json, joint);
   if (joint.tied) json["tied"] = *joint.tied;
   return json;
 }

@@ -62,7 +62,7 @@ void check_speeds(const Scene& scene, std::size_t k, double size, Diagnostics& d
                                   "allowed",
                                   name, speed, unit, most, unit));
   };
-  if (scene.analysis.type == SceneAnalysis::Type::statics || !(scene.analysis.time_step > 0.0)) return;
+  if (is_static(scene.analysis) || !(scene.analysis.time_step > 0.0)) return;
   check("velocity", block.velocity, steps * size / scene.analysis.time_step, "m/s");
   check("angular_velocity", block.angular_velocity, steps / scene.analysis.time_step, "rad/s");
 }

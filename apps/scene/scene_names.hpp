@@ -11,8 +11,11 @@ namespace ashlar {
 template <typename Choice, std::size_t count>
 using ChoiceNames = std::array<std::pair<const char*, Choice>, count>;
 
-inline constexpr ChoiceNames<SceneAnalysis::Type, 2> analysis_type_names = {
-    {{"dynamic", SceneAnalysis::Type::dynamic}, {"static", SceneAnalysis::Type::statics}}};
+inline constexpr ChoiceNames<SceneAnalysis::Type, 4> analysis_type_names = {
+    {{"dynamic", SceneAnalysis::Type::dynamic},
+     {"static", SceneAnalysis::Type::statics},
+     {"factor-of-safety", SceneAnalysis::Type::safety},
+     {"capacity", SceneAnalysis::Type::capacity}}};
 
 inline constexpr ChoiceNames<SceneAnalysis::Integrator, 3> integrator_names = {
     {{"dda", SceneAnalysis::Integrator::dda},

@@ -26,6 +26,17 @@
 namespace ashlar {
 namespace {
 
+void read_factor_search(TomlTableReader table, const char* of, SceneAnalysis::FactorSearch& search) {
+  if (table.read_texts(of, search.of) && search.of.empty())
+    table.error_at_value(of, fmt::format("{} is empty (0 entries), names or globs are needed", of));
+  table.read_number("tolerance", search.tolerance, range::positive_to_one);
+  table.read_number("lower", search.lower, range::positive);
+  table.read_number("upper", search.upper, range::positive);
+  if (!(search.lower < search.upper))
+    table.error_at_key("upper", fmt::format("upper is not above lower ({}), more than {} is needed",
+                                            search.upper, search.lower));
+}
+
 void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("type", analysis.type, analysis_type_names);
   table.read_number("end_time", analysis.end_time, range::positive);
@@ -42,6 +53,8 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   }
   table.read_choice("solver", analysis.solver, solver_names);
   table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
+  read_factor_search(table.table_or_empty("safety"), "joints", analysis.safety);
+  read_factor_search(table.table_or_empty("capacity"), "blocks", analysis.capacity);
   table.read_bool("sleeping", analysis.sleeping);
   table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
 }
@@ -56,7 +69,7 @@ bool has_history(const SceneBlock& block) {
 // A static analysis of constant loads has no use for times.
 void complete_times(TomlTableReader& table, Scene& scene) {
   SceneAnalysis& analysis = scene.analysis;
-  const bool timeless = analysis.type == SceneAnalysis::Type::statics && analysis.gravity_history.empty() &&
+  const bool timeless = is_static(analysis) && analysis.gravity_history.empty() &&
                         std::none_of(scene.block.begin(), scene.block.end(), has_history);
   if (!timeless) {
     table.require("end_time");
@@ -67,6 +80,14 @@ void complete_times(TomlTableReader& table, Scene& scene) {
   if (!table.given("time_step")) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
 }
 
+/// @param law a SceneJointLaw or a SceneJoint
+template <class Law>
+void read_residuals(TomlTableReader& table, Law& law) {
+  table.read_number("friction_angle_residual", law.friction_angle_residual, range::zero_to_below_90);
+  table.read_number("cohesion_residual", law.cohesion_residual, range::not_negative);
+  table.read_number("tensile_strength_residual", law.tensile_strength_residual, range::not_negative);
+}
+
 void read_contact(TomlTableReader table, SceneContact& contact) {
   table.read_choice("springs", contact.springs, springs_names);
   table.read_choice("surface", contact.surface, surface_names);
@@ -75,6 +96,7 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   table.read_number("friction_angle", contact.law.friction_angle, range::zero_to_below_90);
   table.read_number("cohesion", contact.law.cohesion, range::not_negative);
   table.read_number("tensile_strength", contact.law.tensile_strength, range::not_negative);
+  read_residuals(table, contact.law);
   table.read_number_or_auto("distance", contact.distance, range::positive);
   table.read_number_or_auto("angle", contact.angle, range::zero_to_45);
   table.read_number_or_auto("chord_tolerance", contact.chord_tolerance, range::positive);
@@ -119,6 +141,7 @@ SceneJoint read_joint(TomlTableReader& table) {
   table.read_number("friction_angle", joint.friction_angle, range::zero_to_below_90);
   table.read_number("cohesion", joint.cohesion, range::not_negative);
   table.read_number("tensile_strength", joint.tensile_strength, range::not_negative);
+  read_residuals(table, joint);
   bool tied = false;
   if (table.read_bool("tied", tied)) joint.tied = tied;
   return joint;

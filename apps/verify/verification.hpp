@@ -63,6 +63,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> contact_spring_cases();
 /// Friction on slopes.
 [[nodiscard]] std::span<const VerificationCase> slope_cases();
+/// Factors of safety.
+[[nodiscard]] std::span<const VerificationCase> safety_cases();
 /// Stacks, columns and arches.
 [[nodiscard]] std::span<const VerificationCase> stack_cases();
 /// Solids that are not convex.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/verify/sliding_wedge.hpp"
 #include "apps/verify/verification_contacts.hpp"
 
 namespace ashlar {
@@ -103,76 +104,29 @@ std::vector<VerificationCheck> slide_or_topple(const Placement& placement) {
   return checks;
 }
 
-/// Outward normal of a plane that dips by an angle towards a direction (from the north, +y, to the east, +x).
-Vector3 plane_normal(double dip, double direction) {
-  return {std::sin(dip * degree) * std::sin(direction * degree),
-          std::sin(dip * degree) * std::cos(direction * degree), std::cos(dip * degree)};
+Simulation wedge_on(const SlidingWedge& wedge, double friction_angle, const SimulationSettings& settings,
+                    const Placement& placement) {
+  ContactScene scene(placement);
+  scene.settings = settings;
+  // Soft shear springs: stiff ones take hold across the line as it settles and jam it a little.
+  *scene.law = {2e10, 1e8, tangent_of(friction_angle), 0.0, 0.0, settings.area_springs};
+  wedge.add_to(scene, stiff_rock);
+  return scene.build();
 }
 
-/// A prism between two planes that slides along the line they meet in.
-struct Wedge {
-  Vector3 n1 = plane_normal(40, 130);
-  Vector3 n2 = plane_normal(60, 220);
-  Vector3 line;  ///< down the line of intersection
-  Vector3 d1;    ///< up plane 1, across the line
-  Vector3 d2;    ///< up plane 2
-  double grip;   ///< sum of normal forces over weight
-  double slip;   ///< driving force over weight
-
-  Wedge() {
-    line = n1.cross(n2).normalized();
-    if (line.z() > 0.0) line = -line;
-    d1 = n1.cross(line);
-    if (d1.dot(n2) < 0.0) d1 = -d1;
-    d2 = n2.cross(line);
-    if (d2.dot(n1) < 0.0) d2 = -d2;
-    // N1 n1 + N2 n2 carries what of the weight is across the line.
-    Eigen::Matrix3d directions;
-    directions << n1, n2, line;
-    const Vector3 parts = directions.inverse() * Vector3::UnitZ();
-    grip = parts[0] + parts[1];
-    slip = -parts[2];
-  }
-
-  [[nodiscard]] Simulation simulation(double friction_angle, const SimulationSettings& settings,
-                                      const Placement& placement) const {
-    ContactScene scene(placement);
-    scene.settings = settings;
-    // Soft shear springs: stiff ones take hold across the line as it settles and jam it a little.
-    *scene.law = {2e10, 1e8, tangent_of(friction_angle), 0.0, 0.0, settings.area_springs};
-    for (const auto& [n, d] : {std::pair{n1, d1}, {n2, d2}}) {
-      std::vector<Vector3> points;
-      for (const double along : {-3.0, 9.0}) {
-        for (const double up : {-0.5, 3.0}) {
-          for (const double depth : {0.0, 1.0}) points.emplace_back(along * line + up * d - depth * n);
-        }
-      }
-      scene.add_fixed(hull_of(points));
-    }
-    std::vector<Vector3> points;
-    for (const double along : {-1.0, 1.0}) {
-      points.emplace_back(along * line);
-      points.emplace_back(along * line + d1);
-      points.emplace_back(along * line + d2);
-    }
-    scene.add(define_block(hull_of(points), stiff_rock, 1));
-    return scene.build();
-  }
-};
-
 std::vector<VerificationCheck> wedge(const Placement& placement) {
-  const Wedge wedge;
+  const SlidingWedge wedge;
   // Along the line: slip W against friction tan(phi) grip W.
   const double critical = std::atan(wedge.slip / wedge.grip) / degree;
   std::vector<VerificationCheck> checks = {
       check_absolute("friction angle of the formula, deg", critical, 33.357, 5e-4)};
-  Simulation above = wedge.simulation(33.457, {}, placement);
+  Simulation above = wedge_on(wedge, 33.457, {}, placement);
   checks.push_back(check_status("stands at phi 33.457", above, StaticStatus::equilibrium));
-  Simulation below = wedge.simulation(33.257, {}, placement);
+  Simulation below = wedge_on(wedge, 33.257, {}, placement);
   checks.push_back(check_status("slides at phi 33.257", below, StaticStatus::moving));
   SimulationSettings settings;
   settings.time_step = 2e-3;
-  Simulation sliding = wedge.simulation(20, settings, placement);
+  Simulation sliding = wedge_on(wedge, 20, settings, placement);
   const Vector3 start = centroid(sliding, 2);
   constexpr double time = 0.6;
   run_until(sliding, time);

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/verify/toppling_columns.hpp"
 #include "apps/verify/verification_contacts.hpp"
 #include "solver/state/automatic.hpp"
 
@@ -134,28 +135,11 @@ std::vector<VerificationCheck> overturning_case(const Placement& placement) {
   return checks;
 }
 
-/// Goodman and Bray's columns: 16 columns on a stepped base that dips 30 degrees. In the frame of the base,
-/// column n = 1 to 16 from the toe stands on [10 (n-1), 10 n], each step 1 m higher; heights grow by 4 m up
-/// to the tenth column and fall by 6.2 m beyond.
-ContactScene columns(const Placement& placement) {
-  ContactScene scene(placement);
-  scene.settings.area_springs = false;
-  // A face that rises towards positive x'.
-  const Placement raised{slope(-30)};
-  double height = 0.0;
-  for (int n = 1; n <= 16; ++n) {
-    height += n <= 10 ? 4.0 : -6.2;
-    const double x = 10.0 * (n - 1), base = n - 1.0;
-    scene.add_fixed(placed(Polyhedron(make_box({x, -5, base - 5}, {x + 10, 15, base})), raised));
-    scene.add(define_block(placed(Polyhedron(make_box({x, 0, base}, {x + 10, 10, base + height})), raised),
-                           {25e3 / 9.81, 1e10, 0.2}, 1));
-  }
-  return scene;
-}
-
 /// From equilibrium, as the full weight put on at once would set the columns in motion.
 std::vector<VerificationCheck> goodman_bray(const Placement& placement) {
-  ContactScene scene = columns(placement);
+  ContactScene scene(placement);
+  scene.settings.area_springs = false;
+  add_toppling_columns(scene);
   const std::shared_ptr<JointLaw> law = scene.law;
   *law = {1e11, 1e11, tangent_of(39.5), 0.0, 0.0, false};
   scene.settings.time_step = 5e-3;

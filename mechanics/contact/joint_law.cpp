@@ -6,12 +6,12 @@ namespace ashlar {
 
 PointLaw point_law(const JointLaw& law, double area, bool intact) {
   const double scale = law.area_springs ? area : 1.0;
-  return {law.normal_stiffness * scale,
-          law.shear_stiffness * scale,
-          law.friction,
-          intact ? law.cohesion * area : 0.0,
-          intact ? law.tensile_strength * area : 0.0,
-          law.rounding};
+  const ResidualStrength residual = law.residual.value_or(ResidualStrength{law.friction, 0.0, 0.0});
+  PointLaw point{law.normal_stiffness * scale, law.shear_stiffness * scale, law.friction,
+                 law.cohesion * area,          law.tensile_strength * area, law.rounding};
+  point.residual = {residual.friction, residual.cohesion * area, residual.tensile_strength * area};
+  if (!intact) point.fail();
+  return point;
 }
 
 namespace {

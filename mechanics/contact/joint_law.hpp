@@ -13,9 +13,10 @@
 // rounding error, and locked up to such a slip over the limit. The forces stay those above: there they are
 // continuous. (Not so cohesion, whose limit ends at this gap then.)
 //
-// A joint fails where it opens (by more than rounding), or where it slides and has cohesion: both strengths
-// are lost then. Without cohesion there is no strength that sliding could take; under tension such a joint
-// slides without resistance.
+// A joint fails where it opens (by more than rounding), or where it slides and has friction or cohesion to
+// lose: friction, cohesion and tensile strength fall to their residual values then. Residual cohesion 0 is a
+// brittle joint, residual strength equal to the strength a perfectly plastic one, which never fails. Without
+// cohesion there is no resistance to sliding under tension.
 //
 // With multipliers (augmented contact) N = lambda_n - kn g and the trial shear force is lambda_s - ks s.
 // Where the forces repeat the multipliers, N > 0 means g = 0, a locked point has s = 0 and a sliding one has
@@ -31,6 +32,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 
 namespace ashlar {
 
@@ -39,6 +41,13 @@ enum class ContactState {
   open,     ///< no force
   locked,   ///< normal and shear spring
   sliding,  ///< normal spring and friction force
+};
+
+/// What a joint that has failed still bears.
+struct ResidualStrength {
+  double friction = 0.0;          ///< tan(phi)
+  double cohesion = 0.0;          ///< Pa
+  double tensile_strength = 0.0;  ///< Pa
 };
 
 /// Parameters of a pair of blocks.
@@ -53,27 +62,44 @@ struct JointLaw {
   double rounding = 0.0;   ///< m, >= 0: what gaps and slips of the pair may be by rounding errors
   bool rigid = false;      ///< its springs only stand for contact that does not give way: they are no joint's
   bool gives_way = false;  ///< springs hold it, also where multipliers hold other joints
+  /// Of surfaces that have failed, or were never bonded; each value at most that above. Empty: `friction` only
+  std::optional<ResidualStrength> residual = std::nullopt;
 };
 
 /// One point's constants within a step.
 struct PointLaw {
-  double normal_stiffness;   ///< kn, N/m
-  double shear_stiffness;    ///< ks, N/m
-  double friction;           ///< tan(phi)
-  double cohesion;           ///< c A of an intact joint, else 0, N
-  double tension;            ///< T A of an intact joint, else 0, N; infinity: a joint that must not break now
-  double rounding = 0.0;     ///< of gaps and slips, m
-  double held_limit = -1.0;  ///< N; >= 0: the bound of the shear force, whatever the normal force is
-  bool bridged = false;      ///< cohesion bears shear across an open gap too
-  bool augmented = false;    ///< its forces become the next multipliers; its springs hold no energy
-  double normal_multiplier = 0.0;                              ///< lambda_n, N
+  double normal_stiffness;         ///< kn, N/m
+  double shear_stiffness;          ///< ks, N/m
+  double friction;                 ///< tan(phi)
+  double cohesion;                 ///< c A, N
+  double tension;                  ///< T A, N; infinity: a joint that must not break now
+  double rounding = 0.0;           ///< of gaps and slips, m
+  double held_limit = -1.0;        ///< N; >= 0: the bound of the shear force, whatever the normal force is
+  bool bridged = false;            ///< cohesion bears shear across an open gap too
+  bool augmented = false;          ///< its forces become the next multipliers; its springs hold no energy
+  double normal_multiplier = 0.0;  ///< lambda_n, N
   Eigen::Vector2d shear_multiplier = Eigen::Vector2d::Zero();  ///< lambda_s, N
   /// N, any sign: counts beside the normal force, at most as much as that, in what bounds the shear force,
   /// for impulses that pushed or pulled without friction before
   double impulse_force = 0.0;
+  /// What is left once it has failed: friction tan(phi), cohesion and tension N
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+
+  /// Whether it has strength to lose.
+  [[nodiscard]] bool weakens() const {
+    return friction > residual[0] || cohesion > residual[1] || tension > residual[2];
+  }
+  /// Whether sliding takes strength from it: tension alone is no resistance to sliding, and lasts.
+  [[nodiscard]] bool weakens_by_sliding() const { return friction > residual[0] || cohesion > residual[1]; }
+  /// From now on it has its residual strength.
+  void fail() {
+    friction = residual[0];
+    cohesion = residual[1];
+    tension = residual[2];
+  }
 };
 
-/// @param area tributary area of the point, m^2. @param intact false once the joint has failed
+/// @param area tributary area of the point, m^2. @param intact false: with residual strength
 [[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact);
 
 /// Force of a point and how it changes, in the frame (n, t1, t2) of the point; the force acts on a, its

@@ -109,15 +109,15 @@ Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
 }
 
 bool ContactPair::bonded() const {
-  return !tied() && std::any_of(laws_.begin(), laws_.end(),
-                                [](const PointLaw& law) { return law.cohesion > 0.0 || law.tension > 0.0; });
+  return !tied() &&
+         std::any_of(laws_.begin(), laws_.end(), [](const PointLaw& law) { return law.weakens(); });
 }
 
 void ContactPair::hold_bonds() {
   kind_.holds_bonds = true;
   const JointLaw bond = unbreakable_law(1.0);
   for (PointLaw& law : laws_) {
-    if (tied() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
+    if (tied() || !law.weakens() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
     law.cohesion = bond.cohesion;
     if (law.tension > 0.0) law.tension = bond.tensile_strength;
   }
@@ -301,9 +301,9 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     memory.compression = -place(0, static_cast<Eigen::Index>(k));
     memory.state = point.state;
     const bool open = point.state == ContactState::open;
-    const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension == 0.0
+    const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension < laws_[k].tension
                                              : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
-    const bool sheared = point.state == ContactState::sliding && laws_[k].cohesion > 0.0;
+    const bool sheared = point.state == ContactState::sliding && laws_[k].weakens_by_sliding();
     memory.intact = memory_[k].intact && (kind_.holds_bonds || (!torn && !sheared));
     if (laws[k].augmented && point.state != ContactState::open) {
       const Eigen::Vector2d shear = point.force.tail<2>();
@@ -359,8 +359,7 @@ ContactPair ContactPair::setting_off(const PairResponse& response, const std::ve
 
 bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
   for (std::size_t k = 0; k < memory.size(); ++k) {
-    if (memory_[k].intact && !memory[k].intact && (laws_[k].cohesion > 0.0 || laws_[k].tension > 0.0))
-      return true;
+    if (memory_[k].intact && !memory[k].intact && laws_[k].weakens()) return true;
   }
   return false;
 }

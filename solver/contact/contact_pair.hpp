@@ -82,7 +82,7 @@ class ContactPair {
   /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
   /// point since the level began, m
   void count_slip(const std::vector<Vector3>& moved);
-  /// Whether any point of a contact has cohesion or tensile strength.
+  /// Whether any point of a contact has strength to lose.
   [[nodiscard]] bool bonded() const;
   /// Bonds neither tear nor slide whatever pulls, and none is lost in the step.
   void hold_bonds();
@@ -156,7 +156,7 @@ class ContactPair {
   /// @param reach m, >= 0: points that are found this far apart or less touch, without force
   [[nodiscard]] ContactPair setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
                                         double reach) const;
-  /// Whether cohesion or tensile strength is lost in the step anywhere. @param memory after it
+  /// Whether strength is lost in the step anywhere. @param memory after it
   [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
 
   /// Gap of each point, m.

@@ -27,7 +27,7 @@ struct Joints {
 
 Joints joints_of(const RunContext& run, const StepProblem& problem) {
   Joints joints;
-  const double tearing_gap = run.settings().tearing_share * run.settings().contact_distance;
+  const double tearing_gap = run.settings().tearing_gap();
   const auto change = [&](int block) { return problem.bodies[at(block)].change; };
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     for (std::size_t n = 0; n < problem.islands[i].pairs.size(); ++n) {

@@ -218,7 +218,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   auto gaps = pair.gaps(ya, yb);
   const double deepest = deepest_of(gaps);
   run.state.report.penetration = std::max(run.state.report.penetration, deepest);
-  const double tearing_gap = settings.tearing_share * settings.contact_distance;
+  const double tearing_gap = settings.tearing_gap();
   std::vector<PointMemory> remembered = pair.memory_after(response, laws, ya, yb, tearing_gap);
   pair.remember_impulses(response, laws, stopped.forces, scheme.step, remembered);
   PairHistory& history = run.state.pairs[{pair.a(), pair.b()}];

@@ -245,6 +245,10 @@ std::vector<ContactState> IslandProblem::states() const {
   return result;
 }
 
+std::vector<double> IslandProblem::gaps(std::size_t k) const {
+  return pair(k).gaps(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change);
+}
+
 double IslandProblem::given(std::size_t k) const {
   const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
   const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;

@@ -69,6 +69,8 @@ class IslandProblem {
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
   /// Takes a pair for one of the island's.
   void replace(std::size_t k, ContactPair pair) { replaced_.insert_or_assign(k, std::move(pair)); }
+  /// Gaps of a pair's points at the present guess, m.
+  [[nodiscard]] std::vector<double> gaps(std::size_t pair) const;
   [[nodiscard]] const std::vector<PairResponse>& responses() const { return responses_; }
   [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }

@@ -94,22 +94,33 @@ class OpenClose {
     for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
       for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
         if (excess(pair, k) < 0.5 * most) continue;
-        problem_.laws()[pair][k].tension = 0.0;
-        problem_.laws()[pair][k].cohesion = 0.0;
+        open(problem_.laws()[pair][k]);
       }
     }
     return true;
   }
 
-  /// Takes the cohesion of points that have opened; false if none has.
+  /// A point fails by opening. Its residual cohesion acts from the next step on where it is closed then: in this one
+  /// its shear force would jump with each change of state.
+  static void open(PointLaw& law) {
+    law.fail();
+    law.cohesion = 0.0;
+  }
+
+  /// Points with cohesion that have opened by more than rounding may make fail. @return whether there are any
   bool open_joints() {
     bool opened = false;
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-        PointLaw& law = problem_.laws()[pair][k];
-        if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0) continue;
+      std::vector<PointLaw>& laws = problem_.laws()[pair];
+      if (std::none_of(laws.begin(), laws.end(), [](const PointLaw& law) { return law.bridged; })) continue;
+      const std::vector<double> gaps = problem_.gaps(pair);
+      for (std::size_t k = 0; k < laws.size(); ++k) {
+        PointLaw& law = laws[k];
+        if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
+            gaps[k] <= settings_.tearing_gap())
+          continue;
         law.bridged = false;
-        law.cohesion = 0.0;
+        open(law);
         opened = true;
       }
     }

@@ -145,16 +145,16 @@ TEST(SceneCuts, AssignmentsMeanPiecesWhereTheyMeanNoBlock) {
   EXPECT_THAT(supports, ElementsAre(0, 1, 0, 1, 0));
   EXPECT_THAT(loads, ElementsAre(0, 0, 1, 0, 1)) << "a block's load is divided, and not given again";
   EXPECT_EQ(scene.block[2].velocity, Vector3(0, 2, 0));
-  EXPECT_EQ(scene.places.value("block.3.order").line, 30);
-  EXPECT_EQ(scene.places.value("block.3.velocity").line, 35);
+  EXPECT_EQ(scene.places.value("block.3.order").line, 31);
+  EXPECT_EQ(scene.places.value("block.3.velocity").line, 36);
   EXPECT_EQ(scene.places.value("block.3.box").line, 15);
-  EXPECT_EQ(scene.places.value("block.4.load.0.force").line, 38);
+  EXPECT_EQ(scene.places.value("block.4.load.0.force").line, 39);
   const auto json = to_json(scene);
   ASSERT_EQ(json.at("assign").size(), 1U) << "what a block got is in the block";
   EXPECT_EQ(json.at("assign")[0].at("blocks"), nlohmann::ordered_json({"rock.1", "rock.3"}));
   EXPECT_EQ(json.at("assign")[0].at("order"), 2);
   EXPECT_THAT(load(cuts + "[[assign]]\nblocks = [\"rock.5\"]\norder = 2\n").text,
-              HasSubstr("s.toml:28:10: error: assign names no block (\"rock.5\"), did you mean \"rock.1\"?"));
+              HasSubstr("s.toml:30:10: error: assign names no block (\"rock.5\"), did you mean \"rock.1\"?"));
 }
 
 TEST(SceneCuts, JointOfACutIsOfItsFaces) {

@@ -38,6 +38,37 @@ TEST(JointLaw, SlidesAtTheCoulombLimit) {
   EXPECT_EQ(point_response(intact, -1e-5, {4.01e-5, 0}).state, ContactState::sliding);
 }
 
+TEST(JointLaw, WhatHasFailedHasItsResidualStrength) {
+  JointLaw weak = law;
+  weak.residual = ResidualStrength{0.25, 1e4, 5e3};
+  PointLaw point = point_law(weak, 0.1, true);
+  EXPECT_TRUE(point.weakens());
+  point.fail();
+  const PointLaw failed = point_law(weak, 0.1, false);
+  // N = 2000 N: 0.25 N + 1e4 Pa * 0.1 m^2 = 1500 N at a slip of 1.5e-5 m, tension 500 N at a gap of 2.5e-6 m.
+  for (const PointLaw& left : {point, failed}) {
+    EXPECT_FALSE(left.weakens());
+    EXPECT_EQ(point_response(left, -1e-5, {1.49e-5, 0}).state, ContactState::locked);
+    EXPECT_NEAR(point_response(left, -1e-5, {5e-5, 0}).force[1], -1500.0, 1e-9);
+    EXPECT_NEAR(point_response(left, 2.4e-6, {0, 0}).force[0], -480.0, 1e-9);
+    EXPECT_EQ(point_response(left, 2.6e-6, {0, 0}).state, ContactState::open);
+  }
+  // Without residual values friction is kept, the rest is lost.
+  PointLaw brittle = point_law(law, 0.1, true);
+  brittle.fail();
+  EXPECT_EQ(brittle.friction, 0.5);
+  EXPECT_EQ(brittle.cohesion, 0.0);
+  EXPECT_EQ(brittle.tension, 0.0);
+  // Tension alone is not lost by sliding.
+  EXPECT_TRUE(point_law(law, 0.1, true).weakens_by_sliding());
+  const PointLaw glued = point_law({2e9, 1e9, 0.5, 0.0, 2e4, true}, 0.1, true);
+  EXPECT_TRUE(glued.weakens());
+  EXPECT_FALSE(glued.weakens_by_sliding());
+  // Perfectly plastic: nothing to lose.
+  weak.residual = ResidualStrength{0.5, 3e4, 2e4};
+  EXPECT_FALSE(point_law(weak, 0.1, true).weakens());
+}
+
 TEST(JointLaw, RoundingDoesNotChooseTheState) {
   JointLaw rounded = law;
   rounded.rounding = 1e-14;

@@ -79,6 +79,37 @@ TEST(OpenClose, AJointBreaksWhereTheBalancedPullExceedsItsStrength) {
   }
 }
 
+/// A plate of 1 m^2 and 500 kg on level ground, under gravity that has a horizontal part too: no tilting.
+/// @param pull m/s^2, from rest. @return how far it has gone after 0.2 s
+double pulled_along(const JointLaw& law, double pull) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-3, -3, -1}, {9, 3, 0}));
+  blocks.emplace_back(block_of("plate", Polyhedron(make_box({0, 0, 0}, {1, 1, 0.2})), {2500, 1e9, 0.2}, 1));
+  SimulationSettings settings;
+  settings.time_step = 2.5e-4;
+  settings.gravity.x() = pull;
+  Simulation simulation(std::move(blocks), std::vector<InitialMotion>(2), same_law(law), settings);
+  EXPECT_TRUE(run_until(simulation, 0.2));
+  return place_of(simulation, 1, {0.5, 0.5, 0.1}).x() - 0.5;
+}
+
+TEST(OpenClose, WhatSlidesHasItsResidualStrength) {
+  // Peak strength 0.5 * 4905 + 5000 = 7452.5 N, residual 0.25 * 4905 + 1000 = 2226.25 N. The peak is reached after
+  // d = 7452.5 N / 1e10 N/m, with the speed v of m v^2 / 2 = 8000 N d - 1e10 N/m d^2 / 2.
+  const double d = 7452.5 / 1e10;
+  const double v = std::sqrt(2.0 / 500.0 * (8000.0 * d - 0.5e10 * d * d));
+  const auto slid = [&](double strength) { return 0.2 * v + 0.5 * (16.0 - strength / 500.0) * 0.04; };
+  JointLaw law{1e10, 1e10, 0.5, 5e3, 0.0, true};
+  law.residual = ResidualStrength{0.25, 1e3, 0.0};
+  EXPECT_LT(pulled_along(law, 7.0), 2e-6);  // 3500 N, twice that in the first swing
+  EXPECT_NEAR(pulled_along(law, 16.0), slid(2226.25), 0.01 * slid(2226.25));
+  // Perfectly plastic, and brittle.
+  law.residual = ResidualStrength{0.5, 5e3, 0.0};
+  EXPECT_NEAR(pulled_along(law, 16.0), slid(7452.5), 0.01 * slid(7452.5));
+  law.residual.reset();
+  EXPECT_NEAR(pulled_along(law, 16.0), slid(2452.5), 0.01 * slid(2452.5));
+}
+
 TEST(OpenClose, ABlockThatLiftsOffLeavesItsCohesion) {
   for (const auto& [integrator, augmented] :
        {std::pair(Integrator::dda, false), std::pair(Integrator::dda, true),

@@ -1,0 +1,192 @@
+#include "apps/run/factor_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/input_file.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/run/run_summary.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const FactorTrial& trial) {
+  return {{"factor", trial.factor}, {"outcome", to_string(trial.outcome)}, {"iterations", trial.iterations}};
+}
+
+Json to_json(const std::vector<FactorTrial>& trials) {
+  Json json = Json::array();
+  for (const FactorTrial& trial : trials) json.push_back(to_json(trial));
+  return json;
+}
+
+FactorTrial trial_from(const Json& json) {
+  FactorTrial trial{json.at("factor").get<double>(), TrialOutcome::unknown, json.at("iterations").get<int>()};
+  for (const TrialOutcome outcome : {TrialOutcome::stands, TrialOutcome::moves})
+    if (json.at("outcome") == to_string(outcome)) trial.outcome = outcome;
+  return trial;
+}
+
+TrialOutcome outcome_of(StaticStatus status, const Simulation& simulation) {
+  switch (status) {
+    case StaticStatus::equilibrium:
+      return displaced_blocks(simulation).empty() ? TrialOutcome::stands : TrialOutcome::moves;
+    case StaticStatus::moving:
+      return TrialOutcome::moves;
+    case StaticStatus::balancing:
+    case StaticStatus::not_converged:
+      break;
+  }
+  return TrialOutcome::unknown;
+}
+
+/// What most of the area of a pair's contact points does.
+const char* mode_of(const PairRecord& record) {
+  std::array<double, 3> area = {};
+  for (std::size_t k = 0; k < record.points.size(); ++k)
+    area[static_cast<std::size_t>(record.responses[k].state)] += record.points[k].area;
+  // What bears at an edge bears, however much has opened.
+  const double open = area[static_cast<std::size_t>(ContactState::open)];
+  const double sticks = area[static_cast<std::size_t>(ContactState::locked)];
+  const double slides = area[static_cast<std::size_t>(ContactState::sliding)];
+  if (!(slides > 0.0) && !(sticks > 0.0)) return "opens";
+  if (open > slides + sticks) return "opens";
+  return slides >= sticks ? "slides" : "sticks";
+}
+
+}  // namespace
+
+bool seeks_factor(const SceneAnalysis& analysis) {
+  return analysis.type == SceneAnalysis::Type::safety || analysis.type == SceneAnalysis::Type::capacity;
+}
+
+const SceneAnalysis::FactorSearch& search_of(const SceneAnalysis& analysis) {
+  return analysis.type == SceneAnalysis::Type::safety ? analysis.safety : analysis.capacity;
+}
+
+const char* factor_name(const SceneAnalysis& analysis) {
+  return analysis.type == SceneAnalysis::Type::safety ? "factor_of_safety" : "load_factor";
+}
+
+TrialFactors trial_factors(const SceneAnalysis& analysis, double factor) {
+  return analysis.type == SceneAnalysis::Type::safety ? TrialFactors{factor, 1.0} : TrialFactors{1.0, factor};
+}
+
+StaticStatus trial_step(Simulation& simulation, double end_time) {
+  const StaticStatus status = simulation.static_step(end_time);
+  return status == StaticStatus::balancing && !displaced_blocks(simulation).empty() ? StaticStatus::moving
+                                                                                    : status;
+}
+
+std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, double end_time,
+                                     const std::function<bool()>& goes_on) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) {
+    if (!goes_on()) return std::nullopt;
+    try {
+      status = trial_step(simulation, end_time);
+    } catch (const std::exception&) {
+      status = StaticStatus::not_converged;
+    }
+  }
+  return FactorTrial{factor, outcome_of(status, simulation), simulation.steps()};
+}
+
+std::optional<FactorTrial> run_trial(const LoadedScene& loaded, int threads, double factor,
+                                     const std::function<bool()>& goes_on) {
+  const SceneAnalysis& analysis = loaded.scene.analysis;
+  Diagnostics ignored;  // the same as without a factor
+  std::optional<BuiltSimulation> built =
+      build_simulation(loaded, threads, ignored, nullptr, trial_factors(analysis, factor));
+  if (!built) return FactorTrial{factor, TrialOutcome::unknown, 0};
+  return run_trial(built->simulation, factor, analysis.end_time, goes_on);
+}
+
+TrialFile::TrialFile(std::filesystem::path path, std::uint64_t hash, bool resume)
+    : path_(std::move(path)), hash_(hash) {
+  if (!resume) std::filesystem::remove(path_);
+  if (!std::filesystem::exists(path_)) return;
+  const Json json = naming_the_file(path_, [&] { return parse_json(whole_file(path_)); });
+  if (!json.is_object() || json.value("scene", std::uint64_t{0}) != hash_)
+    throw std::runtime_error(
+        fmt::format("{} is of another scene, a new folder, or --force, is needed", path_.string()));
+  naming_the_file(path_, [&] {
+    for (const Json& trial : json.at("trials")) trials_.push_back(trial_from(trial));
+    return trials_.size();
+  });
+}
+
+std::optional<FactorTrial> TrialFile::find(double factor) const {
+  const auto found = std::find_if(trials_.begin(), trials_.end(),
+                                  [&](const FactorTrial& trial) { return trial.factor == factor; });
+  return found == trials_.end() ? std::nullopt : std::optional(*found);
+}
+
+void TrialFile::add(const FactorTrial& trial) {
+  trials_.push_back(trial);
+  const Json json = {{"scene", hash_}, {"trials", to_json(trials_)}};
+  write_file_atomically(path_, json_text(json, 1) + "\n", Durability::power);
+}
+
+double shown_factor(const FactorBracket& bracket, const SceneAnalysis::FactorSearch& search) {
+  if (bracket.upper) return *bracket.upper;
+  if (bracket.lower) return *bracket.lower;
+  return std::clamp(1.0, search.lower, search.upper);
+}
+
+std::string describe(const FactorBracket& bracket, const SceneAnalysis& analysis) {
+  const bool safety = analysis.type == SceneAnalysis::Type::safety;
+  const char* name = safety ? "factor of safety" : "load factor";
+  const SceneAnalysis::FactorSearch& search = search_of(analysis);
+  if (!bracket.resolved)
+    return fmt::format(
+        "no {} to the tolerance of {}: {} stands, {} moves, and of what lies between static analyses found "
+        "neither equilibrium nor motion",
+        name, search.tolerance, bracket.lower ? fmt::format("{:.5g}", *bracket.lower) : "no factor",
+        bracket.upper ? fmt::format("{:.5g}", *bracket.upper) : "no factor");
+  if (!bracket.upper)
+    return fmt::format("no {} up to {}: nothing moves{}", name, search.upper,
+                       safety ? ", however little strength is left" : "");
+  if (!bracket.lower)
+    return fmt::format("no {} down to {}: blocks move{}", name, search.lower,
+                       safety ? " at all strengths" : " under all loads");
+  return fmt::format("{} between {:.5g} and {:.5g}", name, *bracket.lower, *bracket.upper);
+}
+
+Json factor_summary(const FactorBracket& bracket, const Simulation& simulation) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  const auto array = [](const Vector3& v) { return Json{v.x(), v.y(), v.z()}; };
+  Json json = {{"lower", number(bracket.lower)}, {"upper", number(bracket.upper)}};
+  json["moving"] = Json::array();
+  json["accelerations"] = Json::array();
+  json["angular_accelerations"] = Json::array();
+  std::set<int> moving;
+  for (const MovingBlock& block : simulation.moving_blocks()) {
+    moving.insert(block.block);
+    json["moving"].push_back(name(block.block));
+    json["accelerations"].push_back(array(block.acceleration));
+    json["angular_accelerations"].push_back(array(block.angular_acceleration));
+  }
+  if (moving.empty()) {
+    // Blocks that came to rest elsewhere.
+    for (const DisplacedBlock& block : displaced_blocks(simulation)) {
+      moving.insert(block.block);
+      json["moving"].push_back(name(block.block));
+    }
+  }
+  json["joints"] = Json::array();
+  for (const PairRecord& record : simulation.contacts())
+    if (!record.points.empty() && (moving.contains(record.a) || moving.contains(record.b)))
+      json["joints"].push_back({{"blocks", Json{name(record.a), name(record.b)}}, {"mode", mode_of(record)}});
+  json["trials"] = to_json(bracket.trials);
+  return json;
+}
+
+}  // namespace ashlar

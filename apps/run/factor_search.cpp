@@ -1,0 +1,90 @@
+#include "apps/run/factor_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ashlar {
+namespace {
+
+class Search {
+ public:
+  Search(const SceneAnalysis::FactorSearch& range,
+         const std::function<std::optional<FactorTrial>(double)>& attempt)
+      : range_(range), attempt_(attempt) {}
+
+  FactorBracket run() {
+    const double start = std::clamp(1.0, range_.lower, range_.upper);
+    bool goes_on = decide(start);
+    for (double factor = start; goes_on && !bracket_.lower && factor > range_.lower;)
+      goes_on = decide(factor = std::max(factor / 2.0, range_.lower));
+    for (double factor = start; goes_on && !bracket_.upper && factor < range_.upper;)
+      goes_on = decide(factor = std::min(2.0 * factor, range_.upper));
+    while (goes_on && bracket_.lower && bracket_.upper &&
+           *bracket_.upper > *bracket_.lower * (1.0 + range_.tolerance)) {
+      const std::optional<double> next = middle();
+      if (!next) break;
+      goes_on = decide(*next);
+    }
+    bracket_.resolved = goes_on && resolved();
+    return bracket_;
+  }
+
+ private:
+  [[nodiscard]] bool resolved() const {
+    if (bracket_.lower && bracket_.upper)
+      return *bracket_.upper <= *bracket_.lower * (1.0 + range_.tolerance);
+    return bracket_.lower == range_.upper || bracket_.upper == range_.lower;
+  }
+
+  /// The middle of what is left of the bracket: all of it, or the wider of what is below and above the factors
+  /// that told nothing. Empty: those are a quarter of the tolerance from either end
+  [[nodiscard]] std::optional<double> middle() const {
+    double first = *bracket_.upper, last = *bracket_.lower;  // that told nothing
+    for (const FactorTrial& trial : bracket_.trials)
+      if (trial.outcome == TrialOutcome::unknown && trial.factor > *bracket_.lower &&
+          trial.factor < *bracket_.upper) {
+        first = std::min(first, trial.factor);
+        last = std::max(last, trial.factor);
+      }
+    if (first > last) return std::sqrt(*bracket_.lower * *bracket_.upper);
+    const double below = first / *bracket_.lower, above = *bracket_.upper / last;
+    if (std::max(below, above) <= 1.0 + range_.tolerance / 4.0) return std::nullopt;
+    return below > above ? *bracket_.lower * std::sqrt(below) : last * std::sqrt(above);
+  }
+
+  /// @return false: it was told to stop
+  bool decide(double factor) {
+    const std::optional<FactorTrial> trial = attempt_(factor);
+    bracket_.interrupted = !trial;
+    if (!trial) return false;
+    bracket_.trials.push_back(*trial);
+    if (trial->outcome == TrialOutcome::stands) bracket_.lower = factor;
+    if (trial->outcome == TrialOutcome::moves) bracket_.upper = factor;
+    return true;
+  }
+
+  const SceneAnalysis::FactorSearch& range_;
+  const std::function<std::optional<FactorTrial>(double)>& attempt_;
+  FactorBracket bracket_;
+};
+
+}  // namespace
+
+std::string to_string(TrialOutcome outcome) {
+  switch (outcome) {
+    case TrialOutcome::stands:
+      return "stands";
+    case TrialOutcome::moves:
+      return "moves";
+    case TrialOutcome::unknown:
+      return "unknown";
+  }
+  return "unknown";
+}
+
+FactorBracket find_factor(const SceneAnalysis::FactorSearch& search,
+                          const std::function<std::optional<FactorTrial>(double)>& attempt) {
+  return Search(search, attempt).run();
+}
+
+}  // namespace ashlar
