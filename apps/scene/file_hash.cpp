@@ -8,6 +8,15 @@
 #include <memory>
 
 namespace ashlar {
+namespace {
+
+std::string hexadecimal(const unsigned char* bytes, unsigned int size) {
+  std::string text;
+  for (unsigned int k = 0; k < size; ++k) text += fmt::format("{:02x}", bytes[k]);
+  return text;
+}
+
+}  // namespace
 
 std::string sha256_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -23,9 +32,14 @@ std::string sha256_of(const std::filesystem::path& file) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int size = 0;
   if (stream.bad() || EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1) return {};
-  std::string text;
-  for (unsigned int k = 0; k < size; ++k) text += fmt::format("{:02x}", digest[k]);
-  return text;
+  return hexadecimal(digest.data(), size);
+}
+
+std::string sha256_of_text(std::string_view text) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(text.data(), text.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) return {};
+  return hexadecimal(digest.data(), size);
 }
 
 }  // namespace ashlar

@@ -1,0 +1,280 @@
+#include "apps/sweep/sweep_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <system_error>
+#include <thread>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/input_file.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/run/interrupt_guard.hpp"
+#include "apps/run/override_option.hpp"
+#include "apps/run/run_command.hpp"
+#include "apps/scene/scene_json.hpp"
+#include "apps/scene/scene_loading.hpp"
+#include "apps/sweep/sweep_table.hpp"
+#include "apps/sweep/variants.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto poll_interval = std::chrono::milliseconds(20);
+
+/// The summary of a run that has ended; null: there is none.
+Json ended_summary(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "summary.json";
+  if (!std::filesystem::exists(file)) return nullptr;
+  Json summary = naming_the_file(file, [&] { return parse_json(whole_file(file)); });
+  if (!summary.is_object() || summary.value("status", std::string()) == "interrupted") return nullptr;
+  return summary;
+}
+
+int exit_status_in(const Json& summary) {
+  const std::string status = summary.value("status", std::string());
+  return status == "failed" || status == "not converged" ? exit_status::failed : exit_status::done;
+}
+
+/// One variant: kept, gone on with, or run. Called in a process of its own.
+int run_variant(RunOptions run, std::ostream& log) {
+  const std::filesystem::path& folder = *run.out;
+  const Json summary = ended_summary(folder);
+  if (!summary.is_null()) {
+    Diagnostics diagnostics;
+    const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, diagnostics);
+    if (loaded && summary.contains("scene") && Json(to_json(loaded->scene)) == summary.at("scene")) {
+      log << "kept: these results are of this scene\n";
+      return exit_status_in(summary);
+    }
+    if (!run.force) {
+      diagnostics.print(log);
+      log << fmt::format("ashlar: error: results of another scene ({}), --force or another table is needed\n",
+                         folder.string());
+      return exit_status::bad_input;
+    }
+  } else if (std::filesystem::exists(folder / ".ashlar")) {
+    run.resume = true;
+    run.force = false;
+  }
+  return run_command(run, log);
+}
+
+/// The same with whatever is thrown in the log. The process ends with its status.
+[[noreturn]] void run_in_child(const RunOptions& run, const std::filesystem::path& log_file) {
+  // A signal to the terminal's group is the sweep's to pass on: once.
+  (void)setpgid(0, 0);
+  int status = exit_status::failed;
+  {
+    std::ofstream log(log_file);
+    try {
+      status = run_variant(run, log);
+    } catch (const std::exception& error) {
+      log << "ashlar: error: " << error.what() << '\n';
+    }
+  }
+  _exit(status);
+}
+
+/// Runs of variants in processes, some at a time.
+class Runs {
+ public:
+  Runs(const SweepOptions& options, std::vector<RunOptions> runs, std::vector<std::string> names,
+       std::ostream& err)
+      : options_(options), runs_(std::move(runs)), names_(std::move(names)), err_(err) {}
+
+  /// @return exit status of the sweep
+  int go() {
+    const InterruptGuard guard;
+    const std::size_t jobs = options_.jobs > 0 ? static_cast<std::size_t>(options_.jobs)
+                                               : std::max(1U, std::thread::hardware_concurrency());
+    std::size_t next = 0;
+    while (next < runs_.size() || !children_.empty()) {
+      if (InterruptGuard::interrupted()) {
+        stop();
+        next = runs_.size();
+      }
+      while (next < runs_.size() && children_.size() < jobs) start(next++);
+      if (!collect()) std::this_thread::sleep_for(poll_interval);
+    }
+    return stopped_ ? exit_status::interrupted : status_;
+  }
+
+ private:
+  [[nodiscard]] static std::filesystem::path log_of(const RunOptions& run) {
+    return run.out->string() + ".log";
+  }
+
+  void start(std::size_t run) {
+    const pid_t child = fork();
+    if (child < 0) {
+      const int reason = errno;
+      stop();
+      throw std::system_error(reason, std::generic_category(), "a process for a run cannot be made");
+    }
+    if (child == 0) run_in_child(runs_[run], log_of(runs_[run]));
+    children_.emplace(child, run);
+  }
+
+  /// Takes note of one run that has ended. @return whether there was one
+  bool collect() {
+    for (const auto& [child, run] : children_) {
+      int how = 0;
+      const pid_t ended = waitpid(child, &how, WNOHANG);
+      if (ended == 0) continue;
+      if (ended < 0) how = -1;
+      note(run, ended > 0 && WIFEXITED(how) ? WEXITSTATUS(how) : exit_status::failed);
+      children_.erase(child);
+      return true;
+    }
+    return false;
+  }
+
+  void note(std::size_t run, int status) {
+    ++done_;
+    // Refused is worse than failed, being stopped is told by stopped_.
+    if (status == exit_status::interrupted)
+      stopped_ = true;
+    else
+      status_ = std::max(status_, status);
+    if (options_.quiet && status == exit_status::done) return;
+    const char* word = status == exit_status::done          ? "done"
+                       : status == exit_status::failed      ? "failed"
+                       : status == exit_status::interrupted ? "interrupted"
+                                                            : "refused";
+    err_ << fmt::format("{} of {}: {}: {}", done_, runs_.size(), names_[run], word);
+    if (status != exit_status::done) err_ << fmt::format(", see {}", log_of(runs_[run]).string());
+    err_ << std::endl;
+  }
+
+  void stop() {
+    if (stopped_) return;
+    stopped_ = true;
+    for (const auto& [child, run] : children_) (void)kill(child, SIGTERM);
+  }
+
+  const SweepOptions& options_;
+  std::vector<RunOptions> runs_;
+  std::vector<std::string> names_;
+  std::ostream& err_;
+  std::map<pid_t, std::size_t> children_;
+  std::size_t done_ = 0;
+  int status_ = exit_status::done;
+  bool stopped_ = false;
+};
+
+/// Whether a file is a table of these keys, or is not there.
+bool may_be_replaced(const std::filesystem::path& table, const SweepTable& mine) {
+  if (!std::filesystem::exists(table)) return true;
+  std::ifstream stream(table);
+  std::string line;
+  std::getline(stream, line);
+  const auto folder = std::find(mine.columns.begin(), mine.columns.end(), "folder");
+  return line.starts_with(fmt::format("{}", fmt::join(mine.columns.begin(), folder + 2, ",")));
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& err) {
+  const auto refuse = [&](const std::string& why) {
+    err << fmt::format("ashlar: error: {}\n", why);
+    return static_cast<int>(exit_status::bad_input);
+  };
+  if (options.scene == "-") return refuse("a sweep reads its scene many times (-), a file is needed");
+  std::vector<VariedKey> keys;
+  std::vector<Variant> variants;
+  try {
+    for (const std::string& text : options.varied) keys.push_back(parse_varied_key(text));
+    variants = variants_of(keys);
+  } catch (const std::invalid_argument& fault) {
+    return refuse(fault.what());
+  }
+  const std::filesystem::path file = options.table.value_or(options.scene.stem().string() + ".sweep.csv");
+  std::filesystem::path folder = file;
+  folder.replace_extension(".runs");
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
+    return refuse(fmt::format("{} is no folder, another table is needed", folder.string()));
+  if (!options.force && !may_be_replaced(file, sweep_table(keys, {}, {}, {})))
+    return refuse(
+        fmt::format("{} is no table of these keys, another name or --force is needed", file.string()));
+  std::filesystem::create_directories(folder);
+
+  std::vector<RunOptions> runs;
+  std::vector<std::string> names;
+  std::vector<std::filesystem::path> folders;
+  for (const Variant& variant : variants) {
+    RunOptions& run = runs.emplace_back();
+    run.scene = options.scene;
+    run.overrides = options.overrides;
+    std::vector<std::string> settings;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      settings.push_back(fmt::format("{}={}", keys[k].key, variant.values[k]));
+    run.overrides.insert(run.overrides.end(), settings.begin(), settings.end());
+    run.out = folders.emplace_back(folder / variant.folder);
+    run.force = options.force;
+    run.quiet = true;
+    names.push_back(fmt::format("{}", fmt::join(settings, ", ")));
+  }
+  const int status = Runs(options, std::move(runs), std::move(names), err).go();
+  const SweepTable table = sweep_table(keys, variants, folders, options.values);
+  for (std::size_t k = 0; k < options.values.size(); ++k) {
+    const std::size_t column = table.columns.size() - options.values.size() + k;
+    if (std::all_of(table.rows.begin(), table.rows.end(),
+                    [&](const auto& row) { return row[column].empty(); }))
+      err << fmt::format("ashlar: warning: no run has a number of that name ({})\n", options.values[k]);
+  }
+  const std::string text = table_csv(table);
+  write_file_atomically(file, text, Durability::process);
+  out << text;
+  if (!options.quiet) err << fmt::format("table: {}\n", file.string());
+  return status;
+}
+
+void declare_sweep_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("sweep", "Run a scene with several values of some keys; writes a table");
+  // Lives as long as the callback that reads it.
+  const auto options = std::make_shared<SweepOptions>();
+  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* text) {
+    return command->add_option(name, values, text)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->take_all();
+  };
+  command->add_option("SCENE", options->scene, "Scene file (TOML)")->required()->type_name("");
+  repeatable("--vary", options->varied,
+             "A key and its values; all combinations of several keys are run (repeatable)")
+      ->required()
+      ->type_name("KEY=A,B,...");
+  repeatable("--value", options->values,
+             "A number for the table: a column of history.csv at its end, or a path in summary.json "
+             "(repeatable; default: time, factors, measures)")
+      ->type_name("NAME");
+  command
+      ->add_option("-o,--out", options->table,
+                   "The table (default: scene name + .sweep.csv); runs are beside it")
+      ->type_name("FILE");
+  command->add_option("-j,--jobs", options->jobs, "Runs at a time (default: one for each processor)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->add_flag("--force", options->force, "Replace results of other scenes, and another table");
+  command->add_flag("-q,--quiet", options->quiet, "Only faults");
+  declare_overrides(*command, options->overrides);
+  command->callback(
+      [options, &context] { context.status = sweep_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

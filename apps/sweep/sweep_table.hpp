@@ -1,0 +1,31 @@
+// The table of a sweep: a row per run, with the values of its keys and what came of it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/sweep/variants.hpp"
+
+namespace ashlar {
+
+/// What a sweep has run. Text columns: the keys, `folder` (beside the table), `status`; then numbers, empty
+/// where a run has no such value.
+struct SweepTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  ///< fields as in the file, text quoted
+};
+
+/// Looks into the result folders.
+/// @param folders of the variants; one that has no summary has the status "refused"
+/// @param values numbers wanted: a path into summary.json ("deepest.value", "factor_of_safety.lower"), or a column of
+/// history.csv, whose last value it is. Empty: `time`, factors if there are any, and what measures say at the end
+/// @throws std::runtime_error with path and reason if results are damaged
+[[nodiscard]] SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Variant>& variants,
+                                     const std::vector<std::filesystem::path>& folders,
+                                     const std::vector<std::string>& values);
+
+/// As CSV, with a line of columns first.
+[[nodiscard]] std::string table_csv(const SweepTable& table);
+
+}  // namespace ashlar

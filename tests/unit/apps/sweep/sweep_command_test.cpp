@@ -1,0 +1,116 @@
+// `ashlar sweep`.
+#include "apps/sweep/sweep_command.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "unit/apps/run_fixture.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class Sweep : public RunCommand {
+ protected:
+  /// A cube that falls, its middle measured.
+  Sweep() {
+    write_text(scene_, R"([analysis]
+end_time = 0.1
+time_step = 1e-2
+[[material]]
+name = "rock"
+density = 2000
+young_modulus = 1e9
+poisson_ratio = 0.2
+[[block]]
+name = "cube"
+material = "rock"
+box = { min = [0, 0, 0], max = [1, 1, 1] }
+[[measure]]
+name = "middle"
+block = "cube"
+point = [0.5, 0.5, 0.5]
+)");
+  }
+
+  int sweep(std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"sweep", scene_.string(), "-o", (folder_ / "t.csv").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return command(std::move(arguments));
+  }
+
+  [[nodiscard]] std::filesystem::path runs() const { return folder_ / "t.runs"; }
+};
+
+TEST_F(Sweep, ARowForEachRunWithWhatCameOfIt) {
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1,0.2,-1", "--value", "middle.uz", "-j", "2"}), 2);
+  const std::vector<std::string> table = lines("t.csv");
+  ASSERT_EQ(table.size(), 4U);
+  EXPECT_EQ(table[0], "analysis.end_time,folder,status,middle.uz");
+  EXPECT_THAT(table[1], StartsWith("0.1,t.runs/analysis.end_time=0.1,completed,"));
+  // g t^2 / 2, exact with constant steps.
+  EXPECT_NEAR(std::stod(table[1].substr(table[1].rfind(',') + 1)), -0.04905, 1e-12);
+  EXPECT_NEAR(std::stod(table[2].substr(table[2].rfind(',') + 1)), -0.1962, 1e-12);
+  EXPECT_EQ(table[3], "-1,t.runs/analysis.end_time=-1,refused,");
+  EXPECT_EQ(printed_, text("t.csv"));
+  EXPECT_THAT(faults_, AllOf(HasSubstr("3 of 3"), HasSubstr("end_time=-1: refused, see ")));
+  EXPECT_THAT(text("t.runs/analysis.end_time=-1.log"), HasSubstr("end_time is out of range"));
+}
+
+TEST_F(Sweep, UsualValuesAreTimeAndMeasures) {
+  ASSERT_EQ(sweep({"--vary", "material.0.density=1000,2000", "-q", "--set", "analysis.end_time=0.05"}), 0)
+      << faults_;
+  EXPECT_EQ(faults_, "");
+  EXPECT_THAT(lines("t.csv").at(0), StartsWith("material.0.density,folder,status,time,middle.x,middle.y,"));
+  EXPECT_THAT(lines("t.csv").at(1), HasSubstr("completed,0.05,"));
+}
+
+TEST_F(Sweep, IsTheRunOfItsSettings) {
+  ASSERT_EQ(sweep({"--vary", "analysis.time_step=2e-2"}), 0);
+  ASSERT_EQ(run("alone", {"--set", "analysis.time_step=2e-2"}), 0);
+  expect_same_results("alone", "t.runs/analysis.time_step=2e-2");
+}
+
+TEST_F(Sweep, KeepsWhatHasRunAndAddsWhatIsNew) {
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0);
+  const auto kept = std::filesystem::last_write_time(runs() / "analysis.end_time=0.1/summary.json");
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1,0.2"}), 0) << faults_;
+  EXPECT_EQ(lines("t.csv").size(), 3U);
+  EXPECT_EQ(std::filesystem::last_write_time(runs() / "analysis.end_time=0.1/summary.json"), kept);
+  EXPECT_THAT(text("t.runs/analysis.end_time=0.1.log"), HasSubstr("kept"));
+  // A scene that has changed since is not taken for the same, nor overwritten unasked.
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1"}), 2);
+  EXPECT_THAT(text("t.runs/analysis.end_time=0.1.log"), HasSubstr("another scene"));
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1", "--force"}), 0);
+}
+
+TEST_F(Sweep, GoesOnWithWhatWasInterrupted) {
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0);
+  const std::string whole = text("t.csv");
+  // As a stopped run leaves it: without its summary.
+  std::filesystem::remove(runs() / "analysis.end_time=0.1/summary.json");
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0) << faults_;
+  EXPECT_EQ(text("t.csv"), whole);
+}
+
+TEST_F(Sweep, RefusesWhatItCannotRunOrWouldOverwrite) {
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("key=a,b,c is needed"));
+  EXPECT_EQ(sweep({}), 2);
+  EXPECT_EQ(command({"sweep", "-", "--vary", "a=1"}), 2);
+  write_text(folder_ / "t.csv", "my own notes\n");
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 2);
+  EXPECT_EQ(text("t.csv"), "my own notes\n");
+  EXPECT_FALSE(std::filesystem::exists(runs()));
+}
+
+}  // namespace
+}  // namespace ashlar
