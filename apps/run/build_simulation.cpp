@@ -314,6 +314,16 @@ std::vector<TieRequest> ties_of(const Scene& scene, const JointTable& table,
   return ties;
 }
 
+/// Whether some block that a joint ties is not there yet, or not any more.
+bool waits(const JointTable& table, std::size_t joint, const BlockSystem& system) {
+  bool waits = false;
+  for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
+    waits = !system.present(static_cast<int>(a)) || !system.present(static_cast<int>(b));
+    return !waits;
+  });
+  return waits;
+}
+
 /// A [[joint]] that ties nothing is an error at its key, one that later ones undo a warning.
 void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& system,
                 Diagnostics& diagnostics) {
@@ -325,7 +335,7 @@ void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& 
   }
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
-    if (!joint.tied.value_or(false) || ties[k]) continue;
+    if (!joint.tied.value_or(false) || ties[k] || waits(table, k, system)) continue;
     if (is_untied(table, k)) {
       diagnostics.warning(scene.places.key(fmt::format("joint.{}.tied", k)),
                           "tied has no effect: a later [[joint]] of the same blocks unties them");
@@ -380,7 +390,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                       "blocks of the incremental formulation cannot be tied");
     return std::nullopt;
   }
-  BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties),
+  BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties, scene.absent),
                         std::move(choices),
                         parts.size(),
                         {}};

@@ -56,15 +56,23 @@ std::uint64_t scene_hash(const LoadedScene& loaded) {
   const SceneAnalysis& analysis = loaded.scene.analysis;
   for (std::size_t n = 0; analysis.gravity_file && n < analysis.gravity_history.size(); ++n)
     records(analysis.gravity_history[n].time, analysis.gravity_history[n].value);
+  const auto add_fix = [&](const SceneFix& fix) {
+    for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)
+      records(fix.history[n].time, fix.history[n].value);
+  };
+  const auto add_load = [&](const SceneLoad& load) {
+    for (std::size_t n = 0; load.file && n < load.history.size(); ++n)
+      records(load.history[n].time, load.history[n].factor);
+  };
   for (const SceneBlock& block : loaded.scene.block) {
-    for (const SceneFix& fix : block.fix) {
-      for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)
-        records(fix.history[n].time, fix.history[n].value);
-    }
-    for (const SceneLoad& load : block.load) {
-      for (std::size_t n = 0; load.file && n < load.history.size(); ++n)
-        records(load.history[n].time, load.history[n].factor);
-    }
+    for (const SceneFix& fix : block.fix) add_fix(fix);
+    for (const SceneLoad& load : block.load) add_load(load);
+  }
+  for (const SceneStage& stage : loaded.scene.stage) {
+    for (std::size_t n = 0; stage.analysis.gravity_file && n < stage.analysis.gravity_history.size(); ++n)
+      records(stage.analysis.gravity_history[n].time, stage.analysis.gravity_history[n].value);
+    for (const SceneStage::Fix& entry : stage.fix) add_fix(entry.fix);
+    for (const SceneStage::Load& entry : stage.load) add_load(entry.load);
   }
   return hash_bytes(records.take(), hash);
 }

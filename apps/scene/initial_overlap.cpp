@@ -161,7 +161,7 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
   std::vector<Box> boxes;
   std::vector<Candidate> candidates;
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    if (!solids[k]) continue;
+    if (!solids[k] || (!scene.absent.empty() && scene.absent[k])) continue;
     blocks.push_back(k);
     boxes.push_back(box_of(solids[k]->mesh().points));
     candidates.emplace_back(*solids[k]);

@@ -31,7 +31,8 @@ struct OverlapDepth {
 [[nodiscard]] OverlapDepth overlap_depth(const Polyhedron& a, const Polyhedron& b);
 
 /// Reports every pair of blocks that overlap by more than what is allowed, at the second one. Pairs of fixed
-/// blocks may overlap. @param solids one per scene.block; blocks without a solid are passed over
+/// blocks may overlap. @param solids one per scene.block; blocks without a solid are passed over, and those
+/// that are absent
 void check_initial_overlap(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                            Diagnostics& diagnostics);
 

@@ -55,14 +55,22 @@ bool has_multipliers(const Scene& scene) {
   if (scene.contact.augmented) return *scene.contact.augmented;
   const bool given = scene.contact.law.gives_stiffness();
   const auto any_joint = [&](const auto& is_so) {
-    return std::any_of(scene.joint.begin(), scene.joint.end(), [&](const SceneJoint& joint) {
+    const auto is_one = [&](const SceneJoint& joint) {
       return is_so(joint.normal_stiffness) || is_so(joint.shear_stiffness);
-    });
+    };
+    return std::any_of(scene.joint.begin(), scene.joint.end(), is_one) ||
+           std::any_of(scene.stage.begin(), scene.stage.end(), [&](const SceneStage& stage) {
+             return std::any_of(stage.joint.begin(), stage.joint.end(), is_one);
+           });
   };
+  const auto counted = std::count_if(scene.stage.begin(), scene.stage.end(),
+                                     [](const SceneStage& stage) { return is_static(stage.analysis); });
+  const auto statics = static_cast<std::size_t>(counted);
+  const bool only_statics = scene.stage.empty() ? is_static(scene.analysis) : statics == scene.stage.size();
   using Stiffness = std::optional<std::optional<double>>;
-  if (is_static(scene.analysis))
+  if (only_statics)
     return !given || any_joint([](const Stiffness& stiffness) { return stiffness && !*stiffness; });
-  return starts_from_statics(scene) && !given &&
+  return (starts_from_statics(scene) || statics > 0) && !given &&
          !any_joint([](const Stiffness& stiffness) { return stiffness && *stiffness; });
 }
 

@@ -319,6 +319,31 @@ struct SceneMeasure {
   Vector3 point = Vector3::Zero();  ///< m, in the placed, undeformed block
 };
 
+/// [[stage]]: what changes before the run goes on. Names and globs mean blocks, and pieces of cut blocks.
+struct SceneStage {
+  /// [[stage.fix]], [[stage.load]]: a support or load of the blocks that match, from here on
+  struct Fix {
+    std::vector<std::string> blocks;
+    SceneFix fix;
+  };
+  struct Load {
+    std::vector<std::string> blocks;
+    SceneLoad load;
+  };
+
+  std::string name;        ///< unique; required
+  SceneAnalysis analysis;  ///< [analysis], key by key replaced by the stage's `analysis`; times start at 0
+  std::vector<std::string> remove;  ///< blocks that are there no more
+  /// Blocks that are there from here on, as they were placed. What is added before it is ever removed is held back
+  /// until then.
+  std::vector<std::string> add;
+  std::vector<Fix> fix;
+  std::vector<Load> load;
+  std::vector<SceneJoint> joint;        ///< later than all that came before
+  std::vector<SceneMaterial> material;  ///< in place of the [[material]] of that name
+  bool reset_displacement = false;      ///< whether results count displacements from here on
+};
+
 /// Steps between frames where a scene tells neither every nor interval.
 inline constexpr int default_frame_distance = 10;
 
@@ -349,6 +374,9 @@ struct Scene {
   std::vector<SceneCut> cut;            ///< in file order
   std::vector<SceneMeasure> measure;    ///< in file order
   SceneOutput output;
+  /// In file order; empty: there is one analysis. Else `analysis` is that of the first one.
+  std::vector<SceneStage> stage;
+  std::vector<bool> absent;             ///< of one stage, by block: those that are not there; empty: none
   std::vector<std::string> notes;       ///< what was done with mesh files, a line each
   ScenePlaces places;                   ///< of every key that was given
   std::vector<SceneBlock> uncut;        ///< if there are cuts: `block` as the file has it
@@ -370,7 +398,8 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint);
 [[nodiscard]] bool starts_from_statics(const Scene& scene);
 
 /// Whether multipliers hold contact: as the scene says; else in statics between blocks whose joints have no
-/// stiffness given, and in motion that starts from statics where no joint has.
+/// stiffness given, and in motion that starts from statics where no joint has. Stages hand on the forces of
+/// contact, so the answer is one for all.
 [[nodiscard]] bool has_multipliers(const Scene& scene);
 
 /// The material called so, or null.

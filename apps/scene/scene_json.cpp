@@ -183,6 +183,9 @@ Json to_json(const SceneLoad& load) {
 Json to_json(const SceneBlock& block);
 Json to_json(const SceneCut& cut);
 Json to_json(const SceneMeasure& measure);
+Json to_json(const SceneStage::Fix& entry);
+Json to_json(const SceneStage::Load& entry);
+Json to_json(const SceneStage& stage);
 
 template <typename Entry>
 Json list_to_json(const std::vector<Entry>& entries) {
@@ -244,6 +247,36 @@ Json to_json(const SceneMeasure& measure) {
   return {{"name", measure.name}, {"block", measure.block}, {"point", to_json(measure.point)}};
 }
 
+template <typename Entry>
+void add_list(Json& json, const char* key, const std::vector<Entry>& entries) {
+  if (!entries.empty()) json[key] = list_to_json(entries);
+}
+
+Json to_json(const SceneStage::Fix& entry) {
+  Json json = {{"blocks", entry.blocks}};
+  json.update(to_json(entry.fix));
+  return json;
+}
+
+Json to_json(const SceneStage::Load& entry) {
+  Json json = {{"blocks", entry.blocks}};
+  json.update(to_json(entry.load));
+  return json;
+}
+
+Json to_json(const SceneStage& stage) {
+  Json json = {{"name", stage.name}};
+  if (!stage.remove.empty()) json["remove"] = stage.remove;
+  if (!stage.add.empty()) json["add"] = stage.add;
+  add_list(json, "fix", stage.fix);
+  add_list(json, "load", stage.load);
+  add_list(json, "joint", stage.joint);
+  add_list(json, "material", stage.material);
+  json["reset_displacement"] = stage.reset_displacement;
+  json["analysis"] = to_json(stage.analysis);
+  return json;
+}
+
 /// Those to blocks are in the blocks.
 Json assignments_to_pieces(const Scene& scene) {
   Json list = Json::array();
@@ -297,6 +330,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
     json["assign"] = assignments;
   if (!scene.measure.empty()) json["measure"] = list_to_json(scene.measure);
   json["output"] = to_json(scene.output);
+  add_list(json, "stage", scene.stage);
   return json;
 }
 

@@ -10,6 +10,7 @@
 #include "apps/scene/scene_limits.hpp"
 #include "apps/scene/scene_reader.hpp"
 #include "apps/scene/scene_solids.hpp"
+#include "apps/scene/scene_stages.hpp"
 #include "apps/scene/soft_blocks.hpp"
 #include "apps/scene/survey_fit.hpp"
 
@@ -30,29 +31,45 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
     cut_scene(loaded.scene, diagnostics, preparation);
     if (!diagnostics.good()) return std::nullopt;
   }
-  check_references(loaded.scene, diagnostics);
-  check_availability(loaded.scene, diagnostics);
+  check_stages(loaded.scene, diagnostics);
+  // What stages say of blocks that are not there has no meaning further on.
+  if (!loaded.scene.stage.empty() && !diagnostics.good()) return std::nullopt;
+  std::vector<Scene> stages;
+  for (std::size_t k = 0; k < stage_count(loaded.scene); ++k)
+    stages.push_back(scene_of_stage(loaded.scene, k));
+  for (const Scene& stage : stages) {
+    check_references(stage, diagnostics);
+    check_availability(stage, diagnostics);
+  }
   // Nothing of a scene that is too large is built.
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
     return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
   fit_to_survey(loaded.scene, solids, loaded.shapes, diagnostics);
-  check_placement(loaded.scene, solids, diagnostics);
-  check_limits(loaded.scene, solids, diagnostics);
+  for (const Scene& stage : stages) {
+    check_placement(stage, solids, diagnostics);
+    check_limits(stage, solids, diagnostics);
+  }
   warn_of_mesh_units(loaded.scene, solids, diagnostics);
   phase("overlaps of blocks");
-  check_initial_overlap(loaded.scene, solids, diagnostics);
+  for (const Scene& stage : stages) check_initial_overlap(stage, solids, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   phase("sizes of the scene");
   loaded.cost = estimate_cost(loaded.scene, &solids);
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
-  warn_of_idle_keys(loaded.scene, diagnostics);
-  warn_of_doubtful_keys(loaded.scene, diagnostics);
-  warn_of_jumping_supports(loaded.scene, diagnostics);
-  warn_of_soft_blocks(loaded.scene, solids, diagnostics);
+  for (const Scene& stage : stages) {
+    warn_of_idle_keys(stage, diagnostics);
+    warn_of_doubtful_keys(stage, diagnostics);
+    warn_of_jumping_supports(stage, diagnostics);
+    warn_of_soft_blocks(stage, solids, diagnostics);
+  }
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;
+}
+
+LoadedScene stage_of(const LoadedScene& whole, std::size_t stage) {
+  return {scene_of_stage(whole.scene, stage), whole.solids, whole.shapes, whole.cost};
 }
 
 }  // namespace ashlar

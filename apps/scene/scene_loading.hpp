@@ -20,8 +20,11 @@ struct LoadedScene {
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
   /// One per scene.block, before it was translated; equal ones are one.
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  CostEstimate cost;
+  CostEstimate cost;  ///< with all blocks of all stages
 };
+
+/// One stage of a scene (scene_stages.hpp), or the scene itself if it has none.
+[[nodiscard]] LoadedScene stage_of(const LoadedScene& whole, std::size_t stage);
 
 enum class LoadPurpose {
   run,     ///< the cost of a run may refuse the scene
@@ -29,7 +32,7 @@ enum class LoadPurpose {
 };
 
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
-/// soft_blocks.hpp, idle_keys.hpp.
+/// soft_blocks.hpp, idle_keys.hpp. Of a scene of stages each stage is checked.
 /// @param overrides "key.path=value" each, as given to --set, applied in order.
 /// @param preparation is told what is at work, if there is one.
 /// @return nothing if the scene has any error; all of them are then in diagnostics. Writes no file.

@@ -45,8 +45,10 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
   table.read_choice("formulation", analysis.formulation, formulation_names);
   table.read_choice("initial_state", analysis.initial_state, initial_state_names);
-  table.read_vector("gravity", analysis.gravity);
+  // Of a stage: gravity in one form takes the place of gravity in the other.
+  if (table.read_vector("gravity", analysis.gravity)) analysis.gravity_history.clear();
   if (auto history = read_history(table, "gravity_history", 4, "[t, gx, gy, gz]")) {
+    analysis.gravity_history.clear();
     analysis.gravity_file = std::move(history->file);
     for (const auto& row : history->rows)
       analysis.gravity_history.push_back({row[0], {row[1], row[2], row[3]}});
@@ -66,18 +68,19 @@ bool has_history(const SceneBlock& block) {
                      [](const SceneLoad& load) { return !load.history.empty(); });
 }
 
-// A static analysis of constant loads has no use for times.
-void complete_times(TomlTableReader& table, Scene& scene) {
-  SceneAnalysis& analysis = scene.analysis;
-  const bool timeless = is_static(analysis) && analysis.gravity_history.empty() &&
-                        std::none_of(scene.block.begin(), scene.block.end(), has_history);
+/// A static analysis of constant loads has no use for times. @param loads_change whether anything but gravity does
+void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_change) {
+  const bool timeless = is_static(analysis) && analysis.gravity_history.empty() && !loads_change;
   if (!timeless) {
-    table.require("end_time");
-    table.require("time_step");
+    // A stage has what [analysis] says.
+    if (!(analysis.end_time > 0.0)) table.require("end_time");
+    if (!(analysis.time_step > 0.0)) table.require("time_step");
     return;
   }
-  if (!table.given("end_time")) analysis.end_time = std::max(default_static_end_time, analysis.time_step);
-  if (!table.given("time_step")) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
+  if (!(analysis.end_time > 0.0))
+    analysis.end_time = std::max(default_static_end_time, analysis.time_step);
+  if (!(analysis.time_step > 0.0))
+    analysis.time_step = std::min(default_static_time_step, analysis.end_time);
 }
 
 /// @param law a SceneJointLaw or a SceneJoint
@@ -184,6 +187,41 @@ void read_output(TomlTableReader table, SceneOutput& output) {
     output.fields.*member = std::find(fields.begin(), fields.end(), name) != fields.end();
 }
 
+std::vector<std::string> read_stage_blocks(TomlTableReader& table) {
+  std::vector<std::string> blocks;
+  table.require("blocks");
+  table.read_texts("blocks", blocks);
+  return blocks;
+}
+
+/// @param base what the stage's `analysis` replaces key by key
+SceneStage read_stage(TomlTableReader& table, const SceneAnalysis& base) {
+  SceneStage stage;
+  table.require("name");
+  table.read_name("name", stage.name);
+  table.read_texts("remove", stage.remove);
+  table.read_texts("add", stage.add);
+  stage.fix = table.read_tables("fix", [](TomlTableReader& entry) {
+    return SceneStage::Fix{read_stage_blocks(entry), read_fix(entry)};
+  });
+  stage.load = table.read_tables("load", [](TomlTableReader& entry) {
+    return SceneStage::Load{read_stage_blocks(entry), read_load(entry)};
+  });
+  stage.joint = table.read_tables("joint", read_joint);
+  stage.material = table.read_tables("material", read_material);
+  table.read_bool("reset_displacement", stage.reset_displacement);
+  stage.analysis = base;
+  TomlTableReader analysis = table.table_or_empty("analysis");
+  read_analysis(analysis, stage.analysis);
+  const bool loads_change =
+      std::any_of(stage.fix.begin(), stage.fix.end(),
+                  [](const SceneStage::Fix& entry) { return !entry.fix.history.empty(); }) ||
+      std::any_of(stage.load.begin(), stage.load.end(),
+                  [](const SceneStage::Load& entry) { return !entry.load.history.empty(); });
+  complete_times(analysis, stage.analysis, loads_change);
+  return stage;
+}
+
 void read_tables(TomlTableReader top, Scene& scene) {
   top.read_text("title", scene.title);
   (void)top.given("parameters");  // read before all others
@@ -202,7 +240,14 @@ void read_tables(TomlTableReader top, Scene& scene) {
     top.error_at_key("include", "include cannot be set (include), files are read before anything is set");
   const bool has_blocks = !scene.block.empty() || !masonry.empty();
   expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
-  complete_times(analysis, scene);
+  // Once the analysis is complete where there is nothing else.
+  scene.stage = top.read_tables(
+      "stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
+  if (scene.stage.empty())
+    complete_times(analysis, scene.analysis,
+                   std::any_of(scene.block.begin(), scene.block.end(), has_history));
+  else
+    scene.analysis = scene.stage.front().analysis;
   if (!has_blocks) top.error_at_table("no block (0), at least one [[block]] is needed");
 }
 

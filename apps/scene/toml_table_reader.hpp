@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -102,8 +103,9 @@ class TomlTableReader {
   [[nodiscard]] TomlTableReader table_or_empty(std::string_view key);
   /// What `read` makes of each entry of an array of tables. An entry that is no table is a fault and an
   /// untouched result, so that indices stay; none if absent or no array.
-  template <typename Entry>
-  [[nodiscard]] std::vector<Entry> read_tables(std::string_view key, Entry (*read)(TomlTableReader&)) {
+  template <typename Read>
+  [[nodiscard]] auto read_tables(std::string_view key, Read read) {
+    using Entry = std::invoke_result_t<Read, TomlTableReader&>;
     std::vector<Entry> entries;
     for (std::optional<TomlTableReader>& table : tables(key))
       entries.push_back(table ? read(*table) : Entry());

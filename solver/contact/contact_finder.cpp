@@ -38,20 +38,23 @@ void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairConta
 }  // namespace
 
 ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
-                             std::set<PairKey> left_out)
+                             std::set<PairKey> left_out, std::vector<bool> absent)
     : settings_(settings),
       axes_(axes_of(blocks)),
+      absent_(std::move(absent)),
       left_out_(std::move(left_out)),
       placed_(blocks.size()),
       tracks_(blocks.size()) {
   surfaces_.reserve(blocks.size());
+  absent_.resize(blocks.size(), false);
   std::map<const BlockParts*, std::size_t> first;  // of equal blocks
   for (const BlockModel& block : blocks) {
     const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
     surfaces_.emplace_back(block, settings.search.subdivisions, axes_,
                            is_first ? nullptr : &surfaces_[twin->second]);
-    fixed_.push_back(block.fixed());
-    moving_.push_back(!block.fixed());
+    const bool is_absent = absent_[fixed_.size()];
+    fixed_.push_back(block.fixed() && !is_absent);
+    moving_.push_back(!block.fixed() && !is_absent);
     thickness_.push_back(block.basis().volume() / surface_area(block.solid().mesh()));
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
   }
@@ -89,7 +92,7 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
     loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
   std::vector<bool> near(surfaces_.size(), false);
   const auto can_meet = [&](const PairKey& pair) {
-    return (moving_[at(pair[0])] || moving_[at(pair[1])]) && left_out_.count(pair) == 0;
+    return (moving_[at(pair[0])] || moving_[at(pair[1])]) && !leaves_out(pair[0], pair[1]);
   };
   for (const PairKey& pair : meeting_boxes(loose)) {
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
@@ -289,7 +292,7 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
   };
   std::vector<PairKey> pairs = meeting_boxes(swept);
   std::erase_if(pairs, [&](const PairKey& pair) {
-    return left_out_.count(pair) > 0 || both(pair) <= tolerance || known_apart(pair, both(pair), histories);
+    return leaves_out(pair[0], pair[1]) || both(pair) <= tolerance || known_apart(pair, both(pair), histories);
   });
   // What is left is looked at with the true surfaces and their true motion.
   ends.resize(surfaces_.size());

@@ -73,8 +73,9 @@ class ContactFinder {
  public:
   /// @param blocks must outlive this and stay where they are
   /// @param left_out pairs of blocks between which no contacts are looked for
+  /// @param absent by block, or empty: blocks that nothing touches
   ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
-                std::set<PairKey> left_out = {});
+                std::set<PairKey> left_out = {}, std::vector<bool> absent = {});
 
   /// Takes note which blocks may move; no contacts are looked for between two that do not. @param moving by
   /// block, of fixed blocks false
@@ -88,7 +89,10 @@ class ContactFinder {
   /// @param histories of pairs: how deep they were, clearances and entrances are read and noted
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
                                                 const ExpectedMotion& motion, PairHistories& histories);
-  [[nodiscard]] bool leaves_out(int a, int b) const { return left_out_.count({a, b}) > 0; }
+  [[nodiscard]] bool leaves_out(int a, int b) const {
+    return absent_[static_cast<std::size_t>(a)] || absent_[static_cast<std::size_t>(b)] ||
+           left_out_.count({a, b}) > 0;
+  }
   /// The surface of a block of a found pair.
   [[nodiscard]] const PlacedSurface& placed(int block) const {
     return placed_[static_cast<std::size_t>(block)].value();
@@ -140,7 +144,8 @@ class ContactFinder {
 
   SimulationSettings settings_;
   Eigen::Matrix3d axes_;  ///< of the boxes below
-  std::vector<bool> fixed_;
+  std::vector<bool> absent_;
+  std::vector<bool> fixed_;  ///< and present
   std::vector<bool> moving_;  ///< false for fixed blocks, and for those that sleep
   std::set<PairKey> left_out_;
   std::vector<double>

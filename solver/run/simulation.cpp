@@ -5,6 +5,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/run/checkpoint.hpp"
+#include "solver/run/stage_start.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
@@ -14,8 +15,9 @@
 namespace ashlar {
 
 Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions,
-                       LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties)
-    : system_(std::move(blocks), std::move(law), settings, ties),
+                       LawOfPair law, const SimulationSettings& settings, const std::vector<TieRequest>& ties,
+                       std::vector<bool> absent)
+    : system_(std::move(blocks), std::move(law), settings, ties, std::move(absent)),
       contacts_(system_),
       audit_(system_.blocks().size()) {
   state_.next_step = settings.time_step;
@@ -64,6 +66,10 @@ std::vector<int> Simulation::settle_supported_blocks() {
 
 StaticStatus Simulation::start_from_statics(const std::function<bool()>& goes_on) {
   return ashlar::start_from_statics(context(), goes_on);
+}
+
+void Simulation::start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
+  ashlar::start_stage(context(), end, was_absent);
 }
 
 bool Simulation::reached(double end_time) const {

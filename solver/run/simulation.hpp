@@ -31,9 +31,11 @@ class Simulation {
 
   /// @param law joint law of each pair (a < b). @param ties blocks that are bonded over the faces that they have
   /// in common (tie.hpp), with no contacts between them; see system().are_tied() for those that have any
+  /// @param absent by block, or empty: see BlockSystem
   /// @throws std::invalid_argument if a tied block is incremental
   Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
-             const SimulationSettings& settings, const std::vector<TieRequest>& ties = {});
+             const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
+             std::vector<bool> absent = {});
 
   /// Moves every block whose supports leave no rigid motion to its equilibrium under gravity and the loads at
   /// time 0, contacts off, at rest. To be called before the first step. Incremental blocks go there in steps,
@@ -45,6 +47,11 @@ class Simulation {
   /// @param goes_on asked before each iteration: if not, it ends there
   /// @return how it ended, balancing if it was ended; unless that is equilibrium all is as placed
   [[nodiscard]] StaticStatus start_from_statics(const std::function<bool()>& goes_on = [] { return true; });
+
+  /// Goes on from where a simulation of the same blocks has ended (stage_start.hpp). To be called before the
+  /// first step. @param was_absent in it, by block
+  /// @throws std::invalid_argument if it is one of other blocks, or of other orders
+  void start_stage(const SimulationSnapshot& end, const std::vector<bool>& was_absent);
 
   /// Whether nothing is left up to `end_time` but rounding, or less than 1e-9 of a step.
   [[nodiscard]] bool reached(double end_time) const;

@@ -41,8 +41,9 @@ Eigen::MatrixXd gradients_at(const BlockModel& block, const std::vector<Vector3>
 }  // namespace
 
 BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
-                         const std::vector<TieRequest>& ties)
-    : blocks_(std::move(blocks)), law_(std::move(law)), settings_(settings) {
+                         const std::vector<TieRequest>& ties, std::vector<bool> absent)
+    : blocks_(std::move(blocks)), absent_(std::move(absent)), law_(std::move(law)), settings_(settings) {
+  absent_.resize(blocks_.size(), false);
   let_go();
   // The surface of an incremental block is its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
@@ -52,6 +53,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   for (std::size_t k = 0; k < blocks_.size(); ++k) note_gradients(k);
   std::vector<std::array<int, 2>> tied;
   for (const auto& [a, b, stiffness] : ties) {
+    if (!present(a) || !present(b)) continue;
     const BlockModel& block_a = blocks_[at(a)];
     const BlockModel& block_b = blocks_[at(b)];
     if (block_a.incremental() != nullptr || block_b.incremental() != nullptr)
@@ -63,6 +65,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     tied.push_back({a, b});
   }
   free_bodies_ = ashlar::free_bodies(blocks_, tied);
+  std::erase_if(free_bodies_, [this](const std::vector<int>& body) { return !present(body.front()); });
 }
 
 bool BlockSystem::is_tied(int block) const {
@@ -94,7 +97,8 @@ double BlockSystem::smaller_size(const std::array<int, 2>& blocks) const {
 
 int BlockSystem::unknowns() const {
   int sum = 0;
-  for (const BlockModel& block : blocks_) sum += block.unknowns();
+  for (int k = 0; k < count(); ++k)
+    if (present(k)) sum += blocks_[at(k)].unknowns();
   return sum;
 }
 
@@ -128,7 +132,7 @@ void BlockSystem::hold(const std::vector<int>& blocks) {
 
 void BlockSystem::let_go() {
   moving_.clear();
-  for (const BlockModel& block : blocks_) moving_.push_back(!block.fixed());
+  for (int k = 0; k < count(); ++k) moving_.push_back(!blocks_[at(k)].fixed() && present(k));
 }
 
 void BlockSystem::note_gradients(std::size_t k) {

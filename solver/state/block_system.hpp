@@ -36,15 +36,18 @@ class BlockSystem {
   using LawOfPair = std::function<JointLaw(int, int)>;
 
   /// @param law joint law of each pair (a < b). @param ties a pair without a common face is not tied, but
-  /// contacts are left out all the same
+  /// contacts are left out all the same. @param absent by block, or empty: blocks that keep their numbers but
+  /// are not there: they neither move, nor touch, nor weigh, nor have energy
   /// @throws std::invalid_argument if a tied block is incremental
   BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
-              const std::vector<TieRequest>& ties);
+              const std::vector<TieRequest>& ties, std::vector<bool> absent = {});
 
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()); }
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
-  /// By block: false for fixed blocks, and for those that are held at present: in statics loose ones, in motion
-  /// those that sleep.
+  [[nodiscard]] bool present(int block) const { return !absent_[static_cast<std::size_t>(block)]; }
+  [[nodiscard]] const std::vector<bool>& absent() const { return absent_; }
+  /// By block: false for fixed and absent blocks, and for those that are held at present: in statics loose
+  /// ones, in motion those that sleep.
   [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
   [[nodiscard]] JointLaw law(int a, int b) const { return law_(a, b); }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
@@ -79,6 +82,7 @@ class BlockSystem {
   void note_gradients(std::size_t block);
 
   std::vector<BlockModel> blocks_;
+  std::vector<bool> absent_;
   std::vector<bool> moving_;
   LawOfPair law_;
   SimulationSettings settings_;

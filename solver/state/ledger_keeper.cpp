@@ -18,7 +18,7 @@ void LedgerKeeper::multipliers_gave(double beyond) {
 
 void LedgerKeeper::measure_elastic(const BlockSystem& system, const std::vector<BlockState>& states,
                                    int block) {
-  if (!system.blocks()[at(block)].fixed())
+  if (!system.blocks()[at(block)].fixed() && system.present(block))
     elastic_energies_[at(block)] = system.blocks()[at(block)].elastic(states[at(block)].position).energy;
 }
 
@@ -31,7 +31,7 @@ void LedgerKeeper::measure(const BlockSystem& system, const std::vector<BlockSta
   ledger_.kinetic = ledger_.elastic = ledger_.gravity = 0.0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const BlockModel& block = system.blocks()[k];
-    if (block.fixed()) continue;
+    if (block.fixed() || !system.present(static_cast<int>(k))) continue;
     ledger_.kinetic += block.kinetic_energy(states[k]);
     ledger_.elastic += elastic_energies_[k];
     if (system.settings().gravity_history.empty())

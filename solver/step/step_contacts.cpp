@@ -95,7 +95,7 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
 }
 
 StepContacts::StepContacts(const BlockSystem& system)
-    : finder_(system.blocks(), system.settings(), system.left_out()) {}
+    : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()) {}
 
 std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunState& state, double step) {
   const Stopwatch watch(state.log.seconds.contact_search);

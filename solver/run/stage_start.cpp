@@ -1,0 +1,59 @@
+#include "solver/run/stage_start.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Whether the snapshot is one of blocks with these numbers of functions.
+bool fits(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
+  const std::vector<BlockState>& states = end.run.states;
+  bool same = states.size() == run.blocks().size() && was_absent.size() == states.size();
+  for (int k = 0; same && k < run.system.count(); ++k)
+    same = states[at(k)].position.rows() == run.state.states[at(k)].position.rows() &&
+           end.carried.contains(k) == (run.blocks()[at(k)].incremental() != nullptr);
+  return same;
+}
+
+}  // namespace
+
+void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
+  if (!fits(run, end, was_absent)) throw std::invalid_argument("the stage before is one of other blocks");
+  RunState& state = run.state;
+  const auto stays = [&](int block) { return run.system.present(block) && !was_absent[at(block)]; };
+  for (int k = 0; k < run.system.count(); ++k) {
+    if (!stays(k)) continue;
+    state.states[at(k)] = end.run.states[at(k)];
+    if (run.blocks()[at(k)].fixed() || run.blocks()[at(k)].incremental() == nullptr) continue;
+    run.system.carry_on(k, run.blocks()[at(k)].with_shape(end.carried.at(k)));
+    run.contacts.finder().start_step(k);
+  }
+  state.pairs.clear();
+  for (const auto& [blocks, pair] : end.run.pairs) {
+    if (!stays(blocks[0]) || !stays(blocks[1])) continue;
+    PairHistory& kept = state.pairs.emplace(blocks, pair).first->second;
+    // Paths of blocks, which it counts, begin anew.
+    kept.clearance.reset();
+    kept.work = 0.0;
+  }
+  state.records.clear();
+  double in_springs = 0.0;
+  for (PairRecord record : end.run.records) {
+    if (!stays(record.a) || !stays(record.b)) continue;
+    record.work = 0.0;
+    for (const PointResponse& response : record.responses) in_springs += response.energy();
+    state.records.push_back(std::move(record));
+  }
+  state.steps = end.run.steps;
+  state.remembers_statics = true;
+  state.report = end.run.report;
+  state.extremes = end.run.extremes;
+  state.log = end.run.log;
+  state.ledger.clear(in_springs);
+  state.ledger.start(run.system, state.states);
+}
+
+}  // namespace ashlar
