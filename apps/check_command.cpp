@@ -17,14 +17,15 @@ namespace ashlar {
 
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   Diagnostics diagnostics;
-  std::optional<LoadedScene> loaded;
+  std::optional<LoadedScene> loaded, first;
   std::optional<BuiltSimulation> built;
   {
     Preparation preparation(false, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
-    if (loaded) built = build_simulation(*loaded, 1, diagnostics, &preparation);
-    if (built && is_static(loaded->scene.analysis))
-      refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+    if (loaded) first = stage_of(*loaded, 0);
+    if (first) built = build_simulation(*first, 1, diagnostics, &preparation);
+    if (built && is_static(first->scene.analysis))
+      refuse_loose_blocks(first->scene, built->simulation, diagnostics);
   }
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;

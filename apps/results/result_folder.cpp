@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -72,6 +73,15 @@ void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {
   values.insert(values.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
 }
 
+/// What a measured point does; nan if its block is not there.
+PointMotion measured(const Simulation& simulation, const MeasuredPoint& measure) {
+  if (simulation.system().present(measure.block))
+    return simulation.blocks()[at(measure.block)].motion_of(simulation.states()[at(measure.block)],
+                                                            measure.point);
+  const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+  return {none, none, none, Eigen::Matrix3d::Constant(none.x())};
+}
+
 constexpr const char* contact_columns =
     "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
     "normal_force.y,"
@@ -79,7 +89,7 @@ constexpr const char* contact_columns =
 
 }  // namespace
 
-std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures) {
+std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures, bool in_stages) {
   std::vector<std::string> columns = {"step", "time", "dt"};
   for (const MeasuredPoint& measure : measures) {
     for (const char* part : {".x", ".y", ".z", ".ux", ".uy", ".uz", ".vx", ".vy", ".vz"}) {
@@ -99,18 +109,20 @@ std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measu
     for (const char* part : {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"})
       columns.push_back(measure.name + part);
   }
+  if (in_stages) columns.emplace_back("stage");
   return columns;
 }
 
-std::vector<double> history_row(const Simulation& simulation, const std::vector<MeasuredPoint>& measures) {
+std::vector<double> history_row(const Simulation& simulation, const std::vector<MeasuredPoint>& measures,
+                                const DisplacementOrigin& origin, int stage) {
   const StepReport& report = simulation.report();
   std::vector<double> values = {simulation.time(), report.step};
   std::vector<PointMotion> motions;
-  for (const MeasuredPoint& measure : measures) {
-    const PointMotion motion = motions.emplace_back(simulation.blocks()[at(measure.block)].motion_of(
-        simulation.states()[at(measure.block)], measure.point));
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    const PointMotion motion = motions.emplace_back(measured(simulation, measures[k]));
     append(values, motion.place);
-    append(values, motion.displacement);
+    append(values,
+           origin.measures.empty() ? motion.displacement : Vector3(motion.displacement - origin.measures[k]));
     append(values, motion.velocity);
   }
   const Ledger& ledger = simulation.ledger();
@@ -125,11 +137,13 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   values.push_back(ledger.refound_gained);
   values.push_back(ledger.refound_lost);
   for (const PointMotion& motion : motions) append_stress(values, motion.stress);
+  if (stage > 0) values.push_back(stage);
   return values;
 }
 
 UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
-                             const std::vector<DrawnSurface>& surfaces, const SceneOutput::Fields& fields) {
+                             const std::vector<DrawnSurface>& surfaces, const SceneOutput::Fields& fields,
+                             const std::vector<bool>& absent, const DisplacementOrigin& origin) {
   UnstructuredGrid grid;
   std::vector<double> displacement;
   std::vector<double> velocity;
@@ -138,14 +152,17 @@ UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks, const std::v
   std::vector<std::int32_t> order_of_cell;
   std::vector<std::int32_t> face_of_cell;
   for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
+    if (!absent.empty() && absent[at(b)]) continue;
     const BlockModel& block = blocks[at(b)];
     const BlockState& state = states[at(b)];
     const DrawnSurface& surface = surfaces[at(b)];
     const int first = static_cast<int>(grid.points.size());
-    for (const Vector3& point : surface.points) {
-      const PointMotion motion = block.motion_of(state, point);
+    for (std::size_t k = 0; k < surface.points.size(); ++k) {
+      const PointMotion motion = block.motion_of(state, surface.points[k]);
       grid.points.push_back(motion.place);
-      append(displacement, motion.displacement);
+      append(displacement, origin.surfaces.empty()
+                               ? motion.displacement
+                               : Vector3(motion.displacement - origin.surfaces[at(b)][k]));
       append(velocity, motion.velocity);
       if (fields.stress) append_stress(stress, motion.stress);
     }
@@ -215,10 +232,12 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       output_(scene.output),
       measures_(find_measures(scene)),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
-      history_(folder_ / "history.csv", history_columns(measures_)),
+      history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
-      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
+      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty),
+      stage_(scene.stage.empty() ? 0 : 1) {
+  if (stage_ > 0 && scene.stage.front().reset_displacement) set_origin(simulation);
   contact_rows_.write(contact_columns);
   add_step(simulation);
 }
@@ -229,14 +248,17 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       output_(scene.output),
       measures_(find_measures(scene)),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
-      history_(
-          HistoryWriter::resume(folder_ / "history.csv", history_columns(measures_), state.last_row_step)),
+      history_(HistoryWriter::resume(folder_ / "history.csv",
+                                     history_columns(measures_, !scene.stage.empty()), state.last_row_step)),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
       contacts_(folder_ / "contacts.pvd", state.contact_frames),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
       last_row_step_(state.last_row_step),
       last_frame_step_(state.last_frame_step),
-      intervals_written_(state.intervals_written) {
+      intervals_written_(state.intervals_written),
+      stage_(state.stage),
+      elapsed_(state.elapsed),
+      origin_(state.origin) {
   if (contact_rows_.size() < state.contact_bytes) {
     throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
                                          contact_rows_.path().string(), contact_rows_.size(),
@@ -256,7 +278,29 @@ ResultFolderState ResultFolder::synced_state() {
   history_.sync();
   contact_rows_.sync();
   return {blocks_.frames(), contacts_.frames(), contact_rows_.size(),
-          last_row_step_,   last_frame_step_,   intervals_written_};
+          last_row_step_,   last_frame_step_,   intervals_written_,
+          stage_,           elapsed_,           origin_};
+}
+
+void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement) {
+  ++stage_;
+  elapsed_ = elapsed;
+  intervals_written_ = 1;  // That of its start is the end of the last stage.
+  if (reset_displacement) set_origin(simulation);
+}
+
+void ResultFolder::set_origin(const Simulation& simulation) {
+  origin_ = {};
+  const auto displacement = [&](int block, const Vector3& point) {
+    return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
+  };
+  for (const MeasuredPoint& measure : measures_)
+    origin_.measures.push_back(displacement(measure.block, measure.point));
+  for (int b = 0; b < simulation.system().count(); ++b) {
+    origin_.surfaces.emplace_back();
+    for (const Vector3& point : surfaces_[at(b)].points)
+      origin_.surfaces.back().push_back(displacement(b, point));
+  }
 }
 
 void ResultFolder::check_in_place() const {
@@ -288,7 +332,7 @@ bool ResultFolder::frame_is_due(const Simulation& simulation) const {
 
 void ResultFolder::add_row(const Simulation& simulation) {
   if (simulation.steps() == last_row_step_) return;
-  history_.append(simulation.steps(), history_row(simulation, measures_));
+  history_.append(simulation.steps(), history_row(simulation, measures_, origin_, stage_));
   last_row_step_ = simulation.steps();
 }
 
@@ -296,12 +340,12 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   if (simulation.steps() == last_frame_step_) return;
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
-  write_vtu(folder_ / blocks,
-            block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields));
+  write_vtu(folder_ / blocks, block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields,
+                                          simulation.system().absent(), origin_));
   write_vtu(folder_ / contacts, contact_frame(simulation));
-  blocks_.add_frame(simulation.time(), blocks);
+  blocks_.add_frame(elapsed_ + simulation.time(), blocks);
   try {
-    contacts_.add_frame(simulation.time(), contacts);
+    contacts_.add_frame(elapsed_ + simulation.time(), contacts);
   } catch (...) {
     blocks_.drop_last();
     throw;

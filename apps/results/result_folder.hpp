@@ -22,20 +22,32 @@ struct MeasuredPoint {
   Vector3 point;  ///< reference coordinates, m
 };
 
-/// Names of the columns of history.csv, the step first; stresses of measured points (sxx, syy, szz, sxy, syz,
-/// sxz; Pa, tension positive) last.
-[[nodiscard]] std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures);
+/// Displacements that results count from, m: those where a stage has set them back.
+struct DisplacementOrigin {
+  std::vector<Vector3> measures;               ///< by measured point; empty: as placed
+  std::vector<std::vector<Vector3>> surfaces;  ///< by block and point of its DrawnSurface; empty: as placed
+};
 
-/// The values after the step, in the order of history_columns.
+/// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy,
+/// syz, sxz; Pa, tension positive); of a run in stages `stage` last.
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures,
+                                                       bool in_stages = false);
+
+/// The values after the step, in the order of history_columns. Points of absent blocks have nan.
+/// @param stage 1-based number; 0: the run has none
 [[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
-                                              const std::vector<MeasuredPoint>& measures);
+                                              const std::vector<MeasuredPoint>& measures,
+                                              const DisplacementOrigin& origin = {}, int stage = 0);
 
-/// All blocks in a state. Point data: those of displacement, velocity and stress (xx, yy, zz, xy, yz, xz)
+/// All blocks that are there, in a state. Point data: those of displacement, velocity and stress (xx, yy, zz, xy, yz, xz)
 /// that are asked for. Cell data: block, order and face.
+/// @param absent by block, or empty
 [[nodiscard]] UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks,
                                            const std::vector<BlockState>& states,
                                            const std::vector<DrawnSurface>& surfaces,
-                                           const SceneOutput::Fields& fields);
+                                           const SceneOutput::Fields& fields,
+                                           const std::vector<bool>& absent = {},
+                                           const DisplacementOrigin& origin = {});
 
 /// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
 /// blocks.
@@ -49,6 +61,9 @@ struct ResultFolderState {
   int last_row_step = -1;           ///< in history.csv
   int last_frame_step = -1;
   int intervals_written = 0;
+  int stage = 0;         ///< 1-based; 0: the run has none
+  double elapsed = 0.0;  ///< s, of all stages before
+  DisplacementOrigin origin;
 };
 
 /// Writes everything but the summary and the checkpoint; files of frames are in `frames/`. Errors are
@@ -69,7 +84,11 @@ class ResultFolder {
   /// Called after every accepted step. What fails to be written is not in state() either.
   /// @throws std::runtime_error also if a table is not there any more
   void add_step(const Simulation& simulation);
-  /// Adds row and frame of the end of a run, which are there whether they are due or not. A run that goes on
+  /// Of a run in stages: what follows is of another one. To be called when the last one has been added by
+  /// add_end().
+  /// @param simulation at the start of the stage. @param elapsed s, of all stages before
+  void begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement);
+  /// Adds row and frame of the end of a run or stage, which are there whether they are due or not. A run that goes on
   /// from a checkpoint before drops them.
   void add_end(const Simulation& simulation);
 
@@ -82,6 +101,8 @@ class ResultFolder {
  private:
   [[nodiscard]] bool frame_is_due(const Simulation& simulation) const;
   void check_in_place() const;
+  /// Displacements count from here.
+  void set_origin(const Simulation& simulation);
   void add_row(const Simulation& simulation);
   void add_frame(const Simulation& simulation);
   void add_contact_rows(const Simulation& simulation);
@@ -97,6 +118,9 @@ class ResultFolder {
   int last_row_step_ = -1;
   int last_frame_step_ = -1;
   int intervals_written_ = 0;  ///< output.interval: frames due by time so far
+  int stage_;                  ///< see ResultFolderState
+  double elapsed_ = 0.0;
+  DisplacementOrigin origin_;
 };
 
 }  // namespace ashlar

@@ -18,9 +18,19 @@ static void visit_members(Archive& archive, PvdFrame& frame) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, DisplacementOrigin& origin) {
+  archive(origin.measures, origin.surfaces);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, ResultFolderState& state) {
   archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_row_step,
-          state.last_frame_step, state.intervals_written);
+          state.last_frame_step, state.intervals_written, state.stage, state.elapsed, state.origin);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, FinishedStage& stage) {
+  archive(stage.status, stage.message, stage.steps, stage.time);
 }
 
 template <class Archive>
@@ -31,7 +41,7 @@ static void visit_members(Archive& archive, RunSeconds& seconds) {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 12;
+constexpr std::uint32_t layout_version = 13;
 
 /// What follows the magic line; the payload follows it.
 struct Header {
@@ -45,6 +55,7 @@ struct Header {
 std::uint64_t scene_hash(const LoadedScene& loaded) {
   nlohmann::ordered_json json = to_json(loaded.scene);
   for (const char* key : {"end_time", "memory_limit"}) json["analysis"].erase(key);
+  if (!loaded.scene.stage.empty()) json["stage"].back()["analysis"].erase("end_time");
   json.erase("title");
   std::uint64_t hash = hash_bytes(json.dump());
   for (const Polyhedron& solid : loaded.solids) {
@@ -80,7 +91,7 @@ std::uint64_t scene_hash(const LoadedScene& loaded) {
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
                                 const RunCheckpoint& checkpoint) {
   ByteWriter payload;
-  payload(to_bytes(checkpoint.simulation), checkpoint.folder, checkpoint.seconds);
+  payload(to_bytes(checkpoint.simulation), checkpoint.stages, checkpoint.folder, checkpoint.seconds);
   const std::string bytes = payload.take();
   ByteWriter header;
   header(layout_version, hash, hash_bytes(bytes));
@@ -117,7 +128,7 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     }
     RunCheckpoint checkpoint;
     std::string snapshot;
-    reader(snapshot, checkpoint.folder, checkpoint.seconds);
+    reader(snapshot, checkpoint.stages, checkpoint.folder, checkpoint.seconds);
     checkpoint.simulation = snapshot_from_bytes(snapshot);
     return checkpoint;
   } catch (const CheckpointError&) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "apps/results/result_folder.hpp"
 #include "apps/run/run_summary.hpp"
@@ -12,9 +14,18 @@
 
 namespace ashlar {
 
+/// A stage of a run that has come to its end.
+struct FinishedStage {
+  std::string status;   ///< as in summary.json
+  std::string message;  ///< empty: nothing to tell
+  int steps;            ///< of the run, at its end
+  double time;          ///< s, at its end
+};
+
 /// A run between two steps.
 struct RunCheckpoint {
-  SimulationSnapshot simulation;
+  SimulationSnapshot simulation;      ///< of the present stage
+  std::vector<FinishedStage> stages;  ///< those before
   ResultFolderState folder;
   RunSeconds seconds;
 };
@@ -31,8 +42,8 @@ struct OtherSceneError : CheckpointError {
 };
 
 /// Of the scene as used: every key with defaults and overrides, and the points and triangles of every block,
-/// so that a changed mesh file is noticed, and so are records. analysis.end_time is left out, as a run may go
-/// on beyond its end, and what no result depends on: title, analysis.memory_limit.
+/// so that a changed mesh file is noticed, and so are records. analysis.end_time is left out, and that of the last
+/// stage, as a run may go on beyond its end, and what no result depends on: title, analysis.memory_limit.
 [[nodiscard]] std::uint64_t scene_hash(const LoadedScene& loaded);
 
 /// Replaces the file as a whole; it outlives a power failure. @return its bytes

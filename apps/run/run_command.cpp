@@ -25,6 +25,7 @@
 #include "apps/run/space_reserve.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/scene_json.hpp"
+#include "apps/scene/scene_stages.hpp"
 #include "apps/view/view_file.hpp"
 
 namespace ashlar {
@@ -64,43 +65,55 @@ int exit_status_of(RunStatus status) {
   return exit_status::failed;
 }
 
-/// A run from its first step, or from a checkpoint, to its end.
+/// @throws std::runtime_error if blocks cannot be built
+BuiltSimulation built_or_thrown(const LoadedScene& loaded, int threads) {
+  Diagnostics diagnostics;
+  std::optional<BuiltSimulation> built = build_simulation(loaded, threads, diagnostics);
+  if (built) return std::move(*built);
+  const std::vector<Diagnostic> faults = diagnostics.sorted();
+  throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
+}
+
+/// A run from its first step, or from a checkpoint, to its end: one stage after the other.
 class Run {
  public:
+  /// @param built of the stage that the run begins or goes on in
   /// @param interval s between checkpoints; empty: growing, see CheckpointSchedule
   /// @param bracket of a search for a factor, whose motion this run shows
-  Run(const LoadedScene& loaded, BuiltSimulation built, const FolderClaim& claim,
+  Run(const LoadedScene& loaded, int threads, BuiltSimulation built, const FolderClaim& claim,
       const std::optional<RunCheckpoint>& earlier, std::optional<double> interval,
       std::optional<FactorBracket> bracket)
-      : scene_(loaded.scene),
+      : loaded_(loaded),
+        threads_(threads),
+        stages_(earlier ? earlier->stages : std::vector<FinishedStage>()),
+        scene_(scene_of_stage(loaded.scene, stages_.size())),
         bracket_(std::move(bracket)),
         hash_(scene_hash(loaded)),
         built_(std::move(built)),
         claim_(claim),
         interval_(interval),
         reserve_(claim.folder()),
-        folder_(earlier ? ResultFolder(claim.folder(), scene_, built_.simulation, earlier->folder)
-                        : ResultFolder(claim.folder(), scene_, built_.simulation)) {
+        folder_(earlier ? ResultFolder(claim.folder(), loaded.scene, built_.simulation, earlier->folder)
+                        : ResultFolder(claim.folder(), loaded.scene, built_.simulation)) {
     if (earlier) earlier_seconds_ = earlier->seconds;
   }
 
   /// Steps until the end, an interrupt or a failure. @param start wall time at which the program began, s
   RunEnd go(double start, bool quiet, std::ostream& err) {
     seconds_.setup = seconds_now() - start;
-    ProgressLine progress(scene_.analysis.end_time, quiet, err);
     RunStatus status = RunStatus::failed;
     try {
       save(start);
-      status = is_static(scene_.analysis) ? find_equilibrium(start, progress) : take_steps(start, progress);
-      // Before the last frame, which a run that goes on has only if it is due.
-      save(start);
-      if (status == RunStatus::completed) status = audited();
-      if (bracket_) status = answered(status);
-      folder_.add_end(built_.simulation);
+      status = go_through_stage(start, quiet, err);
+      while (is_done(status) && stages_.size() + 1 < stage_count(loaded_.scene)) {
+        if (!quiet) err << end_of_stage(status) << '\n';
+        begin_next_stage(status);
+        save(start);
+        status = go_through_stage(start, quiet, err);
+      }
     } catch (const std::exception& error) {
       status = saved_after(error, start);
     }
-    progress.finish();
     status = summarised(status, start);
     return {status, message_, unsaved_};
   }
@@ -108,6 +121,47 @@ class Run {
   [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
 
  private:
+  /// Whether a stage has come to its end.
+  static bool is_done(RunStatus status) {
+    return status == RunStatus::completed || status == RunStatus::equilibrium;
+  }
+
+  RunStatus go_through_stage(double start, bool quiet, std::ostream& err) {
+    ProgressLine progress(scene_.analysis.end_time, quiet, err);
+    RunStatus status =
+        is_static(scene_.analysis) ? find_equilibrium(start, progress) : take_steps(start, progress);
+    // Before the last frame, which a run that goes on has only if it is due.
+    save(start);
+    if (status == RunStatus::completed) status = audited();
+    if (bracket_) status = answered(status);
+    folder_.add_end(built_.simulation);
+    return status;
+  }
+
+  [[nodiscard]] std::string end_of_stage(RunStatus status) const {
+    return fmt::format("stage {}: {} after {} steps{}{}", loaded_.scene.stage[stages_.size()].name,
+                       to_string(status), built_.simulation.steps(), message_.empty() ? "" : ": ", message_);
+  }
+
+  [[nodiscard]] FinishedStage finished(RunStatus status) const {
+    return {to_string(status), message_, built_.simulation.steps(), built_.simulation.time()};
+  }
+
+  /// @throws std::runtime_error if its blocks cannot be built, which those of the whole scene could
+  void begin_next_stage(RunStatus status) {
+    const SimulationSnapshot end = built_.simulation.snapshot();
+    const std::vector<bool> was_absent = built_.simulation.system().absent();
+    stages_.push_back(finished(status));
+    message_.clear();
+    const LoadedScene next = stage_of(loaded_, stages_.size());
+    built_ = built_or_thrown(next, threads_);
+    built_.simulation.start_stage(end, was_absent);
+    scene_ = next.scene;
+    double elapsed = 0.0;
+    for (const FinishedStage& stage : stages_) elapsed += stage.time;
+    folder_.begin_stage(built_.simulation, elapsed, loaded_.scene.stage[stages_.size()].reset_displacement);
+  }
+
   RunStatus take_steps(double start, ProgressLine& progress) {
     Simulation& simulation = built_.simulation;
     const double end_time = scene_.analysis.end_time;
@@ -218,9 +272,9 @@ class Run {
 
   void write_state(double start) {
     claim_.check();
-    state_bytes_ =
-        write_checkpoint(folder_.path() / checkpoint_name, hash_,
-                         {built_.simulation.snapshot(), folder_.synced_state(), seconds_until_now(start)});
+    state_bytes_ = write_checkpoint(
+        folder_.path() / checkpoint_name, hash_,
+        {built_.simulation.snapshot(), stages_, folder_.synced_state(), seconds_until_now(start)});
   }
 
   /// After results could not be written, e.g. on a full disk: saves the state in the space that was kept.
@@ -240,7 +294,8 @@ class Run {
     const auto write = [&] {
       claim_.check();
       auto summary =
-          run_summary(scene_, built_, status, message_, seconds_until_now(start), folder_.frames());
+          run_summary(loaded_.scene, built_, status, message_, seconds_until_now(start), folder_.frames());
+      if (!loaded_.scene.stage.empty()) summary["stages"] = stages_summary(status);
       if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
       write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n",
                             Durability::process);
@@ -260,12 +315,30 @@ class Run {
     return status;
   }
 
+  /// Stages that have begun.
+  [[nodiscard]] nlohmann::ordered_json stages_summary(RunStatus status) const {
+    std::vector<FinishedStage> begun = stages_;
+    begun.push_back(finished(status));
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < begun.size(); ++k) {
+      nlohmann::ordered_json stage = {{"name", loaded_.scene.stage[k].name}, {"status", begun[k].status}};
+      if (!begun[k].message.empty()) stage["message"] = begun[k].message;
+      stage["steps"] = begun[k].steps;
+      stage["time"] = begun[k].time;
+      list.push_back(std::move(stage));
+    }
+    return list;
+  }
+
   [[nodiscard]] RunSeconds seconds_until_now(double start) const {
     return {earlier_seconds_.total + seconds_now() - start, earlier_seconds_.setup + seconds_.setup,
             earlier_seconds_.output + seconds_.output};
   }
 
-  const Scene& scene_;
+  const LoadedScene& loaded_;
+  int threads_;
+  std::vector<FinishedStage> stages_;  ///< those before the present one
+  Scene scene_;                        ///< of the present stage
   std::optional<FactorBracket> bracket_;
   std::uint64_t hash_;
   BuiltSimulation built_;
@@ -273,8 +346,8 @@ class Run {
   std::optional<double> interval_;
   SpaceReserve reserve_;
   ResultFolder folder_;
-  std::uintmax_t scene_bytes_ = json_text(to_json(scene_), 2).size();  ///< in the summary
-  std::uintmax_t state_bytes_ = 0;                                     ///< of the last checkpoint
+  std::uintmax_t scene_bytes_ = json_text(to_json(loaded_.scene), 2).size();  ///< in the summary
+  std::uintmax_t state_bytes_ = 0;                                            ///< of the last checkpoint
   RunSeconds earlier_seconds_;
   RunSeconds seconds_;
   std::string message_;
@@ -349,14 +422,16 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const double start = seconds_now();
   const std::filesystem::path folder = result_folder_of(options);
   Diagnostics diagnostics;
-  std::optional<LoadedScene> loaded;
+  const int threads = std::max(options.threads, 1);
+  std::optional<LoadedScene> loaded, first;
   std::optional<BuiltSimulation> built;
   {
     Preparation preparation(options.quiet, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
-    if (loaded) built = build_simulation(*loaded, std::max(options.threads, 1), diagnostics, &preparation);
-    if (built && is_static(loaded->scene.analysis))
-      refuse_loose_blocks(loaded->scene, built->simulation, diagnostics);
+    if (loaded) first = stage_of(*loaded, 0);
+    if (first) built = build_simulation(*first, threads, diagnostics, &preparation);
+    if (built && is_static(first->scene.analysis))
+      refuse_loose_blocks(first->scene, built->simulation, diagnostics);
   }
   // Where there is nothing to go on from, nothing is made.
   const bool resumes = options.resume && !(loaded && is_in_search(folder, loaded->scene));
@@ -373,6 +448,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
     earlier = find_checkpoint(folder, *loaded, faults);
     faults.print(err);
     if (!faults.good()) return exit_status::bad_input;
+    if (!earlier->stages.empty()) built = built_or_thrown(stage_of(*loaded, earlier->stages.size()), threads);
     built->simulation.restore(earlier->simulation);
   }
   if (!options.quiet) {
@@ -381,7 +457,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
     for (const std::string& line : loaded->scene.notes) err << line << '\n';
     for (const std::string& line : motion_left(loaded->scene)) err << line << '\n';
   }
-  if (starts_from_statics(loaded->scene) && !earlier) {
+  if (starts_from_statics(first->scene) && !earlier) {
     const StaticStart statics =
         start_in_statics(built->simulation, [] { return !InterruptGuard::interrupted(); });
     if (!statics.message.empty()) err << "ashlar: " << statics.message << '\n';
@@ -402,11 +478,12 @@ int run_command(const RunOptions& options, std::ostream& err) {
       }
       Diagnostics ignored;
       const double shown = shown_factor(*bracket, search_of(loaded->scene.analysis));
-      built = build_simulation(*loaded, std::max(options.threads, 1), ignored, nullptr,
-                               trial_factors(loaded->scene.analysis, shown));
+      built =
+          build_simulation(*loaded, threads, ignored, nullptr, trial_factors(loaded->scene.analysis, shown));
       if (earlier) built->simulation.restore(earlier->simulation);
     }
-    started.emplace(*loaded, std::move(*built), *claim, earlier, options.checkpoint, std::move(bracket));
+    started.emplace(*loaded, threads, std::move(*built), *claim, earlier, options.checkpoint,
+                    std::move(bracket));
   } catch (const std::exception& error) {
     // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
     err << "ashlar: error: " << error.what() << '\n';

@@ -35,7 +35,7 @@ struct DisplacedBlock {
 /// out: what they rest in is not what was built.
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
-/// @param message what has to be told of how a run ended; empty: nothing
+/// @param scene of the whole run. @param message what has to be told of how a run ended; empty: nothing
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
                                                  RunStatus status, const std::string& message,
                                                  const RunSeconds& seconds, int frames);

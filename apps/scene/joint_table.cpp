@@ -10,7 +10,9 @@
 
 namespace ashlar {
 
-JointTable::JointTable(const Scene& scene) : scene_(scene), listed_(scene.block.size()) {
+JointTable::JointTable(const Scene& scene)
+    : law_(scene.contact.law), joints_(scene.joint), rock_(scene.rock), listed_(scene.block.size()) {
+  for (const SceneCut& cut : scene.cut) cut_names_.push_back(cut.name);
   std::map<std::string, std::vector<std::size_t>> by_name;
   for (std::size_t k = 0; k < scene.block.size(); ++k) by_name[scene.block[k].name].push_back(k);
   const auto matched_by = [&](const std::string& pattern) {
@@ -47,28 +49,26 @@ std::vector<std::size_t> JointTable::joints_between(std::size_t a, std::size_t b
   if (std::any_of(candidates.begin(), candidates.end(),
                   [&](std::size_t joint) { return is_of_cut(joint); })) {
     std::set<std::string> cuts;
-    if (scene_.rock)
-      for (const std::size_t cut : scene_.rock->cuts_between(a, b)) cuts.insert(scene_.cut[cut].name);
-    std::erase_if(candidates, [&](std::size_t joint) {
-      return is_of_cut(joint) && !cuts.contains(scene_.joint[joint].cut);
-    });
+    if (rock_)
+      for (const std::size_t cut : rock_->cuts_between(a, b)) cuts.insert(cut_names_[cut]);
+    std::erase_if(candidates,
+                  [&](std::size_t joint) { return is_of_cut(joint) && !cuts.contains(joints_[joint].cut); });
   }
   return candidates;
 }
 
 SceneJointLaw JointTable::law_between(std::size_t a, std::size_t b) const {
-  SceneJointLaw law = scene_.contact.law;
-  for (const std::size_t joint : joints_between(a, b)) override_law(law, scene_.joint[joint]);
+  SceneJointLaw law = law_;
+  for (const std::size_t joint : joints_between(a, b)) override_law(law, joints_[joint]);
   return law;
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> JointTable::pairs_parted_by(std::size_t joint) const {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  if (!scene_.rock) return pairs;
-  for (const auto& [pair, cuts] : scene_.rock->common) {
-    const bool parted = std::any_of(cuts.begin(), cuts.end(), [&](std::size_t cut) {
-      return scene_.cut[cut].name == scene_.joint[joint].cut;
-    });
+  if (!rock_) return pairs;
+  for (const auto& [pair, cuts] : rock_->common) {
+    const bool parted = std::any_of(cuts.begin(), cuts.end(),
+                                    [&](std::size_t cut) { return cut_names_[cut] == joints_[joint].cut; });
     const auto& [a, b] = pair;
     if (parted &&
         ((matches(joint, 0, a) && matches(joint, 1, b)) || (matches(joint, 0, b) && matches(joint, 1, a))))

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,6 @@ namespace ashlar {
 
 class JointTable {
  public:
-  /// @param scene outlives the table
   explicit JointTable(const Scene& scene);
   JointTable(const JointTable&) = delete;
   JointTable& operator=(const JointTable&) = delete;
@@ -32,7 +32,7 @@ class JointTable {
     return *matched_[2 * joint + side];
   }
   /// Whether a joint is of the faces that a cut made, not of all between the blocks it names.
-  [[nodiscard]] bool is_of_cut(std::size_t joint) const { return !scene_.joint[joint].cut.empty(); }
+  [[nodiscard]] bool is_of_cut(std::size_t joint) const { return !joints_[joint].cut.empty(); }
   /// Pairs (a < b) that a joint matches and its cut has given a common face, sorted.
   [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> pairs_parted_by(std::size_t joint) const;
   /// Whether some two different blocks are matched, cuts aside.
@@ -41,7 +41,10 @@ class JointTable {
  private:
   [[nodiscard]] bool matches(std::size_t joint, std::size_t side, std::size_t block) const;
 
-  const Scene& scene_;
+  SceneJointLaw law_;  ///< of [contact]
+  std::vector<SceneJoint> joints_;
+  std::shared_ptr<const CutRock> rock_;
+  std::vector<std::string> cut_names_;
   std::map<std::string, std::vector<std::size_t>> blocks_of_;  ///< by glob: indices of the blocks, increasing
   std::vector<const std::vector<std::size_t>*> matched_;       ///< (2 #joints) into blocks_of_
   std::vector<std::vector<std::size_t>> listed_;               ///< (#blocks) joints whose rarer glob matches

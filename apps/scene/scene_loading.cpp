@@ -1,5 +1,7 @@
 #include "apps/scene/scene_loading.hpp"
 
+#include <algorithm>
+
 #include "apps/scene/available_features.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/doubtful_keys.hpp"
@@ -15,6 +17,26 @@
 #include "apps/scene/survey_fit.hpp"
 
 namespace ashlar {
+namespace {
+
+/// A key of [analysis] is idle if it is so in every stage.
+void warn_of_keys_idle_in_all(const std::vector<Scene>& stages, Diagnostics& diagnostics) {
+  std::vector<Diagnostic> idle;
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    Diagnostics found;
+    warn_of_idle_keys(stages[k], found);
+    const std::vector<Diagnostic> here = found.sorted();
+    if (k == 0) idle = here;
+    std::erase_if(idle, [&](const Diagnostic& warning) {
+      return std::none_of(here.begin(), here.end(), [&](const Diagnostic& other) {
+        return other.place == warning.place && other.message == warning.message;
+      });
+    });
+  }
+  for (const Diagnostic& warning : idle) diagnostics.warning(warning.place, warning.message);
+}
+
+}  // namespace
 
 std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides, Diagnostics& diagnostics,
@@ -58,8 +80,8 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   phase("sizes of the scene");
   loaded.cost = estimate_cost(loaded.scene, &solids);
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
+  warn_of_keys_idle_in_all(stages, diagnostics);
   for (const Scene& stage : stages) {
-    warn_of_idle_keys(stage, diagnostics);
     warn_of_doubtful_keys(stage, diagnostics);
     warn_of_jumping_supports(stage, diagnostics);
     warn_of_soft_blocks(stage, solids, diagnostics);

@@ -19,9 +19,8 @@ std::string key_of(std::size_t stage, const std::string& key) {
 }
 
 bool means_block(const Scene& scene, const std::vector<std::string>& patterns, std::size_t block) {
-  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-    return ashlar::means_block(scene, pattern, block);
-  });
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const std::string& pattern) { return ashlar::means_block(scene, pattern, block); });
 }
 
 /// Which blocks are there before the first stage: those that are not added before they are ever removed.
@@ -191,10 +190,11 @@ class StageCheck {
         found.insert(k);
       }
       if (!any)
-        error(stage, key,
-              fmt::format("stage names no block (\"{}\"), {}the name of a [[block]] or a glob that matches one "
-                          "is needed",
-                          pattern, guess(pattern, names_, "\"")));
+        error(
+            stage, key,
+            fmt::format("stage names no block (\"{}\"), {}the name of a [[block]] or a glob that matches one "
+                        "is needed",
+                        pattern, guess(pattern, names_, "\"")));
     }
     return {found.begin(), found.end()};
   }
@@ -207,20 +207,22 @@ class StageCheck {
       const std::vector<std::size_t> blocks = blocks_of(s, key, patterns);
       const auto wrong = std::find_if(blocks.begin(), blocks.end(),
                                       [&](std::size_t k) { return absent[k] != needs_absent; });
-      if (wrong != blocks.end())
-        error(s, key, fmt::format("block \"{}\" {}", names_[*wrong], words));
+      if (wrong != blocks.end()) error(s, key, fmt::format("block \"{}\" {}", names_[*wrong], words));
       return blocks;
     };
     const auto removed =
         check("remove", stage.remove, false,
               "is removed but not there (remove), a block that an earlier stage has left is needed");
-    const auto added = check("add", stage.add, true,
-                             "is added but there already (add), a block that was held back or removed is needed");
+    const auto added =
+        check("add", stage.add, true,
+              "is added but there already (add), a block that was held back or removed is needed");
     std::vector<std::size_t> both;
-    std::set_intersection(removed.begin(), removed.end(), added.begin(), added.end(), std::back_inserter(both));
+    std::set_intersection(removed.begin(), removed.end(), added.begin(), added.end(),
+                          std::back_inserter(both));
     if (!both.empty())
-      error(s, "add", fmt::format("block \"{}\" is removed and added in one stage (add), one of both is needed",
-                                  names_[both.front()]));
+      error(s, "add",
+            fmt::format("block \"{}\" is removed and added in one stage (add), one of both is needed",
+                        names_[both.front()]));
   }
 
   void check_changes(std::size_t s) {
@@ -249,9 +251,10 @@ class StageCheck {
       const std::string& name = stage.material[j].name;
       if (!name.empty() && std::find(materials.begin(), materials.end(), name) == materials.end())
         error(s, fmt::format("material.{}.name", j),
-              fmt::format("material of a stage is none of the scene (\"{}\"), {}the name of a [[material]] that "
-                          "it takes the place of is needed",
-                          name, guess(name, materials, "\"")));
+              fmt::format(
+                  "material of a stage is none of the scene (\"{}\"), {}the name of a [[material]] that "
+                  "it takes the place of is needed",
+                  name, guess(name, materials, "\"")));
     }
   }
 
@@ -268,8 +271,9 @@ class StageCheck {
                         name_of(formulation_names, analysis.formulation)));
     if (s > 0 && scene_.places.contains(key_of(s, "analysis.initial_state")))
       error(s, "analysis.initial_state",
-            fmt::format("initial_state of a later stage (\"{}\"), it goes on from the stage before; leave it out",
-                        name_of(initial_state_names, analysis.initial_state)));
+            fmt::format(
+                "initial_state of a later stage (\"{}\"), it goes on from the stage before; leave it out",
+                name_of(initial_state_names, analysis.initial_state)));
   }
 
   const Scene& scene_;
@@ -281,8 +285,7 @@ class StageCheck {
 
 bool means_block(const Scene& scene, const std::string& pattern, std::size_t block) {
   if (pattern_matches(pattern, scene.block[block].name)) return true;
-  return scene.rock != nullptr &&
-         pattern_matches(pattern, scene.uncut[scene.rock->origin[block].uncut].name);
+  return scene.rock != nullptr && pattern_matches(pattern, scene.uncut[scene.rock->origin[block].uncut].name);
 }
 
 std::vector<bool> absent_blocks(const Scene& scene, std::size_t stage) {
