@@ -20,6 +20,7 @@
 #include "apps/results/json_text.hpp"
 #include "apps/results/thinned_series.hpp"
 #include "apps/results/vtu_reader.hpp"
+#include "apps/view/block_union.hpp"
 #include "apps/view/curved_cells.hpp"
 #include "apps/view/view_assets.hpp"
 
@@ -131,6 +132,12 @@ const std::filesystem::path& checked_folder(const std::filesystem::path& folder)
   return folder;
 }
 
+/// Whether blocks may come and go.
+bool has_stages(const std::filesystem::path& folder) {
+  const std::vector<std::string> columns = read_history(folder / "history.csv", 1).columns;
+  return std::find(columns.begin(), columns.end(), "stage") != columns.end();
+}
+
 class FrameReader {
  public:
   explicit FrameReader(const std::filesystem::path& folder)
@@ -142,6 +149,14 @@ class FrameReader {
     if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
     const std::filesystem::path path = folder_ / blocks_.front().file;
     UnstructuredGrid first = read_vtu(path);
+    if (has_stages(folder)) {
+      for (std::size_t k = 0; k < count_; ++k) {
+        const std::filesystem::path frame = folder_ / blocks_[k].file;
+        const UnstructuredGrid grid = read_vtu(frame);
+        naming_the_file(frame, [&] { all_blocks_.add(grid); });
+      }
+      first = all_blocks_.whole();
+    }
     naming_the_file(path, [&] {
       curved_ = std::make_unique<CurvedCells>(first);
       surface_ = surface_of(curved_->divided(std::move(first)));
@@ -156,7 +171,9 @@ class FrameReader {
     const std::filesystem::path of_contacts = folder_ / contacts_[index].file;
     std::vector<float> floats;
     UnstructuredGrid blocks = read_vtu(of_blocks);
-    naming_the_file(of_blocks, [&] { append_blocks(floats, curved_->divided(std::move(blocks)), surface_); });
+    naming_the_file(of_blocks, [&] {
+      append_blocks(floats, curved_->divided(all_blocks_.completed(std::move(blocks))), surface_);
+    });
     const UnstructuredGrid contacts = read_vtu(of_contacts);
     naming_the_file(of_contacts, [&] { append_contacts(floats, contacts); });
     Json head = {{"index", index},
@@ -171,6 +188,7 @@ class FrameReader {
   std::vector<PvdFrame> blocks_;
   std::vector<PvdFrame> contacts_;
   std::size_t count_ = 0;
+  BlockUnion all_blocks_;  ///< empty unless blocks come and go
   std::unique_ptr<const CurvedCells> curved_;
   Surface surface_;
 };

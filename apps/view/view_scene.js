@@ -89,6 +89,8 @@ function moveSurface(frame, scale) {
   const place = new THREE.Vector3();
   surface.source.forEach((point, k) => {
     placeOf(frame, point, scale, place);
+    // All points of a block that is not there are one: nothing is drawn of it.
+    if (Number.isNaN(place.x)) place.fromArray(data.reference);
     places.setXYZ(k, place.x, place.y, place.z);
   });
   places.needsUpdate = true;
@@ -249,7 +251,8 @@ function outlineOfScene() {
   const boxes = data.blocks.map(() => new THREE.Box3());
   const place = new THREE.Vector3();
   const expandBy = (frame) => surface.source.forEach((point, k) => {
-    boxes[surface.block[k]].expandByPoint(placeOf(frame, point, 1, place));
+    placeOf(frame, point, 1, place);
+    if (!Number.isNaN(place.x)) boxes[surface.block[k]].expandByPoint(place);
   });
   expandBy(data.frames[0]);
   const box = boxes.reduce((all, part) => all.union(part), new THREE.Box3());
@@ -257,7 +260,9 @@ function outlineOfScene() {
   data.frames.forEach(expandBy);
   const outline = [];
   surface.source.forEach((point, k) => {
-    if (data.blocks[surface.block[k]].fixed) outline.push(placeOf(data.frames[0], point, 1, new THREE.Vector3()));
+    if (!data.blocks[surface.block[k]].fixed) return;
+    const place = placeOf(data.frames[0], point, 1, new THREE.Vector3());
+    if (!Number.isNaN(place.x)) outline.push(place);
   });
   const ways = boxes.filter((part, block) => !data.blocks[block].fixed && most.containsBox(part));
   outline.push(...ways.flatMap(cornersOf));

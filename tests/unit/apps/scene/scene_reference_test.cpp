@@ -111,6 +111,9 @@ voronoi = { count = 2 }
 name = "tip"
 block = "A"
 point = [0, 0, 0]
+[[stage]]
+name = "all"
+analysis = { end_time = 1 }
 [output]
 )";
 
@@ -124,6 +127,7 @@ masonry = [{}, { kind = "wall", openings = [{ box = {}, lintel = {} }] }, { kind
            { kind = "dome" }]
 assign = [{}]
 measure = [{}]
+stage = [{}]
 [[block]]
 box = {}
 rotate = {}
@@ -207,7 +211,7 @@ std::set<std::string> known_keys() {
                "[analysis]\nsafety = { tolerance = 1 }\ncapacity = { tolerance = 1 }\n");
   for (const std::string header :
        {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n", "[[block]]\n", "[[block.fix]]\n",
-        "[[block.load]]\n", "[[masonry]]\n", "[[assign]]\n", "[[cut]]\n", "[[measure]]\n", "[output]\n"})
+        "[[block.load]]\n", "[[masonry]]\n", "[[assign]]\n", "[[cut]]\n", "[[measure]]\n", "[[stage]]\n", "[output]\n"})
     for (std::size_t at = 0; (at = text.find(header, at)) != std::string::npos;)
       text.insert(at += header.size(), "unknown = 0\n");
   for (std::size_t at = 0; (at = text.find("{ ", at)) != std::string::npos; at += 2)
@@ -238,7 +242,7 @@ TEST(SceneReference, NamesEveryKeyAndNoOther) {
 
 // "block.fix.point" as --set takes it: "block.0.fix.0.point".
 std::string path_in(std::string path, int block) {
-  for (const std::string list : {"joint.", "material.", "cut.", "measure.", "assign."})
+  for (const std::string list : {"joint.", "material.", "cut.", "measure.", "assign.", "stage."})
     if (path.starts_with(list)) path.insert(list.size(), "0.");
   if (path.starts_with("block.")) path.insert(6, fmt::format("{}.", block));
   if (path.starts_with("masonry.")) path.insert(8, fmt::format("{}.", block));
