@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "apps/results/atomic_file.hpp"
 #include "apps/results/csv_text.hpp"
 #include "geometry/index.hpp"
 
@@ -340,11 +341,19 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   if (simulation.steps() == last_frame_step_) return;
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
-  write_vtu(folder_ / blocks, block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields,
-                                          simulation.system().absent(), origin_));
-  write_vtu(folder_ / contacts, contact_frame(simulation));
+  // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
+  const auto write = [this](const std::string& name, const UnstructuredGrid& grid) {
+    const std::string bytes = to_vtu(grid);
+    check_in_place();
+    write_file_atomically(folder_ / name, bytes, Durability::process);
+  };
+  write(blocks, block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields,
+                            simulation.system().absent(), origin_));
+  write(contacts, contact_frame(simulation));
+  check_in_place();
   blocks_.add_frame(elapsed_ + simulation.time(), blocks);
   try {
+    check_in_place();
     contacts_.add_frame(elapsed_ + simulation.time(), contacts);
   } catch (...) {
     blocks_.drop_last();

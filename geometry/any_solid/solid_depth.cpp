@@ -131,8 +131,17 @@ double SolidDepthFinder::clear_radius(const Vector3& x) const {
 /// distance to a convex set is convex along the part.
 double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const ClosestPoint& nearest) const {
   const Polyhedron& solid = closest_->solid();
-  if (nearest.feature.dimension < 2)
+  const auto farther_end = [&](const std::array<Vector3, 3>& corners) {
+    return std::max(distance_to_triangle(part.start, corners), distance_to_triangle(part.end, corners));
+  };
+  if (nearest.feature.dimension == 0)
     return std::max((part.start - nearest.point).norm(), (part.end - nearest.point).norm());
+  if (nearest.feature.dimension == 1) {
+    // Blocks that were cut apart have edges along each other.
+    const auto& [from, to] = solid.edges()[at(nearest.feature.index)].vertices;
+    const Vector3& last = solid.mesh().points[at(to)];
+    return farther_end({solid.mesh().points[at(from)], last, last});
+  }
   double least = std::numeric_limits<double>::infinity();
   int triangle = -1;
   for (const int candidate : solid.faces()[at(nearest.feature.index)].triangles) {
@@ -141,8 +150,7 @@ double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const Cl
     least = distance;
     triangle = candidate;
   }
-  const std::array<Vector3, 3> corners = triangle_of(solid, triangle);
-  return std::max(distance_to_triangle(part.start, corners), distance_to_triangle(part.end, corners));
+  return farther_end(triangle_of(solid, triangle));
 }
 
 std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, const Vector3& end,

@@ -292,7 +292,8 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
   };
   std::vector<PairKey> pairs = meeting_boxes(swept);
   std::erase_if(pairs, [&](const PairKey& pair) {
-    return leaves_out(pair[0], pair[1]) || both(pair) <= tolerance || known_apart(pair, both(pair), histories);
+    return leaves_out(pair[0], pair[1]) || both(pair) <= tolerance ||
+           known_apart(pair, both(pair), histories);
   });
   // What is left is looked at with the true surfaces and their true motion.
   ends.resize(surfaces_.size());

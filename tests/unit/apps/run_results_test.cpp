@@ -174,7 +174,8 @@ TEST_F(RunResults, AnotherFolderInItsPlaceIsNotWrittenTo) {
                          std::filesystem::create_directories(folder_ / "out/frames");
                        }),
             exit_status::failed);
-  for (const std::string& name : files("out")) EXPECT_EQ(name, "frames");
+  // The file that was being written when the folder changed may be the last.
+  EXPECT_LE(files("out").size() - 1 + files("out/frames").size(), 1U);
 }
 
 // A limit on the size of files stands for a disk without space for the table.
