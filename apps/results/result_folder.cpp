@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <initializer_list>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -17,17 +17,6 @@
 
 namespace ashlar {
 namespace {
-
-std::vector<MeasuredPoint> find_measures(const Scene& scene) {
-  std::vector<MeasuredPoint> measures;
-  for (const SceneMeasure& measure : scene.measure) {
-    const auto block = std::find_if(scene.block.begin(), scene.block.end(), [&](const SceneBlock& candidate) {
-      return candidate.name == measure.block;
-    });
-    measures.push_back({measure.name, static_cast<int>(block - scene.block.begin()), measure.point});
-  }
-  return measures;
-}
 
 /// "blocks_0000010.vtu", "contacts_0000010.vtu", or what a killed run left of one
 bool is_frame_name(std::string_view name) {
@@ -74,15 +63,6 @@ void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {
   values.insert(values.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
 }
 
-/// What a measured point does; nan if its block is not there.
-PointMotion measured(const Simulation& simulation, const MeasuredPoint& measure) {
-  if (simulation.system().present(measure.block))
-    return simulation.blocks()[at(measure.block)].motion_of(simulation.states()[at(measure.block)],
-                                                            measure.point);
-  const Vector3 none = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  return {none, none, none, Eigen::Matrix3d::Constant(none.x())};
-}
-
 constexpr const char* contact_columns =
     "step,time,block_a,block_b,points.face_face,points.vertex_face,points.edge_edge,area,normal_force.x,"
     "normal_force.y,"
@@ -90,12 +70,18 @@ constexpr const char* contact_columns =
 
 }  // namespace
 
-std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures, bool in_stages) {
+std::vector<std::string> history_columns(const std::vector<Measure>& measures, bool in_stages) {
   std::vector<std::string> columns = {"step", "time", "dt"};
-  for (const MeasuredPoint& measure : measures) {
-    for (const char* part : {".x", ".y", ".z", ".ux", ".uy", ".uz", ".vx", ".vy", ".vz"}) {
-      columns.push_back(measure.name + part);
+  const auto add = [&](const Measure& measure, std::initializer_list<const char*> parts) {
+    for (const char* part : parts) columns.push_back(measure.name + part);
+  };
+  for (const Measure& measure : measures) {
+    if (measure.kind == Measure::Kind::pair) {
+      add(measure, {".normal_force", ".shear_force", ".opening", ".slip", ".area"});
+      continue;
     }
+    add(measure, {".x", ".y", ".z", ".ux", ".uy", ".uz", ".vx", ".vy", ".vz"});
+    if (measure.kind == Measure::Kind::block) add(measure, {".rx", ".ry", ".rz"});
   }
   for (const char* name :
        {"energy.kinetic",        "energy.elastic",     "energy.gravity",     "energy.contact",
@@ -106,25 +92,29 @@ std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measu
         "energy.refound_gained", "energy.refound_lost"}) {
     columns.emplace_back(name);
   }
-  for (const MeasuredPoint& measure : measures) {
-    for (const char* part : {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"})
-      columns.push_back(measure.name + part);
-  }
+  for (const Measure& measure : measures)
+    if (measure.kind != Measure::Kind::pair) add(measure, {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"});
   if (in_stages) columns.emplace_back("stage");
   return columns;
 }
 
-std::vector<double> history_row(const Simulation& simulation, const std::vector<MeasuredPoint>& measures,
+std::vector<double> history_row(const Simulation& simulation, const std::vector<Measure>& measures,
                                 const DisplacementOrigin& origin, int stage) {
   const StepReport& report = simulation.report();
   std::vector<double> values = {simulation.time(), report.step};
   std::vector<PointMotion> motions;
   for (std::size_t k = 0; k < measures.size(); ++k) {
-    const PointMotion motion = motions.emplace_back(measured(simulation, measures[k]));
+    if (measures[k].kind == Measure::Kind::pair) {
+      const PairMeasure pair = measured_pair(simulation, measures[k]);
+      values.insert(values.end(), {pair.normal_force, pair.shear_force, pair.opening, pair.slip, pair.area});
+      continue;
+    }
+    const PointMotion motion = motions.emplace_back(measured_motion(simulation, measures[k]));
     append(values, motion.place);
     append(values,
            origin.measures.empty() ? motion.displacement : Vector3(motion.displacement - origin.measures[k]));
     append(values, motion.velocity);
+    if (measures[k].kind == Measure::Kind::block) append(values, measured_turn(simulation, measures[k]));
   }
   const Ledger& ledger = simulation.ledger();
   values.insert(values.end(),
@@ -231,7 +221,7 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation)
     : folder_(emptied(std::move(folder))),
       output_(scene.output),
-      measures_(find_measures(scene)),
+      measures_(measures_of(scene, simulation.blocks())),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
@@ -247,7 +237,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                            const ResultFolderState& state)
     : folder_(std::move(folder)),
       output_(scene.output),
-      measures_(find_measures(scene)),
+      measures_(measures_of(scene, simulation.blocks())),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      history_columns(measures_, !scene.stage.empty()), state.last_row_step)),
@@ -295,8 +285,10 @@ void ResultFolder::set_origin(const Simulation& simulation) {
   const auto displacement = [&](int block, const Vector3& point) {
     return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
   };
-  for (const MeasuredPoint& measure : measures_)
-    origin_.measures.push_back(displacement(measure.block, measure.point));
+  for (const Measure& measure : measures_)
+    origin_.measures.push_back(measure.kind == Measure::Kind::pair
+                                   ? Vector3(Vector3::Zero())
+                                   : displacement(measure.block, measure.point));
   for (int b = 0; b < simulation.system().count(); ++b) {
     origin_.surfaces.emplace_back();
     for (const Vector3& point : surfaces_[at(b)].points)

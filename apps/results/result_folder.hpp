@@ -8,6 +8,8 @@
 
 #include "apps/results/drawn_surface.hpp"
 #include "apps/results/history_writer.hpp"
+#include "apps/results/largest_values.hpp"
+#include "apps/results/measure.hpp"
 #include "apps/results/pvd_writer.hpp"
 #include "apps/results/vtu_writer.hpp"
 #include "apps/scene/scene.hpp"
@@ -15,28 +17,21 @@
 
 namespace ashlar {
 
-/// A material point whose motion goes into the history.
-struct MeasuredPoint {
-  std::string name;
-  int block;
-  Vector3 point;  ///< reference coordinates, m
-};
-
 /// Displacements that results count from, m: those where a stage has set them back.
 struct DisplacementOrigin {
-  std::vector<Vector3> measures;               ///< by measured point; empty: as placed
+  std::vector<Vector3> measures;               ///< by measure, zero of pairs; empty: as placed
   std::vector<std::vector<Vector3>> surfaces;  ///< by block and point of its DrawnSurface; empty: as placed
 };
 
 /// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy,
 /// syz, sxz; Pa, tension positive); of a run in stages `stage` last.
-[[nodiscard]] std::vector<std::string> history_columns(const std::vector<MeasuredPoint>& measures,
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<Measure>& measures,
                                                        bool in_stages = false);
 
 /// The values after the step, in the order of history_columns. Points of absent blocks have nan.
 /// @param stage 1-based number; 0: the run has none
 [[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
-                                              const std::vector<MeasuredPoint>& measures,
+                                              const std::vector<Measure>& measures,
                                               const DisplacementOrigin& origin = {}, int stage = 0);
 
 /// All blocks that are there, in a state. Point data: those of displacement, velocity and stress (xx, yy, zz, xy, yz, xz)
@@ -92,6 +87,11 @@ class ResultFolder {
   /// from a checkpoint before drops them.
   void add_end(const Simulation& simulation);
 
+  /// Displacements count from where the last stage has set them back.
+  [[nodiscard]] LargestValues largest(const Simulation& simulation) const {
+    return largest_values(simulation, surfaces_, origin_.surfaces);
+  }
+
   /// Waits until the tables are on the disk; a checkpoint counts on them.
   [[nodiscard]] ResultFolderState synced_state();
 
@@ -109,7 +109,7 @@ class ResultFolder {
 
   std::filesystem::path folder_;
   SceneOutput output_;
-  std::vector<MeasuredPoint> measures_;
+  std::vector<Measure> measures_;
   std::vector<DrawnSurface> surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;

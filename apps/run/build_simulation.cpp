@@ -48,7 +48,7 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, doubl
     definition.formulation = Formulation::incremental;
     definition.sub_face_levels = scene.contact.subdivisions.value_or(definition.sub_face_levels);
     for (const SceneMeasure& measure : scene.measure) {
-      if (measure.block == block.name) definition.followed.push_back(measure.point);
+      if (measure.block == block.name && measure.point) definition.followed.push_back(*measure.point);
     }
   }
   if (const SceneMaterial* material = find_material(scene, block.material)) {

@@ -119,6 +119,7 @@ class Run {
   }
 
   [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
+  [[nodiscard]] LargestValues largest() const { return folder_.largest(built_.simulation); }
 
  private:
   /// Whether a stage has come to its end.
@@ -293,8 +294,8 @@ class Run {
   RunStatus summarised(RunStatus status, double start) {
     const auto write = [&] {
       claim_.check();
-      auto summary =
-          run_summary(loaded_.scene, built_, status, message_, seconds_until_now(start), folder_.frames());
+      auto summary = run_summary(loaded_.scene, built_, status, message_, seconds_until_now(start),
+                                 folder_.frames(), folder_.largest(built_.simulation));
       if (!loaded_.scene.stage.empty()) summary["stages"] = stages_summary(status);
       if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
       write_file_atomically(folder_.path() / "summary.json", json_text(summary, 2) + "\n",
@@ -492,6 +493,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   Run& run = *started;
   const RunEnd end = run.go(start, options.quiet, err);
   tell_end(end, folder, options.quiet, err);
+  if (!options.quiet) tell_answers(run.simulation(), run.largest(), err);
   warn_of_depth(run.simulation(), err);
   warn_of_friction(run.simulation(), err);
   if (options.view) {

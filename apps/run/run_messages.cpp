@@ -84,6 +84,24 @@ void tell_choices(const BuiltSimulation& built, std::ostream& err) {
                        first_names(built.as_placed));
 }
 
+void tell_answers(const Simulation& simulation, const LargestValues& largest, std::ostream& err) {
+  std::vector<std::string> parts;
+  const auto add = [&](const char* what, const std::optional<PlacedValue>& value, double unit,
+                       const char* name) {
+    if (!value) return;
+    parts.push_back(fmt::format("{} {:.4g} {} (block {})", what, value->value / unit, name,
+                                simulation.blocks()[static_cast<std::size_t>(value->block)].name()));
+  };
+  add("displacement", largest.displacement, 1e-3, "mm");
+  add("compression", largest.compression, 1e6, "MPa");
+  add("tension", largest.tension, 1e6, "MPa");
+  if (!parts.empty()) err << fmt::format("largest: {}\n", fmt::join(parts, ", "));
+  const BrokenJoints broken = broken_joints(simulation);
+  if (broken.pairs > 0)
+    err << fmt::format("broken: {:.4g} of {:.4g} m^2 of joints with strength, between {} pairs of blocks\n",
+                       broken.area, broken.of_area, broken.pairs);
+}
+
 void warn_of_depth(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.01;
   const DeepestPoint& deepest = simulation.deepest();

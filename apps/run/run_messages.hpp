@@ -39,6 +39,9 @@ void tell_choices(const BuiltSimulation& built, std::ostream& err);
 /// Nothing of a run that was completed. @param quiet only errors and interrupts
 void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet, std::ostream& err);
 
+/// The largest displacement and stresses, and joints that broke: one line.
+void tell_answers(const Simulation& simulation, const LargestValues& largest, std::ostream& err);
+
 /// Blocks that are farther in each other than contact that does not give way would be.
 void warn_of_depth(const Simulation& simulation, std::ostream& err);
 

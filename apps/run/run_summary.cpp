@@ -90,7 +90,26 @@ nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& si
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
 }
 
+/// Null where there is none.
+nlohmann::ordered_json json_of(const std::optional<PlacedValue>& largest, const Simulation& simulation) {
+  if (!largest) return nullptr;
+  const Vector3& place = largest->place;
+  return {{"value", largest->value},
+          {"block", simulation.blocks()[static_cast<std::size_t>(largest->block)].name()},
+          {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
+}
+
 }  // namespace
+
+BrokenJoints broken_joints(const Simulation& simulation) {
+  BrokenJoints broken;
+  for (const auto& [blocks, pair] : simulation.histories()) {
+    if (pair.broken > 0.0) ++broken.pairs;
+    broken.area += pair.broken;
+    broken.of_area += pair.bonded;
+  }
+  return broken;
+}
 
 std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
   constexpr double far = 0.1;  // of a block's size
@@ -124,7 +143,8 @@ std::string to_string(RunStatus status) {
 }
 
 nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built, RunStatus status,
-                                   const std::string& message, const RunSeconds& seconds, int frames) {
+                                   const std::string& message, const RunSeconds& seconds, int frames,
+                                   const LargestValues& largest) {
   const Simulation& simulation = built.simulation;
   nlohmann::ordered_json summary;
   summary["status"] = to_string(status);
@@ -153,6 +173,11 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["contact_depth_max"] = simulation.largest_penetration();
   if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
     summary["deepest"] = json_of(deepest, simulation);
+  summary["largest_displacement"] = json_of(largest.displacement, simulation);
+  summary["largest_compression"] = json_of(largest.compression, simulation);
+  summary["largest_tension"] = json_of(largest.tension, simulation);
+  const BrokenJoints broken = broken_joints(simulation);
+  summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
     summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
   summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},

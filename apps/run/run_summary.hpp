@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/results/largest_values.hpp"
 #include "apps/run/build_simulation.hpp"
 
 namespace ashlar {
@@ -38,6 +39,15 @@ struct DisplacedBlock {
 /// @param scene of the whole run. @param message what has to be told of how a run ended; empty: nothing
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
                                                  RunStatus status, const std::string& message,
-                                                 const RunSeconds& seconds, int frames);
+                                                 const RunSeconds& seconds, int frames,
+                                                 const LargestValues& largest);
+
+/// Joints that have lost their strength since the start of the run.
+struct BrokenJoints {
+  int pairs = 0;         ///< of blocks, that have lost any
+  double area = 0.0;     ///< m^2
+  double of_area = 0.0;  ///< m^2, of all joints that had strength to lose
+};
+[[nodiscard]] BrokenJoints broken_joints(const Simulation& simulation);
 
 }  // namespace ashlar

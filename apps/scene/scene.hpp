@@ -312,11 +312,12 @@ struct SceneCut {
   int count = 0;                    ///< >= 1; kind voronoi: points in each block
 };
 
-/// [[measure]]: a material point whose motion is written to the history.
+/// [[measure]]: a material point, a block or a pair of blocks, of which the history has columns.
 struct SceneMeasure {
   std::string name;                 ///< unique; required; heads columns of the history
-  std::string block;                ///< name of a [[block]]
-  Vector3 point = Vector3::Zero();  ///< m, in the placed, undeformed block
+  std::string block;                ///< name of a [[block]]; empty: `pair` is measured
+  std::optional<Vector3> point;     ///< m, in the placed, undeformed block; empty: the block as a whole
+  std::array<std::string, 2> pair;  ///< names of two blocks, whose contacts are measured; else empty
 };
 
 /// [[stage]]: what changes before the run goes on. Names and globs mean blocks, and pieces of cut blocks.

@@ -199,6 +199,11 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
     refuse("contact.chord_tolerance",
            fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",
                        *scene.contact.chord_tolerance));
+  for (std::size_t i = 0; i < scene.measure.size(); ++i)
+    if (!scene.measure[i].block.empty() && !scene.measure[i].point)
+      refuse(entry_key("measure", i, "block"),
+             fmt::format("an incremental block is followed at points only (\"{}\" has none)",
+                         scene.measure[i].name));
   for (std::size_t i = 0; i < scene.material.size(); ++i)
     if (scene.material[i].elasticity == SceneMaterial::Elasticity::st_venant_kirchhoff)
       refuse(entry_key("material", i, "elasticity"),
@@ -321,9 +326,16 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
   const std::vector<std::string> materials = names_of(scene.material), blocks = names_of(scene.block);
   check_materials(scene, materials, diagnostics);
   check_poisson_ratios(scene, diagnostics);
-  for (std::size_t i = 0; i < scene.measure.size(); ++i)
-    check_known(scene, entry_key("measure", i, "block"), "block", scene.measure[i].block, blocks,
-                diagnostics);
+  for (std::size_t i = 0; i < scene.measure.size(); ++i) {
+    const SceneMeasure& measure = scene.measure[i];
+    check_known(scene, entry_key("measure", i, "block"), "block", measure.block, blocks, diagnostics);
+    const std::string key = entry_key("measure", i, "pair");
+    for (const std::string& name : measure.pair) check_known(scene, key, "block", name, blocks, diagnostics);
+    if (!measure.pair[0].empty() && measure.pair[0] == measure.pair[1])
+      diagnostics.error(scene.places.value(key),
+                        fmt::format("measure of a block and itself (\"{}\"), two different blocks are needed",
+                                    measure.pair[0]));
+  }
   check_joints(scene, blocks, diagnostics);
   check_residuals(scene, diagnostics);
   check_factor_search(scene, diagnostics);
@@ -348,8 +360,8 @@ void check_placement(const Scene& scene, const std::vector<std::optional<Polyhed
     for (std::size_t j = 0; j < block.load.size(); ++j)
       check.check_where(fmt::format("block.{}.load.{}", i, j), block, *solids[i], block.load[j].where);
     for (std::size_t j = 0; j < scene.measure.size(); ++j)
-      if (scene.measure[j].block == block.name)
-        check.check_point(entry_key("measure", j, "point"), block, *solids[i], scene.measure[j].point);
+      if (scene.measure[j].block == block.name && scene.measure[j].point)
+        check.check_point(entry_key("measure", j, "point"), block, *solids[i], *scene.measure[j].point);
   }
 }
 

@@ -93,8 +93,8 @@ void record_origin(ScenePlaces& places, std::size_t uncut, std::size_t block, co
 void move_measures(Scene& scene, const std::string& block, const Pieces& pieces,
                    const std::vector<std::string>& names) {
   for (SceneMeasure& measure : scene.measure)
-    if (measure.block == block && measure.point.allFinite())
-      measure.block = names[piece_at(pieces, measure.point)];
+    if (measure.block == block && measure.point && measure.point->allFinite())
+      measure.block = names[piece_at(pieces, *measure.point)];
 }
 
 /// Puts the pieces in the place of the blocks.

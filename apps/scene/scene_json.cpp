@@ -244,7 +244,13 @@ Json to_json(const SceneCut& cut) {
 }
 
 Json to_json(const SceneMeasure& measure) {
-  return {{"name", measure.name}, {"block", measure.block}, {"point", to_json(measure.point)}};
+  Json json = {{"name", measure.name}};
+  if (measure.block.empty())
+    json["pair"] = measure.pair;
+  else
+    json["block"] = measure.block;
+  if (measure.point) json["point"] = to_json(*measure.point);
+  return json;
 }
 
 template <typename Entry>

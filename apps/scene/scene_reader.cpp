@@ -77,10 +77,8 @@ void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_
     if (!(analysis.time_step > 0.0)) table.require("time_step");
     return;
   }
-  if (!(analysis.end_time > 0.0))
-    analysis.end_time = std::max(default_static_end_time, analysis.time_step);
-  if (!(analysis.time_step > 0.0))
-    analysis.time_step = std::min(default_static_time_step, analysis.end_time);
+  if (!(analysis.end_time > 0.0)) analysis.end_time = std::max(default_static_end_time, analysis.time_step);
+  if (!(analysis.time_step > 0.0)) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
 }
 
 /// @param law a SceneJointLaw or a SceneJoint
@@ -163,12 +161,28 @@ SceneMaterial read_material(TomlTableReader& table) {
 
 SceneMeasure read_measure(TomlTableReader& table) {
   SceneMeasure measure;
-  // Not finite until read, so that no later check is made on a point that is not there.
-  measure.point.setConstant(std::numeric_limits<double>::quiet_NaN());
-  for (const char* key : {"name", "block", "point"}) table.require(key);
+  table.require("name");
   table.read_name("name", measure.name);
+  std::vector<std::string> pair;
+  if (table.given("pair")) {
+    if (table.read_texts("pair", pair) && pair.size() == 2)
+      measure.pair = {pair[0], pair[1]};
+    else if (!pair.empty())
+      table.error_at_value(
+          "pair",
+          fmt::format("pair has the wrong length ({} entries), two block names are needed", pair.size()));
+    for (const char* key : {"block", "point"})
+      if (table.given(key))
+        table.error_at_key(key, fmt::format("{} beside pair (both given), only one of both is allowed", key));
+    return measure;
+  }
+  table.require("block");
   table.read_name("block", measure.block);
-  table.read_place("point", measure.point);
+  if (table.given("point")) {
+    // Not finite until read, so that no later check is made on a point that is not there.
+    measure.point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+    table.read_place("point", *measure.point);
+  }
   return measure;
 }
 
@@ -241,8 +255,8 @@ void read_tables(TomlTableReader top, Scene& scene) {
   const bool has_blocks = !scene.block.empty() || !masonry.empty();
   expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
   // Once the analysis is complete where there is nothing else.
-  scene.stage = top.read_tables(
-      "stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
+  scene.stage =
+      top.read_tables("stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
   if (scene.stage.empty())
     complete_times(analysis, scene.analysis,
                    std::any_of(scene.block.begin(), scene.block.end(), has_history));

@@ -357,6 +357,15 @@ ContactPair ContactPair::setting_off(const PairResponse& response, const std::ve
   return pair;
 }
 
+BondedArea ContactPair::bonded_area(const std::vector<PointMemory>& memory) const {
+  BondedArea area;
+  for (std::size_t k = 0; !tied() && k < memory.size(); ++k) {
+    if (!memory_[k].intact || !laws_[k].weakens()) continue;
+    (memory[k].intact ? area.left : area.lost) += points_[k].area;
+  }
+  return area;
+}
+
 bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
   for (std::size_t k = 0; k < memory.size(); ++k) {
     if (memory_[k].intact && !memory[k].intact && laws_[k].weakens()) return true;

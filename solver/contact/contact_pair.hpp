@@ -28,6 +28,12 @@ struct PairBodies {
   ContactBody of_b;
 };
 
+/// Area of joints with strength to lose, m^2.
+struct BondedArea {
+  double left = 0.0;  ///< that still has it
+  double lost = 0.0;  ///< that has lost it
+};
+
 /// Points are linear in the unknowns: with ya, yb the changes of the blocks' unknowns,
 ///   gap = g0 + b + n . (C_a ya - C_b yb)
 /// and likewise the slip (theory.md section 7, where H = rows_a, Q = rows_b). Rows, normals and tangents are
@@ -158,6 +164,8 @@ class ContactPair {
                                         double reach) const;
   /// Whether strength is lost in the step anywhere. @param memory after it
   [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
+  /// Of points that had strength to lose at the start of the step. @param memory after it
+  [[nodiscard]] BondedArea bonded_area(const std::vector<PointMemory>& memory) const;
 
   /// Gap of each point, m.
   [[nodiscard]] std::vector<double> gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;

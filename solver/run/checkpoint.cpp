@@ -185,7 +185,8 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PairHistory& pair) {
-  archive(pair.memory, pair.clearance, pair.entrance, pair.work, pair.taken, pair.depth);
+  archive(pair.memory, pair.clearance, pair.entrance, pair.work, pair.taken, pair.bonded, pair.broken,
+          pair.depth);
 }
 
 template <class Archive>

@@ -222,6 +222,9 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   std::vector<PointMemory> remembered = pair.memory_after(response, laws, ya, yb, tearing_gap);
   pair.remember_impulses(response, laws, stopped.forces, scheme.step, remembered);
   PairHistory& history = run.state.pairs[{pair.a(), pair.b()}];
+  const BondedArea bonds = pair.bonded_area(remembered);
+  history.broken += bonds.lost;
+  history.bonded = std::max(history.bonded, history.broken + bonds.left);
   history.memory.store(pair.points(), std::move(remembered), deepest, ContactPair::energies(response), bulge,
                        pair.cuts());
   // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.

@@ -1,0 +1,93 @@
+#include "apps/results/measure.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+int index_of(const Scene& scene, const std::string& name) {
+  const auto block = std::find_if(scene.block.begin(), scene.block.end(),
+                                  [&](const SceneBlock& candidate) { return candidate.name == name; });
+  return static_cast<int>(block - scene.block.begin());
+}
+
+/// Gradient of the motion at a point, of a block of the total formulation.
+Eigen::Matrix3d gradient_at(const BlockModel& block, const BlockState& state, const Vector3& point) {
+  return state.position.transpose() * block.basis().gradients(point);
+}
+
+}  // namespace
+
+std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks) {
+  std::vector<Measure> measures;
+  for (const SceneMeasure& given : scene.measure) {
+    if (given.block.empty()) {
+      measures.push_back({given.name, Measure::Kind::pair, index_of(scene, given.pair[0]), Vector3::Zero(),
+                          index_of(scene, given.pair[1])});
+      continue;
+    }
+    const int block = index_of(scene, given.block);
+    if (given.point)
+      measures.push_back({given.name, Measure::Kind::point, block, *given.point, -1});
+    else
+      measures.push_back({given.name, Measure::Kind::block, block, blocks[at(block)].basis().centroid(), -1});
+  }
+  return measures;
+}
+
+PointMotion measured_motion(const Simulation& simulation, const Measure& measure) {
+  if (simulation.system().present(measure.block))
+    return simulation.blocks()[at(measure.block)].motion_of(simulation.states()[at(measure.block)],
+                                                            measure.point);
+  const Vector3 nowhere = Vector3::Constant(none);
+  return {nowhere, nowhere, nowhere, Eigen::Matrix3d::Constant(none)};
+}
+
+Vector3 measured_turn(const Simulation& simulation, const Measure& measure) {
+  if (!simulation.system().present(measure.block)) return Vector3::Constant(none);
+  const Eigen::Matrix3d gradient = gradient_at(simulation.blocks()[at(measure.block)],
+                                               simulation.states()[at(measure.block)], measure.point);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(gradient, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(parts.matrixU() * parts.matrixV().transpose()));
+  return turn.angle() * 180.0 / std::numbers::pi * turn.axis();
+}
+
+PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) {
+  const auto [low, high] = std::minmax(measure.block, measure.other);
+  const auto record =
+      std::find_if(simulation.contacts().begin(), simulation.contacts().end(),
+                   [&, a = low, b = high](const PairRecord& pair) { return pair.a == a && pair.b == b; });
+  PairMeasure result{0.0, 0.0, none, none, 0.0};
+  if (record == simulation.contacts().end() || record->points.empty()) return result;
+  const BlockModel& block = simulation.blocks()[at(record->a)];
+  const BlockModel& other = simulation.blocks()[at(record->b)];
+  Vector3 shear = Vector3::Zero();
+  double area = 0.0, gap = 0.0, slip = 0.0;
+  for (std::size_t k = 0; k < record->points.size(); ++k) {
+    const ContactPoint& point = record->points[k];
+    const PointResponse& response = record->responses[k];
+    result.normal_force += response.force[0];
+    shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
+    area += point.area;
+    gap += point.area * record->gaps[k];
+    if (response.state != ContactState::open) result.area += point.area;
+    // Two points that are at one place now were this far apart when the blocks were placed.
+    const Vector3 apart = gradient_at(block, simulation.states()[at(record->a)], point.material_a) *
+                          (point.material_b - point.material_a);
+    slip += point.area * (apart - point.normal.dot(apart) * point.normal).norm();
+  }
+  result.shear_force = shear.norm();
+  if (!(area > 0.0)) return result;
+  result.opening = gap / area;
+  if (block.incremental() == nullptr && other.incremental() == nullptr) result.slip = slip / area;
+  return result;
+}
+
+}  // namespace ashlar

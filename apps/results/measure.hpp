@@ -1,0 +1,47 @@
+// What a [[measure]] of a scene gives the history: the motion and stress of a material point, the motion and turn
+// of a block, or what the contacts of two blocks do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/scene/scene.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+struct Measure {
+  enum class Kind {
+    point,  ///< a material point
+    block,  ///< a block: its centroid and its rotation
+    pair,   ///< the contacts of two blocks
+  };
+  std::string name;
+  Kind kind = Kind::point;
+  int block = 0;
+  Vector3 point = Vector3::Zero();  ///< reference coordinates, m; of a block its centroid
+  int other = -1;                   ///< of a pair: the second block
+};
+
+/// Those of a scene, in its order. @param blocks of the scene
+[[nodiscard]] std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks);
+
+/// What the measured point does; nan if its block is not there. @param measure of a point or block
+[[nodiscard]] PointMotion measured_motion(const Simulation& simulation, const Measure& measure);
+
+/// How a block has turned since it was placed: the axis times the angle, degrees, 0 to 180, of the rotation in the
+/// polar decomposition of the deformation gradient at its centroid; nan if the block is not there.
+[[nodiscard]] Vector3 measured_turn(const Simulation& simulation, const Measure& measure);
+
+/// The contacts of two blocks after the last step.
+struct PairMeasure {
+  double normal_force = 0.0;  ///< N, sum over the points, compression positive
+  double shear_force = 0.0;   ///< N, length of the sum of the shear forces
+  double opening;             ///< m, mean gap over the area of the points, negative: depth; nan: no points
+  double slip;        ///< m, how far the blocks have slid along each other since they were placed, mean
+                      ///< over the area; nan: no points, or an incremental block
+  double area = 0.0;  ///< m^2, of points that are closed
+};
+[[nodiscard]] PairMeasure measured_pair(const Simulation& simulation, const Measure& measure);
+
+}  // namespace ashlar
