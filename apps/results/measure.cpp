@@ -23,6 +23,10 @@ Eigen::Matrix3d gradient_at(const BlockModel& block, const BlockState& state, co
   return state.position.transpose() * block.basis().gradients(point);
 }
 
+Vector3 place_of(const BlockModel& block, const BlockState& state, const Vector3& point) {
+  return state.position.transpose() * block.basis().values(point);
+}
+
 }  // namespace
 
 std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks) {
@@ -78,9 +82,13 @@ PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) 
     area += point.area;
     gap += point.area * record->gaps[k];
     if (response.state != ContactState::open) result.area += point.area;
-    // Two points that are at one place now were this far apart when the blocks were placed.
-    const Vector3 apart = gradient_at(block, simulation.states()[at(record->a)], point.material_a) *
-                          (point.material_b - point.material_a);
+    // Two points that met at the start of the step: how far they were apart when the blocks were placed, and what
+    // they have gone since.
+    const BlockState& state = simulation.states()[at(record->a)];
+    const Vector3 apart =
+        gradient_at(block, state, point.material_a) * (point.material_b - point.material_a) +
+        place_of(block, state, point.material_a) -
+        place_of(other, simulation.states()[at(record->b)], point.material_b);
     slip += point.area * (apart - point.normal.dot(apart) * point.normal).norm();
   }
   result.shear_force = shear.norm();
