@@ -1,6 +1,7 @@
 #include "apps/scene/scene_loading.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/scene/available_features.hpp"
 #include "apps/scene/base_motion.hpp"
@@ -36,15 +37,13 @@ void warn_of_keys_idle_in_all(const std::vector<Scene>& stages, Diagnostics& dia
   for (const Diagnostic& warning : idle) diagnostics.warning(warning.place, warning.message);
 }
 
-}  // namespace
-
-std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
-                                      const std::vector<std::string>& overrides, Diagnostics& diagnostics,
-                                      Preparation* preparation, LoadPurpose purpose) {
+/// Checks and builds what was read.
+std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Preparation* preparation,
+                                  LoadPurpose purpose) {
   const auto phase = [&](const char* words) {
     if (preparation != nullptr) preparation->phase(words);
   };
-  LoadedScene loaded{read_scene(file, overrides, diagnostics), {}, {}, {}};
+  LoadedScene loaded{std::move(scene), {}, {}, {}};
   check_cuts(loaded.scene, diagnostics);
   if (!loaded.scene.cut.empty()) {
     // Names of pieces are known once they are cut, and only what can be read is cut.
@@ -88,6 +87,20 @@ std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
   }
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;
+}
+
+}  // namespace
+
+std::optional<LoadedScene> load_scene(const std::filesystem::path& file,
+                                      const std::vector<std::string>& overrides, Diagnostics& diagnostics,
+                                      Preparation* preparation, LoadPurpose purpose) {
+  return loaded(read_scene(file, overrides, diagnostics), diagnostics, preparation, purpose);
+}
+
+std::optional<LoadedScene> load_scene_text(std::string_view text, const std::filesystem::path& file,
+                                           const std::vector<std::string>& overrides,
+                                           Diagnostics& diagnostics) {
+  return loaded(parse_scene(text, file, overrides, diagnostics), diagnostics, nullptr, LoadPurpose::run);
 }
 
 LoadedScene stage_of(const LoadedScene& whole, std::size_t stage) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/scene/cost_estimate.hpp"
@@ -41,5 +42,11 @@ enum class LoadPurpose {
                                                     Diagnostics& diagnostics,
                                                     Preparation* preparation = nullptr,
                                                     LoadPurpose purpose = LoadPurpose::run);
+
+/// The same from the text of a scene. @param file names it in messages and gives the folder of its paths
+[[nodiscard]] std::optional<LoadedScene> load_scene_text(std::string_view text,
+                                                         const std::filesystem::path& file,
+                                                         const std::vector<std::string>& overrides,
+                                                         Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -288,6 +288,15 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   return scene;
 }
 
+void record_keys(std::string_view text, KeyRecorder& recorder) {
+  Scene scene;
+  Diagnostics ignored;
+  auto [document, files] = parse_document(text, "schema", ignored);
+  TomlReading reading(std::move(files), ignored, scene.places);
+  reading.record_keys(recorder);
+  read_tables(TomlTableReader(reading, document, "", ""), scene);
+}
+
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  Diagnostics& diagnostics) {
   std::error_code ignored;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/scene/diagnostics.hpp"
+#include "apps/scene/key_recorder.hpp"
 #include "apps/scene/scene.hpp"
 
 namespace ashlar {
@@ -23,5 +24,8 @@ namespace ashlar {
 /// Reads a scene file, as parse_scene. A file that cannot be read is reported at its line 1, column 1.
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                                Diagnostics& diagnostics);
+
+/// Reads a scene only to note what its tables are asked for; its faults do not matter.
+void record_keys(std::string_view text, KeyRecorder& recorder);
 
 }  // namespace ashlar

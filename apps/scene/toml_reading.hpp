@@ -16,6 +16,7 @@
 
 #include "apps/scene/diagnostics.hpp"
 #include "apps/scene/formulas.hpp"
+#include "apps/scene/key_recorder.hpp"
 #include "apps/scene/scene_places.hpp"
 
 namespace ashlar {
@@ -62,6 +63,11 @@ class TomlReading {
   [[nodiscard]] std::optional<double> number(const toml::node& node, std::string_view key,
                                              const Formulas& formulas);
 
+  /// Notes from then on what readers ask for. @param recorder outlives the reading
+  void record_keys(KeyRecorder& recorder) { recorder_ = &recorder; }
+  /// Null: nothing is noted.
+  [[nodiscard]] KeyRecorder* recorder() const { return recorder_; }
+
   /// One error for each key of a registered table that was never asked for. A key known in another table only
   /// is said to belong there: TOML makes it easy to write a key below the wrong header.
   void report_unknown_keys();
@@ -74,6 +80,7 @@ class TomlReading {
   ScenePlaces& places_;
   Formulas formulas_;
   double pieces_ = 0.0;
+  KeyRecorder* recorder_ = nullptr;
   std::list<KnownTable> tables_;  // readers keep references
 };
 

@@ -23,6 +23,7 @@ std::string TomlTableReader::child_name(std::string_view key) const {
 
 const toml::node* TomlTableReader::find(std::string_view key) {
   known_.keys.emplace(key);
+  if (reading_.recorder() != nullptr) reading_.recorder()->note_key(known_.name, std::string(key));
   return known_.table->get(key);
 }
 
@@ -33,6 +34,7 @@ bool TomlTableReader::holds_infinity(std::string_view key) {
 }
 
 void TomlTableReader::require(std::string_view key) {
+  if (reading_.recorder() != nullptr) reading_.recorder()->note_required(known_.name, std::string(key));
   if (given(key)) return;
   const std::string where = known_.name.empty() ? "the top of the file" : known_.name;
   reading_.error(reading_.places().key(known_.path),
@@ -76,6 +78,7 @@ std::optional<double> TomlTableReader::finite_number(const toml::node& node, std
 }
 
 bool TomlTableReader::read_bool(std::string_view key, bool& result, const char* form) {
+  note(key, {.kind = KeyForm::Kind::boolean});
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_boolean()) {
@@ -87,6 +90,7 @@ bool TomlTableReader::read_bool(std::string_view key, bool& result, const char* 
 }
 
 bool TomlTableReader::read_text(std::string_view key, std::string& result) {
+  note(key, {.kind = KeyForm::Kind::text});
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_string()) {
@@ -112,6 +116,7 @@ bool TomlTableReader::read_name(std::string_view key, std::string& result) {
 }
 
 bool TomlTableReader::read_number(std::string_view key, double& result, const NumberRange& range) {
+  note(key, {.kind = KeyForm::Kind::number, .range = range});
   const toml::node* node = find(key);
   if (!node) return false;
   const std::optional<double> value = finite_number(*node, key, range.words);
@@ -135,6 +140,8 @@ bool TomlTableReader::read_number(std::string_view key, std::optional<double>& r
 
 bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<double>& result,
                                           const NumberRange& range) {
+  note(key, {.kind = KeyForm::Kind::automatic});
+  note(key, {.kind = KeyForm::Kind::number, .range = range});
   const toml::node* node = find(key);
   if (!node) return false;
   if (const auto* text = node->as_string(); text && **text == "auto") {
@@ -149,6 +156,10 @@ bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<do
 static std::string integer_words(int low, int high) {
   return high == std::numeric_limits<int>::max() ? fmt::format("a whole number of at least {}", low)
                                                  : fmt::format("a whole number from {} to {}", low, high);
+}
+
+static KeyForm whole_numbers(KeyForm::Kind kind, int low, int high) {
+  return {.kind = kind, .range = {static_cast<double>(low), static_cast<double>(high), true, true, ""}};
 }
 
 std::optional<int> TomlTableReader::integer(const toml::node& node, std::string_view key, int low, int high) {
@@ -174,6 +185,7 @@ std::optional<int> TomlTableReader::integer(const toml::node& node, std::string_
 }
 
 bool TomlTableReader::read_integer(std::string_view key, int& result, int low, int high) {
+  note(key, whole_numbers(KeyForm::Kind::whole_number, low, high));
   const toml::node* node = find(key);
   if (!node) return false;
   const std::optional<int> value = integer(*node, key, low, high);
@@ -182,6 +194,7 @@ bool TomlTableReader::read_integer(std::string_view key, int& result, int low, i
 }
 
 bool TomlTableReader::read_integers(std::string_view key, std::vector<int>& result, int low, int high) {
+  note(key, whole_numbers(KeyForm::Kind::whole_numbers, low, high));
   const toml::array* array = find_array(key, fmt::format("an array of {}", integer_words(low, high)));
   if (!array) return false;
   std::vector<int> integers;
@@ -267,6 +280,7 @@ std::optional<std::vector<double>> TomlTableReader::read_row(const toml::node& n
 }
 
 bool TomlTableReader::read_vector(std::string_view key, Vector3& result) {
+  note(key, {.kind = KeyForm::Kind::row, .width = 3});
   const toml::node* node = find(key);
   if (!node) return false;
   const auto row = read_row(*node, key, 3, "[x, y, z]");
@@ -307,6 +321,7 @@ bool TomlTableReader::read_places(std::string_view key, std::vector<Vector3>& re
 }
 
 bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result) {
+  note(key, {.kind = KeyForm::Kind::texts});
   const toml::array* array = find_array(key, "an array of texts");
   if (!array) return false;
   std::vector<std::string> texts;
@@ -323,6 +338,8 @@ bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>&
 
 bool TomlTableReader::read_rows(std::string_view key, std::vector<std::vector<double>>& result,
                                 std::size_t width, std::size_t minimum, const char* words, const char* form) {
+  note(key, {.kind = KeyForm::Kind::rows, .width = width, .minimum = minimum});
+  if (*form != '\0') note(key, {.kind = KeyForm::Kind::record});
   const toml::array* array = find_array(key, fmt::format("an array of {}{}", words, form));
   if (!array) return false;
   if (array->size() < minimum) {
@@ -357,6 +374,7 @@ bool TomlTableReader::read_history(std::string_view key, std::vector<std::vector
 }
 
 std::optional<TomlTableReader> TomlTableReader::table(std::string_view key) {
+  note(key, {.kind = KeyForm::Kind::table});
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   if (!node->is_table()) {
@@ -373,6 +391,7 @@ TomlTableReader TomlTableReader::table_or_empty(std::string_view key) {
 }
 
 std::vector<std::optional<TomlTableReader>> TomlTableReader::tables(std::string_view key) {
+  note(key, {.kind = KeyForm::Kind::tables});
   const std::string name = child_name(key);
   const toml::array* array = find_array(key, fmt::format("a list of tables, each headed [[{}]],", name));
   std::vector<std::optional<TomlTableReader>> result;

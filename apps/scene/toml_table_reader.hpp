@@ -24,7 +24,9 @@ class TomlTableReader {
  public:
   /// @param path,name see TomlReading::KnownTable. @param table outlives the reader.
   TomlTableReader(TomlReading& reading, const toml::table& table, std::string path, std::string name)
-      : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {}
+      : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {
+    if (reading_.recorder() != nullptr) reading_.recorder()->note_table(known_.name);
+  }
 
   [[nodiscard]] const std::string& path() const { return known_.path; }
   [[nodiscard]] const std::string& name() const { return known_.name; }
@@ -83,6 +85,7 @@ class TomlTableReader {
     std::vector<std::string> words;
     words.reserve(std::size(names));
     for (const auto& [word, choice] : names) words.emplace_back(word);
+    note(key, {.kind = KeyForm::Kind::word, .words = words});
     const std::optional<std::size_t> index = read_word(key, words);
     if (index) result = names[*index].second;
     return index.has_value();
@@ -94,6 +97,7 @@ class TomlTableReader {
     std::vector<std::string> words;
     words.reserve(std::size(names));
     for (const auto& [word, choice] : names) words.emplace_back(word);
+    note(key, {.kind = KeyForm::Kind::words, .words = words});
     return read_words_among(key, result, words);
   }
 
@@ -113,6 +117,11 @@ class TomlTableReader {
   }
 
  private:
+  /// For a schema of what is read.
+  void note(std::string_view key, KeyForm form) {
+    if (reading_.recorder() != nullptr)
+      reading_.recorder()->note_form(known_.name, std::string(key), std::move(form));
+  }
   /// Null where an entry is no table.
   [[nodiscard]] std::vector<std::optional<TomlTableReader>> tables(std::string_view key);
   [[nodiscard]] const toml::node* find(std::string_view key);

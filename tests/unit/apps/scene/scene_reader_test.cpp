@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     MeasureAndOutput, SceneReaderFault,
-    ::testing::Values(FaultCase{29, "", "s.toml:26:1: error: missing key (point), measure needs it"},
+    ::testing::Values(FaultCase{28, "", "s.toml:26:1: error: missing key (block), measure needs it"},
                       FaultCase{
                           31, "every = 0",
                           "s.toml:31:9: error: every is out of range (0), a whole number of at least 1"},

@@ -9,113 +9,14 @@
 #include <sstream>
 
 #include "apps/scene/scene_json.hpp"
+#include "apps/scene/scene_schema.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 
 namespace ashlar::test {
 namespace {
 
-// Every table, each with the keys that have no default, and a block of each shape.
-const std::string least_scene = R"([analysis]
-end_time = 1
-time_step = 1
-[contact]
-[[joint]]
-blocks = ["A", "B"]
-[[material]]
-name = "rock"
-density = 1
-young_modulus = 1
-poisson_ratio = 0
-[[block]]
-name = "A"
-material = "rock"
-box = { min = [0, 0, 0], max = [1, 1, 1] }
-rotate = { axis = [0, 0, 1], angle = 0 }
-array = { count = [1], step = [[1, 0, 0]] }
-[[block.fix]]
-plane = { point = [0, 0, 0], normal = [0, 0, 1] }
-[[block.load]]
-plane = { point = [0, 0, 0], normal = [0, 0, 1] }
-traction = [0, 0, 0]
-[[block]]
-name = "B"
-material = "rock"
-mesh = { file = "b.off" }
-[[block]]
-name = "C"
-material = "rock"
-hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }
-[[block]]
-name = "D"
-material = "rock"
-sphere = { radius = 1 }
-[[masonry]]
-name = "wall"
-kind = "wall"
-material = "rock"
-length = 9
-height = 9
-brick = [1, 1, 1]
-openings = [{ box = { min = [1, 0, 0], max = [2, 1, 1] }, lintel = { height = 1, bearing = 1 } }]
-[[masonry]]
-name = "arch"
-kind = "arch"
-radius = 1
-thickness = 1
-width = 1
-voussoirs = 9
-fill = { top = 9, weight = 1 }
-[[masonry]]
-name = "column"
-kind = "column"
-radius = 1
-height = 1
-drums = 1
-[[masonry]]
-name = "dome"
-kind = "dome"
-radius = 1
-thickness = 1
-courses = 1
-voussoirs = 9
-[[assign]]
-blocks = ["arch.*"]
-[[cut]]
-name = "set"
-blocks = ["A"]
-dip = 0
-dip_direction = 0
-spacing = { mean = 1 }
-[[cut]]
-name = "inside a box"
-blocks = ["A"]
-solid = { box = { min = [0, 0, 0], max = [1, 1, 1] } }
-[[cut]]
-name = "inside a mesh"
-blocks = ["A"]
-solid = { mesh = { file = "b.off" } }
-[[cut]]
-name = "inside a hull"
-blocks = ["A"]
-solid = { hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] } }
-[[cut]]
-name = "inside a sphere"
-blocks = ["A"]
-solid = { sphere = { radius = 1 } }
-[[cut]]
-name = "cells"
-blocks = ["A"]
-voronoi = { count = 2 }
-[[measure]]
-name = "tip"
-block = "A"
-point = [0, 0, 0]
-[[stage]]
-name = "all"
-analysis = { end_time = 1 }
-[output]
-)";
+const std::string least_scene = scene_with_every_table();
 
 // Entries of [[masonry]] in it.
 constexpr int masonry_kinds = 4;

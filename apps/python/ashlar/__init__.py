@@ -1,0 +1,227 @@
+"""Ashlar: high-order 3-D discontinuous deformation analysis.
+
+    import ashlar
+    scene = ashlar.Scene.load("slope.toml")
+    sim = scene.simulation(threads=2)
+    sim.run(until=0.5)
+    print(sim.history["time"][-1], sim.blocks["stone"].positions([[0, 0, 0]]))
+
+Units are SI, angles degrees, arrays are numpy's. Points of a block are those of the placed, undeformed block. Other Python
+threads run while Ashlar computes, and Ctrl-C ends a run between two steps.
+"""
+
+import json as _json
+import os as _os
+import pathlib as _pathlib
+import tempfile as _tempfile
+
+import numpy as _numpy
+
+from . import _core
+from ._toml import to_toml as _to_toml
+
+__version__ = _core.version.split()[1] if len(_core.version.split()) > 1 else _core.version
+__all__ = ["Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate", "run", "schema"]
+
+
+class SceneError(ValueError):
+    """A scene has errors. `faults`: a list of dictionaries with file, line, column, message and severity."""
+
+    def __init__(self, faults):
+        self.faults = [fault for fault in faults if fault["severity"] == "error"]
+        super().__init__("\n".join(
+            f"{fault['file']}:{fault['line']}:{fault['column']}: {fault['message']}" for fault in self.faults))
+
+    def __reduce__(self):
+        return (SceneError, (self.faults,))
+
+
+class Scene:
+    """A checked scene. Made by Scene.load or Scene.from_dict; can be pickled."""
+
+    def __init__(self, text, file, overrides=()):
+        self._text, self._file, self._overrides = text, str(file), list(overrides)
+        self._core = _core.load(text, self._file, self._overrides)
+        if not self._core.good:
+            raise SceneError(self._core.faults())
+
+    @classmethod
+    def load(cls, path, overrides=()):
+        """Reads a scene file. overrides: texts "key.path=value", as of --set. Raises SceneError, OSError."""
+        return cls(_pathlib.Path(path).read_text(encoding="utf-8"), path, overrides)
+
+    @classmethod
+    def from_dict(cls, values, folder="."):
+        """A scene from a dictionary with the keys of a scene file; numpy arrays may stand for lists.
+
+        folder: that relative paths of the scene start from. Raises SceneError, whose lines are those of `text`.
+        """
+        return cls(_to_toml(values), _os.path.join(str(folder), "scene.toml"))
+
+    @property
+    def text(self):
+        """The scene as TOML."""
+        return self._text
+
+    @property
+    def warnings(self):
+        """What is hardly meant, as the faults of SceneError."""
+        return self._core.faults()
+
+    def to_dict(self):
+        """The scene as used: every key, with defaults."""
+        return _json.loads(self._core.json())
+
+    def simulation(self, threads=1):
+        """A simulation at its start. Of a scene in stages it is that of the first stage."""
+        return Simulation(self, threads)
+
+    def __getstate__(self):
+        return self._text, self._file, self._overrides
+
+    def __setstate__(self, state):
+        self.__init__(*state)
+
+    def __repr__(self):
+        return f"<ashlar.Scene {self._file}>"
+
+
+class _Blocks:
+    """The blocks of a simulation by name."""
+
+    def __init__(self, core):
+        self._core = core
+
+    def __getitem__(self, name):
+        return self._core.block(name)
+
+    def __iter__(self):
+        return iter(self._core.names())
+
+    def __len__(self):
+        return len(self._core.names())
+
+    def __contains__(self, name):
+        return name in self._core.names()
+
+    def keys(self):
+        """Names, in the order of the scene."""
+        return self._core.names()
+
+
+class Simulation:
+    """A run, step by step. Made by Scene.simulation."""
+
+    def __init__(self, scene, threads=1):
+        self._core = _core.Simulation(scene._core, threads)
+
+    def step(self):
+        """Takes one step, or one iteration of a static analysis. Returns whether there is more to do.
+
+        Raises RuntimeError if the step cannot be taken: the state is then that before it.
+        """
+        return self._core.step()
+
+    def run(self, until=None, callback=None):
+        """Steps until a time (s), or to the end. callback(simulation) is called after each step; if it returns False
+        the run stops there. Returns the status."""
+        while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
+            self._core.step()
+            if callback is not None and callback(self) is False:
+                break
+        return self.status
+
+    @property
+    def status(self):
+        """running, completed, failed; of a static analysis running, equilibrium, moving, not converged."""
+        return self._core.status
+
+    @property
+    def time(self):
+        """s"""
+        return self._core.time
+
+    @property
+    def steps(self):
+        """Accepted steps so far."""
+        return self._core.steps
+
+    @property
+    def history(self):
+        """The columns of history.csv, a numpy array each with a value for the start and each step."""
+        return self._core.history()
+
+    @property
+    def blocks(self):
+        """Blocks by name: simulation.blocks["name"]."""
+        return _Blocks(self._core)
+
+    def contacts(self):
+        """The contact points of the last step, a structured array: a, b (numbers of the blocks), place, normal, force on a
+        (3 each; m, 1, N), gap (m), area (m^2), type, state (0 open, 1 locked, 2 sliding)."""
+        return self._core.contacts()
+
+    def write(self, folder):
+        """Writes the history, the present state and a summary as a result folder, in place of one that is there."""
+        self._core.write(str(folder))
+
+
+def run(scene, out, overrides=(), threads=1, resume=False, force=False):
+    """Runs a scene (a path or a Scene) as `ashlar run` does. Returns the summary, a dictionary.
+
+    Raises ValueError for bad input, RuntimeError for a run that failed (its summary is in the folder), KeyboardInterrupt.
+    """
+    if isinstance(scene, Scene):
+        folder = _os.path.dirname(scene._file) or "."
+        with _tempfile.NamedTemporaryFile("w", suffix=".toml", dir=folder, encoding="utf-8") as file:
+            file.write(scene._text)
+            file.flush()
+            return run(file.name, out, [*scene._overrides, *overrides], threads, resume, force)
+    status, told = _core.run(str(scene), str(out), list(overrides), threads, resume, force)
+    if status == 2:
+        raise ValueError(told)
+    if status == 130:
+        raise KeyboardInterrupt(told)
+    if status != 0:
+        raise RuntimeError(told)
+    return _json.loads((_pathlib.Path(out) / "summary.json").read_text(encoding="utf-8"))
+
+
+def _mesh_file(mesh, folder, name):
+    """The path of a mesh: as it is, or of a pair (points (n, 3), triangles (m, 3)) written as OFF."""
+    if isinstance(mesh, (str, _os.PathLike)):
+        return str(mesh)
+    points, triangles = (_numpy.asarray(part) for part in mesh)
+    lines = [f"OFF\n{len(points)} {len(triangles)} 0"]
+    lines += [" ".join(repr(float(x)) for x in point) for point in points]
+    lines += ["3 " + " ".join(str(int(i)) for i in triangle) for triangle in triangles]
+    path = _os.path.join(folder, name)
+    with open(path, "w", encoding="ascii") as file:
+        file.write("\n".join(lines) + "\n")
+    return path
+
+
+def contacts(a, b):
+    """The exact contact report of two meshes, as of `ashlar contacts --json`. a, b: paths, or (points, triangles)."""
+    with _tempfile.TemporaryDirectory() as folder:
+        return _json.loads(_core.contacts(_mesh_file(a, folder, "a.off"), _mesh_file(b, folder, "b.off")))
+
+
+def integrate(mesh, degree):
+    """The integrals of x^i y^j z^k over a solid, i + j + k <= degree: {(i, j, k): value}, each the exact value rounded
+    once. mesh: a path, or (points, triangles)."""
+    with _tempfile.TemporaryDirectory() as folder:
+        moments = _json.loads(_core.integrate(_mesh_file(mesh, folder, "mesh.off"), degree))["moments"]
+    return {(entry["a"], entry["b"], entry["c"]): entry["value"] for entry in moments}
+
+
+def blocks(scene):
+    """The blocks of a scene (a path or a Scene): volumes, neighbours, areas, as of `ashlar blocks --json`."""
+    if not isinstance(scene, Scene):
+        scene = Scene.load(scene)
+    return _json.loads(scene._core.blocks_json())
+
+
+def schema():
+    """The JSON schema of scenes, a dictionary."""
+    return _json.loads(_core.schema())
