@@ -126,6 +126,8 @@ time_step = 1
 [contact]
 [[joint]]
 blocks = ["A", "B"]
+[[joint]]
+cut = "set"
 [[material]]
 name = "rock"
 density = 1
@@ -215,6 +217,9 @@ voronoi = { count = 2 }
 name = "tip"
 block = "A"
 point = [0, 0, 0]
+[[measure]]
+name = "contact"
+pair = ["A", "B"]
 [[stage]]
 name = "all"
 analysis = { end_time = 1 }
