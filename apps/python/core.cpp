@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <map>
@@ -182,7 +183,7 @@ class CoreSimulation {
         rows.push_back(row);
       }
     }
-    return {static_cast<py::ssize_t>(rows.size()), rows.data()};
+    return py::array_t<ContactRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
   }
 
   /// The present state and all of the history as a result folder.

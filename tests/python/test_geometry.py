@@ -24,9 +24,9 @@ def test_moments_of_a_box():
 
 def test_contacts_of_cubes():
     touching = ashlar.contacts(box(), box(move=(0.25, 0.0, 1.0)))
-    assert touching["relation"] == "touching" and touching["type"] == "face-face"
+    assert touching["relation"] == "touching" and touching["type"] == "F-F"
     apart = ashlar.contacts(box(), box(move=(3.0, 0.0, 0.0)))
-    assert apart["relation"] == "separated" and apart["squared_distance"] == 4.0
+    assert apart["relation"] == "apart" and apart["squared_distance"] == 4.0
     with pytest.raises(ValueError):
         ashlar.contacts(box(), (CORNERS, FACES[:-1]))
 

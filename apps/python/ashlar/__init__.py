@@ -127,7 +127,9 @@ class Simulation:
         the run stops there. Returns the status."""
         while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
             self._core.step()
-            if callback is not None and callback(self) is False:
+            goes_on = callback(self) if callback is not None else None
+            # numpy's False is another object than Python's.
+            if goes_on is not None and not goes_on:
                 break
         return self.status
 
