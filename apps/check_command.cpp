@@ -17,13 +17,14 @@ namespace ashlar {
 
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   Diagnostics diagnostics;
-  std::optional<LoadedScene> loaded, first;
+  std::optional<LoadedScene> loaded, staged;
+  const LoadedScene* first = nullptr;  // of its stages, or the whole
   std::optional<BuiltSimulation> built;
   {
     Preparation preparation(false, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
-    if (loaded) first = stage_of(*loaded, 0);
-    if (first) built = build_simulation(*first, 1, diagnostics, &preparation);
+    if (loaded) first = loaded->scene.stage.empty() ? &*loaded : &staged.emplace(stage_of(*loaded, 0));
+    if (first != nullptr) built = build_simulation(*first, 1, diagnostics, &preparation);
     if (built && is_static(first->scene.analysis))
       refuse_loose_blocks(first->scene, built->simulation, diagnostics);
   }

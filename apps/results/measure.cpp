@@ -63,6 +63,20 @@ Vector3 measured_turn(const Simulation& simulation, const Measure& measure) {
   return turn.angle() * 180.0 / std::numbers::pi * turn.axis();
 }
 
+Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_t index) {
+  const ContactPoint& point = pair.points[index];
+  const BlockModel& a = simulation.blocks()[at(pair.a)];
+  const BlockModel& b = simulation.blocks()[at(pair.b)];
+  if (a.incremental() != nullptr || b.incremental() != nullptr) return Vector3::Zero();
+  const BlockState& state = simulation.states()[at(pair.a)];
+  // The two points met at the start of the step: how far they were apart when the blocks were placed, and what they
+  // have gone since.
+  const Vector3 way = gradient_at(a, state, point.material_a) * (point.material_b - point.material_a) +
+                      place_of(a, state, point.material_a) -
+                      place_of(b, simulation.states()[at(pair.b)], point.material_b);
+  return way - point.normal.dot(way) * point.normal;
+}
+
 PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) {
   const auto [low, high] = std::minmax(measure.block, measure.other);
   const auto record =
@@ -70,8 +84,6 @@ PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) 
                    [&, a = low, b = high](const PairRecord& pair) { return pair.a == a && pair.b == b; });
   PairMeasure result{0.0, 0.0, none, none, 0.0};
   if (record == simulation.contacts().end() || record->points.empty()) return result;
-  const BlockModel& block = simulation.blocks()[at(record->a)];
-  const BlockModel& other = simulation.blocks()[at(record->b)];
   Vector3 shear = Vector3::Zero();
   double area = 0.0, gap = 0.0, slip = 0.0;
   for (std::size_t k = 0; k < record->points.size(); ++k) {
@@ -82,19 +94,13 @@ PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) 
     area += point.area;
     gap += point.area * record->gaps[k];
     if (response.state != ContactState::open) result.area += point.area;
-    // Two points that met at the start of the step: how far they were apart when the blocks were placed, and what
-    // they have gone since.
-    const BlockState& state = simulation.states()[at(record->a)];
-    const Vector3 apart =
-        gradient_at(block, state, point.material_a) * (point.material_b - point.material_a) +
-        place_of(block, state, point.material_a) -
-        place_of(other, simulation.states()[at(record->b)], point.material_b);
-    slip += point.area * (apart - point.normal.dot(apart) * point.normal).norm();
+    slip += point.area * slip_of(simulation, *record, k).norm();
   }
   result.shear_force = shear.norm();
   if (!(area > 0.0)) return result;
   result.opening = gap / area;
-  if (block.incremental() == nullptr && other.incremental() == nullptr) result.slip = slip / area;
+  const auto total = [&](int k) { return simulation.blocks()[at(k)].incremental() == nullptr; };
+  if (total(record->a) && total(record->b)) result.slip = slip / area;
   return result;
 }
 

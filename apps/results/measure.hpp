@@ -33,6 +33,10 @@ struct Measure {
 /// polar decomposition of the deformation gradient at its centroid; nan if the block is not there.
 [[nodiscard]] Vector3 measured_turn(const Simulation& simulation, const Measure& measure);
 
+/// How far block a of a pair has slid along block b at a contact point since both were placed, m, across the normal;
+/// zero if one of them is incremental.
+[[nodiscard]] Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_t index);
+
 /// The contacts of two blocks after the last step.
 struct PairMeasure {
   double normal_force = 0.0;  ///< N, sum over the points, compression positive

@@ -10,17 +10,19 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/csv_text.hpp"
+#include "apps/results/joint_faces.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
 
-/// "blocks_0000010.vtu", "contacts_0000010.vtu", or what a killed run left of one
+/// "blocks_0000010.vtu", "contacts_0000010.vtu", "joints_0000010.vtu", or what a killed run left of one
 bool is_frame_name(std::string_view name) {
-  for (const std::string_view start : {"blocks_", "contacts_"}) {
+  for (const std::string_view start : {"blocks_", "contacts_", "joints_"}) {
     if (!name.starts_with(start)) continue;
     const std::string_view rest = name.substr(start.size());
     const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
@@ -226,6 +228,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
+      joints_(folder_ / "joints.pvd"),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty),
       stage_(scene.stage.empty() ? 0 : 1) {
   if (stage_ > 0 && scene.stage.front().reset_displacement) set_origin(simulation);
@@ -243,6 +246,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
                                      history_columns(measures_, !scene.stage.empty()), state.last_row_step)),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
       contacts_(folder_ / "contacts.pvd", state.contact_frames),
+      joints_(folder_ / "joints.pvd", state.joint_frames),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
       last_row_step_(state.last_row_step),
       last_frame_step_(state.last_frame_step),
@@ -257,7 +261,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   }
   contact_rows_.truncate(state.contact_bytes);
   std::set<std::filesystem::path> kept;
-  for (const auto* frames : {&state.block_frames, &state.contact_frames}) {
+  for (const auto* frames : {&state.block_frames, &state.contact_frames, &state.joint_frames}) {
     for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
   }
   remove_frames_but(folder_, kept);
@@ -268,9 +272,16 @@ ResultFolderState ResultFolder::synced_state() {
   check_in_place();
   history_.sync();
   contact_rows_.sync();
-  return {blocks_.frames(), contacts_.frames(), contact_rows_.size(),
-          last_row_step_,   last_frame_step_,   intervals_written_,
-          stage_,           elapsed_,           origin_};
+  return {.block_frames = blocks_.frames(),
+          .contact_frames = contacts_.frames(),
+          .joint_frames = joints_.frames(),
+          .contact_bytes = contact_rows_.size(),
+          .last_row_step = last_row_step_,
+          .last_frame_step = last_frame_step_,
+          .intervals_written = intervals_written_,
+          .stage = stage_,
+          .elapsed = elapsed_,
+          .origin = origin_};
 }
 
 void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement) {
@@ -333,6 +344,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   if (simulation.steps() == last_frame_step_) return;
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
+  const std::string joints = fmt::format("frames/joints_{:07}.vtu", simulation.steps());
   // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
   const auto write = [this](const std::string& name, const UnstructuredGrid& grid) {
     const std::string bytes = to_vtu(grid);
@@ -342,20 +354,19 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   write(blocks, block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields,
                             simulation.system().absent(), origin_));
   write(contacts, contact_frame(simulation));
-  check_in_place();
-  blocks_.add_frame(elapsed_ + simulation.time(), blocks);
+  write(joints, joint_frame(simulation));
+  // What fails leaves none of them.
+  std::vector<PvdWriter*> added;
   try {
-    check_in_place();
-    contacts_.add_frame(elapsed_ + simulation.time(), contacts);
-  } catch (...) {
-    blocks_.drop_last();
-    throw;
-  }
-  try {
+    for (const auto& [series, file] :
+         {std::pair{&blocks_, &blocks}, std::pair{&contacts_, &contacts}, std::pair{&joints_, &joints}}) {
+      check_in_place();
+      series->add_frame(elapsed_ + simulation.time(), *file);
+      added.push_back(series);
+    }
     add_contact_rows(simulation);
   } catch (...) {
-    contacts_.drop_last();
-    blocks_.drop_last();
+    for (PvdWriter* series : added) series->drop_last();
     throw;
   }
   last_frame_step_ = simulation.steps();

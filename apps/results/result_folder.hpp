@@ -52,6 +52,7 @@ struct DisplacementOrigin {
 struct ResultFolderState {
   std::vector<PvdFrame> block_frames;
   std::vector<PvdFrame> contact_frames;
+  std::vector<PvdFrame> joint_frames;
   std::uint64_t contact_bytes = 0;  ///< in contacts.csv
   int last_row_step = -1;           ///< in history.csv
   int last_frame_step = -1;
@@ -114,6 +115,7 @@ class ResultFolder {
   HistoryWriter history_;
   PvdWriter blocks_;
   PvdWriter contacts_;
+  PvdWriter joints_;
   OutputFile contact_rows_;
   int last_row_step_ = -1;
   int last_frame_step_ = -1;

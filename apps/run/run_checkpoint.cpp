@@ -24,8 +24,9 @@ static void visit_members(Archive& archive, DisplacementOrigin& origin) {
 
 template <class Archive>
 static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.contact_frames, state.contact_bytes, state.last_row_step,
-          state.last_frame_step, state.intervals_written, state.stage, state.elapsed, state.origin);
+  archive(state.block_frames, state.contact_frames, state.joint_frames, state.contact_bytes,
+          state.last_row_step, state.last_frame_step, state.intervals_written, state.stage, state.elapsed,
+          state.origin);
 }
 
 template <class Archive>
@@ -41,7 +42,7 @@ static void visit_members(Archive& archive, RunSeconds& seconds) {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 14;
+constexpr std::uint32_t layout_version = 15;
 
 /// What follows the magic line; the payload follows it.
 struct Header {

@@ -424,13 +424,14 @@ int run_command(const RunOptions& options, std::ostream& err) {
   const std::filesystem::path folder = result_folder_of(options);
   Diagnostics diagnostics;
   const int threads = std::max(options.threads, 1);
-  std::optional<LoadedScene> loaded, first;
+  std::optional<LoadedScene> loaded, staged;
+  const LoadedScene* first = nullptr;  // of its stages, or the whole
   std::optional<BuiltSimulation> built;
   {
     Preparation preparation(options.quiet, err);
     loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
-    if (loaded) first = stage_of(*loaded, 0);
-    if (first) built = build_simulation(*first, threads, diagnostics, &preparation);
+    if (loaded) first = loaded->scene.stage.empty() ? &*loaded : &staged.emplace(stage_of(*loaded, 0));
+    if (first != nullptr) built = build_simulation(*first, threads, diagnostics, &preparation);
     if (built && is_static(first->scene.analysis))
       refuse_loose_blocks(first->scene, built->simulation, diagnostics);
   }

@@ -21,11 +21,11 @@ namespace ashlar {
 namespace {
 
 /// A key of [analysis] is idle if it is so in every stage.
-void warn_of_keys_idle_in_all(const std::vector<Scene>& stages, Diagnostics& diagnostics) {
+void warn_of_keys_idle_in_all(const std::vector<const Scene*>& stages, Diagnostics& diagnostics) {
   std::vector<Diagnostic> idle;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     Diagnostics found;
-    warn_of_idle_keys(stages[k], found);
+    warn_of_idle_keys(*stages[k], found);
     const std::vector<Diagnostic> here = found.sorted();
     if (k == 0) idle = here;
     std::erase_if(idle, [&](const Diagnostic& warning) {
@@ -55,12 +55,14 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   check_stages(loaded.scene, diagnostics);
   // What stages say of blocks that are not there has no meaning further on.
   if (!loaded.scene.stage.empty() && !diagnostics.good()) return std::nullopt;
-  std::vector<Scene> stages;
-  for (std::size_t k = 0; k < stage_count(loaded.scene); ++k)
-    stages.push_back(scene_of_stage(loaded.scene, k));
-  for (const Scene& stage : stages) {
-    check_references(stage, diagnostics);
-    check_availability(stage, diagnostics);
+  std::vector<Scene> made;
+  for (std::size_t k = 0; k < loaded.scene.stage.size(); ++k) made.push_back(scene_of_stage(loaded.scene, k));
+  std::vector<const Scene*> stages;
+  for (const Scene& stage : made) stages.push_back(&stage);
+  if (stages.empty()) stages.push_back(&loaded.scene);
+  for (const Scene* stage : stages) {
+    check_references(*stage, diagnostics);
+    check_availability(*stage, diagnostics);
   }
   // Nothing of a scene that is too large is built.
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
@@ -68,22 +70,22 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
   fit_to_survey(loaded.scene, solids, loaded.shapes, diagnostics);
-  for (const Scene& stage : stages) {
-    check_placement(stage, solids, diagnostics);
-    check_limits(stage, solids, diagnostics);
+  for (const Scene* stage : stages) {
+    check_placement(*stage, solids, diagnostics);
+    check_limits(*stage, solids, diagnostics);
   }
   warn_of_mesh_units(loaded.scene, solids, diagnostics);
   phase("overlaps of blocks");
-  for (const Scene& stage : stages) check_initial_overlap(stage, solids, diagnostics);
+  for (const Scene* stage : stages) check_initial_overlap(*stage, solids, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   phase("sizes of the scene");
   loaded.cost = estimate_cost(loaded.scene, &solids);
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_keys_idle_in_all(stages, diagnostics);
-  for (const Scene& stage : stages) {
-    warn_of_doubtful_keys(stage, diagnostics);
-    warn_of_jumping_supports(stage, diagnostics);
-    warn_of_soft_blocks(stage, solids, diagnostics);
+  for (const Scene* stage : stages) {
+    warn_of_doubtful_keys(*stage, diagnostics);
+    warn_of_jumping_supports(*stage, diagnostics);
+    warn_of_soft_blocks(*stage, solids, diagnostics);
   }
   for (std::optional<Polyhedron>& solid : solids) loaded.solids.push_back(std::move(*solid));
   return loaded;

@@ -21,7 +21,7 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).parent
-TABLES = ["history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd"]
+TABLES = ["history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd", "joints.pvd"]
 VARIANTS = [["--checkpoint", "0"], ["--checkpoint", "0.02"], [],
             ["--checkpoint", "0", "--set", "output.history_every=7"],
             ["--checkpoint", "0.01", "--set", "output.interval=0.0137", "--threads", "2"],

@@ -2,12 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "apps/results/grid_arrays.hpp"
+#include "apps/results/vtu_reader.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
@@ -65,6 +68,36 @@ TEST_F(Answers, SlipIsTheWayAlongTheJoint) {
   const double way = 0.5 * 0.16 * (5.0 - 8.660254037844386 * std::tan(std::numbers::pi / 18.0));
   EXPECT_NEAR(last("joint.slip"), way, 0.01 * way);
   EXPECT_NEAR(last("joint.slip"), last("foot.ux"), 1e-5);
+}
+
+// Traction times area is the force: weight and shear of the cube, slip as its foot goes.
+TEST_F(Answers, JointFacesBearWhatThePairDoes) {
+  scene(cube_on_floor("end_time = 0.2\ntime_step = 1e-3\ngravity = [5, 0, -8.660254037844386]\n",
+                      "friction_angle = 10\ntensile_strength = 1\n", "",
+                      pair_measure + "[output]\nevery = 1000\n"));
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const UnstructuredGrid grid = read_vtu(folder_ / "out/frames/joints_0000200.vtu");
+  const auto& area = required_values<double>(grid.cell_data, "area", 1);
+  const auto& normal = required_values<double>(grid.cell_data, "normal_traction", 1);
+  const auto& shear = required_values<double>(grid.cell_data, "shear_traction", 1);
+  const auto& slip = required_values<double>(grid.cell_data, "slip", 3);
+  ASSERT_EQ(area.size(), 1U) << "one face on one face";
+  EXPECT_NEAR(area[0], 1.0, 1e-3);
+  EXPECT_NEAR(normal[0] * area[0], last("joint.normal_force"), 1e-6);
+  EXPECT_NEAR(shear[0] * area[0], last("joint.shear_force"), 1e-6);
+  EXPECT_NEAR(std::abs(slip[0]), last("joint.slip"), 1e-9);
+  EXPECT_EQ(required_values<std::int32_t>(grid.cell_data, "state", 1)[0], 2);
+  EXPECT_EQ(required_values<std::int32_t>(grid.cell_data, "block_a", 1)[0], 0);
+  EXPECT_EQ(required_values<std::int32_t>(grid.cell_data, "block_b", 1)[0], 1);
+  // The square between the two, where the cube is now.
+  double low = 1e9, high = -1e9;
+  for (const Vector3& point : grid.points) {
+    low = std::min(low, point.x());
+    high = std::max(high, point.x());
+    EXPECT_NEAR(point.z(), 0.0, 1e-4);
+  }
+  EXPECT_NEAR(low, last("joint.slip"), 1e-3);
+  EXPECT_NEAR(high - low, 1.0, 1e-3);
 }
 
 TEST_F(Answers, BlocksThatAreApartHaveNoOpening) {

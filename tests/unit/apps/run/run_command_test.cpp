@@ -33,12 +33,13 @@ using ::testing::StartsWith;
 TEST_F(RunCommand, WritesTheResultFolder) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   EXPECT_THAT(files("out"), ElementsAre(".ashlar", "blocks.pvd", "checkpoint", "contacts.csv", "contacts.pvd",
-                                        "frames", "history.csv", "summary.json"));
-  EXPECT_THAT(
-      files("out/frames"),
-      ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu", "blocks_0000030.vtu",
-                  "blocks_0000040.vtu", "contacts_0000000.vtu", "contacts_0000010.vtu",
-                  "contacts_0000020.vtu", "contacts_0000030.vtu", "contacts_0000040.vtu"));
+                                        "frames", "history.csv", "joints.pvd", "summary.json"));
+  EXPECT_THAT(files("out/frames"),
+              ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "blocks_0000020.vtu",
+                          "blocks_0000030.vtu", "blocks_0000040.vtu", "contacts_0000000.vtu",
+                          "contacts_0000010.vtu", "contacts_0000020.vtu", "contacts_0000030.vtu",
+                          "contacts_0000040.vtu", "joints_0000000.vtu", "joints_0000010.vtu",
+                          "joints_0000020.vtu", "joints_0000030.vtu", "joints_0000040.vtu"));
 }
 
 TEST_F(RunCommand, HistoryHasARowPerStepAndTheColumnsOfRecord) {
@@ -241,7 +242,7 @@ TEST_F(RunCommand, ResumedRunIsTheRunThatNeverStopped) {
   ASSERT_EQ(run("straight"), exit_status::done) << faults_;
   // In the middle of contact and between two frames.
   ASSERT_EQ(run("cut", {"--set", "analysis.end_time=0.017"}), exit_status::done) << faults_;
-  EXPECT_EQ(files("cut/frames").size(), 6U) << "frames at 0, 10 and the end";
+  EXPECT_EQ(files("cut/frames").size(), 9U) << "frames at 0, 10 and the end";
   ASSERT_EQ(run("cut", {"--resume", "--threads", "2"}), exit_status::done) << faults_;
   expect_same_results("straight", "cut");
   const auto straight = nlohmann::json::parse(text("straight/summary.json"));
@@ -299,8 +300,9 @@ TEST_F(RunCommand, ResumeNeedsTheTablesOfTheCheckpoint) {
 TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   ASSERT_EQ(run("out", {"--force", "--set", "analysis.end_time=0.01"}), exit_status::done) << faults_;
-  EXPECT_THAT(files("out/frames"), ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu",
-                                               "contacts_0000000.vtu", "contacts_0000010.vtu"));
+  EXPECT_THAT(files("out/frames"),
+              ElementsAre("blocks_0000000.vtu", "blocks_0000010.vtu", "contacts_0000000.vtu",
+                          "contacts_0000010.vtu", "joints_0000000.vtu", "joints_0000010.vtu"));
   EXPECT_EQ(lines("out/history.csv").size(), 12U);
 }
 
