@@ -19,6 +19,7 @@
 #include "apps/study/study_command.hpp"
 #include "apps/sweep/sweep_command.hpp"
 #include "apps/verify/verify_command.hpp"
+#include "apps/view/movie_command.hpp"
 #include "apps/view/picture_command.hpp"
 #include "apps/view/view_command.hpp"
 
@@ -26,10 +27,10 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-constexpr std::array<CommandDeclaration, 11> commands = {
-    declare_run_command,    declare_sweep_command,  declare_view_command,     declare_picture_command,
-    declare_check_command,  declare_blocks_command, declare_contacts_command, declare_integrate_command,
-    declare_verify_command, declare_study_command,  declare_schema_command};
+constexpr std::array<CommandDeclaration, 12> commands = {
+    declare_run_command,       declare_sweep_command,  declare_view_command,   declare_picture_command,
+    declare_movie_command,     declare_check_command,  declare_blocks_command, declare_contacts_command,
+    declare_integrate_command, declare_verify_command, declare_study_command,  declare_schema_command};
 
 // CLI11 only says that a sub-command is required.
 void refuse_unknown_command(const CLI::App& program, const std::vector<std::string>& arguments) {

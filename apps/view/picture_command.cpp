@@ -10,6 +10,8 @@
 #include <limits>
 #include <memory>
 #include <ostream>
+#include <sstream>
+#include <stdexcept>
 #include <vector>
 
 #include "apps/results/atomic_file.hpp"
@@ -66,10 +68,10 @@ std::string check_positive(std::string_view name, double value) {
                                              : fmt::format("{} ({}), more than 0 is needed", name, value);
 }
 
-/// What follows # in the page's address; view_page.js reads it.
-std::string wishes(const PictureOptions& options, std::size_t frame) {
-  std::string text = fmt::format("picture&frame={}&size={}&from={}&color={}&zoom={}&scale={}", frame,
-                                 options.size, options.from, options.color, options.zoom, options.scale);
+/// What follows # in the page's address; view_page.js reads it. @param frames "frame=3" or "frames=0:7"
+std::string wishes(const PictureOptions& options, const std::string& frames) {
+  std::string text = fmt::format("picture&{}&size={}&from={}&color={}&zoom={}&scale={}", frames, options.size,
+                                 options.from, options.color, options.zoom, options.scale);
   text += "&contacts=" + options.contacts;
   if (options.no_arrows) text += "&arrows=none";
   if (options.at) text += "&at=" + *options.at;
@@ -94,8 +96,9 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
     return complain(error.what(), exit_status::bad_input);
   }
   const std::size_t frame = options.frame.value_or(report.frames - 1);
-  const std::string page = loaded_page(browser, scratch.path(), view, wishes(options, frame),
-                                       std::chrono::duration<double>(options.time_limit));
+  const std::string page =
+      loaded_page(browser, scratch.path(), view, wishes(options, fmt::format("frame={}", frame)),
+                  std::chrono::duration<double>(options.time_limit));
   if (const auto fault = left_text(page, "fault")) return complain(*fault, exit_status::bad_input);
   const auto picture = left_text(page, "picture");
   if (!picture) return complain(browser.string() + " made no picture", exit_status::failed);
@@ -105,14 +108,71 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   return exit_status::done;
 }
 
+/// NAME.png, 7 -> NAME_0007.png
+std::filesystem::path numbered(const std::filesystem::path& picture, std::size_t index) {
+  std::filesystem::path name = picture.parent_path() / picture.stem();
+  name += fmt::format("_{:04}.png", index);
+  return name;
+}
+
+int make_pictures(const PictureOptions& options, std::ostream& out, std::ostream& err) {
+  try {
+    for (const DrawnFrame& frame : draw_frames(options, options.frames)) {
+      const std::filesystem::path picture = numbered(options.picture, frame.index);
+      write_file_atomically(picture, frame.png, Durability::process);
+      out << fmt::format("picture: {}\n", picture.string());
+    }
+  } catch (const std::invalid_argument& error) {
+    err << "ashlar: error: " << error.what() << '\n';
+    return exit_status::bad_input;
+  }
+  return exit_status::done;
+}
+
 }  // namespace
 
-int picture_command(const PictureOptions& options, std::ostream& out, std::ostream& err) {
+std::string fault_of_look(const PictureOptions& options) {
   for (const std::string& fault :
        {check_size(options.size), check_direction(options.from), check_point(options.at),
         check_positive("zoom", options.zoom), check_positive("scale", options.scale),
-        check_positive("time limit", options.time_limit)}) {
-    if (fault.empty()) continue;
+        check_positive("time limit", options.time_limit)})
+    if (!fault.empty()) return fault;
+  return "";
+}
+
+std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::optional<std::string>& frames) {
+  const auto browser = find_browser();
+  if (!browser)
+    throw std::runtime_error("no chromium in PATH, which draws the frames; install it or set ASHLAR_BROWSER");
+  const ScratchFolder scratch;
+  const std::filesystem::path view = scratch.path() / "view.html";
+  ViewReport report;
+  try {
+    report = write_view_file(options.folder, view, {});
+  } catch (const std::exception& error) {
+    throw std::invalid_argument(error.what());
+  }
+  const std::size_t last = report.frames - 1;
+  std::vector<std::size_t> range = {0, last};
+  if (frames) range = numbers_of<std::size_t>(*frames, ':');
+  if (range.size() != 2 || range[0] > range[1] || range[1] > last)
+    throw std::invalid_argument(
+        fmt::format("frames ({}), A:B with 0 <= A <= B <= {} is needed", frames.value_or(""), last));
+  const std::string page = loaded_page(*browser, scratch.path(), view,
+                                       wishes(options, fmt::format("frames={}:{}", range[0], range[1])),
+                                       std::chrono::duration<double>(options.time_limit));
+  if (const auto fault = left_text(page, "fault")) throw std::invalid_argument(*fault);
+  const auto pictures = left_text(page, "pictures");
+  if (!pictures || pictures->empty()) throw std::runtime_error(browser->string() + " made no pictures");
+  std::vector<DrawnFrame> drawn;
+  std::istringstream lines(*pictures);
+  std::string picture;
+  for (std::size_t index = 0; lines >> index >> picture;) drawn.push_back({index, from_base64(picture)});
+  return drawn;
+}
+
+int picture_command(const PictureOptions& options, std::ostream& out, std::ostream& err) {
+  if (const std::string fault = fault_of_look(options); !fault.empty()) {
     err << "ashlar: error: " << fault << '\n';
     return exit_status::bad_input;
   }
@@ -131,39 +191,46 @@ int picture_command(const PictureOptions& options, std::ostream& out, std::ostre
     err << "ashlar: error: no chromium in PATH, which draws the picture; install it or set ASHLAR_BROWSER\n";
     return exit_status::failed;
   }
-  return make_picture(options, *browser, out, err);
+  return options.frames ? make_pictures(options, out, err) : make_picture(options, *browser, out, err);
+}
+
+void declare_look(CLI::App& command, PictureOptions& options) {
+  command.add_option("--size", options.size, "Pixels (default: " + options.size + ")")->type_name("WxH");
+  command.add_option("--from", options.from, "Direction to the eye (default: " + options.from + ")")
+      ->type_name("X,Y,Z");
+  command.add_option("--color", options.color, "Colour by (default: displacement)")
+      ->type_name("FIELD")
+      ->check(CLI::IsMember({"displacement", "velocity", "von_mises", "pressure", "stress_xx", "stress_yy",
+                             "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order"}));
+  command.add_flag("--frame-range", options.frame_range,
+                   "Colours over the values of this frame (default: of the whole run)");
+  command.add_option("--at", options.at, "Point looked at (default: the middle of all blocks)")
+      ->type_name("X,Y,Z");
+  command.add_option("--zoom", options.zoom, "How much nearer than to see all (default: 1)")->type_name("F");
+  command.add_option("--scale", options.scale, "Displacements times (default: 1)")->type_name("F");
+  command.add_option("--contacts", options.contacts, "Points by state, type or none (default: state)")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"state", "type", "none"}));
+  command.add_flag("--no-arrows", options.no_arrows,
+                   "Contacts without their forces, as where there are more than 500");
+  command
+      .add_option("--time-limit", options.time_limit,
+                  fmt::format("Seconds for the browser (default: {:g})", options.time_limit))
+      ->type_name("S");
 }
 
 void declare_picture_command(CLI::App& program, CommandContext& context) {
-  CLI::App* command =
-      program.add_subcommand("picture", "Draw one frame of a run as a PNG, without a display");
+  CLI::App* command = program.add_subcommand("picture", "Draw frames of a run as PNG, without a display");
   // Lives as long as the callback that reads it.
   const auto options = std::make_shared<PictureOptions>();
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")
       ->type_name("N")
       ->check(CLI::Range(0, std::numeric_limits<int>::max(), ">= 0"));
-  command->add_option("--size", options->size, "Pixels (default: " + options->size + ")")->type_name("WxH");
-  command->add_option("--from", options->from, "Direction to the eye (default: " + options->from + ")")
-      ->type_name("X,Y,Z");
-  command->add_option("--color", options->color, "Colour by (default: displacement)")
-      ->type_name("FIELD")
-      ->check(CLI::IsMember({"displacement", "velocity", "von_mises", "pressure", "stress_xx", "stress_yy",
-                             "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order"}));
-  command->add_flag("--frame-range", options->frame_range,
-                    "Colours over the values of this frame (default: of the whole run)");
-  command->add_option("--at", options->at, "Point looked at (default: the middle of all blocks)")
-      ->type_name("X,Y,Z");
-  command->add_option("--zoom", options->zoom, "How much nearer than to see all (default: 1)")
-      ->type_name("F");
-  command->add_option("--scale", options->scale, "Displacements times (default: 1)")->type_name("F");
-  command->add_option("--contacts", options->contacts, "Points by state, type or none (default: state)")
-      ->type_name("WORD")
-      ->check(CLI::IsMember({"state", "type", "none"}));
-  command->add_flag("--no-arrows", options->no_arrows,
-                    "Contacts without their forces, as where there are more than 500");
-  command->add_option("--time-limit", options->time_limit, "Seconds for the browser (default: 120)")
-      ->type_name("S");
+  command->add_option("--frames", options->frames, "Frames A to B, as NAME_0007.png and so on")
+      ->type_name("A:B")
+      ->excludes("--frame");
+  declare_look(*command, *options);
   command->add_option("-o,--out", options->picture, "PNG to write")->required()->type_name("FILE");
   command->callback(
       [options, &context] { context.status = picture_command(*options, context.out, context.err); });

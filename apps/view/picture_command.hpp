@@ -1,10 +1,11 @@
-// `ashlar picture`: one frame of a run as a PNG, made without a display.
+// `ashlar picture`: frames of a run as PNG files, made without a display.
 #pragma once
 
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/command_line.hpp"
 
@@ -23,8 +24,28 @@ struct PictureOptions {
   std::string contacts = "state";  ///< colours of contact points: state, type, or none for no points
   bool no_arrows = false;          ///< contacts without their forces, as it is with more than 500
   double time_limit = 120.0;       ///< s, > 0: after that a browser that makes no picture is ended
+  std::optional<std::string>
+      frames;  ///< "a:b", indices: all of these, NAME_0007.png and so on; not with frame
   std::filesystem::path picture;
 };
+
+/// A frame as a PNG.
+struct DrawnFrame {
+  std::size_t index;
+  std::string png;
+};
+
+/// Declares the options that say how frames are drawn.
+void declare_look(CLI::App& command, PictureOptions& options);
+/// What is wrong with them; empty: nothing.
+[[nodiscard]] std::string fault_of_look(const PictureOptions& options);
+
+/// Draws frames in one browser. A page that would be too large holds every second, fourth ... of a run's frames: those
+/// that it has are drawn.
+/// @param frames "a:b"; empty: all. @throws std::invalid_argument for a folder or frames that are not there;
+/// std::runtime_error without a browser, or as loaded_page
+[[nodiscard]] std::vector<DrawnFrame> draw_frames(const PictureOptions& options,
+                                                  const std::optional<std::string>& frames);
 
 /// The picture is what `ashlar view` shows.
 /// @return exit status; bad_input if an option or the folder is wrong, failed if there is no browser.

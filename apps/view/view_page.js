@@ -124,7 +124,7 @@ function readAddress() {
   return wishes;
 }
 
-/// Leaves nothing in the page but a text for the program that reads it: one picture, or why there is none.
+/// Leaves nothing in the page but a text for the program that reads it: pictures, or why there are none.
 function leaveText(id, content) {
   const text = document.createElement("pre");
   text.id = id;
@@ -143,6 +143,19 @@ function makePicture(wishes) {
   renderer.setSize(width, height, false);
   setFrame({width, height, side: Math.min(130, 0.25 * width), ends: Math.min(60, 0.15 * height)});
   lookFrom(current.from);
+  const [first, last] = (wishes.get("frames") || "").split(":").map(Number);
+  if (!wishes.has("frames")) return leaveText("picture", drawnPicture(width, height, legend));
+  const pictures = [];
+  data.frames.forEach((frame, k) => {
+    if (frame.index < first || frame.index > last) return;
+    current.frame = k;
+    pictures.push(frame.index + " " + drawnPicture(width, height, legend));
+  });
+  leaveText("pictures", pictures.join("\n"));
+}
+
+/// @return what is shown now as a PNG in base64
+function drawnPicture(width, height, legend) {
   show();
   const picture = document.createElement("canvas");
   Object.assign(picture, {width, height});
@@ -155,7 +168,7 @@ function makePicture(wishes) {
   context.fillStyle = "#222";
   context.fillText(clockText(currentFrame()), 12, 22);
   drawContactLegend(context, currentFrame(), width - 12, 22);
-  leaveText("picture", picture.toDataURL("image/png").split(",")[1]);
+  return picture.toDataURL("image/png").split(",")[1];
 }
 
 function buildRenderer() {

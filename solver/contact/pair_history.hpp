@@ -27,11 +27,11 @@ struct PairHistory {
   ContactMemory memory;                  ///< of the contacts of the last step; empty: there were none
   std::optional<Clearance> clearance;    ///< unless the last search found contacts
   std::optional<EntranceName> entrance;  ///< of convex pairs that were near each other at the last search
-  double work = 0.0;   ///< of the contact forces on both blocks since the start of the run, J
-  double taken = 0.0;  ///< what multipliers have taken from the blocks and not given back, J, >= 0
+  double work = 0.0;    ///< of the contact forces on both blocks since the start of the run, J
+  double taken = 0.0;   ///< what multipliers have taken from the blocks and not given back, J, >= 0
   double bonded = 0.0;  ///< m^2, the largest area that had strength to lose, and what of it has
   double broken = 0.0;  ///< m^2, lost it since the start of the run
-  double depth = 0.0;  ///< true depth at the end of the last step, m, >= 0 (depth_audit.hpp)
+  double depth = 0.0;   ///< true depth at the end of the last step, m, >= 0 (depth_audit.hpp)
 
   /// How deep contacts may be that the next search has to find, m, >= 0: as contacts were, and between their
   /// points, or, where contacts did not know of it, as the blocks truly were.

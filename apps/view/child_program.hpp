@@ -1,0 +1,25 @@
+// Other programs that Ashlar starts: a browser, ffmpeg.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ashlar {
+
+/// The first executable file of that name in PATH.
+[[nodiscard]] std::optional<std::filesystem::path> find_program(const std::string& name);
+
+/// Runs a program to its end, with nothing to read. @param command its path and its arguments
+/// @param out,err files for what it writes, made anew
+/// @param limit after which it and all that it has started are ended
+/// @return the status of waitpid; empty if the limit passed
+/// @throws std::runtime_error if it cannot be started
+[[nodiscard]] std::optional<int> run_program(const std::vector<std::string>& command,
+                                             const std::filesystem::path& out,
+                                             const std::filesystem::path& err,
+                                             std::chrono::duration<double> limit);
+
+}  // namespace ashlar
