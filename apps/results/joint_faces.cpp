@@ -19,20 +19,34 @@ namespace {
 /// Surfaces of blocks at the end of the step, made when first asked for.
 class PresentSurfaces {
  public:
-  explicit PresentSurfaces(const Simulation& simulation) : simulation_(simulation) {}
+  PresentSurfaces(const Simulation& simulation, const std::vector<SubFaceSurface>& surfaces)
+      : simulation_(simulation), cells_(surfaces) {}
 
   const PlacedSurface& of(int block) {
     const auto known = surfaces_.find(block);
     if (known != surfaces_.end()) return known->second;
-    const BlockSurface& surface = simulation_.finder().surfaces()[at(block)];
-    return surfaces_
-        .emplace(std::piecewise_construct, std::forward_as_tuple(block),
-                 std::forward_as_tuple(surface.surface(), surface.points(simulation_.states()[at(block)])))
-        .first->second;
+    const BlockModel& model = simulation_.blocks()[at(block)];
+    const BlockState& state = simulation_.states()[at(block)];
+    if (model.incremental() != nullptr) {
+      const BlockSurface& surface = simulation_.finder().surfaces()[at(block)];
+      return placed(block, surface.surface(), surface.points(state));
+    }
+    std::vector<Vector3> points;
+    for (const Vector3& point : cells_[at(block)].points)
+      points.emplace_back(state.position.transpose() * model.basis().values(point));
+    return placed(block, cells_[at(block)], std::move(points));
   }
 
  private:
+  const PlacedSurface& placed(int block, const SubFaceSurface& cells, std::vector<Vector3> points) {
+    return surfaces_
+        .emplace(std::piecewise_construct, std::forward_as_tuple(block),
+                 std::forward_as_tuple(cells, std::move(points)))
+        .first->second;
+  }
+
   const Simulation& simulation_;
+  const std::vector<SubFaceSurface>& cells_;
   std::map<int, PlacedSurface> surfaces_;
 };
 
@@ -171,11 +185,30 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
 
 }  // namespace
 
-UnstructuredGrid joint_frame(const Simulation& simulation) {
+std::vector<SubFaceSurface> joint_surfaces(const std::vector<BlockModel>& blocks) {
+  constexpr std::size_t most_triangles = 2000;
+  std::vector<SubFaceSurface> surfaces;
+  for (const BlockModel& block : blocks) {
+    if (block.incremental() != nullptr) {
+      surfaces.emplace_back();
+    } else if (block.fixed() || block.order() == 1) {
+      surfaces.push_back(whole_surface(block.solid()));
+    } else {
+      int levels = 0;
+      for (std::size_t triangles = 4 * block.solid().mesh().triangles.size();
+           levels < 2 && triangles <= most_triangles; triangles *= 4)
+        ++levels;
+      surfaces.push_back(divide_surface(block.solid(), levels));
+    }
+  }
+  return surfaces;
+}
+
+UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<SubFaceSurface>& cells) {
   UnstructuredGrid grid;
   std::vector<double> opening, slip, normal, shear, area;
   std::array<std::vector<std::int32_t>, 4> numbers;  // state, broken, block_a, block_b
-  PresentSurfaces surfaces(simulation);
+  PresentSurfaces surfaces(simulation, cells);
   for (const PairRecord& record : simulation.contacts()) {
     for (const JointFace& face : faces_of(simulation, record, surfaces)) {
       std::vector<int> corners;

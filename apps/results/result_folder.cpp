@@ -14,7 +14,6 @@
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/csv_text.hpp"
-#include "apps/results/joint_faces.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {
@@ -225,6 +224,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
+      joint_surfaces_(joint_surfaces(simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
@@ -242,6 +242,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
+      joint_surfaces_(joint_surfaces(simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      history_columns(measures_, !scene.stage.empty()), state.last_row_step)),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
@@ -354,7 +355,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   write(blocks, block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields,
                             simulation.system().absent(), origin_));
   write(contacts, contact_frame(simulation));
-  write(joints, joint_frame(simulation));
+  write(joints, joint_frame(simulation, joint_surfaces_));
   // What fails leaves none of them.
   std::vector<PvdWriter*> added;
   try {

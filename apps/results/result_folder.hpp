@@ -8,6 +8,7 @@
 
 #include "apps/results/drawn_surface.hpp"
 #include "apps/results/history_writer.hpp"
+#include "apps/results/joint_faces.hpp"
 #include "apps/results/largest_values.hpp"
 #include "apps/results/measure.hpp"
 #include "apps/results/pvd_writer.hpp"
@@ -112,6 +113,7 @@ class ResultFolder {
   SceneOutput output_;
   std::vector<Measure> measures_;
   std::vector<DrawnSurface> surfaces_;
+  std::vector<SubFaceSurface> joint_surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;
   PvdWriter contacts_;
