@@ -145,7 +145,7 @@ class ContactFinder {
   SimulationSettings settings_;
   Eigen::Matrix3d axes_;  ///< of the boxes below
   std::vector<bool> absent_;
-  std::vector<bool> fixed_;  ///< and present
+  std::vector<bool> fixed_;   ///< and present
   std::vector<bool> moving_;  ///< false for fixed blocks, and for those that sleep
   std::set<PairKey> left_out_;
   std::vector<double>
