@@ -4,7 +4,8 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <sstream>
+#include <stdexcept>
 
 #include "unit/apps/run_fixture.hpp"
 
@@ -26,14 +27,20 @@ struct Claim {
   }
 };
 
+/// Lines "# claim: PLACE RELATION VALUE".
 std::vector<Claim> claims_of(const std::filesystem::path& scene) {
-  static const std::regex line_of_claim(R"(# claim: (\S+) (==|<|>) (.+))");
+  const std::string start = "# claim: ";
   std::vector<Claim> claims;
   std::ifstream file(scene);
   for (std::string line; std::getline(file, line);) {
-    std::smatch parts;
-    if (std::regex_match(line, parts, line_of_claim))
-      claims.push_back({Json::json_pointer(parts.str(1)), parts.str(2), Json::parse(parts.str(3))});
+    if (!line.starts_with(start)) continue;
+    std::istringstream parts(line.substr(start.size()));
+    std::string place, relation, value;
+    parts >> place >> relation >> std::ws;
+    std::getline(parts, value);
+    if (relation != "==" && relation != "<" && relation != ">")
+      throw std::runtime_error(scene.string() + ": a claim without a relation: " + line);
+    claims.push_back({Json::json_pointer(place), relation, Json::parse(value)});
   }
   return claims;
 }
