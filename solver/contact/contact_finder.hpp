@@ -85,6 +85,11 @@ class ContactFinder {
     return tracks_[static_cast<std::size_t>(block)].checked_motion;
   }
 
+  /// What the fastest point of a block goes at most when its position changes, m. @param change (p, 3)
+  [[nodiscard]] double motion_bound(int block, const Eigen::MatrixX3d& change) const {
+    return surfaces_[static_cast<std::size_t>(block)].quick_motion_bound(change);
+  }
+
   /// All contacts within reach at the start of a step.
   /// @param histories of pairs: how deep they were, clearances and entrances are read and noted
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,

@@ -8,12 +8,14 @@
 
 namespace ashlar {
 
-/// How little a block has moved of late.
+/// How little a block has moved of late. Paths and velocities are those of the mean of two steps: what alternates
+/// from step to step is not in them (notes/sleeping_islands.md).
 struct BlockRest {
   /// m, the path of its fastest point in the last whole window; infinite until there was one
   double last_path = std::numeric_limits<double>::infinity();
-  double path = 0.0;  ///< m, in the present window
-  /// At the start of the present window, as BlockState::velocity; empty until one has begun
+  double path = 0.0;        ///< m, in the present window
+  Eigen::MatrixX3d motion;  ///< of the last step, (p, 3), m; empty: none
+  /// At the start of the present window, (p, 3), m/s; empty until one has begun
   Eigen::MatrixX3d velocity;
 };
 

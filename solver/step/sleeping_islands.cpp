@@ -28,21 +28,36 @@ bool wake_if(const RunContext& run, const Condition& wakes) {
   return any;
 }
 
-/// Mean force that a block lacked in the window to be in balance, as a share of the largest force on it. A mean:
-/// stiff vibrations alternate from step to step under dda.
-double unbalanced_share(const Sleep& sleep, const BodyStep& body, const BlockRest& rest) {
-  const double gained = (body.state->velocity - rest.velocity).norm();
+/// Motion of a step less what alternates: the mean with the step before.
+Eigen::MatrixX3d steady_part(const Eigen::MatrixX3d& motion, const BlockRest& rest) {
+  return rest.motion.size() > 0 ? Eigen::MatrixX3d(0.5 * (motion + rest.motion)) : motion;
+}
+
+/// Whether vibrations that the step does not resolve die out.
+bool dissipates(const SimulationSettings& settings) {
+  return settings.integrator == Integrator::dda ||
+         (settings.integrator == Integrator::generalized_alpha && settings.spectral_radius < 1.0);
+}
+
+/// Mean force that a block lacked in the window to be in balance, as a share of the largest force on it.
+double unbalanced_share(const Sleep& sleep, const BodyStep& body, const BlockRest& rest,
+                        const Eigen::MatrixX3d& velocity) {
+  const double gained = (velocity - rest.velocity).norm();
   return gained > 0.0 ? body.model->material().density * gained / sleep.window_time / body.largest_force
                       : 0.0;
 }
 
-bool rests(const RunContext& run, const StepProblem& problem, const Island& island) {
+/// @param velocities of the blocks' steady parts
+bool rests(const RunContext& run, const StepProblem& problem, const Island& island,
+           const std::vector<Eigen::MatrixX3d>& velocities) {
   const RestSettings& settings = run.settings().rest;
   const double way = settings.way_share * run.settings().contact_distance;
   return std::all_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
     const BlockRest& rest = run.state.sleep.rests[at(block)];
-    return rest.last_path + rest.path <= way && rest.path <= settings.fading * rest.last_path &&
-           unbalanced_share(run.state.sleep, problem.bodies[at(block)], rest) <= settings.unbalanced_share;
+    return rest.last_path + rest.path + run.contacts.finder().checked_motion(block) <= way &&
+           rest.path <= settings.fading * rest.last_path &&
+           unbalanced_share(run.state.sleep, problem.bodies[at(block)], rest, velocities[at(block)]) <=
+               settings.unbalanced_share;
   });
 }
 
@@ -101,21 +116,28 @@ void wake_all(const RunContext& run) {
 void note_rest(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
   const RestSettings& settings = run.settings().rest;
   Sleep& sleep = run.state.sleep;
-  if (!settings.sleeps || scheme.from_rest) return;
+  if (!settings.sleeps || scheme.from_rest || !dissipates(run.settings())) return;
   run.state.log.counts.sleeping_block_steps += static_cast<std::uint64_t>(sleep.sleeping_blocks());
+  std::vector<Eigen::MatrixX3d> velocities(run.blocks().size());
   for (const Island& island : problem.islands) {
-    for (const int block : island.bodies)
-      sleep.rests[at(block)].path += run.contacts.finder().checked_motion(block);
+    for (const int block : island.bodies) {
+      BlockRest& rest = sleep.rests[at(block)];
+      Eigen::MatrixX3d motion = problem.bodies[at(block)].motion();
+      const Eigen::MatrixX3d steady = steady_part(motion, rest);
+      rest.path += run.contacts.finder().motion_bound(block, steady);
+      rest.motion = std::move(motion);
+      velocities[at(block)] = steady / scheme.step;
+    }
   }
   sleep.window_time += scheme.step;
   if (++sleep.window_steps < settings.window) return;
   for (std::size_t k = 0; k < problem.islands.size(); ++k)
-    if (rests(run, problem, problem.islands[k])) put_to_sleep(run, problem, k);
+    if (rests(run, problem, problem.islands[k], velocities)) put_to_sleep(run, problem, k);
   for (const Island& island : problem.islands) {
     for (const int block : island.bodies) {
       BlockRest& rest = sleep.rests[at(block)];
       rest.last_path = std::exchange(rest.path, 0.0);
-      rest.velocity = run.state.states[at(block)].velocity;
+      rest.velocity = std::move(velocities[at(block)]);
     }
   }
   sleep.window_steps = 0;
