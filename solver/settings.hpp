@@ -61,9 +61,12 @@ struct DepthSettings {
 /// where the others are exceeded the step is cut.
 struct IterationSettings {
   int newton_iterations = 16;
-  double newton_overshoot = 0.3;   ///< 0 to 1: work along a change that may be undone by going all its way
-  int newton_patience = 8;         ///< iterations that do not halve what is left, one after another
-  int krylov_iterations = 30;      ///< of one linear system with friction's coupling to normal forces
+  double newton_overshoot = 0.3;  ///< 0 to 1: work along a change that may be undone by going all its way
+  int newton_patience = 8;        ///< iterations that do not halve what is left, one after another
+  int krylov_iterations = 30;     ///< of one linear system with friction's coupling to normal forces
+  int old_factor_iterations =
+      10;  ///< of one linear system with a factor of an earlier step: more cost a new one
+  double old_factor_gain = 20.0;   ///< solutions that a new factor has to cost for an old one to be kept
   double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
   int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
   int minimiser_iterations = 150;  ///< of one pass

@@ -13,11 +13,26 @@ extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
 
 namespace ashlar {
 
+Eigen::VectorXd times(const SymmetricMatrix& matrix, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
+  for (int column = 0; column < matrix.size; ++column) {
+    const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
+    const auto last = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column) + 1]);
+    for (std::size_t k = first; k < last; ++k) {
+      const int row = matrix.rows[k];
+      y[row] += matrix.values[k] * x[column];
+      if (row != column) y[column] += matrix.values[k] * x[row];
+    }
+  }
+  return y;
+}
+
 struct SparseCholesky::Implementation {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
   SymmetricMatrix matrix;
   bool factored = false;
+  double cost_in_solves = 0.0;
   FactorCounts counts;
 
   Implementation() {
@@ -68,20 +83,6 @@ struct SparseCholesky::Implementation {
     cholmod_free_dense(&solution, &common);
     return result;
   }
-
-  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
-    for (int column = 0; column < matrix.size; ++column) {
-      const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
-      const auto last = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column) + 1]);
-      for (std::size_t k = first; k < last; ++k) {
-        const int row = matrix.rows[k];
-        y[row] += matrix.values[k] * x[column];
-        if (row != column) y[column] += matrix.values[k] * x[row];
-      }
-    }
-    return y;
-  }
 };
 
 SparseCholesky::SparseCholesky() : implementation_(std::make_unique<Implementation>()) {}
@@ -105,6 +106,7 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
     cholmod_free_factor(&self.factor, &self.common);
     self.factor = cholmod_analyze(&view, &self.common);
     if (self.factor == nullptr) return FactorStatus::out_of_memory;
+    self.cost_in_solves = self.common.fl / (4.0 * self.common.lnz);
     ++self.counts.analyses;
   }
   cholmod_factorize(&view, self.factor, &self.common);
@@ -121,12 +123,24 @@ Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side, bool re
   ++self.counts.solves;
   Eigen::VectorXd solution = self.solve_once(right_side);
   if (!refined) return solution;
-  solution += self.solve_once(right_side - self.times(solution));
+  solution += self.solve_once(right_side - times(self.matrix, solution));
   return solution;
 }
 
 const FactorCounts& SparseCholesky::counts() const {
   return implementation_->counts;
+}
+
+double SparseCholesky::cost_in_solves() const {
+  return implementation_->cost_in_solves;
+}
+
+void SparseCholesky::drop_counts() {
+  implementation_->counts = {};
+}
+
+const SymmetricMatrix& SparseCholesky::matrix() const {
+  return implementation_->matrix;
 }
 
 }  // namespace ashlar

@@ -17,6 +17,9 @@ struct SymmetricMatrix {
   std::vector<double> values;     ///< (#entries)
 };
 
+/// Product with a vector. @param x (size)
+[[nodiscard]] Eigen::VectorXd times(const SymmetricMatrix& matrix, const Eigen::VectorXd& x);
+
 /// Outcome of a factorisation.
 enum class FactorStatus {
   success,
@@ -56,6 +59,12 @@ class SparseCholesky {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined = true);
 
   [[nodiscard]] const FactorCounts& counts() const;
+  /// Operations of a factorisation in those of a solution, by the pattern; 0 before the first.
+  [[nodiscard]] double cost_in_solves() const;
+  /// Starts to count at zero.
+  void drop_counts();
+  /// The matrix that was factorised last.
+  [[nodiscard]] const SymmetricMatrix& matrix() const;
 
  private:
   struct Implementation;

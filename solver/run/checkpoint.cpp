@@ -96,7 +96,7 @@ static void visit_members(Archive& archive, StaticState& state) {
 
 template <class Archive>
 static void visit_members(Archive& archive, BlockRest& rest) {
-  archive(rest.last_path, rest.path, rest.velocity);
+  archive(rest.last_path, rest.path, rest.motion, rest.velocity);
 }
 
 template <class Archive>
@@ -207,8 +207,13 @@ static void visit_members(Archive& archive, RunState& run) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, KeptFactor& factor) {
+  archive(factor.key, factor.sizes, factor.pairs, factor.values, factor.inertia);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.run, snapshot.carried, snapshot.finder);
+  archive(snapshot.run, snapshot.carried, snapshot.finder, snapshot.factors);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {

@@ -13,7 +13,7 @@ IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std
                                           const std::vector<std::array<int, 2>>& pairs) {
   auto found = entries_.find(key);
   if (found == entries_.end())
-    found = entries_.emplace(key, Entry{BlockMatrix(sizes, pairs), SparseCholesky(), true}).first;
+    found = entries_.emplace(key, Entry{sizes, pairs, BlockMatrix(sizes, pairs), SparseCholesky()}).first;
   found->second.used = true;
   return found->second;
 }
@@ -34,6 +34,37 @@ FactorCounts IslandSolvers::counts() const {
   FactorCounts sum = dropped_;
   for (const auto& [key, entry] : entries_) sum += entry.factor.counts();
   return sum;
+}
+
+std::vector<KeptFactor> IslandSolvers::kept() const {
+  std::vector<KeptFactor> result;
+  for (const auto& [key, entry] : entries_) {
+    if (entry.inertia > 0.0)
+      result.push_back({key, entry.sizes, entry.pairs, entry.factor.matrix().values, entry.inertia});
+  }
+  return result;
+}
+
+void IslandSolvers::restore(const std::vector<KeptFactor>& kept) {
+  *this = IslandSolvers();
+  for (const KeptFactor& factor : kept) {
+    const int bodies = static_cast<int>(factor.sizes.size());
+    const auto is_pair = [bodies](const std::array<int, 2>& pair) {
+      return 0 <= pair[0] && pair[0] < pair[1] && pair[1] < bodies;
+    };
+    if (!std::all_of(factor.sizes.begin(), factor.sizes.end(), [](int size) { return size > 0; }) ||
+        !std::all_of(factor.pairs.begin(), factor.pairs.end(), is_pair))
+      throw std::invalid_argument("a factor is of no island");
+    Entry& entry = find(factor.key, factor.sizes, factor.pairs);
+    SymmetricMatrix matrix = entry.matrix.matrix();
+    const bool fits = matrix.values.size() == factor.values.size();
+    matrix.values = factor.values;
+    if (!fits || entry.factor.factorize(matrix) != FactorStatus::success)
+      throw std::invalid_argument("a factor does not fit its island");
+    entry.factor.drop_counts();
+    entry.inertia = factor.inertia;
+    entry.used = false;
+  }
 }
 
 Eigen::MatrixX3d BodyStep::motion() const {

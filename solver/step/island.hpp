@@ -47,13 +47,25 @@ struct IslandResult {
   std::vector<std::pair<int, ContactPair>> followed;
 };
 
+/// A factor that later steps may use, by what it takes to make it again.
+struct KeptFactor {
+  std::vector<int> key;  ///< IslandSolvers::find
+  std::vector<int> sizes;
+  std::vector<std::array<int, 2>> pairs;
+  std::vector<double> values;  ///< of the matrix that was factorised
+  double inertia = 0.0;
+};
+
 /// Factorisations that are kept from step to step, by the blocks and pairs of an island.
 class IslandSolvers {
  public:
   struct Entry {
+    std::vector<int> sizes;
+    std::vector<std::array<int, 2>> pairs;
     BlockMatrix matrix;
     SparseCholesky factor;
     bool used = true;
+    double inertia = 0.0;  ///< TimeScheme::inertia of the factor; 0: it is of no use in another step
   };
   /// The solver of an island. @param key role, block indices, then pairs
   [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,
@@ -61,6 +73,11 @@ class IslandSolvers {
   /// Forgets the solvers of islands that did not come up since the last call.
   void drop_unused();
   [[nodiscard]] FactorCounts counts() const;
+  /// Factors that later steps may use: results depend on them.
+  [[nodiscard]] std::vector<KeptFactor> kept() const;
+  /// Makes them again, and forgets all others and all counts.
+  /// @throws std::invalid_argument unless they are factors of such matrices
+  void restore(const std::vector<KeptFactor>& kept);
 
  private:
   std::map<std::vector<int>, Entry> entries_;

@@ -66,6 +66,7 @@ Balance IslandProblem::balance() const {
   Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size),
                  std::vector<double>(island_.bodies.size(), 0.0),
                  0.0,
+                 0.0,
                  {}};
   std::vector<double> scale(island_.bodies.size(), 0.0);
   std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
@@ -118,6 +119,7 @@ Balance IslandProblem::balance() const {
     const bool finite = std::isfinite(share) && std::isfinite(scale[k]);
     result.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
     result.worst = std::max(result.worst, result.shares[k]);
+    result.largest_part = std::max(result.largest_part, finite ? left / scale[k] : result.shares[k]);
   }
   result.scales = std::move(scale);
   return result;
@@ -165,13 +167,29 @@ void IslandProblem::assemble(bool positive) {
   }
 }
 
+FactorStatus IslandProblem::factorize_assembled(bool kept) {
+  factor_is_old_ = false;
+  solver_.inertia = 0.0;
+  FactorStatus status = solver_.factor.factorize(solver_.matrix.matrix());
+  if (status == FactorStatus::not_positive_definite) {
+    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
+    assemble(true);
+    status = solver_.factor.factorize(solver_.matrix.matrix());
+  }
+  const bool is_dear = solver_.factor.cost_in_solves() > settings_.iteration.old_factor_gain;
+  if (kept && is_dear && status == FactorStatus::success) solver_.inertia = scheme_.inertia;
+  return status;
+}
+
 FactorStatus IslandProblem::factorize() {
   assemble(false);
-  const FactorStatus status = solver_.factor.factorize(solver_.matrix.matrix());
-  if (status != FactorStatus::not_positive_definite) return status;
-  // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
-  assemble(true);
-  return solver_.factor.factorize(solver_.matrix.matrix());
+  return factorize_assembled(false);
+}
+
+FactorStatus IslandProblem::update_factor() {
+  assemble(false);
+  factor_is_old_ = !scheme_.from_rest && solver_.inertia == scheme_.inertia;
+  return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme_.from_rest);
 }
 
 Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block) const {
@@ -180,32 +198,50 @@ Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block)
   return of_island.segment(solver_.matrix.offset(place_of_block), bodies_[at(block)].change.size());
 }
 
+void IslandProblem::add_couplings(const std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>>& couplings,
+                                  const Eigen::VectorXd& x, Eigen::VectorXd& force) {
+  Eigen::VectorXd nothing;
+  for (const auto& [k, coupling] : couplings) {
+    const int a = place(pair(k).a());
+    const int b = place(pair(k).b());
+    const Eigen::VectorXd of_a = part(x, pair(k).a());
+    const Eigen::VectorXd of_b = part(x, pair(k).b());
+    pair(k).rows().add_coupling(
+        coupling, of_a, of_b,
+        a < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
+              : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(a), of_a.size())),
+        b < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
+              : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(b), of_b.size())));
+  }
+}
+
 Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool coupled) {
   std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>> couplings;
   for (std::size_t k = 0; coupled && k < pairs(); ++k) {
     Eigen::Matrix2Xd found = ContactPair::sliding_couplings(responses_[k]);
     if (!found.isZero(0.0)) couplings.emplace_back(k, std::move(found));
   }
+  const IterationSettings& settings = settings_.iteration;
+  if (factor_is_old_) {
+    const KrylovSolution found = gmres(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+          Eigen::VectorXd force = times(solver_.matrix.matrix(), x);
+          add_couplings(couplings, x, force);
+          return solver_.factor.solve(force, false);
+        },
+        solver_.factor.solve(right_side, false), settings.krylov_tolerance, settings.old_factor_iterations);
+    if (found.converged && right_side.dot(found.x) > 0.0) return found.x;
+    if (factorize_assembled(true) != FactorStatus::success)
+      return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
+  }
   if (couplings.empty()) return solver_.factor.solve(right_side);
-  const auto times = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+  const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
-    Eigen::VectorXd nothing;
-    for (const auto& [k, coupling] : couplings) {
-      const int a = place(pair(k).a());
-      const int b = place(pair(k).b());
-      const Eigen::VectorXd of_a = part(x, pair(k).a());
-      const Eigen::VectorXd of_b = part(x, pair(k).b());
-      pair(k).rows().add_coupling(
-          coupling, of_a, of_b,
-          a < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
-                : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(a), of_a.size())),
-          b < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
-                : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(b), of_b.size())));
-    }
+    add_couplings(couplings, x, force);
     return x + solver_.factor.solve(force, false);
   };
-  return gmres(times, solver_.factor.solve(right_side), settings_.iteration.krylov_tolerance,
-               settings_.iteration.krylov_iterations)
+  return gmres(with_couplings, solver_.factor.solve(right_side), settings.krylov_tolerance,
+               settings.krylov_iterations)
       .x;
 }
 

@@ -14,6 +14,7 @@ struct Balance {
   Eigen::VectorXd left;        ///< N, in the island's unknowns
   std::vector<double> shares;  ///< of what each body may lack, what is left on it
   double worst = 0.0;          ///< the largest share; <= 1: settled
+  double largest_part = 0.0;   ///< of the largest force on each body, what is left on it: the largest
   std::vector<double> scales;  ///< norm of the largest force on each body
   [[nodiscard]] bool settled() const { return worst <= 1.0; }
 };
@@ -51,6 +52,9 @@ class IslandProblem {
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
   /// Assembles and factorises the symmetric part of the tangent at the last responses.
   [[nodiscard]] FactorStatus factorize();
+  /// Assembles it, and leaves the factor that an earlier step may have left: solve() takes that for a preconditioner,
+  /// and makes a new one where it is none.
+  [[nodiscard]] FactorStatus update_factor();
   /// Change of the guess that the linearised equations ask for.
   /// @param coupled with the dependence of friction on normal forces; without, the tangent is symmetric
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool coupled);
@@ -89,6 +93,11 @@ class IslandProblem {
   [[nodiscard]] int place(int block) const;
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   void assemble(bool positive);
+  /// Factorises what has been assembled. @param kept for later steps
+  [[nodiscard]] FactorStatus factorize_assembled(bool kept);
+  /// Adds what the couplings of sliding points make of changes of the unknowns to forces on them.
+  void add_couplings(const std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>>& couplings,
+                     const Eigen::VectorXd& x, Eigen::VectorXd& force);
   [[nodiscard]] BlockInStep placed(const BodyStep& body) const;
   /// What rows that are not taken anew leave out of the gaps of a pair's closed points, m.
   [[nodiscard]] double left_out(std::size_t pair) const;
@@ -107,6 +116,7 @@ class IslandProblem {
     Eigen::Matrix3Xd motion;  ///< of its points then
   };
 
+  bool factor_is_old_ = false;  ///< of another matrix than the one that is assembled
   std::map<int, int> place_;
   std::map<std::size_t, ContactPair> replaced_;
   std::map<std::size_t, Followed> followed_;

@@ -25,7 +25,7 @@ class OpenClose {
 
   Outcome run() {
     bond();
-    first_balance_ = take_best_guess(problem_);
+    known_balance_ = take_best_guess(problem_);
     for (int rounds = 0, evaluations = 0;;) {
       Outcome outcome = newton(settings_.iteration.newton_iterations, false);
       if (outcome == Outcome::stalled) {
@@ -43,7 +43,7 @@ class OpenClose {
           return outcome;
         }
       }
-      problem_.respond();
+      respond();
     }
   }
 
@@ -51,10 +51,10 @@ class OpenClose {
   /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
   /// nothing damps make more of it. The last factor takes most of it away.
   void polish() {
-    const Eigen::VectorXd change = problem_.solve(problem_.balance().left, true);
+    const Eigen::VectorXd change = problem_.solve(next_balance().left, true);
     Evaluation settled = problem_.set_aside();
     problem_.apply(change, 1.0);
-    problem_.respond();
+    respond();
     if (!problem_.balance().settled()) problem_.take_back(std::move(settled));
   }
 
@@ -193,13 +193,19 @@ class OpenClose {
     return lowered;
   }
 
-  /// That of the present guess. The first one is known from the start.
+  /// That of the present guess, found anew unless it is known.
   [[nodiscard]] Balance next_balance() {
-    if (!first_balance_) return problem_.balance();
-    Balance balance = std::move(*first_balance_);
-    first_balance_.reset();
+    if (!known_balance_) return problem_.balance();
+    Balance balance = std::move(*known_balance_);
+    known_balance_.reset();
     problem_.recall(balance);
     return balance;
+  }
+
+  /// Contact and elastic responses at a guess that has changed.
+  void respond() {
+    known_balance_.reset();
+    problem_.respond();
   }
 
   /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
@@ -214,12 +220,14 @@ class OpenClose {
         std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
-      const Balance balance = next_balance();
+      Balance balance = next_balance();
       // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
       // wide.
       if (balance.settled() &&
-          (balance.left.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1)))
+          (balance.left.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1))) {
+        known_balance_ = std::move(balance);
         return Outcome::settled;
+      }
       // Slip that turns round leaves the states as they are.
       without_gain = balance.worst < 0.5 * least_ ? 0 : without_gain + 1;
       if (!std::isfinite(balance.worst) || without_gain > (closing ? 0 : settings_.iteration.newton_patience))
@@ -232,18 +240,18 @@ class OpenClose {
       const bool as_before = !seen.empty() && states == seen.back();
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
       seen.push_back(std::move(states));
-      // The last factor will do for what is left.
+      // The last system will do for what is left.
       const bool falls = balance.worst < most_of_it * last;
       last = falls ? balance.worst : 0.0;
       const bool nearly =
           falls || (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
       last_factor = nearly;
       factorized_ = true;
-      if (!nearly && problem_.factorize() != FactorStatus::success) return Outcome::singular;
+      if (!nearly && problem_.update_factor() != FactorStatus::success) return Outcome::singular;
       const Eigen::VectorXd change = problem_.solve(balance.left, true);
       if (closing) {
         problem_.apply(change, 1.0);
-        problem_.respond();
+        respond();
       } else {
         search(change, balance.left.dot(change), settings_.iteration.newton_overshoot, 1.0);
       }
@@ -265,19 +273,19 @@ class OpenClose {
     for (auto& laws : problem_.laws()) {
       for (PointLaw& law : laws) law.held_limit = limits[n++];
     }
-    problem_.respond();
+    respond();
   }
 
   void release() {
     for (auto& laws : problem_.laws()) {
       for (PointLaw& law : laws) law.held_limit = -1.0;
     }
-    problem_.respond();
+    respond();
   }
 
   Outcome minimise() {
     problem_.set_guess(best_);
-    problem_.respond();
+    respond();
     std::vector<double> limits = bounds();
     Eigen::VectorXd last_change;
     for (int pass = 0; pass < settings_.iteration.fallback_passes; ++pass) {
@@ -314,7 +322,7 @@ class OpenClose {
   Outcome minimise_held(double target) {
     for (int k = 0; k < settings_.iteration.minimiser_iterations; ++k) {
       ++result_.iterations;
-      const Balance balance = problem_.balance();
+      const Balance balance = next_balance();
       if (balance.worst <= target) return Outcome::settled;
       if (!std::isfinite(balance.worst)) return Outcome::stalled;
       if (problem_.factorize() != FactorStatus::success) return Outcome::singular;
@@ -333,8 +341,9 @@ class OpenClose {
     const auto work = [&](double share) {
       problem_.apply(change, share - at);
       at = share;
-      problem_.respond();
-      return problem_.balance().left.dot(change);
+      respond();
+      known_balance_ = problem_.balance();
+      return known_balance_->left.dot(change);
     };
     double low = 0.0;
     double work_low = work_at_start;
@@ -367,7 +376,7 @@ class OpenClose {
   double beyond_ = 0.5;      ///< multiples of a fall of force that multipliers are lowered below it
   bool factorized_ = false;  ///< by newton()
   bool followed_ = false;    ///< rows were taken anew since newton() was called
-  std::optional<Balance> first_balance_;  ///< of the first guess, until it is asked for
+  std::optional<Balance> known_balance_;  ///< of the present guess, where it was found before it is asked for
   double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()
 };

@@ -40,7 +40,7 @@ SimulationCounts counts_of(const RunState& state, const StepContacts& contacts, 
 
 SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state, const StepContacts& contacts,
                                const FactorCache& factors) {
-  SimulationSnapshot result{state, {}, contacts.finder().state()};
+  SimulationSnapshot result{state, {}, contacts.finder().state(), factors.islands.kept()};
   result.run.log.counts = counts_of(state, contacts, factors);
   for (int k = 0; k < system.count(); ++k) {
     const BlockModel& block = system.blocks()[at(k)];
@@ -67,6 +67,7 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
   }
   run.contacts.finder().restore(snapshot.finder);
   run.factors = FactorCache();
+  run.factors.islands.restore(snapshot.factors);
   run.state.ledger.measure_elastic(run.system, run.state.states);
 }
 

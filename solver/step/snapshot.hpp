@@ -9,12 +9,12 @@
 
 namespace ashlar {
 
-/// Everything that a step depends on or reports. What follows from the scene and kept factorisations are left
-/// out: those are made anew with the same values.
+/// Everything that a step depends on or reports. What follows from the scene is left out.
 struct SimulationSnapshot {
   RunState run;                         ///< counts are those of the whole run
   std::map<int, CarriedShape> carried;  ///< of incremental blocks
   FinderState finder;
+  std::vector<KeptFactor> factors;
 };
 
 /// Work done and skipped by a run so far.

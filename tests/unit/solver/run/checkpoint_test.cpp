@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "geometry/solid/shapes.hpp"
@@ -56,6 +57,57 @@ TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
   expected.run.log.seconds = reached.run.log.seconds;
   expected.run.log.counts.factors = reached.run.log.counts.factors;
   EXPECT_EQ(to_bytes(reached), to_bytes(expected));
+}
+/// Three cubes of order 4 on each other: a new factor costs 40 solutions with it.
+Simulation make_stack() {
+  std::vector<BlockModel> blocks;
+  BlockDefinition floor =
+      test_support::block_of("floor", Polyhedron(make_box({-5, -5, -1}, {5, 5, 0})), {2500, 1e8, 0.2}, 1);
+  floor.fixed = true;
+  blocks.emplace_back(std::move(floor));
+  std::vector<InitialMotion> motions(1);
+  for (int k = 0; k < 3; ++k) {
+    const double low = k;
+    blocks.emplace_back(test_support::block_of("cube" + std::to_string(k),
+                                               Polyhedron(make_box({-0.5, -0.5, low}, {0.5, 0.5, low + 1})),
+                                               {2500, 1e8, 0.2}, 4));
+    motions.emplace_back();
+  }
+  SimulationSettings settings;
+  settings.time_step = 2e-3;
+  settings.rest.sleeps = false;
+  return {std::move(blocks), motions, test_support::same_law({1e9, 1e9, 0.5, 0.0, 0.0, true}), settings};
+}
+
+// A factor of an earlier step is what the next one solves with, so that a run that goes on needs the same.
+TEST(Checkpoint, AFactorOfAnEarlierStepIsMadeAgain) {
+  Simulation straight = make_stack();
+  take_steps(straight, steps_before);
+  const std::uint64_t factorizations = straight.counts().factors.factorizations;
+  const SimulationSnapshot snapshot = straight.snapshot();
+  ASSERT_EQ(snapshot.factors.size(), 1U);
+  take_steps(straight, steps_after);
+  EXPECT_LT(straight.counts().factors.factorizations, factorizations + steps_after) << "none was used again";
+
+  Simulation resumed = make_stack();
+  resumed.restore(snapshot_from_bytes(to_bytes(snapshot)));
+  take_steps(resumed, steps_after);
+  EXPECT_EQ(resumed.counts().factors.factorizations, straight.counts().factors.factorizations);
+  SimulationSnapshot expected = straight.snapshot();
+  expected.run.log.seconds = resumed.snapshot().run.log.seconds;
+  expected.run.log.counts.factors = resumed.snapshot().run.log.counts.factors;
+  EXPECT_EQ(to_bytes(resumed.snapshot()), to_bytes(expected));
+}
+
+TEST(Checkpoint, AFactorOfNoIslandIsRefused) {
+  Simulation simulation = make_stack();
+  take_steps(simulation, 5);
+  SimulationSnapshot snapshot = simulation.snapshot();
+  ASSERT_EQ(snapshot.factors.size(), 1U);
+  snapshot.factors[0].values.pop_back();
+  EXPECT_THROW(make_stack().restore(snapshot), std::invalid_argument);
+  snapshot.factors[0].pairs[0] = {2, 7};
+  EXPECT_THROW(make_stack().restore(snapshot), std::invalid_argument);
 }
 
 TEST(Checkpoint, EverySnapshotMemberIsStored) {
