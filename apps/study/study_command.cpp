@@ -15,6 +15,7 @@
 #include "apps/scene/nearest_name.hpp"
 #include "apps/study/conditioning_study.hpp"
 #include "apps/study/contact_study.hpp"
+#include "apps/study/cost_study.hpp"
 #include "apps/study/orders_study.hpp"
 #include "apps/study/stability_study.hpp"
 #include "apps/study/sub_face_study.hpp"
@@ -24,12 +25,13 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-const std::array<Study, 5> studies = {
+const std::array<Study, 6> studies = {
     {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
       study_sub_faces},
      {"orders", "error, unknowns and time of one block against its order", study_orders},
      {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning},
      {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps", study_contact},
+     {"cost", "time and memory of a step against blocks and order, with exponents", study_cost},
      {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
       study_stability}}};
 
