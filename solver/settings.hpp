@@ -152,6 +152,9 @@ struct SimulationSettings {
   /// 1/s, >= 0: every block is held back by mass_damping M v, its velocity over the ground included: a block
   /// that falls freely reaches g / mass_damping
   double mass_damping = 0.0;
+  /// s, >= 0, Rayleigh's beta: the deformation of each block is held back by beta K v, its motion as a whole is not. A
+  /// vibration of w rad/s has beta w / 2 of the critical damping
+  double stiffness_damping = 0.0;
   double time_step = 1e-3;                     ///< s, > 0: the largest step
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2, unless it has a history
   /// m/s^2, in place of gravity unless empty. It has no potential: its work is that of a load

@@ -91,6 +91,7 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   settings.integrator = integrator_of(scene.analysis.integrator);
   settings.spectral_radius = scene.analysis.spectral_radius;
   settings.mass_damping = scene.analysis.mass_damping;
+  settings.stiffness_damping = scene.analysis.stiffness_damping;
   settings.rest.sleeps = scene.analysis.sleeping;
   settings.time_step = scene.analysis.time_step;
   settings.gravity = scene.analysis.gravity;

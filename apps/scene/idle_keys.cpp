@@ -26,8 +26,8 @@ class IdleKeys {
 void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   const SceneAnalysis& analysis = scene.analysis;
   if (is_static(analysis)) {
-    for (const char* key :
-         {"analysis.integrator", "analysis.spectral_radius", "analysis.mass_damping", "analysis.sleeping"})
+    for (const char* key : {"analysis.integrator", "analysis.spectral_radius", "analysis.mass_damping",
+                            "analysis.stiffness_damping", "analysis.sleeping"})
       keys.warn(key, "a static analysis has no motion in time");
     if (analysis.initial_state == SceneAnalysis::InitialState::statics)
       keys.warn("analysis.initial_state", "a static analysis starts from where blocks are placed");

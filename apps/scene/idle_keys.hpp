@@ -8,7 +8,7 @@ namespace ashlar {
 
 /// Warns of each key that was given and has no effect:
 ///   spectral_radius             without integrator "generalized-alpha"
-///   integrator, mass_damping,
+///   integrator, mass_damping, stiffness_damping,
 ///   velocities that are not 0   in a static analysis
 ///   penetration_tolerance       without augmented
 ///   order                       of a fixed block

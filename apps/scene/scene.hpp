@@ -86,6 +86,7 @@ struct SceneAnalysis {
   std::optional<SceneRecord> gravity_file;     ///< where it comes from, if not from the scene
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
+  double stiffness_damping = 0.0;              ///< s, >= 0, Rayleigh's beta
   bool sleeping = true;                ///< whether islands that have come to rest are held until woken
   FactorSearch safety;                 ///< of type safety
   FactorSearch capacity;               ///< of type capacity

@@ -52,6 +52,7 @@ Json to_json(const SceneAnalysis& analysis) {
   add_gravity(json, analysis);
   json["solver"] = name_of(solver_names, analysis.solver);
   json["mass_damping"] = analysis.mass_damping;
+  json["stiffness_damping"] = analysis.stiffness_damping;
   json["safety"] = to_json(analysis.safety, "joints");
   json["capacity"] = to_json(analysis.capacity, "blocks");
   json["sleeping"] = analysis.sleeping;

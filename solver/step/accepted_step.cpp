@@ -41,6 +41,10 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
   const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
   ledger.damping_took(damping);
+  // Both are of the position at the start, which changes below.
+  const Eigen::MatrixX3d internal = body.internal_force(scheme);
+  if (const Eigen::MatrixX3d held_back = body.damping_force(scheme); held_back.size() > 0)
+    ledger.damping_took(body.motion().cwiseProduct(held_back).sum());
   const Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
   const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
   if (driven) {
@@ -52,13 +56,13 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
     // Supports push against inertia and all forces but those of contacts, which are booked by pair.
     const Eigen::MatrixX3d external = external_force(run.system, clock, static_cast<int>(k), scheme);
     ledger.loads_did(0.5 * density * (rate.squaredNorm() - (state.velocity - velocity).squaredNorm()) +
-                     body.prescribed.cwiseProduct(body.elastic.force - external).sum());
+                     body.prescribed.cwiseProduct(internal - external).sum());
     state.velocity = end_velocity + rate;
   } else {
     state.velocity = end_velocity;
   }
   state.position += body.motion();
-  const Eigen::VectorXd smooth = body.external_force - block.space().restrict(body.elastic.force);
+  const Eigen::VectorXd smooth = body.external_force - block.space().restrict(internal);
   const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
                       (1.0 - scheme.force_weight) * body.change.dot(smooth) - damping;
   const double dissipated = work - kinetic_gain;

@@ -73,6 +73,33 @@ Eigen::MatrixX3d BodyStep::motion() const {
   return sum;
 }
 
+namespace {
+
+/// The frame that turns with a block.
+Eigen::Matrix3d frame_of(const BlockModel& block, const Eigen::MatrixX3d& position,
+                         const ElasticResponse& elastic) {
+  if (block.material().elasticity == Elasticity::linear) return elastic.rotation;
+  return polar_decomposition(position.transpose() * block.parts()->mean_gradients).rotation;
+}
+
+}  // namespace
+
+void BodyStep::note_start_force() {
+  const ElasticResponse at_start = model->elastic(state->position);
+  start_force = at_start.force * frame_of(*model, state->position, at_start);
+}
+
+Eigen::MatrixX3d BodyStep::damping_force(const TimeScheme& scheme) const {
+  if (start_force.size() == 0) return {};
+  const Eigen::Matrix3d frame = frame_of(*model, state->position + scheme.end_share * motion(), elastic);
+  return scheme.stiffness_share * (elastic.force - start_force * frame.transpose());
+}
+
+Eigen::MatrixX3d BodyStep::internal_force(const TimeScheme& scheme) const {
+  if (start_force.size() == 0) return elastic.force;
+  return elastic.force + damping_force(scheme);
+}
+
 std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {
   UnionFind meeting(moving.size());
   for (const ContactPair& pair : pairs)

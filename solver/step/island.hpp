@@ -31,9 +31,17 @@ struct BodyStep {
   double largest_force = 0.0;      ///< norm of the largest force that acts on it
   ElasticResponse elastic;         ///< where the integrator takes it
   Eigen::MatrixX3d prescribed;     ///< what supports that move add to the position, (p, 3); empty: nothing
+  /// Of damping by stiffness: the elastic force at the start of the step in the frame that turns with the block, (p, 3)
+  Eigen::MatrixX3d start_force;
 
   /// Change of the position's coefficients at the present `change`. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d motion() const;
+  /// Remembers the elastic force at the start of the step.
+  void note_start_force();
+  /// Force of the damping by stiffness where the integrator takes `elastic`, (p, 3); empty: none
+  [[nodiscard]] Eigen::MatrixX3d damping_force(const TimeScheme& scheme) const;
+  /// Elastic and damping force there, (p, 3).
+  [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
 };
 
 /// Result of one island.

@@ -80,7 +80,7 @@ Balance IslandProblem::balance() const {
     const int place = static_cast<int>(k);
     const double density = body.model->material().density;
     add(place, scheme_.force_weight * body.external_force);
-    add(place, -scheme_.force_weight * body.model->space().restrict(body.elastic.force));
+    add(place, -scheme_.force_weight * body.model->space().restrict(body.internal_force(scheme_)));
     add(place, -density * scheme_.inertia * (body.change - body.free_change));
   }
   std::vector<std::array<double, 2>> errors(pairs());
@@ -150,7 +150,7 @@ void IslandProblem::assemble(bool positive) {
     const BodyStep& body = bodies_[at(island_.bodies[k])];
     if (scheme_.force_weight > 0.0) {
       matrix.add_diagonal(static_cast<int>(k),
-                          scheme_.force_weight * scheme_.end_share *
+                          scheme_.force_weight * scheme_.end_share * (1.0 + scheme_.stiffness_share) *
                               body.model->tangent(taken_at(body), body.elastic, positive));
     }
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);

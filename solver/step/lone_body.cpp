@@ -62,7 +62,8 @@ std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& sc
   for (int k = 0; k <= settings.iteration.newton_iterations; ++k) {
     ++result.iterations;
     body.elastic = block.elastic(body.state->position + scheme.end_share * body.motion());
-    const Eigen::VectorXd internal = scheme.force_weight * block.space().restrict(body.elastic.force);
+    const Eigen::VectorXd internal =
+        scheme.force_weight * block.space().restrict(body.internal_force(scheme));
     const Eigen::VectorXd inertia = mass * (body.change - body.free_change);
     const Eigen::VectorXd left = external - internal - inertia;
     body.largest_force = std::max({external.norm(), internal.norm(), inertia.norm()});
@@ -73,7 +74,8 @@ std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& sc
     // wide.
     if (left.norm() <= tolerance * body.largest_force + rounding && !(scheme.from_rest && k == 0))
       return result;
-    const auto& factor = factors.find(block, scheme.force_weight * scheme.end_share, mass);
+    const double stiffness_weight = scheme.force_weight * scheme.end_share * (1.0 + scheme.stiffness_share);
+    const auto& factor = factors.find(block, stiffness_weight, mass);
     if (factor.info() != Eigen::Success) return std::nullopt;
     if (block.corotational()) {
       const Eigen::Matrix3d& turn = body.elastic.rotation;

@@ -22,6 +22,7 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
     if (block.fixed()) continue;
     body.change = Eigen::VectorXd::Zero(block.unknowns());
     if (!system.moving()[k]) continue;
+    if (scheme.stiffness_share > 0.0) body.note_start_force();
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     body.free_change = block.space().restrict(scheme.free_change(
         still, state.states[k].velocity, state.accelerations.empty() ? still : state.accelerations[k]));

@@ -56,7 +56,9 @@ TimeScheme average_acceleration_scheme(double step, double damping) {
 
 }  // namespace
 
-TimeScheme time_scheme(const SimulationSettings& settings, double step) {
+namespace {
+
+TimeScheme undamped_by_stiffness(const SimulationSettings& settings, double step) {
   switch (settings.integrator) {
     case Integrator::dda:
       return newmark_scheme({0.5, 1.0, 0.0, 0.0}, step, settings.mass_damping);
@@ -66,6 +68,14 @@ TimeScheme time_scheme(const SimulationSettings& settings, double step) {
       return newmark_scheme(generalized_alpha(settings.spectral_radius), step, settings.mass_damping);
   }
   return {};
+}
+
+}  // namespace
+
+TimeScheme time_scheme(const SimulationSettings& settings, double step) {
+  TimeScheme scheme = undamped_by_stiffness(settings, step);
+  scheme.stiffness_share = settings.stiffness_damping / (scheme.end_share * step);
+  return scheme;
 }
 
 }  // namespace ashlar

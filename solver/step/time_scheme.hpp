@@ -18,6 +18,11 @@
 // it does not damp more, but less again: x' = 2 (x + dt v)/(2 + W^2), dt v' = 2 (x' - x) - dt v has the
 // determinant 2/(2 + W^2) and the trace (4 - W^2)/(2 + W^2), so that beyond W = 4 one eigenvalue is real and
 // goes to -1 as 1 - 8/W^2: what is far too stiff for the step stays as a velocity that turns round in each.
+// Damping by stiffness, beta s, adds to F_elastic, where it is taken,
+//   k (F_elastic - R F_start),   k = beta / (end_share dt),
+// with F_start at the start of the step and R the rotation of the block since then: beta K times the mean velocity of
+// deformation up to there. A block that only turns is not held back. Its error is of first order in dt with
+// generalized-alpha and dda, of second order with average-acceleration.
 // average-acceleration: D = dt (v + v')/2, M (v' - v)/dt = F - alpha M D/dt.
 // Static: rho m D stands for the inertia of a block let go from rest, in a step of length sqrt(2/m).
 #pragma once
@@ -51,6 +56,7 @@ struct TimeScheme {
   bool mean_contacts =
       false;                  ///< contact forces are means over the step (MeanResponse), not those at its end
   double mass_damping = 0.0;  ///< alpha, 1/s
+  double stiffness_share = 0.0;      ///< k of the damping by stiffness
   StepCombination free_change;       ///< D_free, without D
   StepCombination end_velocity;      ///< v'
   StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f
