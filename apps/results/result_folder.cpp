@@ -347,7 +347,11 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
   const std::string joints = fmt::format("frames/joints_{:07}.vtu", simulation.steps());
   // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
-  const auto write = [this](const std::string& name, const UnstructuredGrid& grid) {
+  std::vector<std::string> names;
+  for (const BlockModel& block : simulation.blocks()) names.push_back(block.name());
+  const auto write = [&](const std::string& name, UnstructuredGrid grid) {
+    grid.time = elapsed_ + simulation.time();
+    grid.block_names = names;
     const std::string bytes = to_vtu(grid);
     check_in_place();
     write_file_atomically(folder_ / name, bytes, Durability::process);

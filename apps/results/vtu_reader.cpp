@@ -143,7 +143,13 @@ class GridReader {
       : appended_(appended), allowance_(file_bytes) {}
 
   void read_line(std::string_view line) {
-    if (line.find("<Piece ") != std::string_view::npos) {
+    if (line.find("<FieldData>") != std::string_view::npos) {
+      in_field_data_ = true;
+    } else if (line.find("</FieldData>") != std::string_view::npos) {
+      in_field_data_ = false;
+    } else if (in_field_data_) {
+      return;  // the page has time and names from elsewhere
+    } else if (line.find("<Piece ") != std::string_view::npos) {
       read_piece(line);
     } else if (line.find("<PointData>") != std::string_view::npos) {
       section_ = Section::point_data;
@@ -250,6 +256,7 @@ class GridReader {
   Allowance allowance_;
   std::size_t next_offset_ = 0;
   Section section_ = Section::none;
+  bool in_field_data_ = false;
   bool has_piece_ = false;
   std::size_t points_ = 0;
   std::size_t cells_ = 0;

@@ -125,6 +125,29 @@ void add_data(VtuText& text, std::string_view tag, const std::vector<DataArray>&
   text.elements += fmt::format("      </{}>\n", tag);
 }
 
+/// What belongs to the file as a whole. Strings are numbers of their bytes, each with a zero at its end.
+std::string field_data(const UnstructuredGrid& grid) {
+  if (!grid.time && grid.block_names.empty()) return {};
+  std::string text = "    <FieldData>\n";
+  if (grid.time) {
+    text += fmt::format(
+        "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">\n{}\n"
+        "      </DataArray>\n",
+        *grid.time);
+  }
+  if (!grid.block_names.empty()) {
+    text += fmt::format(
+        "      <DataArray type=\"String\" Name=\"block_names\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
+        grid.block_names.size());
+    for (const std::string& name : grid.block_names) {
+      for (const char byte : name) text += fmt::format("{} ", static_cast<unsigned char>(byte));
+      text += "0\n";
+    }
+    text += "      </DataArray>\n";
+  }
+  return text + "    </FieldData>\n";
+}
+
 }  // namespace
 
 void UnstructuredGrid::add_cell(VtkCellType type, std::span<const int> cell_points) {
@@ -159,6 +182,7 @@ std::string to_vtu(const UnstructuredGrid& grid) {
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
       "  <UnstructuredGrid>\n"
+      "{}"
       "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
       "{}"
       "    </Piece>\n"
@@ -167,7 +191,7 @@ std::string to_vtu(const UnstructuredGrid& grid) {
       "_{}\n"
       "  </AppendedData>\n"
       "</VTKFile>\n",
-      grid.points.size(), grid.types.size(), text.elements, text.appended);
+      field_data(grid), grid.points.size(), grid.types.size(), text.elements, text.appended);
 }
 
 void write_vtu(const std::filesystem::path& path, const UnstructuredGrid& grid) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -43,6 +44,8 @@ struct UnstructuredGrid {
   std::vector<VtkCellType> types;  ///< (#cells)
   std::vector<DataArray> point_data;
   std::vector<DataArray> cell_data;
+  std::optional<double> time;            ///< s, VTK's TimeValue
+  std::vector<std::string> block_names;  ///< by the numbers of a field `block`; none: not written
 
   void add_cell(VtkCellType type, std::span<const int> cell_points);
 };

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -112,36 +113,41 @@ struct Cost {
   double mebibytes = 0.0;  ///< that the process grew by
 };
 
-rusage usage() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return used;
+/// Of this process, s.
+double processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-double seconds_of(const rusage& used) {
-  return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
+/// Most that this process has taken so far, KiB.
+double most_memory() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_maxrss);
 }
 
 std::optional<Cost> cost_of(const SceneText& scene, int steps) {
-  const rusage before = usage();
+  const double memory = most_memory();
+  const double start = processor_time();
   Diagnostics diagnostics;
   const auto loaded = load_scene_text(scene.text(), "study.toml", {}, diagnostics);
   if (!loaded) return std::nullopt;
   auto built = build_simulation(*loaded, 1, diagnostics);
   if (!built) return std::nullopt;
   Simulation& simulation = built->simulation;
-  const rusage after_building = usage();
+  const double built_at = processor_time();
   for (int k = 0; k < steps; ++k)
     if (simulation.step(loaded->scene.analysis.end_time) != StepStatus::accepted) return std::nullopt;
-  const rusage after = usage();
+  const double end = processor_time();
   Cost cost;
   for (const BlockModel& block : simulation.blocks())
     if (!block.fixed()) cost.unknowns += block.unknowns();
   cost.points = static_cast<double>(simulation.counts().contact_points) / steps;
-  cost.building = seconds_of(after_building) - seconds_of(before);
-  cost.step = (seconds_of(after) - seconds_of(after_building)) / steps;
+  cost.building = built_at - start;
+  cost.step = (end - built_at) / steps;
   constexpr double kibibytes = 1024.0;
-  cost.mebibytes = static_cast<double>(after.ru_maxrss - before.ru_maxrss) / kibibytes;
+  cost.mebibytes = (most_memory() - memory) / kibibytes;
   return cost;
 }
 

@@ -127,6 +127,13 @@ class Samples(unittest.TestCase):
         self.assertEqual(data["block"].GetDataTypeAsString(), "int")
         self.assertEqual(tuples(data["block"]), [(-1.0,), (0.0,), (2147483647.0,), (-2147483648.0,)])
 
+    def test_time_and_block_names(self):
+        data = self.grid("mixed.vtu").GetFieldData()
+        self.assertEqual(data.GetArray("TimeValue").GetTuple(0), (0.1 + 0.2,))
+        names = data.GetAbstractArray("block_names")
+        self.assertEqual([names.GetValue(i) for i in range(names.GetNumberOfValues())],
+                         ["a < b & c", "", "K\u00e4mpfer 1"])
+
     def test_empty_grid(self):
         grid = self.grid("empty.vtu")
         self.assertEqual((grid.GetNumberOfPoints(), grid.GetNumberOfCells()), (0, 0))

@@ -43,6 +43,8 @@ UnstructuredGrid mixed_grid() {
   const double tiny = std::numeric_limits<double>::denorm_min();
   grid.cell_data.push_back({"a < b & \"c\"", 1, {}, std::vector<double>{-0.0, tiny, infinity, 0.1 + 0.2}});
   grid.cell_data.push_back({"block", 1, {}, std::vector<std::int32_t>{-1, 0, 2147483647, -2147483647 - 1}});
+  grid.time = 0.1 + 0.2;
+  grid.block_names = {"a < b & c", "", "K\u00e4mpfer 1"};
   return grid;
 }
 
