@@ -22,6 +22,7 @@ std::string obj_name(std::string name) {
 UnstructuredGrid block_grid(const BlockReport& report, const std::vector<RemovableBlock>& removable) {
   const LoadedScene& loaded = report.loaded();
   UnstructuredGrid grid;
+  for (const SceneBlock& block : loaded.scene.block) grid.block_names.push_back(block.name);
   std::vector<std::int32_t> block, mode;
   std::vector<double> volume, factor;
   std::vector<const RemovableBlock*> looked_at(loaded.solids.size(), nullptr);

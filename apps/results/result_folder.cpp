@@ -346,9 +346,9 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
   const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
   const std::string joints = fmt::format("frames/joints_{:07}.vtu", simulation.steps());
-  // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
   std::vector<std::string> names;
   for (const BlockModel& block : simulation.blocks()) names.push_back(block.name());
+  // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
   const auto write = [&](const std::string& name, UnstructuredGrid grid) {
     grid.time = elapsed_ + simulation.time();
     grid.block_names = names;

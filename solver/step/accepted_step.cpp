@@ -41,10 +41,8 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   const Eigen::MatrixX3d damped = scheme.damped_velocity(change, velocity, acceleration);
   const double damping = scheme.mass_damping * density * change.cwiseProduct(damped).sum();
   ledger.damping_took(damping);
-  // Both are of the position at the start, which changes below.
   const Eigen::MatrixX3d internal = body.internal_force(scheme);
-  if (const Eigen::MatrixX3d held_back = body.damping_force(scheme); held_back.size() > 0)
-    ledger.damping_took(body.motion().cwiseProduct(held_back).sum());
+  ledger.damping_took(body.motion().cwiseProduct(internal - body.elastic.force).sum());
   const Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
   const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
   if (driven) {

@@ -20,7 +20,7 @@ std::optional<Balance> take_best_guess(IslandProblem& problem) {
   // Not 1/2 or 1, which symmetric scenes have but for rounding.
   constexpr double least_gain = 0.45;
   constexpr double least_gain_of_one = 0.9;
-  // Of the largest force on each body: blocks at rest lack less where they stay, and no other guess does better.
+  // Of the largest force on each body: where it lacks no more, Newton's iteration goes from there as from the best guess.
   constexpr double little = 0.1;
   if (problem.scheme().from_rest || problem.pairs() == 0) {
     problem.predict(FirstGuess::falling);

@@ -12,6 +12,12 @@ namespace ashlar {
 IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std::vector<int>& sizes,
                                           const std::vector<std::array<int, 2>>& pairs) {
   auto found = entries_.find(key);
+  // Of a snapshot of other blocks.
+  if (found != entries_.end() && (found->second.sizes != sizes || found->second.pairs != pairs)) {
+    dropped_ += found->second.factor.counts();
+    entries_.erase(found);
+    found = entries_.end();
+  }
   if (found == entries_.end())
     found = entries_.emplace(key, Entry{sizes, pairs, BlockMatrix(sizes, pairs), SparseCholesky()}).first;
   found->second.used = true;
@@ -89,15 +95,10 @@ void BodyStep::note_start_force() {
   start_force = at_start.force * frame_of(*model, state->position, at_start);
 }
 
-Eigen::MatrixX3d BodyStep::damping_force(const TimeScheme& scheme) const {
-  if (start_force.size() == 0) return {};
-  const Eigen::Matrix3d frame = frame_of(*model, state->position + scheme.end_share * motion(), elastic);
-  return scheme.stiffness_share * (elastic.force - start_force * frame.transpose());
-}
-
 Eigen::MatrixX3d BodyStep::internal_force(const TimeScheme& scheme) const {
   if (start_force.size() == 0) return elastic.force;
-  return elastic.force + damping_force(scheme);
+  const Eigen::Matrix3d frame = frame_of(*model, state->position + scheme.end_share * motion(), elastic);
+  return elastic.force + scheme.stiffness_share * (elastic.force - start_force * frame.transpose());
 }
 
 std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {

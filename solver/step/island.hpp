@@ -38,9 +38,7 @@ struct BodyStep {
   [[nodiscard]] Eigen::MatrixX3d motion() const;
   /// Remembers the elastic force at the start of the step.
   void note_start_force();
-  /// Force of the damping by stiffness where the integrator takes `elastic`, (p, 3); empty: none
-  [[nodiscard]] Eigen::MatrixX3d damping_force(const TimeScheme& scheme) const;
-  /// Elastic and damping force there, (p, 3).
+  /// `elastic.force` and that of the damping by stiffness, (p, 3). To be called before the state is moved on
   [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
 };
 

@@ -1,6 +1,7 @@
 #include "solver/step/snapshot.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "geometry/index.hpp"
 #include "solver/step/block_changes.hpp"
@@ -54,8 +55,10 @@ SimulationSnapshot snapshot_of(const RunContext& run) {
 }
 
 void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
-  for (const auto& [k, order] : changed_orders(run, snapshot))
-    replace_model(run, k, run.blocks()[at(k)].with_order(order));
+  const std::map<int, int> orders = changed_orders(run, snapshot);
+  FactorCache factors;
+  factors.islands.restore(snapshot.factors);
+  for (const auto& [k, order] : orders) replace_model(run, k, run.blocks()[at(k)].with_order(order));
   run.state = snapshot.run;
   hold_sleepers(run.system, run.state.sleep);
   // What does not move is placed once.
@@ -66,8 +69,7 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
     run.contacts.finder().start_step(block);
   }
   run.contacts.finder().restore(snapshot.finder);
-  run.factors = FactorCache();
-  run.factors.islands.restore(snapshot.factors);
+  run.factors = std::move(factors);
   run.state.ledger.measure_elastic(run.system, run.state.states);
 }
 

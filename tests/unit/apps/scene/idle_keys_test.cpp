@@ -33,14 +33,18 @@ TEST(IdleKeys, GravityGivesWayToItsHistory) {
 }
 
 TEST(IdleKeys, StaticAnalysisHasNoMotion) {
-  const std::string given = sample_with(3, "time_step = 0.01\nmass_damping = 0.5\nintegrator = \"dda\"");
+  const std::string given = sample_with(3,
+                                        "time_step = 0.01\nmass_damping = 0.5\nstiffness_damping = 1e-3\n"
+                                        "integrator = \"dda\"");
   EXPECT_THAT(warnings(given, {"block.B.velocity=[0, 0, 0]", "block.A.velocity=[0, 1, 0]"}), IsEmpty());
   EXPECT_THAT(
       warnings(given, {"block.B.velocity=[0, 0, 0]", "block.A.velocity=[0, 1, 0]",
                        "block.B.angular_velocity=[0, 1, 0]", "analysis.type=static"}),
       ElementsAre("s.toml:4:1: warning: mass_damping has no effect: a static analysis has no motion in "
                   "time",
-                  "s.toml:5:1: warning: integrator has no effect: a static analysis has no motion in "
+                  "s.toml:5:1: warning: stiffness_damping has no effect: a static analysis has no motion in "
+                  "time",
+                  "s.toml:6:1: warning: integrator has no effect: a static analysis has no motion in "
                   "time",
                   "--set block.A.velocity=[0, 1, 0]: warning: velocity has no effect: a static "
                   "analysis has no motion in time",
