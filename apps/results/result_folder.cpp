@@ -163,7 +163,7 @@ UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks, const std::v
       for (const int point : cell.points) points.push_back(first + point);
       grid.add_cell(cell.type, points);
       block_of_cell.push_back(b);
-      order_of_cell.push_back(block.fixed() ? 0 : block.order());
+      order_of_cell.push_back(block.fixed() || block.rigid() ? 0 : block.order());
       face_of_cell.push_back(cell.face);
     }
   }

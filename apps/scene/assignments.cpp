@@ -168,7 +168,7 @@ SceneAssign read_assignment(TomlTableReader& table) {
   };
   read(assign.material, std::string(),
        [&](std::string& value) { return table.read_name("material", value); });
-  read(assign.order, 1, [&](int& value) { return table.read_integer("order", value, 1, 12); });
+  read(assign.order, 1, [&](int& value) { return table.read_integer("order", value, 0, 12); });
   read(assign.fixed, false, [&](bool& value) { return table.read_bool("fixed", value); });
   read(assign.velocity, Vector3(), [&](Vector3& value) { return table.read_vector("velocity", value); });
   read(assign.angular_velocity, Vector3(),

@@ -318,7 +318,7 @@ SceneBlock read_block(TomlTableReader& table) {
   table.read_name("name", block.name);
   table.read_bool("fixed", block.fixed);
   table.read_name("material", block.material);
-  table.read_integer("order", block.order, 1, 12);
+  table.read_integer("order", block.order, 0, 12);
   block.shape = read_shape(table, block.name.empty() ? "block" : fmt::format("block \"{}\"", block.name),
                            MeshKeys::mending);
   if (auto rotation = table.table("rotate")) block.rotate = read_rotation(*rotation);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/boxes/box_pairs.hpp"
+#include "mechanics/block/rigid_body.hpp"
 
 namespace ashlar {
 namespace {
@@ -28,7 +29,8 @@ double functions_of(int order) {
 }
 
 double unknowns_of(const SceneBlock& block) {
-  return block.fixed ? 0.0 : 3.0 * functions_of(block.order);
+  if (block.fixed) return 0.0;
+  return block.order == 0 ? rigid_freedom : 3.0 * functions_of(block.order);
 }
 
 struct TriangleCount {

@@ -20,7 +20,7 @@ std::vector<SceneBlock> read_masonry(TomlTableReader& table) {
   for (const char* key : {"name", "kind"}) table.require(key);
   table.read_name("name", common.name);
   table.read_name("material", common.material);
-  table.read_integer("order", common.order, 1, 12);
+  table.read_integer("order", common.order, 0, 12);
   PieceReader read = nullptr;
   if (!table.read_choice("kind", read, kinds)) return {};
   std::vector<SceneBlock> blocks;

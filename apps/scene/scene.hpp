@@ -261,7 +261,7 @@ struct SceneArray {
 struct SceneBlock {
   std::string name;      ///< unique; required
   std::string material;  ///< name of a [[material]]; only a fixed block may leave it out (empty)
-  int order = 1;         ///< 1 to 12
+  int order = 1;         ///< 0 to 12; 0: rigid
   SceneShape shape;      ///< exactly one of box, mesh, hull, sphere
   std::optional<SceneRotation> rotate;
   Vector3 translate = Vector3::Zero();         ///< m, after rotate

@@ -179,6 +179,25 @@ void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
+// What blocks without deformation have no meaning for.
+void check_rigid_blocks(const Scene& scene, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < scene.block.size(); ++i) {
+    const SceneBlock& block = scene.block[i];
+    if (block.order != 0 || block.fixed) continue;
+    const auto refuse = [&](const char* key, const std::string& what, const char* allowed) {
+      diagnostics.error(scene.places.value(entry_key("block", i, key)),
+                        fmt::format("{} (\"{}\"), {}", what, block.name, allowed));
+    };
+    if (!block.fix.empty())
+      refuse("fix", "a block of order 0 has no supports", "fixed = true, or an order from 1 on is needed");
+    if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
+      refuse("order", "a block of order 0 has no incremental formulation", "an order from 1 on is needed");
+    if (scene.analysis.integrator == SceneAnalysis::Integrator::generalized_alpha)
+      refuse("order", "generalized-alpha does not move blocks of order 0",
+             "integrator = \"dda\" or \"average-acceleration\", or an order from 1 on is needed");
+  }
+}
+
 // What the incremental formulation has no meaning for.
 void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
   if (scene.analysis.formulation != SceneAnalysis::Formulation::incremental) return;
@@ -319,6 +338,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
                     analysis.mass_damping, most_damping_per_step,
                     most_damping_per_step / analysis.time_step));
   check_formulation(scene, diagnostics);
+  check_rigid_blocks(scene, diagnostics);
   check_names(scene, scene.material, "material", diagnostics);
   check_names(scene, scene.block, "block", diagnostics);
   check_names(scene, scene.measure, "measure", diagnostics);

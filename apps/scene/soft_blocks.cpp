@@ -145,7 +145,7 @@ void warn_of_soft_blocks(const Scene& scene, const std::vector<std::optional<Pol
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     const SceneMaterial* material = find_material(scene, block.material);
-    if (block.fixed || material == nullptr || !solids[k]) continue;
+    if (block.fixed || block.order == 0 || material == nullptr || !solids[k]) continue;
     blocks.push_back(judged(scene, block, *material, *solids[k]));
   }
   for (const JudgedBlock& block : blocks)

@@ -25,7 +25,7 @@ struct BlockDefinition {
   /// The solid before it was translated, m, see block_parts.hpp; null: the solid
   std::shared_ptr<const Polyhedron> shape = nullptr;
   Material material;
-  int order = 1;
+  int order = 1;       ///< of the polynomial of its motion; 0: rigid, see rigid_body.hpp
   bool fixed = false;  ///< never moves, has no unknowns; material is not used
   std::vector<BlockSupport> supports;
   std::vector<Load> loads;

@@ -44,13 +44,16 @@ BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const Increme
       form_(std::move(form)),
       carried_(std::move(carried)) {
   if (fixed()) return;
+  if (rigid() && (form_ || supported()))
+    throw std::invalid_argument("a rigid block has no supports, and no incremental form");
   motion_ = SupportMotion(solid(), basis_, definition_.supports);
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
 }
 
 BlockModel BlockModel::with_order(int order) const {
-  if (fixed() || form_)
-    throw std::invalid_argument("only a moving block of the total formulation changes order");
+  if (fixed() || form_ || rigid() || order < 1)
+    throw std::invalid_argument(
+        "only a moving block of the total formulation changes order, and none to rigid");
   BlockDefinition definition = definition_;
   definition.order = order;
   return BlockModel(std::move(definition));
@@ -134,11 +137,22 @@ bool BlockModel::loads_change_between(double start, double end) const {
 }
 
 ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
+  if (rigid()) {
+    const Eigen::Matrix3d rotation =
+        polar_decomposition(position.transpose() * parts_->mean_gradients).rotation;
+    return {0.0, Eigen::MatrixX3d::Zero(basis_.size(), 3), rotation};
+  }
   if (parts_->large) return parts_->large->respond(position);
   if (form_)
     return incremental_response(basis_, material(), carried_.stress, position - basis_.identity_map());
   return elastic_response(parts_->stiffness, parts_->mean_gradients, basis_.identity_map(), position,
                           corotational());
+}
+
+Eigen::MatrixX3d BlockModel::rigid_position(const Eigen::MatrixX3d& position) const {
+  Eigen::MatrixX3d result = unstrained(position);
+  result.row(0) = position.row(0);
+  return result;
 }
 
 Eigen::MatrixX3d BlockModel::unstrained(const Eigen::MatrixX3d& position) const {
@@ -148,6 +162,7 @@ Eigen::MatrixX3d BlockModel::unstrained(const Eigen::MatrixX3d& position) const 
 }
 
 Eigen::MatrixXd BlockModel::tangent(const Eigen::Matrix3d& rotation) const {
+  if (rigid()) return Eigen::MatrixXd::Zero(unknowns(), unknowns());
   return corotational() ? space().restrict(rotated_stiffness(parts_->stiffness, rotation))
                         : parts_->reduced_stiffness;
 }
@@ -175,7 +190,7 @@ double BlockModel::gravity_energy(const BlockState& state, const Vector3& gravit
 }
 
 Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point) const {
-  if (fixed()) return Eigen::Matrix3d::Zero();
+  if (fixed() || rigid()) return Eigen::Matrix3d::Zero();
   if (form_) {
     const Eigen::MatrixX3d change = state.position - basis_.identity_map();
     return incremental_stress(basis_, carried_.stress + added_stress(basis_, material(), change), point);

@@ -2,6 +2,7 @@
 // both.
 //
 //   x(X, t) = sum_a phi_a(X) q_a(t)      theory.md section 1
+// A rigid block has the coefficients of order 1, which rigid_body.hpp ties to each other.
 // In the total formulation X is the placed, undeformed block. In the incremental one X is the block at the
 // start of the step: each step has a model of its own (carried_on), with q at the identity map in between.
 // Coefficient arrays are (p, 3), see elasticity.hpp.
@@ -15,6 +16,7 @@
 #include "mechanics/block/block_definition.hpp"
 #include "mechanics/block/block_parts.hpp"
 #include "mechanics/block/incremental_block.hpp"
+#include "mechanics/block/rigid_body.hpp"
 #include "mechanics/material/elasticity.hpp"
 #include "mechanics/material/st_venant_kirchhoff.hpp"
 #include "mechanics/supports/support_motion.hpp"
@@ -42,13 +44,13 @@ struct CarriedBlock;
 class BlockModel {
  public:
   /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
-  /// load_coefficients and IncrementalForm do
+  /// load_coefficients and IncrementalForm do, and for a rigid block that has supports or is incremental
   explicit BlockModel(BlockDefinition definition);
   /// The same, sharing what it can with other blocks made with the library.
   BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
 
-  /// The same block of the total formulation with another order. @throws std::invalid_argument for a fixed or
-  /// incremental one
+  /// The same block of the total formulation with another order, >= 1. @throws std::invalid_argument for a fixed,
+  /// incremental or rigid one
   [[nodiscard]] BlockModel with_order(int order) const;
 
   /// Null for blocks of the total formulation.
@@ -66,13 +68,18 @@ class BlockModel {
   [[nodiscard]] const Material& material() const { return definition_.material; }
   [[nodiscard]] bool fixed() const { return definition_.fixed; }
   [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
+  /// Of the basis: 1 for rigid blocks.
   [[nodiscard]] int order() const { return basis_.order(); }
+  /// Whether it does not deform: a moving block of order 0.
+  [[nodiscard]] bool rigid() const { return definition_.order == 0 && !fixed(); }
   [[nodiscard]] const PolynomialBasis& basis() const { return basis_; }
   /// What it shares with equal blocks.
   [[nodiscard]] const std::shared_ptr<const BlockParts>& parts() const { return parts_; }
   [[nodiscard]] const AdmissibleSpace& space() const { return parts_->space; }
-  /// 0 for fixed blocks.
+  /// Coefficients that change; 0 for fixed blocks. Those of a rigid block depend on 6 of freedom().
   [[nodiscard]] int unknowns() const { return fixed() ? 0 : space().unknowns(); }
+  /// Of the motion: the number of its equations.
+  [[nodiscard]] int freedom() const { return rigid() ? rigid_freedom : unknowns(); }
   /// True if the frame of linear elasticity turns with the block (theory.md section 4).
   [[nodiscard]] bool corotational() const { return !form_ && space().can_turn(); }
   [[nodiscard]] double mass() const { return material().density * basis_.volume(); }
@@ -106,6 +113,8 @@ class BlockModel {
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
+  /// The rigid motion nearest to a position. @param position (p, 3). @return (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d rigid_position(const Eigen::MatrixX3d& position) const;
   /// A block of the total formulation without strain, turned as it is but in the place where it was made.
   /// @param position (p, 3). @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d unstrained(const Eigen::MatrixX3d& position) const;

@@ -1,5 +1,6 @@
 #include "mechanics/block/block_parts.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -97,6 +98,7 @@ BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
   if (definition.fixed) return;
   space = AdmissibleSpace(solid, basis, supports);
   mean_gradients = ashlar::mean_gradients(basis);
+  if (definition.order == 0) return;
   stiffness = elastic_stiffness(basis, definition.material);
   if (!space.can_turn() || definition.formulation == Formulation::incremental)
     reduced_stiffness = space.restrict(stiffness);
@@ -106,7 +108,7 @@ BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
 
 BlockPartsLibrary::Found BlockPartsLibrary::find(const BlockDefinition& definition) {
   const Polyhedron& solid = definition.shape ? *definition.shape : *definition.solid;
-  const int order = definition.fixed ? 1 : definition.order;
+  const int order = definition.fixed ? 1 : std::max(definition.order, 1);
   Key key;
   add_mesh(key, solid.mesh());
   key.add(order);
@@ -117,6 +119,7 @@ BlockPartsLibrary::Found BlockPartsLibrary::find(const BlockDefinition& definiti
   key.add(definition.fixed);
   key.add(static_cast<int>(definition.formulation));
   if (!definition.fixed) {
+    key.add(definition.order == 0);
     add_material(key, definition.material);
     add_supports(key, solid, supports);
   }

@@ -47,6 +47,10 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   let_go();
   // The surface of an incremental block is its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
+  const bool any_rigid =
+      std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.rigid(); });
+  if (any_rigid && settings_.integrator == Integrator::generalized_alpha)
+    throw std::invalid_argument("generalized-alpha has no accelerations of rigid blocks");
   for (const BlockModel& block : blocks_)
     roundoff_force_.push_back(block.fixed() ? 0.0 : block.force_rounding());
   asked_gradients_.resize(blocks_.size());
@@ -98,7 +102,7 @@ double BlockSystem::smaller_size(const std::array<int, 2>& blocks) const {
 int BlockSystem::unknowns() const {
   int sum = 0;
   for (int k = 0; k < count(); ++k)
-    if (present(k)) sum += blocks_[at(k)].unknowns();
+    if (present(k)) sum += blocks_[at(k)].freedom();
   return sum;
 }
 

@@ -43,7 +43,12 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   ledger.damping_took(damping);
   const Eigen::MatrixX3d internal = body.internal_force(scheme);
   ledger.damping_took(body.motion().cwiseProduct(internal - body.elastic.force).sum());
-  const Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
+  Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
+  if (block.rigid()) {
+    // Momenta are those along these fields: they stay.
+    const Eigen::MatrixXd fields = rigid_fields(state.position + body.motion());
+    end_velocity = block.space().expand(fields * (fields.transpose() * block.space().restrict(end_velocity)));
+  }
   const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
   if (driven) {
     Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
@@ -60,6 +65,8 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
     state.velocity = end_velocity;
   }
   state.position += body.motion();
+  // Rounding must not strain it in the course of time.
+  if (block.rigid()) state.position = block.rigid_position(state.position);
   const Eigen::VectorXd smooth = body.external_force - block.space().restrict(internal);
   const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
                       (1.0 - scheme.force_weight) * body.change.dot(smooth) - damping;

@@ -79,6 +79,17 @@ Eigen::MatrixX3d BodyStep::motion() const {
   return sum;
 }
 
+void BodyStep::follow_rigid(const TimeScheme& scheme) {
+  if (!model->rigid()) return;
+  if (scheme.impulsive) {
+    fields = rigid_fields(state->position);
+    return;
+  }
+  const Eigen::MatrixX3d moved = rigid_change(state->position, motion());
+  change = model->space().restrict(moved);
+  fields = rigid_fields(state->position + 0.5 * moved);
+}
+
 namespace {
 
 /// The frame that turns with a block.
@@ -163,7 +174,7 @@ IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep
   std::vector<int> key = {static_cast<int>(role)};
   for (const int body : island.bodies) {
     place[body] = static_cast<int>(place.size());
-    sizes.push_back(bodies[at(body)].model->unknowns());
+    sizes.push_back(bodies[at(body)].model->freedom());
     key.push_back(body);
   }
   std::vector<std::array<int, 2>> links;

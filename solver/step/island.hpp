@@ -20,7 +20,7 @@ enum class IslandStatus {
   not_positive_definite,  ///< the system could not be factorised: cut the step
 };
 
-/// One moving block within a step. Vectors are in the block's unknowns.
+/// One moving block within a step. Vectors are in the block's unknowns, also those of a rigid one (rigid_body.hpp).
 struct BodyStep {
   const BlockModel* model = nullptr;
   const BlockState* state = nullptr;
@@ -34,6 +34,20 @@ struct BodyStep {
   /// Of damping by stiffness: the elastic force at the start of the step in the frame that turns with the block, (p, 3)
   Eigen::MatrixX3d start_force;
 
+  /// Of a rigid block: the velocity fields of the middle of its motion, (unknowns, 6); with TimeScheme::impulsive those
+  /// of its position. See follow_rigid()
+  Eigen::MatrixXd fields;
+
+  /// Makes the change of a rigid block the rigid one next to it, and takes the fields there. Does nothing to others.
+  void follow_rigid(const TimeScheme& scheme);
+  /// What a force on the unknowns is in the block's equations, of which there are model->freedom().
+  [[nodiscard]] Eigen::VectorXd in_equations(const Eigen::VectorXd& force) const {
+    return model->rigid() ? Eigen::VectorXd(fields.transpose() * force) : force;
+  }
+  /// Change of the unknowns by a solution of the equations.
+  [[nodiscard]] Eigen::VectorXd of_unknowns(const Eigen::VectorXd& solution) const {
+    return model->rigid() ? Eigen::VectorXd(fields * solution) : solution;
+  }
   /// Change of the position's coefficients at the present `change`. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d motion() const;
   /// Remembers the elastic force at the start of the step.

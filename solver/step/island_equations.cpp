@@ -17,6 +17,11 @@ IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies
     : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme), solver_(solver) {
   for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
   for (const int pair : island.pairs) laws_.push_back(pairs[at(pair)].laws());
+  follow_rigid_bodies();
+}
+
+void IslandProblem::follow_rigid_bodies() {
+  for (const int index : island_.bodies) bodies_[at(index)].follow_rigid(scheme_);
 }
 
 int IslandProblem::threads() const {
@@ -43,6 +48,7 @@ void IslandProblem::predict(FirstGuess guess) {
     if (guess != FirstGuess::falling || scheme_.from_rest) continue;
     body.change += scheme_.force_weight / mass * body.external_force;
   }
+  follow_rigid_bodies();
 }
 
 /// Where the elastic force of a body is taken.
@@ -71,7 +77,8 @@ Balance IslandProblem::balance() const {
   std::vector<double> scale(island_.bodies.size(), 0.0);
   std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
   std::vector<double> in_doubt(island_.bodies.size(), 0.0);
-  const auto add = [&](int body, const Eigen::VectorXd& force) {
+  const auto add = [&](int body, const Eigen::VectorXd& on_unknowns) {
+    const Eigen::VectorXd force = bodies_[at(island_.bodies[at(body)])].in_equations(on_unknowns);
     result.left.segment(solver_.matrix.offset(body), force.size()) += force;
     scale[at(body)] = std::max(scale[at(body)], force.norm());
   };
@@ -111,7 +118,7 @@ Balance IslandProblem::balance() const {
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
-        result.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.change.size()).norm();
+        result.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
     body.largest_force = scale[k];
     if (left == 0.0) continue;
     const double share = left / (tolerance * scale[k] + rounding);
@@ -130,11 +137,29 @@ void IslandProblem::recall(const Balance& balance) {
     bodies_[at(island_.bodies[k])].largest_force = balance.scales[k];
 }
 
+namespace {
+
+/// A tangent on the unknowns of two blocks as one on their equations.
+PairTangent in_equations(PairTangent tangent, const BodyStep& a, const BodyStep& b) {
+  if (a.model->rigid()) {
+    if (tangent.aa.size() > 0) tangent.aa = a.fields.transpose() * tangent.aa * a.fields;
+    if (tangent.ab.size() > 0) tangent.ab = a.fields.transpose() * tangent.ab;
+  }
+  if (b.model->rigid()) {
+    if (tangent.bb.size() > 0) tangent.bb = b.fields.transpose() * tangent.bb * b.fields;
+    if (tangent.ab.size() > 0) tangent.ab = tangent.ab * b.fields;
+  }
+  return tangent;
+}
+
+}  // namespace
+
 Eigen::VectorXd IslandProblem::contact_forces() const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
   const auto add = [&](int block, const Eigen::VectorXd& force) {
     if (const int body = place(block); body >= 0)
-      sum.segment(solver_.matrix.offset(body), force.size()) += force;
+      sum.segment(solver_.matrix.offset(body), bodies_[at(block)].model->freedom()) +=
+          bodies_[at(block)].in_equations(force);
   };
   for (std::size_t k = 0; k < pairs(); ++k) {
     add(pair(k).a(), responses_[k].total_on_a());
@@ -148,7 +173,7 @@ void IslandProblem::assemble(bool positive) {
   matrix.set_zero();
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     const BodyStep& body = bodies_[at(island_.bodies[k])];
-    if (scheme_.force_weight > 0.0) {
+    if (scheme_.force_weight > 0.0 && !body.model->rigid()) {
       matrix.add_diagonal(static_cast<int>(k),
                           scheme_.force_weight * scheme_.end_share * (1.0 + scheme_.stiffness_share) *
                               body.model->tangent(taken_at(body), body.elastic, positive));
@@ -156,7 +181,10 @@ void IslandProblem::assemble(bool positive) {
     matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
   }
   std::vector<PairTangent> tangents(pairs());
-  parallel_for(threads(), pairs(), [&](std::size_t k) { tangents[k] = pair(k).tangent(responses_[k]); });
+  parallel_for(threads(), pairs(), [&](std::size_t k) {
+    tangents[k] =
+        in_equations(pair(k).tangent(responses_[k]), bodies_[at(pair(k).a())], bodies_[at(pair(k).b())]);
+  });
   for (std::size_t k = 0; k < pairs(); ++k) {
     const PairTangent& tangent = tangents[k];
     const int a = place(pair(k).a());
@@ -195,23 +223,23 @@ FactorStatus IslandProblem::update_factor() {
 Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block) const {
   const int place_of_block = place(block);
   if (place_of_block < 0) return {};
-  return of_island.segment(solver_.matrix.offset(place_of_block), bodies_[at(block)].change.size());
+  const BodyStep& body = bodies_[at(block)];
+  return body.of_unknowns(of_island.segment(solver_.matrix.offset(place_of_block), body.model->freedom()));
 }
 
 void IslandProblem::add_couplings(const std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>>& couplings,
                                   const Eigen::VectorXd& x, Eigen::VectorXd& force) {
-  Eigen::VectorXd nothing;
   for (const auto& [k, coupling] : couplings) {
-    const int a = place(pair(k).a());
-    const int b = place(pair(k).b());
     const Eigen::VectorXd of_a = part(x, pair(k).a());
     const Eigen::VectorXd of_b = part(x, pair(k).b());
-    pair(k).rows().add_coupling(
-        coupling, of_a, of_b,
-        a < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
-              : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(a), of_a.size())),
-        b < 0 ? Eigen::Ref<Eigen::VectorXd>(nothing)
-              : Eigen::Ref<Eigen::VectorXd>(force.segment(solver_.matrix.offset(b), of_b.size())));
+    Eigen::VectorXd to_a = Eigen::VectorXd::Zero(of_a.size());
+    Eigen::VectorXd to_b = Eigen::VectorXd::Zero(of_b.size());
+    pair(k).rows().add_coupling(coupling, of_a, of_b, to_a, to_b);
+    for (const auto& [block, added] : {std::pair(pair(k).a(), &to_a), std::pair(pair(k).b(), &to_b)}) {
+      if (place(block) < 0) continue;
+      const BodyStep& body = bodies_[at(block)];
+      force.segment(solver_.matrix.offset(place(block)), body.model->freedom()) += body.in_equations(*added);
+    }
   }
 }
 
@@ -247,6 +275,7 @@ Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool cou
 
 void IslandProblem::apply(const Eigen::VectorXd& change, double share) {
   for (const int index : island_.bodies) bodies_[at(index)].change += share * part(change, index);
+  follow_rigid_bodies();
 }
 
 std::vector<Eigen::VectorXd> IslandProblem::guess() const {
@@ -257,6 +286,7 @@ std::vector<Eigen::VectorXd> IslandProblem::guess() const {
 
 void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
   for (std::size_t k = 0; k < guess.size(); ++k) bodies_[at(island_.bodies[k])].change = guess[k];
+  follow_rigid_bodies();
 }
 
 Evaluation IslandProblem::set_aside() {

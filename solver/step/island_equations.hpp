@@ -11,7 +11,7 @@ namespace ashlar {
 
 /// What is left of the equations of motion.
 struct Balance {
-  Eigen::VectorXd left;        ///< N, in the island's unknowns
+  Eigen::VectorXd left;        ///< N, in the island's equations
   std::vector<double> shares;  ///< of what each body may lack, what is left on it
   double worst = 0.0;          ///< the largest share; <= 1: settled
   double largest_part = 0.0;   ///< of the largest force on each body, what is left on it: the largest
@@ -48,7 +48,7 @@ class IslandProblem {
   [[nodiscard]] Balance balance() const;
   /// Takes a balance that was found at the present guess for that of the last call of balance().
   void recall(const Balance& balance);
-  /// Forces of the last responses alone, N, in the island's unknowns.
+  /// Forces of the last responses alone, N, in the island's equations.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
   /// Assembles and factorises the symmetric part of the tangent at the last responses.
   [[nodiscard]] FactorStatus factorize();
@@ -92,6 +92,8 @@ class IslandProblem {
   [[nodiscard]] int threads() const;
   [[nodiscard]] int place(int block) const;
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
+  /// After each change of the guess.
+  void follow_rigid_bodies();
   void assemble(bool positive);
   /// Factorises what has been assembled. @param kept for later steps
   [[nodiscard]] FactorStatus factorize_assembled(bool kept);

@@ -10,8 +10,8 @@ namespace {
 
 /// All directions are unknowns and turn with the block, or the frame does not turn.
 bool shares_factors(const BlockModel& block) {
-  return block.material().elasticity == Elasticity::linear && block.incremental() == nullptr &&
-         (block.space().free() || !block.corotational());
+  return !block.rigid() && block.material().elasticity == Elasticity::linear &&
+         block.incremental() == nullptr && (block.space().free() || !block.corotational());
 }
 
 /// R' f or R f for each coefficient of a free block. @param f (3p), stacked

@@ -111,7 +111,10 @@ std::vector<MovedIsland> solve_deep(const RunContext& run, double step,
     const double limit = funds.available(n);
     const bool settled = result.status == IslandStatus::settled;
     const double share = !settled ? 0.0 : energy > limit ? limit / energy : 1.0;
-    for (const int k : island.bodies) problem.bodies[at(k)].change *= share;
+    for (const int k : island.bodies) {
+      problem.bodies[at(k)].change *= share;
+      problem.bodies[at(k)].follow_rigid(scheme);
+    }
     if (share == 0.0) continue;
     if (share < 1.0) energy = energy_of_motion(run, island, problem.bodies);
     funds.use(n, std::min(energy, limit));

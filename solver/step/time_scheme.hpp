@@ -53,6 +53,7 @@ struct TimeScheme {
   double force_weight = 1.0;  ///< w
   double inertia = 0.0;       ///< m, 1/s^2
   bool from_rest = false;     ///< an iteration of a static analysis
+  bool impulsive = false;     ///< changes are those of velocities, times dt, at the end of a step
   bool mean_contacts =
       false;                  ///< contact forces are means over the step (MeanResponse), not those at its end
   double mass_damping = 0.0;  ///< alpha, 1/s

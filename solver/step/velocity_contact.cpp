@@ -129,6 +129,7 @@ class IslandStop {
  private:
   static TimeScheme impulsive(double step) {
     TimeScheme scheme;
+    scheme.impulsive = true;
     scheme.force_weight = 0.0;
     scheme.inertia = 1.0 / (step * step);
     return scheme;

@@ -1,0 +1,32 @@
+// Rigid blocks, of order 0: position and velocity have the coefficients of order 1, x = c + R (X - X_c), so that
+// contacts, loads and results know nothing of them. Their motion in a step has 6 freedoms.
+//
+// Between two rigid positions x0 and x1 with xm = (x0 + x1) / 2 there is a spin s (Cayley's) and a way d with
+//
+//   x1 - x0 = d + s x (xm - c_m)                c_m the centroid of xm
+//
+// for all points: the change of a step is one of the rigid velocity fields of its middle. Equations of motion that are
+// tested with these fields do no work but that of the forces they have, and change the angular momentum by their
+// torque, exactly and for any length of the step (Simo and Wong, 1991): the reaction that keeps a block rigid is
+// orthogonal to the fields.
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace ashlar {
+
+/// Freedoms of a rigid block.
+inline constexpr int rigid_freedom = 6;
+
+/// An orthonormal basis of the rigid velocity fields of a position: three translations, three turns about the centroid.
+/// The first function of the basis is constant and the others have mean zero. In it the mass matrix of the block stays
+/// its density times the unit matrix. @param position (p, 3), not all in one line
+/// @return (3p, 6), coefficients stacked as in elasticity.hpp
+[[nodiscard]] Eigen::MatrixXd rigid_fields(const Eigen::MatrixX3d& position);
+
+/// The rigid change near a change of position: the spin about the middle of the change that fits it best. A rigid one
+/// stays as it is. Its rounding errors are those of the change, not of the position.
+/// @param position of a rigid block, (p, 3). @param change (p, 3). @return (p, 3)
+[[nodiscard]] Eigen::MatrixX3d rigid_change(const Eigen::MatrixX3d& position, const Eigen::MatrixX3d& change);
+
+}  // namespace ashlar
