@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "apps/run/build_simulation.hpp"
+#include "apps/study/processor_time.hpp"
 
 namespace ashlar {
 namespace {
@@ -111,13 +111,6 @@ struct Cost {
   double step = 0.0;       ///< s
   double mebibytes = 0.0;  ///< that the process grew by
 };
-
-/// Of this process, s.
-double processor_time() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// Most that this process has taken so far, KiB.
 double most_memory() {

@@ -187,6 +187,10 @@ Solved solve_smooth(int order) {
 
 }  // namespace
 
+double cantilever_error(int order) {
+  return solve_cantilever(order).error;
+}
+
 StudyResult study_orders() {
   return study_orders_to(PolynomialBasis::max_order);
 }

@@ -14,4 +14,7 @@ namespace ashlar {
 /// The same, orders up to a given one, at least 5; the promise is held to the largest order only.
 [[nodiscard]] StudyResult study_orders_to(int most_order);
 
+/// Relative error of the tip of the first problem.
+[[nodiscard]] double cantilever_error(int order);
+
 }  // namespace ashlar

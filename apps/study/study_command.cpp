@@ -16,6 +16,7 @@
 #include "apps/study/conditioning_study.hpp"
 #include "apps/study/contact_study.hpp"
 #include "apps/study/cost_study.hpp"
+#include "apps/study/error_time_study.hpp"
 #include "apps/study/orders_study.hpp"
 #include "apps/study/stability_study.hpp"
 #include "apps/study/sub_face_study.hpp"
@@ -32,6 +33,8 @@ const std::array<Study, 6> studies = {
      {"conditioning", "condition and lost digits of monomial and orthonormal bases", study_conditioning},
      {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps", study_contact},
      {"cost", "time and memory of a step against blocks and order, with exponents", study_cost},
+     {"error-time", "error of motion against run time: order, integrator, step, formulation",
+      study_error_time},
      {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
       study_stability}}};
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar {
@@ -179,6 +180,27 @@ TEST(RigidBlocks, StandOnDeformingOnesWithTheirWeight) {
       (record.a == 0 || record.b == 0 ? lower : upper) += point.force[0];
   EXPECT_NEAR(upper, 20000.0, 1e-5 * 20000.0);
   EXPECT_NEAR(lower, 40000.0, 1e-5 * 40000.0);
+}
+
+TEST(RigidBlocks, GoOnFromASnapshotWithTheSameBits) {
+  const auto make = [] {
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(fixed_box({-2, -2, -1}, {2, 2, 0}));
+    blocks.emplace_back(block_of("soft", Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), rock, 2));
+    blocks.emplace_back(block_of("hard", tilted_box({-0.5, -0.5, 1.2}, {0.5, 0.5, 2}, 10), rock, 0));
+    SimulationSettings settings = settings_of(0.005, Integrator::dda, {0, 0, -10});
+    settings.augmented = true;
+    const InitialMotion spin{Vector3::Zero(), Vector3(0, 1, 0.5)};
+    return Simulation(std::move(blocks), {{}, {}, spin}, same_law(joint(0.5, true)), settings);
+  };
+  Simulation whole = make();
+  ASSERT_TRUE(run_until(whole, 0.15));
+  Simulation rest = make();
+  rest.restore(whole.snapshot());
+  ASSERT_TRUE(run_until(whole, 0.4));
+  ASSERT_TRUE(run_until(rest, 0.4));
+  EXPECT_EQ(to_bytes(whole.snapshot()), to_bytes(rest.snapshot()));
+  EXPECT_FALSE(whole.contacts().empty());
 }
 
 TEST(RigidBlocks, HaveNoSupportsNoOtherOrderAndNoGeneralizedAlpha) {
