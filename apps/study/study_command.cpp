@@ -26,7 +26,7 @@ namespace ashlar {
 namespace {
 
 // In the order in which --help lists them.
-const std::array<Study, 6> studies = {
+const std::array<Study, 7> studies = {
     {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
       study_sub_faces},
      {"orders", "error, unknowns and time of one block against its order", study_orders},

@@ -49,7 +49,7 @@ TEST(SceneLoading, ListsFaultsOfEveryKindInFileOrder) {
              "[[block]]\n"
              "name = \"A\"\n"
              "material = \"rock\"\n"
-             "order = 0\n"
+             "order = -1\n"
              "mesh = { file = \"open.off\" }\n"
              "[[block]]\n"
              "name = \"A\"\n"
@@ -68,7 +68,7 @@ TEST(SceneLoading, ListsFaultsOfEveryKindInFileOrder) {
                   StartsWith(file + ":6:10: error: joint names no block (\"nobody\")"),
                   StartsWith(file + ":9:11: error: density is out of range (-3600)"),
                   StartsWith(file + ":11:17: error: poisson_ratio is out of range (0.5)"),
-                  StartsWith(file + ":15:9: error: order is out of range (0)"),
+                  StartsWith(file + ":15:9: error: order is out of range (-1)"),
                   StartsWith(file + ":16:17: error: mesh file cannot be used ("),
                   StartsWith(file + ":18:8: error: block named twice (\"A\""),
                   StartsWith(file + ":20:9: error: order is out of range (99)"),

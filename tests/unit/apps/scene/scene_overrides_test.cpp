@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
         OverrideCase{"analysis.end_time.x=5", "analysis.end_time has no keys (1.0), a table is needed"},
         OverrideCase{"block.C.order=2", "no such entry of block (C), an index from 0 to 1 or one of A, B"},
         OverrideCase{"block.2.order=2", "no such entry of block (2)"},
-        OverrideCase{"block.B.order=99", "order is out of range (99), a whole number from 1 to 12 is needed"},
+        OverrideCase{"block.B.order=99", "order is out of range (99), a whole number from 0 to 12 is needed"},
         OverrideCase{"material.rock.density=-1", "density is out of range (-1)"},
         OverrideCase{"measure.tip.point.3=1",
                      "no such entry of measure.tip.point (3), an index from 0 to 2 is needed"},

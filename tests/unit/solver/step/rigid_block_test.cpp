@@ -199,7 +199,12 @@ TEST(RigidBlocks, GoOnFromASnapshotWithTheSameBits) {
   rest.restore(whole.snapshot());
   ASSERT_TRUE(run_until(whole, 0.4));
   ASSERT_TRUE(run_until(rest, 0.4));
-  EXPECT_EQ(to_bytes(whole.snapshot()), to_bytes(rest.snapshot()));
+  SimulationSnapshot expected = whole.snapshot();
+  const SimulationSnapshot reached = rest.snapshot();
+  // Times of the clock, and what was factorised only to make kept factors again.
+  expected.run.log.seconds = reached.run.log.seconds;
+  expected.run.log.counts.factors = reached.run.log.counts.factors;
+  EXPECT_EQ(to_bytes(reached), to_bytes(expected));
   EXPECT_FALSE(whole.contacts().empty());
 }
 
