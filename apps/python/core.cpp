@@ -359,7 +359,8 @@ PYBIND11_MODULE(_core, module) {
 
   py::class_<CoreBlock>(module, "Block", "A block of a simulation, at the simulation's present time.")
       .def_property_readonly("name", [](const CoreBlock& b) { return b.model().name(); })
-      .def_property_readonly("order", [](const CoreBlock& b) { return b.model().rigid() ? 0 : b.model().order(); })
+      .def_property_readonly("order",
+                             [](const CoreBlock& b) { return b.model().rigid() ? 0 : b.model().order(); })
       .def_property_readonly("fixed", [](const CoreBlock& b) { return b.model().fixed(); })
       .def_property_readonly(
           "volume", [](const CoreBlock& b) { return b.model().basis().volume(); }, "Undeformed, m^3.")

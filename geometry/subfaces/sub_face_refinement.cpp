@@ -141,12 +141,12 @@ double AdaptiveSurface::chord_bound() const {
 }
 
 std::vector<std::uint64_t> AdaptiveSurface::wanted() const {
-  std::vector<std::uint64_t> result;
+  // What was set counts until it has been used.
+  std::set<std::uint64_t> result = remembered_;
   for (const Node& node : nodes_) {
-    if (node.wanted) result.push_back(node.path);
+    if (node.wanted) result.insert(node.path);
   }
-  std::sort(result.begin(), result.end());
-  return result;
+  return {result.begin(), result.end()};
 }
 
 double AdaptiveSurface::bound_of(const Node& node, const BernsteinTriangle& patch) {

@@ -84,12 +84,12 @@ TEST(CommandLine, CheckListsEveryFaultAndWritesNothing) {
   write_text(file, sample_with(10, "density = -1"));
   const Outcome outcome = run({"check", file, "--set", "block.A.order=-1", "--set", "block.B.order=13"});
   EXPECT_EQ(outcome.status, exit_status::bad_input);
-  EXPECT_EQ(
-      outcome.err,
-      file + ":10:11: error: density is out of range (-1), a number > 0 is needed\n" +
-          "--set block.A.order=-1: error: order is out of range (-1), a whole number from 0 to 12 is needed\n" +
-          "--set block.B.order=13: error: order is out of range (13), a whole number from 0 to 12 is "
-          "needed\n");
+  EXPECT_EQ(outcome.err,
+            file + ":10:11: error: density is out of range (-1), a number > 0 is needed\n" +
+                "--set block.A.order=-1: error: order is out of range (-1), a whole number from 0 to 12 is "
+                "needed\n" +
+                "--set block.B.order=13: error: order is out of range (13), a whole number from 0 to 12 is "
+                "needed\n");
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(folder.entry_count(), 1u);
 }

@@ -213,6 +213,7 @@ TEST(AdaptiveSurface, TheDivisionGoesOnFromWhatWasWanted) {
   (void)first.divide({1e-2, everywhere});
   AdaptiveSurface second(solid, 2, 0);
   second.set_wanted(first.wanted());
+  EXPECT_EQ(second.wanted(), first.wanted()) << "before it has been used";
   second.move(bent(second, 0.08));
   (void)second.divide({1e-2, everywhere});
   EXPECT_EQ(first.wanted(), second.wanted());
