@@ -74,8 +74,10 @@ class Import {
     const bool turned = mesh_.flip == SceneMesh::Flip::always ||
                         (mesh_.flip == SceneMesh::Flip::automatic && rounded_volume(mesh) < 0.0);
     if (turned) turn_inside_out(mesh);
+    // Of faces that meet in corners that files have in single precision or better, and that were welded.
+    constexpr double coincident = 1e-9;
     std::vector<MeshGroup> stones;
-    for (TriangleMesh& component : closed_components(mesh)) {
+    for (TriangleMesh& component : closed_components(mesh, coincident)) {
       if (turned) turn_inside_out(component);
       stones.push_back({std::to_string(stones.size() + 1), std::move(component)});
     }

@@ -7,13 +7,24 @@
 #include "geometry/solid/fitted_solids.hpp"
 
 namespace ashlar {
+namespace {
+
+FitLimits limits_of(double fit) {
+  constexpr double farthest = 10.0;  // of fit
+  constexpr double same_way = 0.5;   // within 60 degrees
+  constexpr double dependent = 1e-3;
+  constexpr double rounding = 0x1p-46;
+  return {fit, farthest * fit, same_way, dependent, rounding};
+}
+
+}  // namespace
 
 void fit_to_survey(Scene& scene, std::vector<std::optional<Polyhedron>>& solids,
                    std::vector<std::shared_ptr<const Polyhedron>>& shapes, Diagnostics& diagnostics) {
   if (scene.contact.fit == 0.0 || !diagnostics.good()) return;
   const std::vector<std::optional<Polyhedron>> before = solids;
   try {
-    const SolidFit fit = fit_solids(solids, scene.contact.fit);
+    const SolidFit fit = fit_solids(solids, limits_of(scene.contact.fit));
     for (std::size_t k = 0; k < solids.size(); ++k)
       if (solids[k] && solids[k]->mesh().points != before[k]->mesh().points)
         shapes[k] = std::make_shared<const Polyhedron>(*solids[k]);

@@ -19,11 +19,13 @@ struct ErrorTimeStudySize {
 ///   3 tumbling: a free box of 1 x 2 x 3 m turns for 5 s about its middle axis, where that is unstable; Euler's equations,
 ///     integrated by the method of Runge and Kutta with steps of 0.1 ms;
 ///   4 cantilever: statics of one block of orders 1 to 8 (orders_study.hpp).
-/// Errors: of the way over the way; of strain and rate over their amplitudes; norm of the difference of the rotations; of
-/// the tip. Multipliers hold contact, springs where a curve says so. The paper's scheme (dda, incremental, point springs, flat sub-faces) is a curve of 1 to 3.
+/// Errors: of the way over the way; of strain and rate over their amplitudes; norm of the difference of the
+/// rotations; of the tip. Multipliers hold contact, springs where a curve says so. The paper's scheme (dda,
+/// incremental, point springs, flat sub-faces) is a curve of 1 to 3.
 /// Columns: problem, curve (in the order of the picture), order, integrator (0 dda, 1 average-acceleration, 2
-/// generalized-alpha), springs and incremental (0 or 1), time step (0: static), error, seconds (of the processor, with the building of
-/// the scene), front (1: nothing faster has less error). An error that is not finite is a run that failed.
+/// generalized-alpha), springs and incremental (0 or 1), time step (s; of problem 2 in periods; 0: static),
+/// error, seconds (of the processor, with the building of the scene), front (1: nothing faster has less
+/// error). An error that is not finite is a run that failed.
 [[nodiscard]] StudyResult study_error_time();
 [[nodiscard]] StudyResult study_error_time(const ErrorTimeStudySize& size);
 

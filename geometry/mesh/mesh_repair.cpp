@@ -132,8 +132,9 @@ EdgeSides sides_of_edges(const TriangleMesh& mesh) {
 /// Unites the triangles around an edge that more than two share. Seen along the edge, a triangle that runs
 /// forward has the inside on one turning side, one that runs backward on the other; neighbours are a forward
 /// one and the first backward one that is met while turning through the inside.
+/// @param coincident rad: between faces of touching bodies, which lie on each other to this, is no inside
 void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
-                  const std::vector<EdgeSide>& sides, UnionFind& sets) {
+                  const std::vector<EdgeSide>& sides, double coincident, UnionFind& sets) {
   const Vector3 from = mesh.points[static_cast<std::size_t>(edge.first)];
   const Vector3 axis = (mesh.points[static_cast<std::size_t>(edge.second)] - from).stableNormalized();
   const Vector3 x = axis.unitOrthogonal(), y = axis.cross(x);
@@ -141,8 +142,6 @@ void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
     const Vector3 arm = mesh.points[static_cast<std::size_t>(side.apex)] - from;
     return std::atan2(arm.dot(y), arm.dot(x));
   };
-  // Faces of touching bodies lie on each other but for rounding; between them is no inside.
-  constexpr double rounding = 1e-9;
   std::vector<bool> taken(sides.size(), false);
   for (const EdgeSide& forward : sides) {
     if (!forward.forward) continue;
@@ -153,8 +152,8 @@ void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
     for (std::size_t k = 0; k < sides.size(); ++k) {
       if (sides[k].forward || taken[k]) continue;
       double turn = start - angle_of(sides[k]);
-      while (turn <= rounding) turn += 2.0 * std::numbers::pi;
-      while (turn > 2.0 * std::numbers::pi + rounding) turn -= 2.0 * std::numbers::pi;
+      while (turn <= coincident) turn += 2.0 * std::numbers::pi;
+      while (turn > 2.0 * std::numbers::pi + coincident) turn -= 2.0 * std::numbers::pi;
       if (turn >= least) continue;
       least = turn;
       nearest = k;
@@ -193,13 +192,13 @@ WeldCount weld_corners(TriangleMesh& mesh, double distance) {
   return count;
 }
 
-std::vector<TriangleMesh> closed_components(const TriangleMesh& mesh) {
+std::vector<TriangleMesh> closed_components(const TriangleMesh& mesh, double coincident) {
   UnionFind sets(mesh.triangles.size());
   for (const auto& [edge, sides] : sides_of_edges(mesh)) {
     if (sides.size() == 2)
       sets.unite(sides[0].triangle, sides[1].triangle);
     else if (sides.size() > 2 && sides.size() <= most_sides)
-      unite_around(mesh, edge, sides, sets);
+      unite_around(mesh, edge, sides, coincident, sets);
   }
   // A root is the first of its set, so that this is the order of first triangles.
   std::map<int, std::vector<int>> triangles;

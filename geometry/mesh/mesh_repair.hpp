@@ -28,7 +28,8 @@ WeldCount weld_corners(TriangleMesh& mesh, double distance);
 /// share it; then two neighbours on the surface are those between which the inside lies, as bodies do that are
 /// put together face to face. Triangles that no closed surface is made of are components too.
 /// @param mesh triangles counter-clockwise from outside
-[[nodiscard]] std::vector<TriangleMesh> closed_components(const TriangleMesh& mesh);
+/// @param coincident rad, >= 0: faces that make a smaller angle about a common edge lie on each other
+[[nodiscard]] std::vector<TriangleMesh> closed_components(const TriangleMesh& mesh, double coincident);
 
 /// The signed volume, rounded in each operation: negative for a surface that is inside out.
 [[nodiscard]] double rounded_volume(const TriangleMesh& mesh);

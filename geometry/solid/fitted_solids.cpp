@@ -16,15 +16,6 @@
 namespace ashlar {
 namespace {
 
-// Of the largest coordinate: what moves less has only been rounded.
-constexpr double rounding = 0x1p-46;
-// Ways of a corner in parts of fit: beyond it the planes do not say where it is.
-constexpr double farthest_way = 10.0;
-// Faces of one solid look the same way, those of neighbours at each other, within 60 degrees.
-constexpr double same_way = 0.5;
-// Of the largest: planes whose normals depend on each other but for this.
-constexpr double dependent = 1e-3;
-
 struct FittedPlane {
   Vector3 normal = Vector3::Zero();
   Vector3 point = Vector3::Zero();
@@ -41,7 +32,8 @@ struct SurveyedFace {
 /// Faces that lie on one plane, by their root in the sets.
 class FaceGroups {
  public:
-  FaceGroups(const std::vector<std::optional<Polyhedron>>& solids, double fit) : fit_(fit) {
+  FaceGroups(const std::vector<std::optional<Polyhedron>>& solids, const FitLimits& limits)
+      : fit_(limits.fit), same_way_(limits.same_way) {
     for (std::size_t s = 0; s < solids.size(); ++s) {
       first_face_.push_back(faces_.size());
       if (!solids[s]) continue;
@@ -49,7 +41,7 @@ class FaceGroups {
         std::vector<Vector3> corners;
         for (const auto& loop : face.loops)
           for (const int k : loop) corners.push_back(solids[s]->mesh().points[static_cast<std::size_t>(k)]);
-        faces_.push_back({s, face.normal, box_of(corners).grown(fit)});
+        faces_.push_back({s, face.normal, box_of(corners).grown(fit_)});
         corners_.push_back(std::move(corners));
       }
     }
@@ -90,7 +82,7 @@ class FaceGroups {
     const Vector3 &n = faces_[static_cast<std::size_t>(a)].normal,
                   &m = faces_[static_cast<std::size_t>(b)].normal;
     const int first = sets_->find(a), second = sets_->find(b);
-    if (side * n.dot(m) < same_way || first == second) return;
+    if (side * n.dot(m) < same_way_ || first == second) return;
     std::vector<Vector3> all = corners_[static_cast<std::size_t>(first)];
     const std::vector<Vector3>& others = corners_[static_cast<std::size_t>(second)];
     // Faces of one solid share corners, each of which was measured once.
@@ -110,14 +102,15 @@ class FaceGroups {
   }
 
   double fit_;
+  double same_way_;
   std::vector<SurveyedFace> faces_;
   std::vector<std::size_t> first_face_;        ///< (#solids)
   std::vector<std::vector<Vector3>> corners_;  ///< (#faces), of the whole group at its root
   std::optional<UnionFind> sets_;
 };
 
-/// The nearest point of all planes, or the nearest to all that there is.
-Vector3 onto(const std::vector<FittedPlane>& planes, const Vector3& point) {
+/// The nearest point of all planes, or the nearest to all that there is. @param dependent see FitLimits
+Vector3 onto(const std::vector<FittedPlane>& planes, double dependent, const Vector3& point) {
   Eigen::MatrixXd normals(static_cast<Eigen::Index>(planes.size()), 3);
   Eigen::VectorXd distances(static_cast<Eigen::Index>(planes.size()));
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -137,8 +130,9 @@ Vector3 onto(const std::vector<FittedPlane>& planes, const Vector3& point) {
 
 }  // namespace
 
-SolidFit fit_solids(std::vector<std::optional<Polyhedron>>& solids, double fit) {
-  FaceGroups groups(solids, fit);
+SolidFit fit_solids(std::vector<std::optional<Polyhedron>>& solids, const FitLimits& limits) {
+  const double fit = limits.fit;
+  FaceGroups groups(solids, limits);
   std::vector<std::set<std::size_t>> solids_of(groups.size());
   for (std::size_t f = 0; f < groups.size(); ++f)
     solids_of[static_cast<std::size_t>(groups.group(static_cast<int>(f)))].insert(groups.solid_of(f));
@@ -168,10 +162,10 @@ SolidFit fit_solids(std::vector<std::optional<Polyhedron>>& solids, double fit) 
         if (!plane) plane = groups.plane(group);
         at.push_back(*plane);
       }
-      const Vector3 place = onto(at, mesh.points[k]);
+      const Vector3 place = onto(at, limits.dependent, mesh.points[k]);
       const double way = (place - mesh.points[k]).norm();
-      if (!(way <= farthest_way * fit)) refuse("a corner would move too far", way, fit);
-      if (way <= rounding * largest) continue;
+      if (!(way <= limits.farthest)) refuse("a corner would move too far", way, fit);
+      if (way <= limits.rounding * largest) continue;
       mesh.points[k] = place;
       done.farthest = std::max(done.farthest, way);
       ++moved;
@@ -180,7 +174,7 @@ SolidFit fit_solids(std::vector<std::optional<Polyhedron>>& solids, double fit) 
     done.corners += moved;
     ++done.solids;
     try {
-      solids[s].emplace(std::move(mesh), rounding * largest);
+      solids[s].emplace(std::move(mesh), limits.rounding * largest);
     } catch (const MeshError&) {
       refuse("a block is no solid any more", done.farthest, fit);
     }

@@ -98,11 +98,10 @@ BlockParts::BlockParts(const Polyhedron& solid, const PolynomialBasis& basis,
   if (definition.fixed) return;
   space = AdmissibleSpace(solid, basis, supports);
   mean_gradients = ashlar::mean_gradients(basis);
-  if (definition.order == 0) return;
   stiffness = elastic_stiffness(basis, definition.material);
   if (!space.can_turn() || definition.formulation == Formulation::incremental)
     reduced_stiffness = space.restrict(stiffness);
-  if (definition.material.elasticity == Elasticity::st_venant_kirchhoff)
+  if (definition.order > 0 && definition.material.elasticity == Elasticity::st_venant_kirchhoff)
     large = large_strains(solid, basis, definition.material);
 }
 

@@ -26,7 +26,7 @@ struct BlockParts {
 
   AdmissibleSpace space;
   Eigen::MatrixX3d mean_gradients;
-  Eigen::MatrixXd stiffness;                       ///< K, (3p, 3p); empty for fixed and rigid blocks
+  Eigen::MatrixXd stiffness;  ///< K, (3p, 3p), of rigid blocks what order 1 has; empty for fixed blocks
   Eigen::MatrixXd reduced_stiffness;               ///< Z' K Z of a block that cannot turn
   std::shared_ptr<const StVenantKirchhoff> large;  ///< null for linear elasticity
 };

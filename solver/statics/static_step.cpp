@@ -34,7 +34,11 @@ double least_inertia(const BlockSystem& system) {
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
     const BlockModel& block = system.blocks()[k];
     if (!system.moving()[k] || block.unknowns() == 0) continue;
-    const double stiffness = block.tangent(Eigen::Matrix3d::Identity()).diagonal().maxCoeff();
+    // What touches a rigid block is as stiff as its material.
+    const double stiffness =
+        (block.rigid() ? block.parts()->stiffness : block.tangent(Eigen::Matrix3d::Identity()))
+            .diagonal()
+            .maxCoeff();
     most = std::max(most, stiffness / block.material().density);
   }
   const std::vector<bool> held = system.held_without_contacts();

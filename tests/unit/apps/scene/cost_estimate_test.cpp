@@ -42,6 +42,7 @@ TEST(CostEstimate, CountsWhatIsDivided) {
   // Blocks of order 1 stay flat.
   EXPECT_EQ(estimate_cost(scene_of(head + sphere(1, 5))).sub_faces, 20480.0);
   EXPECT_EQ(estimate_cost(scene_of(sample())).unknowns, 24.0);
+  EXPECT_EQ(estimate_cost(scene_of(head + sphere(0, 5))).unknowns, 6.0);
 }
 
 TEST_F(RunCommand, AScene270BytesLongIsRefusedForItsSize) {

@@ -9,6 +9,7 @@ namespace ashlar::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
@@ -22,6 +23,16 @@ std::vector<std::string> all_faults(const std::string& text, const std::vector<s
 
 TEST(SceneChecks, SampleIsGood) {
   EXPECT_THAT(all_faults(sample()), IsEmpty());
+}
+
+TEST(SceneChecks, BlocksOfOrderZeroHaveNoSupportsAndNeedAnIntegratorThatMovesThem) {
+  EXPECT_THAT(all_faults(sample(), {"block.A.order=0"}), IsEmpty());
+  EXPECT_THAT(all_faults(sample(), {"block.B.order=0"}),
+              ElementsAre(HasSubstr("a block of order 0 has no supports (\"B\")")));
+  EXPECT_THAT(all_faults(sample(), {"block.A.order=0", "analysis.integrator=generalized-alpha"}),
+              ElementsAre(HasSubstr("generalized-alpha does not move blocks of order 0 (\"A\")")));
+  EXPECT_THAT(all_faults(sample(), {"block.A.order=0", "analysis.formulation=incremental"}),
+              ElementsAre(HasSubstr("a block of order 0 has no incremental formulation (\"A\")")));
 }
 
 class SceneCheckFault : public ::testing::TestWithParam<FaultCase> {};

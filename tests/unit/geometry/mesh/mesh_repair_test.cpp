@@ -63,7 +63,7 @@ TEST(ClosedComponents, TellStonesApartThatTouch) {
   TriangleMesh all;
   for (const TriangleMesh& box : boxes) append(all, box);
   EXPECT_EQ(weld_corners(all, 1e-9).corners, 6U);
-  const auto parts = closed_components(all);
+  const auto parts = closed_components(all, 1e-9);
   ASSERT_THAT(parts, SizeIs(4));
   for (std::size_t k = 0; k < 4; ++k) {
     const Polyhedron solid(parts[k]);
@@ -80,7 +80,7 @@ TEST(ClosedComponents, TellAWallApart) {
       for (int i = 0; i < 4; ++i) append(all, make_box(Vector3(i, j, k), Vector3(i + 1, j + 1, k + 1)));
   (void)weld_corners(all, 1e-9);
   EXPECT_THAT(all.points, SizeIs(5 * 4 * 5));
-  const auto parts = closed_components(all);
+  const auto parts = closed_components(all, 1e-9);
   ASSERT_THAT(parts, SizeIs(48));
   for (const TriangleMesh& part : parts) EXPECT_EQ(Polyhedron(part).volume(), 1.0);
 }

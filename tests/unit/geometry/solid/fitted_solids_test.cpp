@@ -10,6 +10,10 @@
 namespace ashlar {
 namespace {
 
+FitLimits within(double fit) {
+  return {fit, 10.0 * fit, 0.5, 1e-3, 0x1p-46};
+}
+
 using ::testing::SizeIs;
 
 // A wall of 4 x 1 x 3 boxes of 1 x 0.5 x 0.5 m in running bond, as a survey gives them: each corner by itself,
@@ -35,7 +39,7 @@ TEST(FitSolids, PutsNeighboursOnCommonPlanes) {
   std::size_t bent = 0;
   for (const auto& solid : solids) bent += solid->faces().size() > 6 ? 1 : 0;
   EXPECT_EQ(bent, 12U) << "corners that were measured one by one lie in no plane";
-  const SolidFit fit = fit_solids(solids, 5e-4);
+  const SolidFit fit = fit_solids(solids, within(5e-4));
   EXPECT_EQ(fit.solids, 12U);
   EXPECT_EQ(fit.corners, 96U);
   // A corner is wrong by up to 1e-4 in each coordinate, and so are the planes.
@@ -67,7 +71,7 @@ TEST(FitSolids, LeavesWhatFitsToTheBit) {
   solids.emplace_back(std::nullopt);
   solids.emplace_back(make_box({5, 0, 0}, {6, 1, 1}));
   const auto before = solids;
-  const SolidFit fit = fit_solids(solids, 1e-3);
+  const SolidFit fit = fit_solids(solids, within(1e-3));
   EXPECT_EQ(fit.corners + fit.solids, 0U);
   EXPECT_EQ(fit.planes, 1U);
   for (const std::size_t k : {0U, 1U, 3U}) EXPECT_EQ(solids[k]->mesh().points, before[k]->mesh().points);
@@ -77,8 +81,8 @@ TEST(FitSolids, LeavesWhatIsApart) {
   std::vector<std::optional<Polyhedron>> solids;
   solids.emplace_back(make_box({0, 0, 0}, {1, 1, 1}));
   solids.emplace_back(make_box({0, 0, 1.01}, {1, 1, 2}));
-  EXPECT_EQ(fit_solids(solids, 1e-3).planes, 0U);
-  EXPECT_EQ(fit_solids(solids, 6e-3).planes, 1U);
+  EXPECT_EQ(fit_solids(solids, within(1e-3)).planes, 0U);
+  EXPECT_EQ(fit_solids(solids, within(6e-3)).planes, 1U);
   // Both go half way.
   EXPECT_NEAR(solids[0]->volume(), 1.005, 1e-12);
   EXPECT_NEAR(solids[1]->volume(), 0.995, 1e-12);
@@ -89,7 +93,7 @@ TEST(FitSolids, RefusesWhatLeavesNoSolid) {
   solids.emplace_back(make_box({0, 0, 0}, {1, 1, 1}));
   solids.emplace_back(make_box({0, 0, 1}, {1, 1, 1.001}));
   solids.emplace_back(make_box({0, 0, 1.001}, {1, 1, 2}));
-  EXPECT_THROW(fit_solids(solids, 0.1), std::invalid_argument);
+  EXPECT_THROW(fit_solids(solids, within(0.1)), std::invalid_argument);
 }
 
 }  // namespace
