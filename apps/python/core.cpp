@@ -202,7 +202,7 @@ class CoreSimulation {
                                   RunStatus::moving, RunStatus::not_converged})
       if (to_string(known) == status_) status = known;
     const auto summary =
-        run_summary(scene, built_, status, "", {}, results.frames(), results.largest(simulation()));
+        run_summary(scene, built_, {status, "", {}, results.frames(), results.largest(simulation())});
     write_file_atomically(folder / "summary.json", json_text(summary, 2) + "\n", Durability::process);
   }
 

@@ -142,9 +142,9 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
-nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built, RunStatus status,
-                                   const std::string& message, const RunSeconds& seconds, int frames,
-                                   const LargestValues& largest) {
+nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
+                                   const RunOutcome& outcome) {
+  const auto& [status, message, seconds, frames, largest] = outcome;
   const Simulation& simulation = built.simulation;
   nlohmann::ordered_json summary;
   summary["status"] = to_string(status);

@@ -36,11 +36,18 @@ struct DisplacedBlock {
 /// out: what they rest in is not what was built.
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
-/// @param scene of the whole run. @param message what has to be told of how a run ended; empty: nothing
+/// What only the run itself knows of its end.
+struct RunOutcome {
+  RunStatus status;
+  std::string message;  ///< what has to be told of how it ended; empty: nothing
+  RunSeconds seconds;
+  int frames;
+  LargestValues largest;
+};
+
+/// @param scene of the whole run
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
-                                                 RunStatus status, const std::string& message,
-                                                 const RunSeconds& seconds, int frames,
-                                                 const LargestValues& largest);
+                                                 const RunOutcome& outcome);
 
 /// Joints that have lost their strength since the start of the run.
 struct BrokenJoints {

@@ -117,10 +117,8 @@ class SchemaMaker {
   const KeyRecorder& recorder_;
 };
 
-}  // namespace
-
-const char* scene_with_every_table() {
-  return R"([analysis]
+/// Tables of blocks and what they are made of, as a scene has them first.
+constexpr const char* block_tables = R"([analysis]
 end_time = 1
 time_step = 1
 [contact]
@@ -156,7 +154,9 @@ hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }
 name = "D"
 material = "rock"
 sphere = { radius = 1 }
-[[masonry]]
+)";
+
+constexpr const char* masonry_tables = R"([[masonry]]
 name = "wall"
 kind = "wall"
 material = "rock"
@@ -185,7 +185,9 @@ radius = 1
 thickness = 1
 courses = 1
 voussoirs = 9
-[[assign]]
+)";
+
+constexpr const char* later_tables = R"([[assign]]
 blocks = ["arch.*"]
 [[cut]]
 name = "set"
@@ -225,6 +227,11 @@ name = "all"
 analysis = { end_time = 1 }
 [output]
 )";
+
+}  // namespace
+
+std::string scene_with_every_table() {
+  return std::string(block_tables) + masonry_tables + later_tables;
 }
 
 Json scene_schema() {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace ashlar {
 
 /// A scene with a table of each kind and with all that a table may be, each with the keys that have no default.
-[[nodiscard]] const char* scene_with_every_table();
+[[nodiscard]] std::string scene_with_every_table();
 
 /// JSON schema (draft 2020-12). It knows keys, types, ranges, words and what is required wherever the table stands;
 /// what needs more than one key is left to `ashlar check`. Any number may be the text of a formula, "= 2*h".

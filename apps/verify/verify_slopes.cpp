@@ -14,11 +14,18 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 const Material stiff_rock{2700.0, 1e10, 0.2};
 
-/// A block of a length along the slope and a height on an incline, its lower edge at the origin.
-/// @param stiffness factor of those of rock and springs
-Simulation on_incline(double incline, double length, double height, double friction_angle,
-                      const SimulationSettings& settings, const Placement& placement,
-                      double stiffness = 1.0) {
+/// A block on an incline, its lower edge at the origin. Degrees and m.
+struct BlockOnIncline {
+  double incline;
+  double length;  ///< along the slope
+  double height;
+  double friction_angle;
+  double stiffness = 1.0;  ///< factor of those of rock and springs
+};
+
+Simulation on_incline(const BlockOnIncline& block, const SimulationSettings& settings,
+                      const Placement& placement) {
+  const auto& [incline, length, height, friction_angle, stiffness] = block;
   ContactScene scene(placement);
   scene.settings = settings;
   *scene.law = {2e10 * stiffness,     1e10 * stiffness, tangent_of(friction_angle), 0.0, 0.0,
@@ -37,7 +44,7 @@ Simulation on_incline(double incline, double length, double height, double frict
 std::vector<VerificationCheck> incline_stick(const Placement& placement) {
   SimulationSettings settings;
   settings.time_step = 0.01;
-  Simulation simulation = on_incline(30, 1, 0.5, 31, settings, placement);
+  Simulation simulation = on_incline({30, 1, 0.5, 31}, settings, placement);
   // The elastic offset first: at rest where springs and block carry the weight.
   const bool found = find_equilibrium(simulation, 0.0) == StaticStatus::equilibrium;
   const Vector3 start = centroid(simulation, 1);
@@ -61,7 +68,7 @@ std::vector<VerificationCheck> incline_slide(const Placement& placement) {
        {Slide{30, 20, 0.9064074}, Slide{30, 0, 2.4525}, Slide{45, 30, 1.4659009}}) {
     SimulationSettings settings;
     settings.time_step = 2e-3;
-    Simulation simulation = on_incline(incline, 1, 0.5, phi, settings, placement);
+    Simulation simulation = on_incline({incline, 1, 0.5, phi}, settings, placement);
     const Vector3 start = centroid(simulation, 1);
     run_until(simulation, 1.0);
     const Vector3 down = placement.direction(slope(incline) * Vector3::UnitX());
@@ -83,17 +90,17 @@ std::vector<VerificationCheck> slide_or_topple(const Placement& placement) {
   settings.gravity = {0, 0, -10};
   settings.area_springs = false;  // springs at the corners: the edge it turns about is that of the block
   std::vector<VerificationCheck> checks;
-  Simulation stable = on_incline(40, 10, 10, 40.1, settings, placement);
+  Simulation stable = on_incline({40, 10, 10, 40.1}, settings, placement);
   checks.push_back(check_status("10 x 10, phi 40.1 stands", stable, StaticStatus::equilibrium));
-  Simulation sliding = on_incline(40, 10, 5, 20, settings, placement);
+  Simulation sliding = on_incline({40, 10, 5, 20}, settings, placement);
   checks.push_back(check_status("10 x 5, phi 20 moves", sliding, StaticStatus::moving));
   const auto slides = sliding.moving_blocks();
   const double expected = 10.0 * (std::sin(40 * degree) - std::cos(40 * degree) * tangent_of(20));
   checks.push_back(check_relative("it slides, m/s^2", slides.empty() ? 0.0 : slides[0].acceleration.norm(),
                                   expected, 0.02));
-  Simulation toppling = on_incline(40, 10, 25, 30, settings, placement);
+  Simulation toppling = on_incline({40, 10, 25, 30}, settings, placement);
   checks.push_back(check_status("10 x 25, phi 30 moves", toppling, StaticStatus::moving));
-  Simulation start = on_incline(40, 10, 25, 30, settings, placement, 1e3);
+  Simulation start = on_incline({40, 10, 25, 30, 1e3}, settings, placement);
   constexpr double time = 0.4;
   run_until(start, time);
   const Eigen::Matrix3d gradient =

@@ -129,15 +129,16 @@ class ClosestPointFinder::Surface {
         x, [&] { return best * best; },
         [&](int k) {
           const auto& [a, b, c] = corners_[k];
-          add_candidate(k, a - x, b - x, c - x, error, best, candidates);
+          add_candidate(k, {a - x, b - x, c - x}, error, best, candidates);
         });
     std::erase_if(candidates, [&](const Candidate& c) { return c.lower > best; });
     return candidates;
   }
   // The square root of the lower bound is taken only where its square does not show that the triangle is too
   // far away.
-  void add_candidate(int k, const Vector3& a, const Vector3& b, const Vector3& c, double error, double& best,
+  void add_candidate(int k, const std::array<Vector3, 3>& corners, double error, double& best,
                      std::vector<Candidate>& candidates) const {
+    const auto& [a, b, c] = corners;
     constexpr double rounding = 1.0 - 0x1p-49, smallest = std::numeric_limits<double>::min();
     const auto [part, p] = guess_nearest(a, b, c);
     const double squared = p.squaredNorm(), limit = best + error;

@@ -60,9 +60,10 @@ class RegionPoints {
 
 }  // namespace
 
-ContactRegion region_along(const ContactDirection& w, PlaneSetting setting, const ConvexShape& shape_a,
-                           const PlaneSet& a, const ConvexShape& shape_b, const PlaneSet& b,
-                           const ContactHeight* height, PredicateLadder& ladder) {
+ContactRegion region_along(const ContactDirection& w, PlaneSetting setting, const ShapePlane& of_a,
+                           const ShapePlane& of_b, const ContactHeight* height, PredicateLadder& ladder) {
+  const auto& [shape_a, a] = of_a;
+  const auto& [shape_b, b] = of_b;
   const std::vector<OverlapVertex> vertices = overlap(w, setting, a, b, ladder);
   ContactRegion region;
   if (vertices.empty()) return region;

@@ -39,13 +39,18 @@ struct ContactRegion {
   std::vector<RegionVertex> points;
 };
 
+/// A plane set over corners of a shape.
+struct ShapePlane {
+  const ConvexShape& shape;
+  PlaneSet set;
+};
+
 /// The region along a direction: the common part of two plane sets seen along w.
-/// @param a,b plane sets over corners of the shapes; @param height the difference p - q of a corner of A and
+/// @param height the difference p - q of a corner of A and
 /// one of B that bound their shapes along w; @param touching that difference is zero along w.
 /// @return a region without points (dimension -1) if the sets have nothing in common.
 [[nodiscard]] ContactRegion region_along(const ContactDirection& w, PlaneSetting setting,
-                                         const ConvexShape& shape_a, const PlaneSet& a,
-                                         const ConvexShape& shape_b, const PlaneSet& b,
+                                         const ShapePlane& of_a, const ShapePlane& of_b,
                                          const ContactHeight* height, PredicateLadder& ladder);
 
 /// A region of one point.

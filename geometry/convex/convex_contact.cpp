@@ -55,8 +55,8 @@ class ContactReport {
       const double length = height.length();
       result.gap = exact.relation == Relation::crossing ? -length : length;
       const std::vector<int> loop_a = resolved_loop(a_, taken_.a), loop_b = resolved_loop(b_, taken_.b);
-      result.region = region_along(taken_.w, PlaneSetting::tilted, a_, {a_.corners().data(), loop_a}, b_,
-                                   {b_.corners().data(), loop_b}, &height, ladder_);
+      result.region = region_along(taken_.w, PlaneSetting::tilted, {a_, {a_.corners().data(), loop_a}},
+                                   {b_, {b_.corners().data(), loop_b}}, &height, ladder_);
     }
     result.decided_by = ladder_.counts;
     return result;
@@ -78,8 +78,8 @@ class ContactReport {
   [[nodiscard]] ContactRegion region_of(const Support& s, PlaneSetting setting, const ContactHeight* height) {
     const std::vector<int> loop_a = support_loop(a_, s.a, s.w, true, ladder_);
     const std::vector<int> loop_b = support_loop(b_, s.b, s.w, false, ladder_);
-    return region_along(s.w, setting, a_, {a_.corners().data(), loop_a}, b_, {b_.corners().data(), loop_b},
-                        height, ladder_);
+    return region_along(s.w, setting, {a_, {a_.corners().data(), loop_a}},
+                        {b_, {b_.corners().data(), loop_b}}, height, ladder_);
   }
 
   // Corners of P_tau or Q_tau that are corners of its projection, counter-clockwise along w.

@@ -1,6 +1,7 @@
 #include "geometry/convex/overlap_polygon.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace ashlar {
 
@@ -106,8 +107,9 @@ int enters(const PlaneLocation& location, int side, const SideSigns& other_side,
 // Which of the two overlap vertices on one side of a polygon comes first along it. `own` and `other` pick the
 // location in the polygon itself and in the other one.
 template <class Own, class Other>
-bool comes_first(const OverlapVertex& x, const OverlapVertex& y, int side, const SideSigns& other_side,
+bool comes_first(const std::array<const OverlapVertex*, 2>& vertices, int side, const SideSigns& other_side,
                  int other_size, Own own, Other other) {
+  const OverlapVertex &x = *vertices[0], &y = *vertices[1];
   for (const bool x_is_end : {true, false}) {
     const OverlapVertex& end = x_is_end ? x : y;
     if (own(end).dimension == 0) return (own(end).index == side) == x_is_end;
@@ -131,7 +133,7 @@ std::vector<OverlapVertex> ordered(const std::vector<OverlapVertex>& vertices, c
       if (on_side(own(vertices[v]), side, own_set.size())) (first < 0 ? first : second) = v;
     if (second < 0) return;
     const bool keep =
-        comes_first(vertices[first], vertices[second], side, other_side, other_set.size(), own, other);
+        comes_first({&vertices[first], &vertices[second]}, side, other_side, other_set.size(), own, other);
     next[keep ? first : second] = keep ? second : first;
   };
   for (int s = 0; s < a.size(); ++s) join(s, a, b, sides_of_b, of_a, of_b);

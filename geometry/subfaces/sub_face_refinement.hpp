@@ -9,12 +9,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <set>
 #include <span>
 #include <vector>
 
 #include "geometry/subfaces/bernstein_triangle.hpp"
+#include "geometry/subfaces/sub_face_forest.hpp"
 #include "geometry/subfaces/sub_face_surface.hpp"
 
 namespace ashlar {
@@ -34,10 +34,9 @@ struct CellShape {
 /// Changes with every update.
 class AdaptiveSurface {
  public:
-  /// More cells than this, or more bisections of one triangle, are not made; chord_bound() then tells what
-  /// was reached.
+  /// More cells than this, or more bisections of one triangle than SubFaceForest::max_bisections, are not made;
+  /// chord_bound() then tells what was reached.
   static constexpr int max_cells = 1 << 15;
-  static constexpr int max_bisections = 24;
 
   /// @param solid must outlive this. @param order of the block's motion, 1 to BernsteinForm::max_order
   /// @param levels uniform levels (0 to 8) the adaptive division starts from
@@ -83,52 +82,26 @@ class AdaptiveSurface {
   void set_wanted(const std::vector<std::uint64_t>& wanted) { remembered_ = {wanted.begin(), wanted.end()}; }
 
  private:
-  struct Node {
-    int face;
-    std::array<int, 3> corners;   ///< points; numbered as in the node's patch
-    std::array<int, 3> rim;       ///< by side
-    std::uint64_t path;           ///< name: the root and the halves taken from there
-    std::array<int, 2> children;  ///< -1: a leaf
-    int longest;                  ///< the side it is cut at
-    int bisections;               ///< from the root
-    bool wanted;                  ///< cut for its own sake, not for a neighbour's
-  };
-
-  [[nodiscard]] Node make_node(int face, const std::array<int, 3>& corners, const std::array<int, 3>& rim,
-                               std::uint64_t path, int bisections) const;
-  [[nodiscard]] bool needs_division(const Node& node, const BernsteinTriangle& patch, double tolerance,
-                                    const DivisionDemand& demand) const;
+  [[nodiscard]] bool needs_division(const SubFaceForest::Node& node, const BernsteinTriangle& patch,
+                                    double tolerance, const DivisionDemand& demand) const;
   [[nodiscard]] bool division_fits(const DivisionDemand& demand);
   void divide_anew(const DivisionDemand& demand);
   void divide_to(double tolerance, const DivisionDemand& demand);
-  void cut(int node);
-  void cut_with_neighbours(int node);
   [[nodiscard]] std::vector<BernsteinTriangle> root_patches(
       const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
   /// The chord bound of a node's patch.
-  [[nodiscard]] static double bound_of(const Node& node, const BernsteinTriangle& patch);
-  /// Patches of all nodes. @param of_roots theirs
-  [[nodiscard]] std::vector<BernsteinTriangle> placed_patches(
-      const std::vector<BernsteinTriangle>& of_roots) const;
-  [[nodiscard]] std::vector<int> list_leaves() const;
+  [[nodiscard]] static double bound_of(const SubFaceForest::Node& node, const BernsteinTriangle& patch);
   void take_leaves(std::vector<int> leaves);
 
   const Polyhedron* solid_;
   const BernsteinForm* form_;
   Eigen::Matrix3d axes_;
   std::vector<Vector3> domain_points_;
-  std::vector<Vector3> points_;  ///< those of the roots first
-  std::size_t root_points_ = 0;
-  std::map<std::array<int, 2>, int> midpoints_;  ///< by the ends of a side
-  std::vector<Node> nodes_;                      ///< roots first
-  std::vector<BernsteinTriangle> patches_;       ///< by node
   std::vector<BernsteinTriangle> root_patches_;
-  std::map<std::array<int, 2>, int> leaf_of_side_;  ///< directed side of a leaf, while dividing
-  int root_count_ = 0;
-  int leaf_count_ = 0;
   std::vector<int> leaves_;             ///< in the order of the cells
   std::set<std::uint64_t> remembered_;  ///< wanted nodes of the division before
   SubFaceSurface surface_;
+  SubFaceForest forest_;
   std::vector<CellShape> cell_shapes_;
   Box box_;
 };

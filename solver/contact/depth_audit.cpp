@@ -53,14 +53,21 @@ std::optional<std::array<double, 2>> clipped(const Box& box, const Vector3& star
 /// Asks for the points of one block in another one.
 class PairAudit {
  public:
+  /// The block that is asked where a place is in it.
+  struct Outer {
+    const AuditedBlock& block;
+    const SolidDepthFinder& finder;
+    const MaterialMap& map;
+  };
+
   /// @param clear from the audit before, written; empty: the outer block is convex
-  PairAudit(const AuditedBlock& with_points, const SubFaceSurface& surface, const AuditedBlock& outer,
-            const SolidDepthFinder& finder, const MaterialMap& map, double resolution, ClearParts& clear)
+  PairAudit(const AuditedBlock& with_points, const SubFaceSurface& surface, const Outer& outer,
+            double resolution, ClearParts& clear)
       : with_points_(with_points),
         surface_(surface),
-        outer_(outer),
-        finder_(finder),
-        map_(map),
+        outer_(outer.block),
+        finder_(outer.finder),
+        map_(outer.map),
         resolution_(resolution),
         clear_(clear),
         points_(with_points.points.size()),
@@ -217,10 +224,10 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
   parallel_for(scope.threads, pairs.size(), [&](std::size_t k) {
     const auto& [a, b] = pairs[k];
     const auto audit = [&](int inner, int outer) {
-      PairDepth depth =
-          PairAudit(audited_[at(inner)], surfaces[at(inner)].surface(), audited_[at(outer)],
-                    *finders_[at(outer)], *maps[at(outer)], scope.resolution, clear_.at({inner, outer}))
-              .run();
+      PairDepth depth = PairAudit(audited_[at(inner)], surfaces[at(inner)].surface(),
+                                  {audited_[at(outer)], *finders_[at(outer)], *maps[at(outer)]},
+                                  scope.resolution, clear_.at({inner, outer}))
+                            .run();
       depth.blocks = {inner, outer};
       return depth;
     };

@@ -68,67 +68,74 @@ void IslandProblem::respond() {
   });
 }
 
-Balance IslandProblem::balance() const {
-  Balance result{Eigen::VectorXd::Zero(solver_.matrix.matrix().size),
-                 std::vector<double>(island_.bodies.size(), 0.0),
-                 0.0,
-                 0.0,
-                 {}};
-  std::vector<double> scale(island_.bodies.size(), 0.0);
-  std::vector<double> contact_rounding(island_.bodies.size(), 0.0);
-  std::vector<double> in_doubt(island_.bodies.size(), 0.0);
-  const auto add = [&](int body, const Eigen::VectorXd& on_unknowns) {
-    const Eigen::VectorXd force = bodies_[at(island_.bodies[at(body)])].in_equations(on_unknowns);
-    result.left.segment(solver_.matrix.offset(body), force.size()) += force;
-    scale[at(body)] = std::max(scale[at(body)], force.norm());
-  };
-  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
-    const BodyStep& body = bodies_[at(island_.bodies[k])];
-    const int place = static_cast<int>(k);
-    const double density = body.model->material().density;
-    add(place, scheme_.force_weight * body.external_force);
-    add(place, -scheme_.force_weight * body.model->space().restrict(body.internal_force(scheme_)));
-    add(place, -density * scheme_.inertia * (body.change - body.free_change));
-  }
-  std::vector<std::array<double, 2>> errors(pairs());
+void IslandProblem::add_force(Balance& balance, int place, const Eigen::VectorXd& on_unknowns) const {
+  const Eigen::VectorXd force = bodies_[at(island_.bodies[at(place)])].in_equations(on_unknowns);
+  balance.left.segment(solver_.matrix.offset(place), force.size()) += force;
+  balance.scales[at(place)] = std::max(balance.scales[at(place)], force.norm());
+}
+
+void IslandProblem::add_contacts(Balance& balance, std::vector<ForceErrors>& errors) const {
+  std::vector<ForceErrors> of_pairs(pairs());
   parallel_for(threads(), pairs(), [&](std::size_t k) {
     const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
     const Eigen::VectorXd& yb = bodies_[at(pair(k).b())].change;
-    errors[k] = {pair(k).force_rounding(ya, yb, laws_[k]),
-                 pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k])};
+    of_pairs[k] = {pair(k).force_rounding(ya, yb, laws_[k]),
+                   pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k])};
   });
   for (std::size_t k = 0; k < pairs(); ++k) {
     const int a = place(pair(k).a());
     const int b = place(pair(k).b());
-    if (a >= 0) add(a, responses_[k].total_on_a());
-    if (b >= 0) add(b, responses_[k].total_on_b());
-    const auto& [rounding, doubt] = errors[k];
+    if (a >= 0) add_force(balance, a, responses_[k].total_on_a());
+    if (b >= 0) add_force(balance, b, responses_[k].total_on_b());
     for (const int body : {a, b}) {
       if (body < 0) continue;
-      contact_rounding[at(body)] += rounding;
-      in_doubt[at(body)] += doubt;
+      errors[at(body)].rounding += of_pairs[k].rounding;
+      errors[at(body)].in_doubt += of_pairs[k].in_doubt;
     }
   }
+}
+
+void IslandProblem::judge(Balance& balance, const std::vector<ForceErrors>& errors) const {
   const double tolerance =
       scheme_.from_rest ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
-    const double rounding = body.roundoff_force + contact_rounding[k] +
-                            std::min(in_doubt[k], settings_.iteration.doubt_share * scale[k]) +
+    const double scale = balance.scales[k];
+    const double rounding = body.roundoff_force + errors[k].rounding +
+                            std::min(errors[k].in_doubt, settings_.iteration.doubt_share * scale) +
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
-        result.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
-    body.largest_force = scale[k];
+        balance.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
+    body.largest_force = scale;
     if (left == 0.0) continue;
-    const double share = left / (tolerance * scale[k] + rounding);
+    const double share = left / (tolerance * scale + rounding);
     // Numbers that overflowed have settled nothing, and no comparison with them may say so.
-    const bool finite = std::isfinite(share) && std::isfinite(scale[k]);
-    result.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
-    result.worst = std::max(result.worst, result.shares[k]);
-    result.largest_part = std::max(result.largest_part, finite ? left / scale[k] : result.shares[k]);
+    const bool finite = std::isfinite(share) && std::isfinite(scale);
+    balance.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
+    balance.worst = std::max(balance.worst, balance.shares[k]);
+    balance.largest_part = std::max(balance.largest_part, finite ? left / scale : balance.shares[k]);
   }
-  result.scales = std::move(scale);
+}
+
+Balance IslandProblem::balance() const {
+  const std::size_t bodies = island_.bodies.size();
+  Balance result;
+  result.left = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  result.shares.assign(bodies, 0.0);
+  result.scales.assign(bodies, 0.0);
+  for (std::size_t k = 0; k < bodies; ++k) {
+    const BodyStep& body = bodies_[at(island_.bodies[k])];
+    const int place = static_cast<int>(k);
+    add_force(result, place, scheme_.force_weight * body.external_force);
+    add_force(result, place,
+              -scheme_.force_weight * body.model->space().restrict(body.internal_force(scheme_)));
+    add_force(result, place,
+              -body.model->material().density * scheme_.inertia * (body.change - body.free_change));
+  }
+  std::vector<ForceErrors> errors(bodies);
+  add_contacts(result, errors);
+  judge(result, errors);
   return result;
 }
 

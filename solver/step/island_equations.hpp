@@ -19,6 +19,12 @@ struct Balance {
   [[nodiscard]] bool settled() const { return worst <= 1.0; }
 };
 
+/// What is not known of the contact forces on a body, N.
+struct ForceErrors {
+  double rounding = 0.0;
+  double in_doubt = 0.0;  ///< forces of points that only rounding has closed
+};
+
 /// A guess with its responses.
 struct Evaluation {
   std::vector<Eigen::VectorXd> guess;    ///< by body
@@ -92,6 +98,12 @@ class IslandProblem {
   [[nodiscard]] int threads() const;
   [[nodiscard]] int place(int block) const;
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
+  /// Adds forces of pairs to a balance. @param errors by body: what rounding leaves of them, and what is in doubt, N
+  void add_contacts(Balance& balance, std::vector<ForceErrors>& errors) const;
+  /// Adds the force on a body's unknowns to a balance.
+  void add_force(Balance& balance, int place, const Eigen::VectorXd& on_unknowns) const;
+  /// What each body lacks, as a share of what it may lack.
+  void judge(Balance& balance, const std::vector<ForceErrors>& errors) const;
   /// After each change of the guess.
   void follow_rigid_bodies();
   void assemble(bool positive);

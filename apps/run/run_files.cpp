@@ -1,0 +1,65 @@
+#include "apps/run/run_files.hpp"
+
+#include <chrono>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/scene/scene_json.hpp"
+
+namespace ashlar {
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+RunFiles::RunFiles(const LoadedScene& loaded, const FolderClaim& claim, const Simulation& simulation,
+                   const RunCheckpoint* earlier, double start)
+    : claim_(claim),
+      start_(start),
+      hash_(scene_hash(loaded)),
+      reserve_(claim.folder()),
+      tables_(earlier != nullptr ? ResultFolder(claim.folder(), loaded.scene, simulation, earlier->folder)
+                                 : ResultFolder(claim.folder(), loaded.scene, simulation)),
+      scene_bytes_(json_text(to_json(loaded.scene), 2).size()) {
+  if (earlier != nullptr) earlier_seconds_ = earlier->seconds;
+}
+
+void RunFiles::add_step(const Simulation& simulation) {
+  claim_.check();
+  tables_.add_step(simulation);
+}
+
+void RunFiles::write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
+  claim_.check();
+  state_bytes_ = write_checkpoint(tables_.path() / checkpoint_name, hash_,
+                                  {state, stages, tables_.synced_state(), seconds()});
+}
+
+void RunFiles::save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
+  write_state(state, stages);
+  // The next state, which may have more contacts, and the summary fit in beside the state that is there.
+  constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
+  reserve_.hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
+}
+
+void RunFiles::save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
+  reserve_.release();
+  write_state(state, stages);
+}
+
+void RunFiles::write_summary(const nlohmann::ordered_json& summary) const {
+  claim_.check();
+  write_file_atomically(tables_.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
+}
+
+void RunFiles::write_summary_in_reserve(const nlohmann::ordered_json& summary) {
+  reserve_.release();
+  write_summary(summary);
+}
+
+RunSeconds RunFiles::seconds() const {
+  return {earlier_seconds_.total + seconds_now() - start_, earlier_seconds_.setup + seconds_.setup,
+          earlier_seconds_.output + seconds_.output};
+}
+
+}  // namespace ashlar

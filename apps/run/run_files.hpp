@@ -1,0 +1,65 @@
+// What a run keeps in its result folder: tables and frames, checkpoints, the summary, and room for the last of them.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "apps/results/result_folder.hpp"
+#include "apps/run/folder_claim.hpp"
+#include "apps/run/run_checkpoint.hpp"
+#include "apps/run/run_summary.hpp"
+#include "apps/run/space_reserve.hpp"
+#include "apps/scene/scene_loading.hpp"
+
+namespace ashlar {
+
+constexpr const char* checkpoint_name = "checkpoint";
+
+/// Wall time, s, from any moment on.
+[[nodiscard]] double seconds_now();
+
+/// Everything throws std::runtime_error with path and reason where the folder is not there any more or cannot be
+/// written.
+class RunFiles {
+ public:
+  /// @param loaded the whole scene; outlives this, as does the claim
+  /// @param simulation at the start of the run, or as the checkpoint has it
+  /// @param earlier null: the run is a new one. @param start seconds_now() when the program began
+  RunFiles(const LoadedScene& loaded, const FolderClaim& claim, const Simulation& simulation,
+           const RunCheckpoint* earlier, double start);
+
+  /// All is ready for the first step: what went before is the time of setting up.
+  void note_setup() { seconds_.setup = seconds_now() - start_; }
+
+  void add_step(const Simulation& simulation);
+  [[nodiscard]] ResultFolder& tables() { return tables_; }
+  [[nodiscard]] const ResultFolder& tables() const { return tables_; }
+
+  /// Writes a checkpoint and keeps room for the next one and a summary.
+  void save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages);
+  /// The same in the room that was kept, for a disk that is full.
+  void save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages);
+  void write_summary(const nlohmann::ordered_json& summary) const;
+  /// The same in the room that was kept.
+  void write_summary_in_reserve(const nlohmann::ordered_json& summary);
+
+  /// Of all sessions of the run so far.
+  [[nodiscard]] RunSeconds seconds() const;
+  void add_output_seconds(double seconds) { seconds_.output += seconds; }
+
+ private:
+  void write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages);
+
+  const FolderClaim& claim_;
+  double start_;
+  std::uint64_t hash_;
+  SpaceReserve reserve_;
+  ResultFolder tables_;
+  std::uintmax_t scene_bytes_;      ///< in the summary
+  std::uintmax_t state_bytes_ = 0;  ///< of the last checkpoint
+  RunSeconds earlier_seconds_;
+  RunSeconds seconds_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,250 @@
+#include "apps/run/scene_run.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "apps/run/factor_analysis.hpp"
+#include "apps/run/interrupt_guard.hpp"
+#include "apps/scene/scene_stages.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Whether a stage has come to its end.
+bool is_done(RunStatus status) {
+  return status == RunStatus::completed || status == RunStatus::equilibrium;
+}
+
+ProgressState progress_of(const Simulation& simulation) {
+  const StepReport& report = simulation.report();
+  return {simulation.steps(), simulation.time(), report.step, report.locked + report.sliding,
+          report.iterations};
+}
+
+}  // namespace
+
+BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads) {
+  Diagnostics diagnostics;
+  std::optional<BuiltSimulation> built = build_simulation(stage, threads, diagnostics);
+  if (built) return std::move(*built);
+  const std::vector<Diagnostic> faults = diagnostics.sorted();
+  throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
+}
+
+SceneRun::SceneRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
+                   const FolderClaim& claim, const RunCheckpoint* earlier,
+                   std::optional<FactorBracket> bracket, double start)
+    : loaded_(loaded),
+      manner_(manner),
+      stages_(earlier != nullptr ? earlier->stages : std::vector<FinishedStage>()),
+      scene_(scene_of_stage(loaded.scene, stages_.size())),
+      bracket_(std::move(bracket)),
+      built_(std::move(built)),
+      files_(loaded, claim, built_.simulation, earlier, start) {}
+
+RunEnd SceneRun::go(std::ostream& err) {
+  files_.note_setup();
+  RunStatus status = RunStatus::failed;
+  try {
+    save();
+    status = go_through_stage(err);
+    while (is_done(status) && stages_.size() + 1 < stage_count(loaded_.scene)) {
+      if (!manner_.quiet) err << end_of_stage(status) << '\n';
+      begin_next_stage(status);
+      save();
+      status = go_through_stage(err);
+    }
+  } catch (const std::exception& error) {
+    status = saved_after(error);
+  }
+  status = summarised(status);
+  return {status, message_, unsaved_};
+}
+
+RunStatus SceneRun::go_through_stage(std::ostream& err) {
+  ProgressLine progress(scene_.analysis.end_time, manner_.quiet, err);
+  RunStatus status = is_static(scene_.analysis) ? find_equilibrium(progress) : take_steps(progress);
+  // Before the last frame, which a run that goes on has only if it is due.
+  save();
+  if (status == RunStatus::completed) status = audited();
+  if (bracket_) status = answered(status);
+  files_.tables().add_end(built_.simulation);
+  return status;
+}
+
+std::string SceneRun::end_of_stage(RunStatus status) const {
+  return fmt::format("stage {}: {} after {} steps{}{}", loaded_.scene.stage[stages_.size()].name,
+                     to_string(status), built_.simulation.steps(), message_.empty() ? "" : ": ", message_);
+}
+
+FinishedStage SceneRun::finished(RunStatus status) const {
+  return {to_string(status), message_, built_.simulation.steps(), built_.simulation.time()};
+}
+
+/// @throws std::runtime_error if its blocks cannot be built, which those of the whole scene could
+void SceneRun::begin_next_stage(RunStatus status) {
+  const SimulationSnapshot end = built_.simulation.snapshot();
+  const std::vector<bool> was_absent = built_.simulation.system().absent();
+  stages_.push_back(finished(status));
+  message_.clear();
+  const LoadedScene next = stage_of(loaded_, stages_.size());
+  built_ = built_or_thrown(next, manner_.threads);
+  built_.simulation.start_stage(end, was_absent);
+  scene_ = next.scene;
+  double elapsed = 0.0;
+  for (const FinishedStage& stage : stages_) elapsed += stage.time;
+  files_.tables().begin_stage(built_.simulation, elapsed,
+                              loaded_.scene.stage[stages_.size()].reset_displacement);
+}
+
+RunStatus SceneRun::take_steps(ProgressLine& progress) {
+  Simulation& simulation = built_.simulation;
+  const double end_time = scene_.analysis.end_time;
+  CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
+  while (!simulation.reached(end_time)) {
+    if (InterruptGuard::interrupted()) return interrupted_here();
+    StepStatus status = StepStatus::accepted;
+    try {
+      status = simulation.step(end_time);
+    } catch (const std::exception& error) {
+      return failed_in_step(error);
+    }
+    if (status != StepStatus::accepted) {
+      const Rejection& last = simulation.rejections().back();
+      message_ =
+          fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
+                      simulation.steps() + 1, simulation.time(), last.step, reason_of(last, simulation));
+      return RunStatus::failed;
+    }
+    record_step(schedule, progress);
+  }
+  return RunStatus::completed;
+}
+
+/// Whether blocks are where they may be at the end. After the run is saved: one that goes on has no end here.
+RunStatus SceneRun::audited() {
+  Simulation& simulation = built_.simulation;
+  const auto deep = simulation.audit();
+  if (!deep) return RunStatus::completed;
+  message_ = fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
+                         simulation.time(), description_of(*deep, simulation));
+  return RunStatus::failed;
+}
+
+/// Of a search for a factor: what was found, once its motion has been shown.
+RunStatus SceneRun::answered(RunStatus status) {
+  if (status == RunStatus::interrupted) return status;
+  const std::string motion = status == RunStatus::moving ? "; " + message_ : "";
+  message_ = describe(*bracket_, scene_.analysis) + motion;
+  return bracket_->resolved ? RunStatus::completed : RunStatus::not_converged;
+}
+
+RunStatus SceneRun::find_equilibrium(ProgressLine& progress) {
+  Simulation& simulation = built_.simulation;
+  CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
+  while (!InterruptGuard::interrupted()) {
+    const int before = simulation.steps();
+    StaticStatus status = StaticStatus::balancing;
+    try {
+      status = bracket_ ? trial_step(simulation, scene_.analysis.end_time)
+                        : simulation.static_step(scene_.analysis.end_time);
+    } catch (const std::exception& error) {
+      return failed_in_step(error);
+    }
+    if (simulation.steps() > before) record_step(schedule, progress);
+    switch (status) {
+      case StaticStatus::balancing:
+        continue;
+      case StaticStatus::equilibrium:
+        message_ = describe_displaced(simulation);
+        return RunStatus::equilibrium;
+      case StaticStatus::moving:
+        message_ = describe_motion(simulation);
+        return RunStatus::moving;
+      case StaticStatus::not_converged:
+        message_ = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
+                               simulation.steps(), simulation.time());
+        return RunStatus::not_converged;
+    }
+  }
+  return interrupted_here();
+}
+
+/// What no check of the scene foresaw: the state is that before the step.
+RunStatus SceneRun::failed_in_step(const std::exception& error) {
+  message_ = fmt::format("step {} at t = {:.9g} s cannot be taken: {}", built_.simulation.steps() + 1,
+                         built_.simulation.time(), error.what());
+  return RunStatus::failed;
+}
+
+RunStatus SceneRun::interrupted_here() {
+  message_ = fmt::format("interrupted after step {}", built_.simulation.steps());
+  if (!is_static(scene_.analysis))
+    message_ +=
+        fmt::format(" at t = {:.9g} s of {:.9g} s", built_.simulation.time(), scene_.analysis.end_time);
+  return RunStatus::interrupted;
+}
+
+void SceneRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress) {
+  const double before = seconds_now();
+  files_.add_step(built_.simulation);
+  progress.update(progress_of(built_.simulation));
+  if (schedule.due(before)) {
+    save();
+    schedule.saved(seconds_now());
+  }
+  files_.add_output_seconds(seconds_now() - before);
+}
+
+/// After results could not be written, e.g. on a full disk.
+RunStatus SceneRun::saved_after(const std::exception& error) {
+  message_ = fmt::format("results of step {} at t = {:.9g} s could not be written: {}",
+                         built_.simulation.steps(), built_.simulation.time(), error.what());
+  try {
+    files_.save_in_reserve(built_.simulation.snapshot(), stages_);
+  } catch (const std::exception& fault) {
+    unsaved_ = fault.what();
+  }
+  return RunStatus::failed;
+}
+
+RunStatus SceneRun::summarised(RunStatus status) {
+  try {
+    files_.write_summary(summary_of(status));
+  } catch (const std::exception& error) {
+    status = RunStatus::failed;
+    if (message_.empty()) message_ = fmt::format("the summary could not be written: {}", error.what());
+    try {
+      files_.write_summary_in_reserve(summary_of(status));
+    } catch (const std::exception& fault) {
+      if (unsaved_.empty()) unsaved_ = fault.what();
+    }
+  }
+  return status;
+}
+
+nlohmann::ordered_json SceneRun::summary_of(RunStatus status) const {
+  auto summary = run_summary(loaded_.scene, built_,
+                             {status, message_, files_.seconds(), files_.tables().frames(), largest()});
+  if (!loaded_.scene.stage.empty()) summary["stages"] = stages_summary(status);
+  if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
+  return summary;
+}
+
+/// Stages that have begun.
+nlohmann::ordered_json SceneRun::stages_summary(RunStatus status) const {
+  std::vector<FinishedStage> begun = stages_;
+  begun.push_back(finished(status));
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < begun.size(); ++k) {
+    nlohmann::ordered_json stage = {{"name", loaded_.scene.stage[k].name}, {"status", begun[k].status}};
+    if (!begun[k].message.empty()) stage["message"] = begun[k].message;
+    stage["steps"] = begun[k].steps;
+    stage["time"] = begun[k].time;
+    list.push_back(std::move(stage));
+  }
+  return list;
+}
+
+}  // namespace ashlar
