@@ -8,11 +8,11 @@
 
 #include "apps/command_line.hpp"
 #include "apps/run/factor_analysis.hpp"
+#include "apps/run/folder_run.hpp"
 #include "apps/run/initial_state.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/loose_blocks.hpp"
 #include "apps/run/run_messages.hpp"
-#include "apps/run/scene_run.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/scene_stages.hpp"
 #include "apps/view/view_file.hpp"
@@ -181,7 +181,7 @@ bool find_factor_first(PreparedRun& run, const RunOptions& options, const Folder
   return true;
 }
 
-void tell_results(const SceneRun& run, const RunEnd& end, const std::filesystem::path& folder, bool quiet,
+void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem::path& folder, bool quiet,
                   std::ostream& err) {
   tell_end(end, folder, quiet, err);
   if (!quiet) tell_answers(run.simulation(), run.largest(), err);
@@ -209,7 +209,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   if (resumes && !go_on_from_checkpoint(prepared, folder, threads, err)) return exit_status::bad_input;
   if (!options.quiet) tell_beginning(prepared, err);
   if (const auto status = start_statically(prepared, err)) return *status;
-  std::optional<SceneRun> run;
+  std::optional<FolderRun> run;
   try {
     std::optional<FactorBracket> bracket;
     if (seeks_factor(prepared.loaded->scene.analysis) &&

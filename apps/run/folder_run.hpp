@@ -1,4 +1,4 @@
-// A run of a scene from its first step, or from a checkpoint, to its end: one stage after the other.
+// A run into a result folder, from its first step, or from a checkpoint, to its end: one stage after the other.
 #pragma once
 
 #include <iosfwd>
@@ -24,7 +24,7 @@ struct RunManner {
 /// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
 [[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads);
 
-class SceneRun {
+class FolderRun {
  public:
   /// @param loaded the whole scene; outlives this, as does the claim
   /// @param built of the stage that the run begins or goes on in
@@ -32,9 +32,9 @@ class SceneRun {
   /// @param bracket of a search for a factor, whose motion this run shows
   /// @param start seconds_now() when the program began
   /// @throws std::runtime_error if the folder cannot be written
-  SceneRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
-           const FolderClaim& claim, const RunCheckpoint* earlier, std::optional<FactorBracket> bracket,
-           double start);
+  FolderRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
+            const FolderClaim& claim, const RunCheckpoint* earlier, std::optional<FactorBracket> bracket,
+            double start);
 
   /// Steps until the end, an interrupt or a failure; the state and a summary are saved. @param err progress
   RunEnd go(std::ostream& err);

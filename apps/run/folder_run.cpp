@@ -1,4 +1,4 @@
-#include "apps/run/scene_run.hpp"
+#include "apps/run/folder_run.hpp"
 
 #include <fmt/format.h>
 
@@ -32,9 +32,9 @@ BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads) {
   throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
 }
 
-SceneRun::SceneRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
-                   const FolderClaim& claim, const RunCheckpoint* earlier,
-                   std::optional<FactorBracket> bracket, double start)
+FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
+                     const FolderClaim& claim, const RunCheckpoint* earlier,
+                     std::optional<FactorBracket> bracket, double start)
     : loaded_(loaded),
       manner_(manner),
       stages_(earlier != nullptr ? earlier->stages : std::vector<FinishedStage>()),
@@ -43,7 +43,7 @@ SceneRun::SceneRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimu
       built_(std::move(built)),
       files_(loaded, claim, built_.simulation, earlier, start) {}
 
-RunEnd SceneRun::go(std::ostream& err) {
+RunEnd FolderRun::go(std::ostream& err) {
   files_.note_setup();
   RunStatus status = RunStatus::failed;
   try {
@@ -62,7 +62,7 @@ RunEnd SceneRun::go(std::ostream& err) {
   return {status, message_, unsaved_};
 }
 
-RunStatus SceneRun::go_through_stage(std::ostream& err) {
+RunStatus FolderRun::go_through_stage(std::ostream& err) {
   ProgressLine progress(scene_.analysis.end_time, manner_.quiet, err);
   RunStatus status = is_static(scene_.analysis) ? find_equilibrium(progress) : take_steps(progress);
   // Before the last frame, which a run that goes on has only if it is due.
@@ -73,17 +73,17 @@ RunStatus SceneRun::go_through_stage(std::ostream& err) {
   return status;
 }
 
-std::string SceneRun::end_of_stage(RunStatus status) const {
+std::string FolderRun::end_of_stage(RunStatus status) const {
   return fmt::format("stage {}: {} after {} steps{}{}", loaded_.scene.stage[stages_.size()].name,
                      to_string(status), built_.simulation.steps(), message_.empty() ? "" : ": ", message_);
 }
 
-FinishedStage SceneRun::finished(RunStatus status) const {
+FinishedStage FolderRun::finished(RunStatus status) const {
   return {to_string(status), message_, built_.simulation.steps(), built_.simulation.time()};
 }
 
 /// @throws std::runtime_error if its blocks cannot be built, which those of the whole scene could
-void SceneRun::begin_next_stage(RunStatus status) {
+void FolderRun::begin_next_stage(RunStatus status) {
   const SimulationSnapshot end = built_.simulation.snapshot();
   const std::vector<bool> was_absent = built_.simulation.system().absent();
   stages_.push_back(finished(status));
@@ -98,7 +98,7 @@ void SceneRun::begin_next_stage(RunStatus status) {
                               loaded_.scene.stage[stages_.size()].reset_displacement);
 }
 
-RunStatus SceneRun::take_steps(ProgressLine& progress) {
+RunStatus FolderRun::take_steps(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   const double end_time = scene_.analysis.end_time;
   CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
@@ -123,7 +123,7 @@ RunStatus SceneRun::take_steps(ProgressLine& progress) {
 }
 
 /// Whether blocks are where they may be at the end. After the run is saved: one that goes on has no end here.
-RunStatus SceneRun::audited() {
+RunStatus FolderRun::audited() {
   Simulation& simulation = built_.simulation;
   const auto deep = simulation.audit();
   if (!deep) return RunStatus::completed;
@@ -133,14 +133,14 @@ RunStatus SceneRun::audited() {
 }
 
 /// Of a search for a factor: what was found, once its motion has been shown.
-RunStatus SceneRun::answered(RunStatus status) {
+RunStatus FolderRun::answered(RunStatus status) {
   if (status == RunStatus::interrupted) return status;
   const std::string motion = status == RunStatus::moving ? "; " + message_ : "";
   message_ = describe(*bracket_, scene_.analysis) + motion;
   return bracket_->resolved ? RunStatus::completed : RunStatus::not_converged;
 }
 
-RunStatus SceneRun::find_equilibrium(ProgressLine& progress) {
+RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
   while (!InterruptGuard::interrupted()) {
@@ -172,13 +172,13 @@ RunStatus SceneRun::find_equilibrium(ProgressLine& progress) {
 }
 
 /// What no check of the scene foresaw: the state is that before the step.
-RunStatus SceneRun::failed_in_step(const std::exception& error) {
+RunStatus FolderRun::failed_in_step(const std::exception& error) {
   message_ = fmt::format("step {} at t = {:.9g} s cannot be taken: {}", built_.simulation.steps() + 1,
                          built_.simulation.time(), error.what());
   return RunStatus::failed;
 }
 
-RunStatus SceneRun::interrupted_here() {
+RunStatus FolderRun::interrupted_here() {
   message_ = fmt::format("interrupted after step {}", built_.simulation.steps());
   if (!is_static(scene_.analysis))
     message_ +=
@@ -186,7 +186,7 @@ RunStatus SceneRun::interrupted_here() {
   return RunStatus::interrupted;
 }
 
-void SceneRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress) {
+void FolderRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress) {
   const double before = seconds_now();
   files_.add_step(built_.simulation);
   progress.update(progress_of(built_.simulation));
@@ -198,7 +198,7 @@ void SceneRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress)
 }
 
 /// After results could not be written, e.g. on a full disk.
-RunStatus SceneRun::saved_after(const std::exception& error) {
+RunStatus FolderRun::saved_after(const std::exception& error) {
   message_ = fmt::format("results of step {} at t = {:.9g} s could not be written: {}",
                          built_.simulation.steps(), built_.simulation.time(), error.what());
   try {
@@ -209,7 +209,7 @@ RunStatus SceneRun::saved_after(const std::exception& error) {
   return RunStatus::failed;
 }
 
-RunStatus SceneRun::summarised(RunStatus status) {
+RunStatus FolderRun::summarised(RunStatus status) {
   try {
     files_.write_summary(summary_of(status));
   } catch (const std::exception& error) {
@@ -224,7 +224,7 @@ RunStatus SceneRun::summarised(RunStatus status) {
   return status;
 }
 
-nlohmann::ordered_json SceneRun::summary_of(RunStatus status) const {
+nlohmann::ordered_json FolderRun::summary_of(RunStatus status) const {
   auto summary = run_summary(loaded_.scene, built_,
                              {status, message_, files_.seconds(), files_.tables().frames(), largest()});
   if (!loaded_.scene.stage.empty()) summary["stages"] = stages_summary(status);
@@ -233,7 +233,7 @@ nlohmann::ordered_json SceneRun::summary_of(RunStatus status) const {
 }
 
 /// Stages that have begun.
-nlohmann::ordered_json SceneRun::stages_summary(RunStatus status) const {
+nlohmann::ordered_json FolderRun::stages_summary(RunStatus status) const {
   std::vector<FinishedStage> begun = stages_;
   begun.push_back(finished(status));
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
