@@ -7,10 +7,10 @@
 #include <optional>
 #include <ostream>
 
-#include "apps/run/build_simulation.hpp"
-#include "apps/run/loose_blocks.hpp"
 #include "apps/run/override_option.hpp"
 #include "apps/scene/base_motion.hpp"
+#include "apps/scene/build_simulation.hpp"
+#include "apps/scene/loose_blocks.hpp"
 #include "apps/scene/scene_loading.hpp"
 
 namespace ashlar {

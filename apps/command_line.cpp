@@ -12,7 +12,7 @@
 #include "apps/check_command.hpp"
 #include "apps/contacts/contacts_command.hpp"
 #include "apps/contacts/integrate_command.hpp"
-#include "apps/program_version.hpp"
+#include "apps/results/program_version.hpp"
 #include "apps/run/run_options.hpp"
 #include "apps/scene/nearest_name.hpp"
 #include "apps/schema_command.hpp"

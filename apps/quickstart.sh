@@ -5,7 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
 # What only tests and checks need is half of all that would be downloaded.
-bash apps/install_packages.sh --except '^clang|vtk|^chromium|^pybind11|^python3-'
+bash apps/install_packages.sh --except '^clang|vtk|^chromium|^pybind11|^python3-|^furo|^doxygen|^mypy|^pkg-config'
 cmake --preset release
 cmake --build --preset release --target ashlar -j"$(bash apps/build_jobs.sh)"
 

@@ -14,6 +14,7 @@
 #include "geometry/cutting/cut_solid.hpp"
 #include "geometry/library_versions.hpp"
 #include "geometry/mesh/mesh_io.hpp"
+#include "geometry/mesh/volume_mesh.hpp"
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/polyhedron.hpp"
 #include "geometry/solid/shapes.hpp"

@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "geometry/index.hpp"
+
 namespace ashlar {
 namespace {
 
-/// OBJ names end at a blank.
-std::string obj_name(std::string name) {
+/// Names in OBJ and STL files end at a blank.
+std::string word_of(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](unsigned char letter) { return letter <= ' '; }, '_');
   return name;
@@ -54,7 +58,7 @@ std::string block_obj(const LoadedScene& loaded) {
   std::size_t first = 1;
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
     const TriangleMesh& mesh = loaded.solids[k].mesh();
-    const std::string name = obj_name(loaded.scene.block[k].name);
+    const std::string name = word_of(loaded.scene.block[k].name);
     fmt::format_to(out, "o {}\ng {}\n", name, name);
     for (const Vector3& point : mesh.points)
       fmt::format_to(out, "v {} {} {}\n", point.x(), point.y(), point.z());
@@ -64,6 +68,50 @@ std::string block_obj(const LoadedScene& loaded) {
     first += mesh.points.size();
   }
   return fmt::to_string(text);
+}
+
+std::string block_stl(const LoadedScene& loaded) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    const TriangleMesh& mesh = loaded.solids[k].mesh();
+    const std::string name = word_of(loaded.scene.block[k].name);
+    fmt::format_to(out, "solid {}\n", name);
+    for (const auto& triangle : mesh.triangles) {
+      const auto corner = [&](std::size_t i) -> const Vector3& { return mesh.points[at(triangle[i])]; };
+      const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
+      fmt::format_to(out, "facet normal {} {} {}\nouter loop\n", normal.x(), normal.y(), normal.z());
+      for (const std::size_t i : {0U, 1U, 2U})
+        fmt::format_to(out, "vertex {} {} {}\n", corner(i).x(), corner(i).y(), corner(i).z());
+      fmt::format_to(out, "endloop\nendfacet\n");
+    }
+    fmt::format_to(out, "endsolid {}\n", name);
+  }
+  return fmt::to_string(text);
+}
+
+std::string block_msh(const LoadedScene& loaded) {
+  fmt::memory_buffer names, nodes, elements;
+  std::size_t node = 0, element = 0;
+  for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    const TriangleMesh& mesh = loaded.solids[k].mesh();
+    std::string name = loaded.scene.block[k].name;
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char letter) { return letter < ' ' || letter == '"'; }, '_');
+    fmt::format_to(std::back_inserter(names), "2 {} \"{}\"\n", k + 1, name);
+    const std::size_t first = node + 1;
+    for (const Vector3& point : mesh.points)
+      fmt::format_to(std::back_inserter(nodes), "{} {} {} {}\n", ++node, point.x(), point.y(), point.z());
+    for (const auto& triangle : mesh.triangles)
+      fmt::format_to(std::back_inserter(elements), "{} 2 2 {} {} {} {} {}\n", ++element, k + 1, k + 1,
+                     first + at(triangle[0]), first + at(triangle[1]), first + at(triangle[2]));
+  }
+  return fmt::format(
+      "$MeshFormat\n2.2 0 "
+      "8\n$EndMeshFormat\n$PhysicalNames\n{}\n{}$EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n"
+      "$Elements\n{}\n{}$EndElements\n",
+      loaded.solids.size(), fmt::to_string(names), node, fmt::to_string(nodes), element,
+      fmt::to_string(elements));
 }
 
 }  // namespace ashlar

@@ -1,4 +1,5 @@
-// The blocks of a scene as files: blocks.vtu for ParaView, blocks.obj for programs that model.
+// The blocks of a scene as files: blocks.vtu for ParaView, blocks.obj and blocks.stl for programs that model,
+// blocks.msh for Gmsh and what reads its files.
 #pragma once
 
 #include <string>
@@ -17,5 +18,12 @@ namespace ashlar {
 
 /// Wavefront OBJ: an object and a group for each block, coordinates as they are to the last bit.
 [[nodiscard]] std::string block_obj(const LoadedScene& loaded);
+
+/// STL as text: a solid for each block, coordinates as they are to the last bit. STL has no unit: these are m.
+[[nodiscard]] std::string block_stl(const LoadedScene& loaded);
+
+/// MSH 2.2 as text: the triangles of each block are a physical group of dimension 2 with its name and number, from 1,
+/// and points of their own.
+[[nodiscard]] std::string block_msh(const LoadedScene& loaded);
 
 }  // namespace ashlar

@@ -12,8 +12,8 @@
 #include "apps/blocks/block_histogram.hpp"
 #include "apps/blocks/block_text.hpp"
 #include "apps/results/atomic_file.hpp"
+#include "apps/results/folder_claim.hpp"
 #include "apps/results/json_text.hpp"
-#include "apps/run/folder_claim.hpp"
 #include "apps/run/override_option.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "apps/view/svg_picture.hpp"
@@ -49,9 +49,12 @@ std::string write_files(const std::filesystem::path& folder, const BlockReport& 
       size_classes(volumes));
   write_vtu(folder / "blocks.vtu", block_grid(report, removable));
   write_file_atomically(folder / "blocks.obj", block_obj(loaded), Durability::process);
+  write_file_atomically(folder / "blocks.stl", block_stl(loaded), Durability::process);
+  write_file_atomically(folder / "blocks.msh", block_msh(loaded), Durability::process);
   write_file_atomically(folder / "sizes.svg", svg, Durability::process);
-  return fmt::format("blocks: {}\nmodel: {}\npicture: {}\n{}\n", (folder / "blocks.vtu").string(),
-                     (folder / "blocks.obj").string(), (folder / "sizes.svg").string(),
+  return fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\npicture: {}\n{}\n",
+                     (folder / "blocks.vtu").string(), (folder / "blocks.obj").string(),
+                     (folder / "sizes.svg").string(),
                      write_png(svg, folder / "sizes.png", histogram_width, histogram_height));
 }
 
@@ -109,9 +112,10 @@ void declare_blocks_command(CLI::App& program, CommandContext& context) {
       ->required()
       ->type_name("");
   command
-      ->add_option("-o,--out", options->folder,
-                   "Folder of blocks.vtu, blocks.obj and the histogram (default: scene name + .blocks; with "
-                   "--json: none)")
+      ->add_option(
+          "-o,--out", options->folder,
+          "Folder of blocks.vtu, .obj, .stl, .msh and the histogram (default: scene name + .blocks; with "
+          "--json: none)")
       ->type_name("DIR");
   command->add_flag("--json", options->json, "Print JSON");
   command

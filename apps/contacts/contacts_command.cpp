@@ -24,7 +24,7 @@ namespace ashlar {
 namespace {
 
 constexpr const char* help_text =
-    "The contact of two closed meshes (.off, .obj, .stl, .ply), decided exactly on the given doubles: "
+    "The contact of two closed meshes (.off, .obj, .stl, .ply, .msh), decided exactly on the given doubles: "
     "relation, type, region, distance, contact points, and the depth where they cross.\n"
     "LIST has one pair a line: two file names, in double quotes if they hold blanks; empty lines and lines "
     "that begin with # are passed over. Names are relative to the current folder, or, where there is no such "

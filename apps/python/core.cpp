@@ -17,16 +17,10 @@
 #include "apps/blocks/block_text.hpp"
 #include "apps/contacts/contacts_command.hpp"
 #include "apps/contacts/integrate_command.hpp"
-#include "apps/program_version.hpp"
-#include "apps/results/atomic_file.hpp"
 #include "apps/results/json_text.hpp"
-#include "apps/results/result_folder.hpp"
-#include "apps/run/build_simulation.hpp"
-#include "apps/run/folder_claim.hpp"
-#include "apps/run/loose_blocks.hpp"
+#include "apps/results/program_version.hpp"
+#include "apps/results/scene_run.hpp"
 #include "apps/run/run_command.hpp"
-#include "apps/run/run_messages.hpp"
-#include "apps/run/run_summary.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "apps/scene/scene_schema.hpp"
@@ -95,66 +89,24 @@ struct ContactRow {
   std::int32_t type, state;
 };
 
-/// A run of one stage, step by step.
+/// SceneRun, with arrays of numpy.
 class CoreSimulation {
  public:
-  CoreSimulation(const CoreScene& scene, int threads)
-      : stage_(std::make_shared<const LoadedScene>(stage_of(*scene.loaded, 0))),
-        built_(build(*stage_, threads)) {
-    Simulation& simulation = built_.simulation;
-    if (starts_from_statics(stage_->scene) && simulation.start_from_statics() != StaticStatus::equilibrium)
-      throw std::runtime_error(
-          "no equilibrium under gravity and the loads at t = 0 (initial_state = \"static\")");
-    measures_ = measures_of(stage_->scene, simulation.blocks());
-    add_row();
-  }
+  CoreSimulation(const CoreScene& scene, int threads) : run_(scene.loaded, threads) {}
 
-  /// @return whether there is more to do
-  bool step() {
-    Simulation& simulation = built_.simulation;
-    if (status_ != "running") return false;
-    const double end_time = stage_->scene.analysis.end_time;
-    if (is_static(stage_->scene.analysis)) {
-      switch (simulation.static_step(end_time)) {
-        case StaticStatus::balancing:
-          break;
-        case StaticStatus::equilibrium:
-          status_ = "equilibrium";
-          break;
-        case StaticStatus::moving:
-          status_ = "moving";
-          break;
-        case StaticStatus::not_converged:
-          status_ = "not converged";
-          break;
-      }
-      add_row();
-      return status_ == "running";
-    }
-    if (simulation.reached(end_time)) {
-      status_ = "completed";
-      return false;
-    }
-    if (simulation.step(end_time) != StepStatus::accepted) {
-      status_ = "failed";
-      throw std::runtime_error("step " + std::to_string(simulation.steps() + 1) +
-                               " was rejected: " + reason_of(simulation.rejections().back(), simulation));
-    }
-    add_row();
-    if (simulation.reached(end_time)) status_ = "completed";
-    return status_ == "running";
-  }
-
-  [[nodiscard]] const std::string& status() const { return status_; }
-  [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
+  [[nodiscard]] SceneRun& run() { return run_; }
+  [[nodiscard]] const SceneRun& run() const { return run_; }
+  [[nodiscard]] const Simulation& simulation() const { return run_.simulation(); }
+  [[nodiscard]] std::string status() const { return run_.status() ? to_string(*run_.status()) : "running"; }
 
   [[nodiscard]] py::dict history() const {
     py::dict result;
-    const std::vector<std::string> columns = history_columns(measures_);
+    const std::vector<std::string> columns = run_.columns();
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      py::array_t<double> values(static_cast<py::ssize_t>(rows_.size()));
+      py::array_t<double> values(static_cast<py::ssize_t>(run_.rows().size()));
       auto access = values.mutable_unchecked<1>();
-      for (std::size_t r = 0; r < rows_.size(); ++r) access(static_cast<py::ssize_t>(r)) = rows_[r][c];
+      for (std::size_t r = 0; r < run_.rows().size(); ++r)
+        access(static_cast<py::ssize_t>(r)) = run_.rows()[r][c];
       result[py::str(columns[c])] = values;
     }
     return result;
@@ -186,56 +138,16 @@ class CoreSimulation {
     return py::array_t<ContactRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
   }
 
-  /// The present state and all of the history as a result folder.
-  void write(const std::filesystem::path& folder) const {
-    const FolderClaim claim(folder, ClaimPurpose::replacement);
-    const Scene& scene = stage_->scene;
-    const ResultFolder results(folder, scene, simulation());
-    HistoryWriter history(folder / "history.csv", history_columns(measures_, !scene.stage.empty()));
-    for (const std::vector<double>& row : rows_) {
-      std::vector<double> values(row.begin() + 1, row.end());
-      if (!scene.stage.empty()) values.push_back(1.0);
-      history.append(static_cast<std::int64_t>(row.front()), values);
-    }
-    RunStatus status = RunStatus::interrupted;
-    for (const RunStatus known : {RunStatus::completed, RunStatus::failed, RunStatus::equilibrium,
-                                  RunStatus::moving, RunStatus::not_converged})
-      if (to_string(known) == status_) status = known;
-    const auto summary =
-        run_summary(scene, built_, {status, "", {}, results.frames(), results.largest(simulation())});
-    write_file_atomically(folder / "summary.json", json_text(summary, 2) + "\n", Durability::process);
-  }
-
   [[nodiscard]] int index_of(const std::string& name) const {
-    const std::vector<BlockModel>& blocks = simulation().blocks();
-    const auto found = std::find_if(blocks.begin(), blocks.end(),
-                                    [&](const BlockModel& block) { return block.name() == name; });
-    if (found == blocks.end()) throw py::key_error(name);
-    return static_cast<int>(found - blocks.begin());
+    try {
+      return run_.block(name);
+    } catch (const std::out_of_range&) {
+      throw py::key_error(name);
+    }
   }
 
  private:
-  static BuiltSimulation build(const LoadedScene& loaded, int threads) {
-    Diagnostics diagnostics;
-    std::optional<BuiltSimulation> built = build_simulation(loaded, std::max(threads, 1), diagnostics);
-    if (built && is_static(loaded.scene.analysis))
-      refuse_loose_blocks(loaded.scene, built->simulation, diagnostics);
-    for (const Diagnostic& fault : diagnostics.sorted())
-      if (fault.severity == Severity::error) throw std::invalid_argument(to_string(fault));
-    return std::move(*built);
-  }
-
-  void add_row() {
-    rows_.push_back({static_cast<double>(simulation().steps())});
-    const std::vector<double> values = history_row(simulation(), measures_);
-    rows_.back().insert(rows_.back().end(), values.begin(), values.end());
-  }
-
-  std::shared_ptr<const LoadedScene> stage_;
-  BuiltSimulation built_;
-  std::vector<Measure> measures_;
-  std::vector<std::vector<double>> rows_;
-  std::string status_ = "running";
+  SceneRun run_;
 };
 
 /// A block of a simulation, by its number.
@@ -340,13 +252,27 @@ PYBIND11_MODULE(_core, module) {
   py::class_<CoreSimulation, std::shared_ptr<CoreSimulation>>(module, "Simulation")
       .def(py::init<const CoreScene&, int>(), py::arg("scene"), py::arg("threads"),
            py::call_guard<py::gil_scoped_release>())
-      .def("step", &CoreSimulation::step, py::call_guard<py::gil_scoped_release>())
+      .def(
+          "step", [](CoreSimulation& s) { return s.run().step(); }, py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("status", &CoreSimulation::status)
+      .def_property_readonly("message", [](const CoreSimulation& s) { return s.run().message(); })
+      .def_property_readonly("stage", [](const CoreSimulation& s) { return s.run().stage(); })
       .def_property_readonly("time", [](const CoreSimulation& s) { return s.simulation().time(); })
       .def_property_readonly("steps", [](const CoreSimulation& s) { return s.simulation().steps(); })
       .def("history", &CoreSimulation::history)
       .def("contacts", &CoreSimulation::contacts)
-      .def("write", &CoreSimulation::write, py::call_guard<py::gil_scoped_release>())
+      .def("set_load_factor",
+           [](CoreSimulation& s, const std::string& block, int load, double factor) {
+             (void)s.index_of(block);
+             s.run().set_load_factor(block, load, factor);
+           })
+      .def(
+          "record", [](CoreSimulation& s, const std::filesystem::path& folder) { s.run().record(folder); },
+          py::call_guard<py::gil_scoped_release>())
+      .def(
+          "write",
+          [](const CoreSimulation& s, const std::filesystem::path& folder) { s.run().write(folder); },
+          py::call_guard<py::gil_scoped_release>())
       .def("names",
            [](const CoreSimulation& s) {
              std::vector<std::string> names;

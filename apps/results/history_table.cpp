@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "apps/results/csv_text.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/thinned_series.hpp"
+#include "apps/scene/input_file.hpp"
 
 namespace ashlar {
 namespace {

@@ -219,7 +219,26 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
   return grid;
 }
 
-ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation)
+DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
+                             const std::vector<DrawnSurface>& surfaces) {
+  DisplacementOrigin origin;
+  const auto displacement = [&](int block, const Vector3& point) {
+    return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
+  };
+  for (const Measure& measure : measures)
+    origin.measures.push_back(measure.kind == Measure::Kind::pair
+                                  ? Vector3(Vector3::Zero())
+                                  : displacement(measure.block, measure.point));
+  for (std::size_t b = 0; b < surfaces.size(); ++b) {
+    origin.surfaces.emplace_back();
+    for (const Vector3& point : surfaces[b].points)
+      origin.surfaces.back().push_back(displacement(static_cast<int>(b), point));
+  }
+  return origin;
+}
+
+ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+                           const StagePlace& place)
     : folder_(emptied(std::move(folder))),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
@@ -230,8 +249,11 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       contacts_(folder_ / "contacts.pvd"),
       joints_(folder_ / "joints.pvd"),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty),
-      stage_(scene.stage.empty() ? 0 : 1) {
-  if (stage_ > 0 && scene.stage.front().reset_displacement) set_origin(simulation);
+      stage_(scene.stage.empty() ? 0 : place.stage),
+      elapsed_(place.elapsed),
+      origin_(place.origin) {
+  if (stage_ == 1 && scene.stage.front().reset_displacement)
+    origin_ = origin_of(simulation, measures_, surfaces_);
   contact_rows_.write(contact_columns);
   add_step(simulation);
 }
@@ -289,23 +311,7 @@ void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, boo
   ++stage_;
   elapsed_ = elapsed;
   intervals_written_ = 1;  // That of its start is the end of the last stage.
-  if (reset_displacement) set_origin(simulation);
-}
-
-void ResultFolder::set_origin(const Simulation& simulation) {
-  origin_ = {};
-  const auto displacement = [&](int block, const Vector3& point) {
-    return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
-  };
-  for (const Measure& measure : measures_)
-    origin_.measures.push_back(measure.kind == Measure::Kind::pair
-                                   ? Vector3(Vector3::Zero())
-                                   : displacement(measure.block, measure.point));
-  for (int b = 0; b < simulation.system().count(); ++b) {
-    origin_.surfaces.emplace_back();
-    for (const Vector3& point : surfaces_[at(b)].points)
-      origin_.surfaces.back().push_back(displacement(b, point));
-  }
+  if (reset_displacement) origin_ = origin_of(simulation, measures_, surfaces_);
 }
 
 void ResultFolder::check_in_place() const {

@@ -49,6 +49,19 @@ struct DisplacementOrigin {
 /// blocks.
 [[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
 
+/// Where in a run in stages its results begin.
+struct StagePlace {
+  int stage = 1;         ///< 1-based; of no meaning if the scene has no stages
+  double elapsed = 0.0;  ///< s, of all stages before
+  /// Displacements count from here, if it is not empty; else as the first stage asks.
+  DisplacementOrigin origin;
+};
+
+/// The present displacements of the points of measures and surfaces.
+/// @param surfaces of each block, or empty: those of measures alone
+[[nodiscard]] DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
+                                           const std::vector<DrawnSurface>& surfaces);
+
 /// How far the files are; a checkpoint holds it.
 struct ResultFolderState {
   std::vector<PvdFrame> block_frames;
@@ -69,8 +82,9 @@ class ResultFolder {
  public:
   /// Removes the results of an earlier run in the folder but for its checkpoint, which the first one of this
   /// run replaces, and adds the simulation's present step.
-  /// @param folder that the program has claimed (folder_claim.hpp)
-  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation);
+  /// @param folder that the program has claimed (folder_claim.hpp). @param scene the whole one, of all stages
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+               const StagePlace& place = {});
 
   /// Goes on in the folder of an earlier run: what was written after `state` was taken is dropped, and what
   /// could not be written of the step then is made good.
@@ -103,8 +117,6 @@ class ResultFolder {
  private:
   [[nodiscard]] bool frame_is_due(const Simulation& simulation) const;
   void check_in_place() const;
-  /// Displacements count from here.
-  void set_origin(const Simulation& simulation);
   void add_row(const Simulation& simulation);
   void add_frame(const Simulation& simulation);
   void add_contact_rows(const Simulation& simulation);

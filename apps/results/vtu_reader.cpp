@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/results/input_file.hpp"
 #include "apps/results/xml_text.hpp"
+#include "apps/scene/input_file.hpp"
 #include "geometry/mesh/text_scanner.hpp"
 
 namespace ashlar {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/json_text.hpp"
-#include "apps/run/run_summary.hpp"
+#include "apps/results/run_summary.hpp"
+#include "apps/scene/input_file.hpp"
 
 namespace ashlar {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "apps/run/build_simulation.hpp"
 #include "apps/run/factor_search.hpp"
+#include "apps/scene/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -9,11 +9,11 @@
 #include "apps/command_line.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/folder_run.hpp"
-#include "apps/run/initial_state.hpp"
 #include "apps/run/interrupt_guard.hpp"
-#include "apps/run/loose_blocks.hpp"
 #include "apps/run/run_messages.hpp"
 #include "apps/scene/base_motion.hpp"
+#include "apps/scene/initial_state.hpp"
+#include "apps/scene/loose_blocks.hpp"
 #include "apps/scene/scene_stages.hpp"
 #include "apps/view/view_file.hpp"
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/results/folder_claim.hpp"
 #include "apps/results/result_folder.hpp"
-#include "apps/run/folder_claim.hpp"
-#include "apps/run/run_checkpoint.hpp"
-#include "apps/run/run_summary.hpp"
+#include "apps/results/run_checkpoint.hpp"
+#include "apps/results/run_summary.hpp"
 #include "apps/run/space_reserve.hpp"
 #include "apps/scene/scene_loading.hpp"
 

@@ -8,52 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "apps/results/input_file.hpp"
 #include "apps/results/json_text.hpp"
-#include "apps/run/initial_state.hpp"
 #include "apps/run/scene_difference.hpp"
+#include "apps/scene/initial_state.hpp"
+#include "apps/scene/input_file.hpp"
 #include "apps/scene/scene_json.hpp"
 
 namespace ashlar {
-
-std::string describe_motion(const Simulation& simulation) {
-  std::string text = "no equilibrium:";
-  const char* separator = " ";
-  for (const MovingBlock& moving : simulation.moving_blocks()) {
-    const auto& [x, y, z] =
-        std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
-    text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
-                        simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
-    separator = "; ";
-  }
-  return text;
-}
-
-std::string describe_displaced(const Simulation& simulation) {
-  std::vector<std::string> names;
-  for (const auto& [block, distance] : displaced_blocks(simulation)) {
-    names.push_back(fmt::format("block {} by {:.3g} m",
-                                simulation.blocks()[static_cast<std::size_t>(block)].name(), distance));
-  }
-  return names.empty()
-             ? ""
-             : fmt::format("equilibrium, but far from where they were placed: {}", first_names(names));
-}
-
-std::string description_of(const StateFault& fault, const Simulation& simulation) {
-  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
-  if (fault.reason != RejectionReason::too_deep) return fmt::format("block {}", name(fault.blocks[0]));
-  return fmt::format(
-      "block {} in block {} by {:.4g} m at [{:.6g}, {:.6g}, {:.6g}], at most {:.4g} m is allowed",
-      name(fault.blocks[0]), name(fault.blocks[1]), fault.depth, fault.place.x(), fault.place.y(),
-      fault.place.z(), fault.allowed);
-}
-
-std::string reason_of(const Rejection& rejection, const Simulation& simulation) {
-  const auto& fault = simulation.fault();
-  if (!fault || fault->reason != rejection.reason) return to_string(rejection.reason);
-  return fmt::format("{}: {}", to_string(fault->reason), description_of(*fault, simulation));
-}
 
 std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
   constexpr std::size_t most_shown = 5;

@@ -5,8 +5,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/run/build_simulation.hpp"
-#include "apps/run/run_summary.hpp"
+#include "apps/results/run_summary.hpp"
+#include "apps/scene/build_simulation.hpp"
 
 namespace ashlar {
 
@@ -16,18 +16,6 @@ struct RunEnd {
   std::string message;  ///< why it failed or where it was interrupted, or what moves
   std::string unsaved;  ///< why the state that it ended in is not saved; empty: it is
 };
-
-/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2"
-[[nodiscard]] std::string describe_motion(const Simulation& simulation);
-
-/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
-[[nodiscard]] std::string describe_displaced(const Simulation& simulation);
-
-/// "block A", of blocks that are too deep in each other with depth, place and what is allowed.
-[[nodiscard]] std::string description_of(const StateFault& fault, const Simulation& simulation);
-
-/// Why a step was rejected, with the blocks and the place where that is known.
-[[nodiscard]] std::string reason_of(const Rejection& rejection, const Simulation& simulation);
 
 /// "; changed: KEY (was A, is B), ..." from the summary of the run before in a result folder; empty if it has
 /// none or says nothing else.

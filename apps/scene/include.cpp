@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/results/input_file.hpp"
+#include "apps/scene/input_file.hpp"
 #include "apps/scene/toml_faults.hpp"
 #include "apps/scene/toml_reading.hpp"
 

@@ -10,6 +10,7 @@
 #include "geometry/mesh/mesh_io.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "geometry/mesh/surface_repair.hpp"
+#include "geometry/mesh/volume_mesh.hpp"
 
 namespace ashlar {
 namespace {
@@ -23,11 +24,7 @@ class Import {
 
   /// @throws MeshFileError, std::invalid_argument of weld_corners
   std::vector<MeshGroup> stones() {
-    std::vector<MeshGroup> stones;
-    if (mesh_.split == SceneMesh::Split::groups)
-      stones = read_mesh_groups(file_);
-    else
-      stones.push_back({"", read_mesh(file_)});
+    std::vector<MeshGroup> stones = bodies();
     weld(stones);
     if (mesh_.split == SceneMesh::Split::components) stones = components_of(std::move(stones.front().mesh));
     repair(stones);
@@ -60,6 +57,20 @@ class Import {
   }
 
  private:
+  /// What the file is divided into before anything is done to it.
+  [[nodiscard]] std::vector<MeshGroup> bodies() const {
+    const bool of_tetrahedra = mesh_.split == SceneMesh::Split::tetrahedra;
+    if (!of_tetrahedra && mesh_.group.empty()) {
+      if (mesh_.split == SceneMesh::Split::groups) return read_mesh_groups(file_);
+      return {{"", read_mesh(file_)}};
+    }
+    VolumeMesh volume = read_volume_mesh(file_);
+    if (!mesh_.group.empty()) volume = only_group(volume, mesh_.group);
+    if (of_tetrahedra) return surfaces_of_tetrahedra(volume);
+    if (mesh_.split == SceneMesh::Split::groups) return surfaces_of_groups(volume);
+    return {{"", surface_of(volume)}};
+  }
+
   void weld(std::vector<MeshGroup>& stones) {
     if (mesh_.weld == 0.0) return;
     for (MeshGroup& stone : stones) {
@@ -134,7 +145,7 @@ SceneBlock block_of(const SceneBlock& block, MeshGroup stone, std::size_t number
 bool is_imported(const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   return mesh != nullptr && !mesh->stone &&
-         (mesh->split != SceneMesh::Split::none || mesh->weld > 0.0 || mesh->repair ||
+         (mesh->split != SceneMesh::Split::none || !mesh->group.empty() || mesh->weld > 0.0 || mesh->repair ||
           mesh->flip != SceneMesh::Flip::never);
 }
 
@@ -155,7 +166,7 @@ std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const s
     return blocks;
   } catch (const MeshFileError& error) {
     diagnostics.error(
-        place, fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL or PLY file "
+        place, fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL, PLY or MSH file "
                            "is needed",
                            to_string(Place{file.string(), error.line(), error.column()}), error.what()));
   } catch (const std::invalid_argument& error) {

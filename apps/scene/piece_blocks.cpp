@@ -86,23 +86,15 @@ std::size_t piece_at(const Pieces& pieces, const Vector3& point) {
   return nearest;
 }
 
-std::vector<PieceBlock> make_piece_blocks(const Scene& scene, std::size_t index, const Pieces& pieces,
-                                          const std::vector<std::string>& names, Diagnostics& diagnostics) {
-  const SceneBlock& whole = scene.block[index];
-  std::vector<PieceBlock> blocks(pieces.size());
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    SceneBlock& block = blocks[k].block;
-    block = whole;
-    block.name = names[k];
-    block.shape = ScenePiece{pieces[k]};
-    block.rotate.reset();
-    block.translate.setZero();
-    block.fix.clear();
-    block.load.clear();
+void share_supports(const Scene& scene, const SceneBlock& whole, const std::string& path,
+                    const Pieces& pieces, std::vector<PieceBlock>& blocks, Diagnostics& diagnostics) {
+  for (PieceBlock& piece : blocks) {
+    piece.block.fix.clear();
+    piece.block.load.clear();
   }
   const auto missing = [&](const char* table, std::size_t j) {
     diagnostics.error(
-        scene.places.value(fmt::format("block.{}.{}.{}.plane", index, table, j)),
+        scene.places.value(fmt::format("{}.{}.{}.plane", path, table, j)),
         fmt::format("no piece of block \"{}\" has a face in the plane, a plane of the block before it is "
                     "cut, or of a cut, is needed",
                     whole.name));
@@ -131,6 +123,28 @@ std::vector<PieceBlock> make_piece_blocks(const Scene& scene, std::size_t index,
       piece.load.push_back(j);
     });
   }
+}
+
+void move_measures(Scene& scene, const std::string& block, const Pieces& pieces,
+                   const std::vector<std::string>& names) {
+  for (SceneMeasure& measure : scene.measure)
+    if (measure.block == block && measure.point && measure.point->allFinite())
+      measure.block = names[piece_at(pieces, *measure.point)];
+}
+
+std::vector<PieceBlock> make_piece_blocks(const Scene& scene, std::size_t index, const Pieces& pieces,
+                                          const std::vector<std::string>& names, Diagnostics& diagnostics) {
+  const SceneBlock& whole = scene.block[index];
+  std::vector<PieceBlock> blocks(pieces.size());
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    SceneBlock& block = blocks[k].block;
+    block = whole;
+    block.name = names[k];
+    block.shape = ScenePiece{pieces[k]};
+    block.rotate.reset();
+    block.translate.setZero();
+  }
+  share_supports(scene, whole, fmt::format("block.{}", index), pieces, blocks, diagnostics);
   set_velocity(pieces, whole, blocks);
   return blocks;
 }

@@ -22,6 +22,18 @@ struct PieceBlock {
     const Scene& scene, std::size_t index, const std::vector<std::shared_ptr<const Polyhedron>>& pieces,
     const std::vector<std::string>& names, Diagnostics& diagnostics);
 
+/// Gives pieces what they get of the supports and loads of the whole block, as above.
+/// @param path of the whole block as in ScenePlaces
+/// @param pieces placed. @param blocks one for each, in place of whose supports and loads this comes
+void share_supports(const Scene& scene, const SceneBlock& whole, const std::string& path,
+                    const std::vector<std::shared_ptr<const Polyhedron>>& pieces,
+                    std::vector<PieceBlock>& blocks, Diagnostics& diagnostics);
+
+/// Points of a block that are measured become those of the pieces that have them.
+void move_measures(Scene& scene, const std::string& block,
+                   const std::vector<std::shared_ptr<const Polyhedron>>& pieces,
+                   const std::vector<std::string>& names);
+
 /// The piece that a point is in, or is nearest to.
 [[nodiscard]] std::size_t piece_at(const std::vector<std::shared_ptr<const Polyhedron>>& pieces,
                                    const Vector3& point);

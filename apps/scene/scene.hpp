@@ -158,12 +158,13 @@ struct SceneBox {
   Vector3 max = Vector3::Zero();  ///< m
 };
 
-/// mesh = { file, scale, split, weld, flip, repair }
+/// mesh = { file, scale, split, group, weld, flip, repair }
 struct SceneMesh {
   enum class Split {
     none,        ///< "none": the file is one stone
     components,  ///< "components": each closed surface is one
-    groups,      ///< "groups": each object or group of an OBJ file is one
+    groups,      ///< "groups": each object or group of an OBJ file is one, each physical group of an MSH file
+    tetrahedra,  ///< "tetrahedra": each of an MSH file is one
   };
   enum class Flip {
     automatic,  ///< "auto": surfaces that are inside out are turned
@@ -173,6 +174,7 @@ struct SceneMesh {
   std::filesystem::path file;  ///< as written; relative paths are relative to the scene file's folder
   double scale = 1.0;          ///< > 0
   Split split = Split::none;
+  std::string group;  ///< of an MSH file: the only physical group that is read, by name or number; empty: all
   double weld = 0.0;  ///< m, >= 0: corners this near are one
   Flip flip = Flip::never;
   bool repair = false;  ///< whether holes are filled and the like (surface_repair.hpp)

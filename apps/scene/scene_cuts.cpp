@@ -90,13 +90,6 @@ void record_origin(ScenePlaces& places, std::size_t uncut, std::size_t block, co
   record("load", piece->load);
 }
 
-void move_measures(Scene& scene, const std::string& block, const Pieces& pieces,
-                   const std::vector<std::string>& names) {
-  for (SceneMeasure& measure : scene.measure)
-    if (measure.block == block && measure.point && measure.point->allFinite())
-      measure.block = names[piece_at(pieces, *measure.point)];
-}
-
 /// Puts the pieces in the place of the blocks.
 void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional<Polyhedron>>& solids,
                     Diagnostics& diagnostics) {

@@ -9,6 +9,9 @@
 #include "apps/scene/assignments.hpp"
 #include "apps/scene/block_arrays.hpp"
 #include "apps/scene/mesh_stones.hpp"
+#include "apps/scene/piece_blocks.hpp"
+#include "apps/scene/scene_solids.hpp"
+#include "geometry/mesh/volume_mesh.hpp"
 
 namespace ashlar {
 namespace {
@@ -18,40 +21,84 @@ const std::string written_blocks = "written block";
 
 /// The blocks of a scene, each with the path that it was written at.
 struct BlockList {
-  std::vector<SceneBlock> blocks;
+  std::vector<PieceBlock> blocks;
   std::vector<std::string> origins;
 
-  void add(std::vector<SceneBlock> added, const std::string& origin) {
-    for (SceneBlock& block : added) {
+  void add(std::vector<PieceBlock> added, const std::string& origin) {
+    for (PieceBlock& block : added) {
       blocks.push_back(std::move(block));
       origins.push_back(origin);
     }
   }
 };
 
+std::vector<PieceBlock> as_pieces(std::vector<SceneBlock> blocks) {
+  std::vector<PieceBlock> pieces;
+  for (SceneBlock& block : blocks) pieces.push_back({std::move(block), {}, {}});
+  return pieces;
+}
+
+/// Stones of a volume mesh are parts of one body, which has the supports, loads and measures.
+void share_out(Scene& scene, const SceneBlock& whole, const std::string& path,
+               std::vector<PieceBlock>& stones, Diagnostics& diagnostics) {
+  Scene parts;
+  parts.file = scene.file;
+  std::vector<std::string> names;
+  for (const PieceBlock& stone : stones) {
+    parts.block.push_back(stone.block);
+    names.push_back(stone.block.name);
+  }
+  Diagnostics told_later;
+  std::vector<std::shared_ptr<const Polyhedron>> solids;
+  for (std::optional<Polyhedron>& solid : build_solids(parts, told_later)) {
+    if (!solid) return;
+    solids.push_back(std::make_shared<const Polyhedron>(std::move(*solid)));
+  }
+  share_supports(scene, whole, path, solids, stones, diagnostics);
+  move_measures(scene, whole.name, solids, names);
+}
+
 // One block with an array whose mesh is split is an array of each stone.
-std::vector<SceneBlock> blocks_of(Scene& scene, const SceneBlock& block, const std::string& path,
+std::vector<PieceBlock> blocks_of(Scene& scene, const SceneBlock& block, const std::string& path,
                                   Diagnostics& diagnostics) {
-  std::vector<SceneBlock> blocks;
-  for (SceneBlock& stone : stones_of(scene, block, path, diagnostics)) {
-    if (!stone.array) {
+  std::vector<PieceBlock> stones = as_pieces(stones_of(scene, block, path, diagnostics));
+  const auto* mesh = std::get_if<SceneMesh>(&block.shape);
+  if (mesh != nullptr && mesh->split != SceneMesh::Split::none && is_volume_mesh(mesh->file))
+    share_out(scene, block, path, stones, diagnostics);
+  std::vector<PieceBlock> blocks;
+  for (PieceBlock& stone : stones) {
+    if (!stone.block.array) {
       blocks.push_back(std::move(stone));
       continue;
     }
-    double memory = memory_of(stone);
-    for (const int count : stone.array->count) memory *= count;
+    double memory = memory_of(stone.block);
+    for (const int count : stone.block.array->count) memory *= count;
     if (memory > most_laid_memory) {
       diagnostics.error(
           scene.places.value(path + ".array"),
           fmt::format("copies of block \"{}\" take too much memory ({:.3g} bytes, of points and "
                       "histories), at most {:.3g} are allowed",
-                      stone.name, memory, most_laid_memory));
+                      stone.block.name, memory, most_laid_memory));
       continue;
     }
-    std::vector<SceneBlock> copies = blocks_of_array(stone);
-    std::move(copies.begin(), copies.end(), std::back_inserter(blocks));
+    for (SceneBlock& copy : blocks_of_array(stone.block))
+      blocks.push_back({std::move(copy), stone.fix, stone.load});
   }
   return blocks;
+}
+
+/// Keys of a block are those of where it was written; its supports and loads may be some of those there.
+void record_origins(ScenePlaces& places, std::size_t index, const PieceBlock& block,
+                    const std::string& origin) {
+  const std::string path = fmt::format("block.{}", index);
+  places.record_origin(path, origin);
+  const auto record = [&](const char* key, const std::vector<std::size_t>& of) {
+    for (std::size_t i = 0; i < of.size(); ++i)
+      places.record_origin(fmt::format("{}.{}.{}", path, key, i),
+                           fmt::format("{}.{}.{}", origin, key, of[i]));
+  };
+  record("fix", block.fix);
+  record("load", block.load);
 }
 
 bool is_plain(const SceneBlock& block) {
@@ -94,11 +141,12 @@ void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, D
       list.add(blocks_of(scene, written[k], origin, diagnostics), origin);
     }
     for (std::size_t k = 0; k < masonry.size(); ++k)
-      list.add(std::move(masonry[k]), fmt::format("masonry.{}", k));
+      list.add(as_pieces(std::move(masonry[k])), fmt::format("masonry.{}", k));
     if (list.blocks.size() > most_laid_blocks) refuse_number(scene, list, diagnostics);
-    for (std::size_t k = 0; k < list.blocks.size(); ++k)
-      scene.places.record_origin(fmt::format("block.{}", k), list.origins[k]);
-    scene.block = std::move(list.blocks);
+    for (std::size_t k = 0; k < list.blocks.size(); ++k) {
+      record_origins(scene.places, k, list.blocks[k], list.origins[k]);
+      scene.block.push_back(std::move(list.blocks[k].block));
+    }
   }
   if (complete) apply_assignments(scene, diagnostics);
 }

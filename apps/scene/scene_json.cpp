@@ -128,6 +128,7 @@ struct ShapeToJson {
     else
       keys["flip"] = mesh.flip == SceneMesh::Flip::always;
     keys["repair"] = mesh.repair;
+    if (!mesh.group.empty()) keys["group"] = mesh.group;
     if (mesh.number > 0) keys["number"] = mesh.number;
     json["mesh"] = std::move(keys);
   }

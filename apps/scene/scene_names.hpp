@@ -52,10 +52,11 @@ inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
     {{"linear", SceneMaterial::Elasticity::linear},
      {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};
 
-inline constexpr ChoiceNames<SceneMesh::Split, 3> split_names = {
+inline constexpr ChoiceNames<SceneMesh::Split, 4> split_names = {
     {{"none", SceneMesh::Split::none},
      {"components", SceneMesh::Split::components},
-     {"groups", SceneMesh::Split::groups}}};
+     {"groups", SceneMesh::Split::groups},
+     {"tetrahedra", SceneMesh::Split::tetrahedra}}};
 
 inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 3> field_names = {
     {{"displacement", &SceneOutput::Fields::displacement},

@@ -92,7 +92,7 @@ Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
   } catch (const MeshFileError& error) {
     const std::string place = to_string(Place{file.string(), error.line(), error.column()});
     throw ShapeError(
-        fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL or PLY file is "
+        fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL, PLY or MSH file is "
                     "needed",
                     place, error.what()));
   } catch (const MeshError& error) {

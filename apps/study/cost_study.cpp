@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/run/build_simulation.hpp"
+#include "apps/scene/build_simulation.hpp"
 #include "apps/study/processor_time.hpp"
 
 namespace ashlar {

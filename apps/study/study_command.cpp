@@ -11,7 +11,7 @@
 #include <ostream>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/run/folder_claim.hpp"
+#include "apps/results/folder_claim.hpp"
 #include "apps/scene/nearest_name.hpp"
 #include "apps/study/conditioning_study.hpp"
 #include "apps/study/contact_study.hpp"

@@ -18,11 +18,11 @@
 #include <thread>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/json_text.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/override_option.hpp"
 #include "apps/run/run_command.hpp"
+#include "apps/scene/input_file.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "apps/sweep/sweep_table.hpp"

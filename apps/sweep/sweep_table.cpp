@@ -11,8 +11,8 @@
 
 #include "apps/results/csv_text.hpp"
 #include "apps/results/history_table.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/json_text.hpp"
+#include "apps/scene/input_file.hpp"
 
 namespace ashlar {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/scratch_folder.hpp"
+#include "apps/scene/input_file.hpp"
 #include "apps/view/child_program.hpp"
 
 namespace ashlar {

@@ -4,6 +4,7 @@
 // short one.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,6 +54,9 @@ struct PolygonSoup {
 [[nodiscard]] PolygonSoup read_ply(std::string_view text);
 
 /// @}
+
+/// All bytes of a mesh file. @throws MeshFileError
+[[nodiscard]] std::string read_mesh_bytes(const std::filesystem::path& path);
 
 /// The faces divided by triangulate_polygon. @throws MeshFileError if their corners are too many for that
 [[nodiscard]] TriangleMesh triangulated(PolygonSoup soup);

@@ -11,6 +11,7 @@
 #include "geometry/mesh/mesh_formats.hpp"
 #include "geometry/mesh/polygon_triangulation.hpp"
 #include "geometry/mesh/text_scanner.hpp"
+#include "geometry/mesh/volume_mesh.hpp"
 
 namespace ashlar {
 namespace {
@@ -30,11 +31,13 @@ const Format& format_of(const fs::path& path) {
   for (const Format& format : formats) {
     if (equal_ignoring_case(ending, format.ending)) return format;
   }
-  throw MeshFileError("ending of the mesh file (" + printable(ending) + "), allowed .off, .obj, .stl, .ply",
-                      0, 0);
+  throw MeshFileError(
+      "ending of the mesh file (" + printable(ending) + "), allowed .off, .obj, .stl, .ply, .msh", 0, 0);
 }
 
-std::string read_bytes(const fs::path& path) {
+}  // namespace
+
+std::string read_mesh_bytes(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw MeshFileError("mesh file does not exist", 0, 0);
@@ -53,8 +56,6 @@ std::string read_bytes(const fs::path& path) {
   if (!file.read(bytes.data(), size)) throw MeshFileError("mesh file cannot be read", 0, 0);
   return bytes;
 }
-
-}  // namespace
 
 TriangleMesh triangulated(PolygonSoup soup) {
   // About a second of work: enough for a face of 10,000 corners whose ears are found at the first try.
@@ -106,12 +107,17 @@ std::vector<PolygonSoup> divided(const PolygonSoup& soup) {
 
 }  // namespace
 
+bool is_volume_mesh(const fs::path& path) {
+  return equal_ignoring_case(path.extension().string(), ".msh");
+}
+
 std::vector<MeshGroup> read_mesh_groups(const fs::path& path) {
+  if (is_volume_mesh(path)) return surfaces_of_groups(read_volume_mesh(path));
   const Format& format = format_of(path);
   if (format.read != read_obj)
-    throw MeshFileError("groups of a " + std::string(format.ending) + " file, only .obj files have groups", 0,
-                        0);
-  const std::string bytes = read_bytes(path);
+    throw MeshFileError(
+        "groups of a " + std::string(format.ending) + " file, only .obj and .msh files have groups", 0, 0);
+  const std::string bytes = read_mesh_bytes(path);
   const PolygonSoup soup = read_obj(bytes);
   std::vector<MeshGroup> groups;
   for (PolygonSoup& part : divided(soup))
@@ -120,8 +126,9 @@ std::vector<MeshGroup> read_mesh_groups(const fs::path& path) {
 }
 
 TriangleMesh read_mesh(const fs::path& path) {
+  if (is_volume_mesh(path)) return surface_of(read_volume_mesh(path));
   const Format& format = format_of(path);
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = read_mesh_bytes(path);
   return triangulated(format.read(bytes));
 }
 

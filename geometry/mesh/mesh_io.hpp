@@ -1,5 +1,5 @@
-// Reading surface meshes (OFF, OBJ, STL, PLY; text and binary where the format has both). See
-// mesh_formats.hpp for what is accepted of each.
+// Reading surface meshes (OFF, OBJ, STL, PLY; text and binary where the format has both), and the surfaces of
+// volume meshes (MSH). See mesh_formats.hpp and volume_mesh.hpp for what is accepted of each.
 #pragma once
 
 #include <filesystem>
@@ -42,7 +42,7 @@ struct MeshGroup {
 
 /// Reads an OBJ file whose objects and groups are bodies of their own: faces that follow an `o` or `g`
 /// statement belong to the name that it gives, faces before any to "default". Groups in the order in which
-/// their first faces stand. @throws MeshFileError as read_mesh, and for other formats, which have no groups
+/// their first faces stand. Of an MSH file each physical group of its volume is a body. @throws MeshFileError as read_mesh, and for other formats, which have no groups
 [[nodiscard]] std::vector<MeshGroup> read_mesh_groups(const std::filesystem::path& path);
 
 }  // namespace ashlar

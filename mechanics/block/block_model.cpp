@@ -111,7 +111,8 @@ Eigen::MatrixX3d BlockModel::external_force(const Vector3& gravity, double time)
 
 Eigen::MatrixX3d BlockModel::load_force(double time) const {
   Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(basis_.size(), 3);
-  for (std::size_t k = 0; k < loads_.size(); ++k) force += definition_.loads[k].history.at(time) * loads_[k];
+  for (std::size_t k = 0; k < loads_.size(); ++k)
+    force += definition_.loads[k].factor * definition_.loads[k].history.at(time) * loads_[k];
   return force;
 }
 

@@ -40,7 +40,7 @@ struct PointMotion {
 
 struct CarriedBlock;
 
-/// Constant after construction.
+/// Constant after construction, but for the factors of its loads.
 class BlockModel {
  public:
   /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
@@ -99,6 +99,10 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
   /// Loads without gravity. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
+  /// In the order of the definition.
+  [[nodiscard]] const std::vector<Load>& loads() const { return definition_.loads; }
+  /// @param load index into loads(). @throws std::out_of_range
+  void set_load_factor(std::size_t load, double factor) { definition_.loads.at(load).factor = factor; }
   /// True if a support of the block moves.
   [[nodiscard]] bool driven() const { return motion_.moves(); }
   /// What supports add to the position between two times, beside the motion of the unknowns. @param position

@@ -26,6 +26,7 @@ struct Load {
   bool traction = true;  ///< of a plane: Pa; false: N in all
   Vector3 vector = Vector3::Zero();
   History history;
+  double factor = 1.0;  ///< on top of the history; BlockModel::set_load_factor changes it
 };
 
 /// Work-conjugate coefficients: integral of C' f. @return (p, 3) at factor 1

@@ -213,7 +213,7 @@ static void visit_members(Archive& archive, KeptFactor& factor) {
 
 template <class Archive>
 static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
-  archive(snapshot.run, snapshot.carried, snapshot.finder, snapshot.factors);
+  archive(snapshot.run, snapshot.carried, snapshot.finder, snapshot.factors, snapshot.load_factors);
 }
 
 std::string to_bytes(const SimulationSnapshot& snapshot) {

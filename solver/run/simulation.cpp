@@ -1,6 +1,8 @@
 #include "solver/run/simulation.hpp"
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -95,6 +97,13 @@ std::vector<MovingBlock> Simulation::moving_blocks() const {
 
 std::vector<std::vector<int>> Simulation::loose_blocks() {
   return ashlar::loose_blocks(context());
+}
+
+void Simulation::set_load_factor(int block, int load, double factor) {
+  if (!std::isfinite(factor)) throw std::invalid_argument("the factor of a load is a finite number");
+  system_.set_load_factor(block, load, factor);
+  wake_all(context());
+  state_.statics = StaticState{};
 }
 
 DroppedByOrder Simulation::change_order(int block, int order) {

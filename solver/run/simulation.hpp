@@ -72,6 +72,12 @@ class Simulation {
   /// static analysis can hold them. A block alone is one of them if its supports leave any rigid motion.
   [[nodiscard]] std::vector<std::vector<int>> loose_blocks();
 
+  /// Multiplies a load of a block by a factor on top of its history, from the next step on. A static analysis takes
+  /// up its load anew; blocks that sleep are woken.
+  /// @param load index into blocks()[block].loads(). @throws std::out_of_range if there is no such block or load,
+  /// std::invalid_argument if the factor is not finite: nothing has changed then
+  void set_load_factor(int block, int load, double factor);
+
   /// Changes the order of a moving block of the total formulation between two steps. Contacts keep their
   /// memory; raising loses nothing, and what lowering drops of the energy is booked as numerical. A static
   /// analysis takes up its load anew.

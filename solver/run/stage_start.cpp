@@ -31,6 +31,9 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     run.system.carry_on(k, run.blocks()[at(k)].with_shape(end.carried.at(k)));
     run.contacts.finder().start_step(k);
   }
+  for (const auto& [place, factor] : end.load_factors)
+    if (at(place[1]) < run.blocks()[at(place[0])].loads().size())
+      run.system.set_load_factor(place[0], place[1], factor);
   state.pairs.clear();
   for (const auto& [blocks, pair] : end.run.pairs) {
     if (!stays(blocks[0]) || !stays(blocks[1])) continue;

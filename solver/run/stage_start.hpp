@@ -3,7 +3,7 @@
 //
 // What is taken over is where blocks are, how they move and what their contacts remember: bonds, slip of
 // springs, forces of multipliers. So what has not changed is in balance in the first step of the stage as it
-// was in the last one before. Steps are counted on; the clock, the ledger and the work of contacts begin anew.
+// was in the last one before. Loads keep the factors that Simulation::set_load_factor gave them. Steps are counted on; the clock, the ledger and the work of contacts begin anew.
 #pragma once
 
 #include <vector>

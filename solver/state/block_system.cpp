@@ -130,6 +130,20 @@ void BlockSystem::carry_on(int block, BlockModel model) {
   blocks_[at(block)] = std::move(model);
 }
 
+void BlockSystem::set_load_factor(int block, int load, double factor) {
+  blocks_.at(at(block)).set_load_factor(at(load), factor);
+}
+
+std::map<std::array<int, 2>, double> BlockSystem::load_factors() const {
+  std::map<std::array<int, 2>, double> factors;
+  for (int block = 0; block < count(); ++block) {
+    const std::vector<Load>& loads = blocks_[at(block)].loads();
+    for (int load = 0; load < static_cast<int>(loads.size()); ++load)
+      if (loads[at(load)].factor != 1.0) factors[{block, load}] = loads[at(load)].factor;
+  }
+  return factors;
+}
+
 void BlockSystem::hold(const std::vector<int>& blocks) {
   for (const int block : blocks) moving_[at(block)] = false;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <vector>
@@ -74,6 +75,10 @@ class BlockSystem {
   void replace(int block, BlockModel model);
   /// Puts the model of an incremental block's next step in its place.
   void carry_on(int block, BlockModel model);
+  /// @throws std::out_of_range for a block or load that is not there
+  void set_load_factor(int block, int load, double factor);
+  /// Factors of loads that are not 1, by block and load.
+  [[nodiscard]] std::map<std::array<int, 2>, double> load_factors() const;
   /// Holds blocks as if they were fixed, until they are let go.
   void hold(const std::vector<int>& blocks);
   void let_go();

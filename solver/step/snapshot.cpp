@@ -26,6 +26,8 @@ std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapsho
     fits = fits && polynomial_count(order) == rows && !run.blocks()[at(k)].fixed() && !incremental;
     orders.emplace(k, order);
   }
+  for (const auto& [place, factor] : snapshot.load_factors)
+    fits = fits && at(place[0]) < states.size() && at(place[1]) < run.blocks()[at(place[0])].loads().size();
   if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
   return orders;
 }
@@ -41,7 +43,8 @@ SimulationCounts counts_of(const RunState& state, const StepContacts& contacts, 
 
 SimulationSnapshot snapshot_of(const BlockSystem& system, const RunState& state, const StepContacts& contacts,
                                const FactorCache& factors) {
-  SimulationSnapshot result{state, {}, contacts.finder().state(), factors.islands.kept()};
+  SimulationSnapshot result{
+      state, {}, contacts.finder().state(), factors.islands.kept(), system.load_factors()};
   result.run.log.counts = counts_of(state, contacts, factors);
   for (int k = 0; k < system.count(); ++k) {
     const BlockModel& block = system.blocks()[at(k)];
@@ -59,6 +62,10 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
   FactorCache factors;
   factors.islands.restore(snapshot.factors);
   for (const auto& [k, order] : orders) replace_model(run, k, run.blocks()[at(k)].with_order(order));
+  for (const auto& [place, factor] : run.system.load_factors())
+    run.system.set_load_factor(place[0], place[1], 1.0);
+  for (const auto& [place, factor] : snapshot.load_factors)
+    run.system.set_load_factor(place[0], place[1], factor);
   run.state = snapshot.run;
   hold_sleepers(run.system, run.state.sleep);
   // What does not move is placed once.

@@ -2,6 +2,7 @@
 // lets the run go on bit for bit as if it had never stopped.
 #pragma once
 
+#include <array>
 #include <map>
 
 #include "mechanics/block/incremental_block.hpp"
@@ -15,6 +16,7 @@ struct SimulationSnapshot {
   std::map<int, CarriedShape> carried;  ///< of incremental blocks
   FinderState finder;
   std::vector<KeptFactor> factors;
+  std::map<std::array<int, 2>, double> load_factors;  ///< BlockSystem::load_factors
 };
 
 /// Work done and skipped by a run so far.

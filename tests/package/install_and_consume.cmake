@@ -6,7 +6,8 @@ execute_process(COMMAND "${CMAKE_COMMAND}" --install "${ASHLAR_BUILD}" --config 
 
 # Installed headers find each other by <ashlar/...> alone, need no library but Eigen, and none is internal.
 file(GLOB_RECURSE headers "${WORK}/prefix/include/*")
-foreach(expected ashlar/geometry.hpp ashlar/mechanics.hpp ashlar/solver.hpp ashlar/geometry/solid/polyhedron.hpp)
+foreach(expected ashlar/geometry.hpp ashlar/mechanics.hpp ashlar/solver.hpp ashlar/scene.hpp ashlar/results.hpp
+    ashlar/geometry/solid/polyhedron.hpp ashlar/results/scene_run.hpp)
   if(NOT "${WORK}/prefix/include/${expected}" IN_LIST headers)
     message(SEND_ERROR "${expected} is not installed")
   endif()
@@ -34,3 +35,26 @@ foreach(step
     "${CMAKE_CTEST_COMMAND};--test-dir;${WORK}/build;--build-config;${CONFIG};--output-on-failure;--no-tests=error")
   execute_process(COMMAND ${step} COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
+if(NOT EXISTS "${WORK}/build/pier.out/summary.json")
+  message(SEND_ERROR "the consumer has written no results")
+endif()
+
+# The same without CMake.
+find_program(PKG_CONFIG pkg-config)
+if(NOT PKG_CONFIG)
+  message(STATUS "no pkg-config")
+  return()
+endif()
+file(GLOB_RECURSE package "${WORK}/prefix/*/ashlar.pc")
+get_filename_component(package "${package}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} "${package}")
+execute_process(COMMAND "${PKG_CONFIG}" --cflags --libs ashlar OUTPUT_VARIABLE flags
+  OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+execute_process(COMMAND "${CXX}" -std=c++20 "${CONSUMER_SOURCE}/pier.cpp" ${flags} -o "${WORK}/pier"
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${WORK}/pier" "${CONSUMER_SOURCE}/pier.toml" "${WORK}/pier.out"
+  OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+if(NOT said MATCHES "-120 kPa.*-220 kPa")
+  message(SEND_ERROR "built by pkg-config: ${said}")
+endif()

@@ -73,7 +73,7 @@ class Scene:
         return _json.loads(self._core.json())
 
     def simulation(self, threads=1):
-        """A simulation at its start. Of a scene in stages it is that of the first stage."""
+        """A simulation at its start. Of a scene in stages it goes through them one after the other."""
         return Simulation(self, threads)
 
     def __getstate__(self):
@@ -140,7 +140,7 @@ class Simulation:
 
     @property
     def time(self):
-        """s"""
+        """s, of the present stage"""
         return self._core.time
 
     @property
@@ -158,10 +158,31 @@ class Simulation:
         """Blocks by name: simulation.blocks["name"]."""
         return _Blocks(self._core)
 
+    @property
+    def message(self):
+        """What moves, or why a run failed; empty: nothing to tell."""
+        return self._core.message
+
+    @property
+    def stage(self):
+        """1-based number of the present stage; 0: the scene has none."""
+        return self._core.stage
+
+    def set_load_factor(self, block, load, factor):
+        """Multiplies a load of a block by a factor on top of its history, from the next step on.
+
+        load: its number among the [[block.load]] of the block, from 0. Raises KeyError, IndexError, ValueError.
+        """
+        self._core.set_load_factor(block, load, factor)
+
     def contacts(self):
         """The contact points of the last step, a structured array: a, b (numbers of the blocks), place, normal, force on a
         (3 each; m, 1, N), gap (m), area (m^2), type, state (0 open, 1 locked, 2 sliding)."""
         return self._core.contacts()
+
+    def record(self, folder):
+        """Writes each step from now on into a new result folder, frames where they are due, and at the end the summary."""
+        self._core.record(str(folder))
 
     def write(self, folder):
         """Writes the history, the present state and a summary as a result folder, in place of one that is there."""

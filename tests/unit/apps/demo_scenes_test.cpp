@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "apps/run/build_simulation.hpp"
+#include "apps/scene/build_simulation.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 

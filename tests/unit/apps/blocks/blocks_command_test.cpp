@@ -6,6 +6,8 @@
 #include <sstream>
 
 #include "apps/blocks/block_histogram.hpp"
+#include "geometry/mesh/mesh_io.hpp"
+#include "geometry/mesh/mesh_repair.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar {
@@ -104,6 +106,15 @@ TEST_F(BlocksCommand, WritesItsFiles) {
   EXPECT_THAT(obj, HasSubstr("g bar.2\n"));
   EXPECT_THAT(obj, HasSubstr("f 17 ")) << "points are counted over all groups";
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "blocks.vtu"));
+  const std::string stl = read_text(folder_ / "out" / "blocks.stl");
+  EXPECT_THAT(stl, HasSubstr("endsolid slab\nsolid bar.1\nfacet normal"));
+  // The solids of an STL file are one mesh to its reader; together they have the volume of all.
+  EXPECT_NEAR(rounded_volume(read_mesh(folder_ / "out" / "blocks.stl")), 14.0, 1e-12);
+  const std::string msh = read_text(folder_ / "out" / "blocks.msh");
+  EXPECT_THAT(msh, HasSubstr("$PhysicalNames\n3\n2 1 \"slab\"\n2 2 \"bar.1\"\n2 3 \"bar.2\"\n"));
+  // 8 corners and 12 triangles each.
+  EXPECT_THAT(msh, HasSubstr("$Nodes\n24\n"));
+  EXPECT_THAT(msh, HasSubstr("$Elements\n36\n1 2 2 1 1 "));
   EXPECT_THAT(read_text(folder_ / "out" / "sizes.svg"), HasSubstr("</svg>"));
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "apps/run/build_simulation.hpp"
+#include "apps/scene/build_simulation.hpp"
 #include "apps/scene/cut_rock.hpp"
 #include "apps/scene/joint_table.hpp"
 #include "apps/scene/scene_json.hpp"

@@ -277,7 +277,8 @@ TEST_F(MeshIo, meshes_that_ship_are_solids) {
 
 TEST_F(MeshIo, refused_files_tell_place_value_and_what_is_allowed) {
   EXPECT_EQ(refusal("a.off", ""), "0:0: mesh file is empty");
-  EXPECT_EQ(refusal("a.xyz", "1 2 3"), "0:0: ending of the mesh file (.xyz), allowed .off, .obj, .stl, .ply");
+  EXPECT_EQ(refusal("a.xyz", "1 2 3"),
+            "0:0: ending of the mesh file (.xyz), allowed .off, .obj, .stl, .ply, .msh");
   EXPECT_EQ(refusal("a.off", "OOF\n1 1 0\n"),
             "1:1: header (OOF), must be OFF, NOFF, COFF, STOFF or their combinations");
   EXPECT_EQ(refusal("a.off", "OFF\n4 4 6\n0 0 0\n1 0 x\n"), "4:5: z coordinate (x), must be a number");

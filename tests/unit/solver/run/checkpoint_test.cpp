@@ -39,6 +39,30 @@ void take_steps(Simulation& simulation, int count) {
   for (int k = 0; k < count; ++k) ASSERT_EQ(simulation.step(end_time), StepStatus::accepted);
 }
 
+TEST(Checkpoint, FactorsOfLoadsGoAlong) {
+  BlockDefinition cube =
+      test_support::block_of("cube", make_box({0, 0, 0}, {1, 1, 1}), {2000.0, 1e9, 0.0}, 1);
+  cube.loads.push_back({Vector3(0.5, 0.5, 0.5), false, Vector3(2000.0, 0.0, 0.0), {}});
+  const auto make = [&] {
+    SimulationSettings settings;
+    settings.gravity = Vector3::Zero();
+    settings.time_step = 1e-3;
+    return Simulation({BlockModel(cube)}, {{}}, test_support::same_law({}), settings);
+  };
+  Simulation straight = make();
+  straight.set_load_factor(0, 0, 3.0);
+  take_steps(straight, 1);
+  Simulation resumed = make();
+  resumed.restore(snapshot_from_bytes(to_bytes(straight.snapshot())));
+  take_steps(resumed, 1);
+  // 3 m/s^2 for 2 ms, in the zeroth coefficient of a unit volume.
+  EXPECT_NEAR(resumed.states()[0].velocity(0, 0), 6e-3, 1e-15);
+  // A snapshot without factors takes them back.
+  resumed.restore(make().snapshot());
+  take_steps(resumed, 1);
+  EXPECT_NEAR(resumed.states()[0].velocity(0, 0), 1e-3, 1e-15);
+}
+
 TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
   Simulation straight = make_simulation();
   take_steps(straight, steps_before);

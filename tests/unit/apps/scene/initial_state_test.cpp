@@ -1,8 +1,8 @@
-#include "apps/run/initial_state.hpp"
+#include "apps/scene/initial_state.hpp"
 
 #include <gmock/gmock.h>
 
-#include "apps/run/build_simulation.hpp"
+#include "apps/scene/build_simulation.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 

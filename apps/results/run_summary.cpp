@@ -1,10 +1,10 @@
-#include "apps/run/run_summary.hpp"
+#include "apps/results/run_summary.hpp"
 
 #include <sys/resource.h>
 
 #include <map>
 
-#include "apps/program_version.hpp"
+#include "apps/results/program_version.hpp"
 #include "apps/scene/scene_json.hpp"
 
 #include "solver/state/automatic.hpp"
@@ -109,37 +109,6 @@ BrokenJoints broken_joints(const Simulation& simulation) {
     broken.of_area += pair.bonded;
   }
   return broken;
-}
-
-std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
-  constexpr double far = 0.1;  // of a block's size
-  std::vector<DisplacedBlock> result;
-  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
-    const BlockModel& block = simulation.blocks()[k];
-    if (block.fixed() || block.driven()) continue;
-    const double distance =
-        mean_motion(block, simulation.states()[k].position - block.initial_state().position);
-    if (distance > far * block_size(block)) result.push_back({static_cast<int>(k), distance});
-  }
-  return result;
-}
-
-std::string to_string(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::failed:
-      return "failed";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::equilibrium:
-      return "equilibrium";
-    case RunStatus::moving:
-      return "moving";
-    case RunStatus::not_converged:
-      return "not converged";
-  }
-  return "unknown";
 }
 
 nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,

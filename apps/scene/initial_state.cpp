@@ -1,4 +1,4 @@
-#include "apps/run/initial_state.hpp"
+#include "apps/scene/initial_state.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

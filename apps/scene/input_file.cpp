@@ -1,4 +1,4 @@
-#include "apps/results/input_file.hpp"
+#include "apps/scene/input_file.hpp"
 
 #include <fstream>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "apps/program_version.hpp"
+#include "apps/results/program_version.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

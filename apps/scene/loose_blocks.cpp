@@ -1,4 +1,4 @@
-#include "apps/run/loose_blocks.hpp"
+#include "apps/scene/loose_blocks.hpp"
 
 #include <fmt/format.h>
 

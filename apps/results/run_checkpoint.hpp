@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/results/result_folder.hpp"
-#include "apps/run/run_summary.hpp"
+#include "apps/results/run_summary.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "solver/run/checkpoint.hpp"
 

@@ -1,4 +1,4 @@
-#include "apps/run/build_simulation.hpp"
+#include "apps/scene/build_simulation.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <set>
 #include <type_traits>
 
-#include "apps/run/initial_state.hpp"
 #include "apps/scene/cut_rock.hpp"
+#include "apps/scene/initial_state.hpp"
 #include "apps/scene/joint_table.hpp"
 #include "apps/scene/name_pattern.hpp"
 #include "apps/scene/support_history.hpp"

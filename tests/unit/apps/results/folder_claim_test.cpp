@@ -1,4 +1,4 @@
-#include "apps/run/folder_claim.hpp"
+#include "apps/results/folder_claim.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,20 +5,10 @@
 #include <string>
 
 #include "apps/results/largest_values.hpp"
-#include "apps/run/build_simulation.hpp"
+#include "apps/results/run_status.hpp"
+#include "apps/scene/build_simulation.hpp"
 
 namespace ashlar {
-
-/// How a run ended, as `status` in summary.json.
-enum class RunStatus {
-  completed,      ///< "completed": a dynamic run reached its end time
-  failed,         ///< "failed": a step could not be taken
-  interrupted,    ///< "interrupted"
-  equilibrium,    ///< "equilibrium": a static analysis found it
-  moving,         ///< "moving": a static analysis found that there is none near: blocks move
-  not_converged,  ///< "not converged": a static analysis found neither
-};
-[[nodiscard]] std::string to_string(RunStatus status);
 
 /// Wall time of the parts of a run, s; of a resumed one with what came before.
 struct RunSeconds {
@@ -26,15 +16,6 @@ struct RunSeconds {
   double setup = 0.0;
   double output = 0.0;
 };
-
-/// A block that a static analysis has taken far.
-struct DisplacedBlock {
-  int block;
-  double distance;  ///< root mean square over the block from where it was placed, m
-};
-/// Blocks farther than a tenth of their size from where they were placed, those on supports that move left
-/// out: what they rest in is not what was built.
-[[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
 /// What only the run itself knows of its end.
 struct RunOutcome {

@@ -1,0 +1,209 @@
+#include "apps/results/scene_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/results/atomic_file.hpp"
+#include "apps/results/json_text.hpp"
+#include "apps/results/run_summary.hpp"
+#include "apps/scene/initial_state.hpp"
+#include "apps/scene/loose_blocks.hpp"
+#include "apps/scene/scene_stages.hpp"
+#include "geometry/index.hpp"
+#include "solver/run/checkpoint.hpp"
+
+namespace ashlar {
+namespace {
+
+BuiltSimulation built(const LoadedScene& stage, int threads, bool first) {
+  Diagnostics diagnostics;
+  std::optional<BuiltSimulation> result = build_simulation(stage, std::max(threads, 1), diagnostics);
+  if (result && first && is_static(stage.scene.analysis))
+    refuse_loose_blocks(stage.scene, result->simulation, diagnostics);
+  for (const Diagnostic& fault : diagnostics.sorted())
+    if (fault.severity == Severity::error) throw std::invalid_argument(to_string(fault));
+  return std::move(*result);
+}
+
+}  // namespace
+
+SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads)
+    : scene_(std::move(scene)),
+      present_(std::make_shared<const LoadedScene>(stage_of(*scene_, 0))),
+      threads_(threads),
+      built_(built(*present_, threads, true)),
+      measures_(measures_of(scene_->scene, built_.simulation.blocks())) {
+  if (starts_from_statics(present_->scene)) {
+    const StaticStart start = start_in_statics(built_.simulation, [] { return true; });
+    if (start.end == StaticStart::End::failed) throw std::runtime_error(start.message);
+    message_ = start.message;
+  }
+  if (stage() > 0 && scene_->scene.stage.front().reset_displacement) reset_displacement();
+  add_row();
+}
+
+bool SceneRun::step() {
+  if (status_) return false;
+  if (stage_has_ended_) begin_next_stage();
+  if (is_static(present_->scene.analysis)) {
+    take_static_step();
+  } else {
+    take_step();
+  }
+  return !status_;
+}
+
+void SceneRun::begin_next_stage() {
+  const SimulationSnapshot last = built_.simulation.snapshot();
+  const std::vector<bool> was_absent = built_.simulation.system().absent();
+  place_.elapsed += built_.simulation.time();
+  const auto next = static_cast<std::size_t>(place_.stage);
+  present_ = std::make_shared<const LoadedScene>(stage_of(*scene_, next));
+  built_ = built(*present_, threads_, false);
+  built_.simulation.start_stage(last, was_absent);
+  ++place_.stage;
+  stage_has_ended_ = false;
+  message_.clear();
+  const bool resets = scene_->scene.stage[next].reset_displacement;
+  if (resets) reset_displacement();
+  if (results_) results_->begin_stage(built_.simulation, place_.elapsed, resets);
+}
+
+void SceneRun::reset_displacement() {
+  place_.origin =
+      origin_of(simulation(), measures_, drawn_surfaces(simulation().blocks(), scene_->scene.output.curved));
+}
+
+void SceneRun::take_step() {
+  Simulation& simulation = built_.simulation;
+  const double end_time = present_->scene.analysis.end_time;
+  StepStatus taken = StepStatus::accepted;
+  try {
+    taken = simulation.step(end_time);
+  } catch (const std::exception& error) {
+    fail(fmt::format("step {} at t = {:.9g} s cannot be taken: {}", simulation.steps() + 1, simulation.time(),
+                     error.what()));
+  }
+  if (taken != StepStatus::accepted) {
+    const Rejection& last = simulation.rejections().back();
+    fail(fmt::format("step {} at t = {:.9g} s was rejected down to a time step of {:.3g} s: {}",
+                     simulation.steps() + 1, simulation.time(), last.step, reason_of(last, simulation)));
+  }
+  add_row();
+  if (!simulation.reached(end_time)) return;
+  if (const auto deep = simulation.audit())
+    fail(fmt::format("the run ended at t = {:.9g} s with blocks too deep in each other: {}",
+                     simulation.time(), description_of(*deep, simulation)));
+  end(RunStatus::completed, "");
+}
+
+void SceneRun::take_static_step() {
+  Simulation& simulation = built_.simulation;
+  const int before = simulation.steps();
+  StaticStatus found = StaticStatus::balancing;
+  try {
+    found = simulation.static_step(present_->scene.analysis.end_time);
+  } catch (const std::exception& error) {
+    fail(fmt::format("iteration {} cannot be taken: {}", simulation.steps() + 1, error.what()));
+  }
+  if (simulation.steps() > before) add_row();
+  switch (found) {
+    case StaticStatus::balancing:
+      break;
+    case StaticStatus::equilibrium:
+      end(RunStatus::equilibrium, describe_displaced(simulation));
+      break;
+    case StaticStatus::moving:
+      end(RunStatus::moving, describe_motion(simulation));
+      break;
+    case StaticStatus::not_converged:
+      end(RunStatus::not_converged,
+          fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
+                      simulation.steps(), simulation.time()));
+      break;
+  }
+}
+
+void SceneRun::end(RunStatus status, std::string message) {
+  message_ = std::move(message);
+  if (results_) results_->add_end(built_.simulation);
+  const bool goes_on = status == RunStatus::completed || status == RunStatus::equilibrium;
+  if (goes_on && static_cast<std::size_t>(place_.stage) < stage_count(scene_->scene)) {
+    stage_has_ended_ = true;
+    return;
+  }
+  status_ = status;
+  if (results_) write_summary(*results_);
+}
+
+void SceneRun::fail(const std::string& message) {
+  status_ = RunStatus::failed;
+  message_ = message;
+  if (results_) write_summary(*results_);
+  throw std::runtime_error(message);
+}
+
+void SceneRun::add_row() {
+  rows_.push_back({static_cast<double>(built_.simulation.steps())});
+  const std::vector<double> values = history_row(built_.simulation, measures_, place_.origin, stage());
+  rows_.back().insert(rows_.back().end(), values.begin(), values.end());
+  if (results_) results_->add_step(built_.simulation);
+}
+
+int SceneRun::block(const std::string& name) const {
+  const std::vector<BlockModel>& blocks = simulation().blocks();
+  const auto found = std::find_if(blocks.begin(), blocks.end(),
+                                  [&](const BlockModel& block) { return block.name() == name; });
+  if (found == blocks.end()) throw std::out_of_range(fmt::format("no block is called {}", name));
+  return static_cast<int>(found - blocks.begin());
+}
+
+PointMotion SceneRun::motion(const std::string& name, const Vector3& point) const {
+  const int index = block(name);
+  return simulation().blocks()[at(index)].motion_of(simulation().states()[at(index)], point);
+}
+
+void SceneRun::set_load_factor(const std::string& name, int load, double factor) {
+  built_.simulation.set_load_factor(block(name), load, factor);
+  if (!is_static(present_->scene.analysis) || status_ == RunStatus::failed) return;
+  status_.reset();
+  stage_has_ended_ = false;
+}
+
+std::vector<std::string> SceneRun::columns() const {
+  return history_columns(measures_, stage() > 0);
+}
+
+void SceneRun::record(const std::filesystem::path& folder, ClaimPurpose purpose) {
+  auto claim = std::make_unique<FolderClaim>(folder, purpose);
+  results_ = std::make_unique<ResultFolder>(folder, scene_->scene, simulation(), place_);
+  claim_ = std::move(claim);
+}
+
+void SceneRun::write_summary() const {
+  if (results_) write_summary(*results_);
+}
+
+void SceneRun::write_summary(const ResultFolder& results) const {
+  const auto summary = run_summary(scene_->scene, built_,
+                                   {status_.value_or(RunStatus::interrupted),
+                                    message_,
+                                    {},
+                                    results.frames(),
+                                    results.largest(simulation())});
+  write_file_atomically(results.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
+}
+
+void SceneRun::write(const std::filesystem::path& folder) const {
+  const FolderClaim claim(folder, ClaimPurpose::replacement);
+  const ResultFolder results(folder, scene_->scene, simulation(), place_);
+  HistoryWriter history(folder / "history.csv", columns());
+  for (const std::vector<double>& row : rows_)
+    history.append(static_cast<std::int64_t>(row.front()), std::vector<double>(row.begin() + 1, row.end()));
+  write_summary(results);
+}
+
+}  // namespace ashlar

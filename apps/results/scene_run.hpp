@@ -1,0 +1,103 @@
+// A scene as a run that its caller drives: step by step, stage after stage, with a look at the blocks in between.
+//
+//   Diagnostics faults;
+//   auto scene = load_scene("wall.toml", {}, faults);    // scene_loading.hpp; faults.print(std::cerr)
+//   SceneRun run(std::move(*scene));
+//   while (run.step()) ...                               // run.motion("brick.1", point).stress
+//   run.write("wall.out");
+//
+// `ashlar run` does the same with checkpoints, progress and searches for factors of safety on top. A run has its
+// own state and no other: several may go on at a time, each in a thread of its own.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/results/folder_claim.hpp"
+#include "apps/results/measure.hpp"
+#include "apps/results/result_folder.hpp"
+#include "apps/results/run_status.hpp"
+#include "apps/scene/build_simulation.hpp"
+#include "apps/scene/scene_loading.hpp"
+
+namespace ashlar {
+
+class SceneRun {
+ public:
+  /// Builds the blocks and finds the initial equilibrium where the scene asks for it. Of a scene that searches for a
+  /// factor this is the analysis at factor 1.
+  /// @param scene not null. @param threads >= 1
+  /// @throws std::invalid_argument "FILE:LINE:COLUMN: error: ..." if blocks cannot be built, or nothing holds those of
+  /// a static analysis; std::runtime_error if initial_state = "static" finds no answer
+  explicit SceneRun(std::shared_ptr<const LoadedScene> scene, int threads = 1);
+  explicit SceneRun(LoadedScene scene, int threads = 1)
+      : SceneRun(std::make_shared<const LoadedScene>(std::move(scene)), threads) {}
+
+  /// Takes a step, or an iteration of a static analysis. Where a stage has ended, the next call begins the next one.
+  /// @return whether there is more to do
+  /// @throws std::runtime_error with the reason if the step cannot be taken, or the run ends with blocks too deep in
+  /// each other; the state is then the last good one and status() is failed; or if results cannot be written
+  bool step();
+
+  /// Empty as long as there is more to do.
+  [[nodiscard]] std::optional<RunStatus> status() const { return status_; }
+  /// What moves, or why the run failed; empty: nothing to tell.
+  [[nodiscard]] const std::string& message() const { return message_; }
+  /// 1-based number of the present stage; 0: the scene has none.
+  [[nodiscard]] int stage() const { return scene_->scene.stage.empty() ? 0 : place_.stage; }
+  /// Blocks, states, contacts, time (s, of the present stage), steps.
+  [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
+
+  /// Index of a block in simulation().blocks(). @throws std::out_of_range if there is none of that name
+  [[nodiscard]] int block(const std::string& name) const;
+  /// What a point of a block does now: place (m), displacement (m), velocity (m/s), Cauchy stress (Pa, tension
+  /// positive). @param point m, in the placed, undeformed block. @throws std::out_of_range
+  [[nodiscard]] PointMotion motion(const std::string& name, const Vector3& point) const;
+  /// Multiplies a load of a block by a factor, from the next step on (Simulation::set_load_factor). A static analysis
+  /// that has ended goes on under the new load.
+  /// @param load its number among the block's loads, from 0. @throws std::out_of_range, std::invalid_argument
+  void set_load_factor(const std::string& name, int load, double factor);
+
+  /// Names of the columns of history.csv.
+  [[nodiscard]] std::vector<std::string> columns() const;
+  /// A row for the start and for each step, values as columns() has them.
+  [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
+
+  /// Writes each step from the present one on into a result folder, as `ashlar run` does: frames where they are due,
+  /// at the end the summary. @throws ClaimRefused, std::runtime_error
+  void record(const std::filesystem::path& folder, ClaimPurpose purpose = ClaimPurpose::new_run);
+  /// Writes the summary of a recorded run now: of a run that has not ended its status is interrupted.
+  void write_summary() const;
+  /// Writes the present state as the only frame, all rows and the summary into a result folder, in place of results
+  /// that are there. @throws ClaimRefused, std::runtime_error
+  void write(const std::filesystem::path& folder) const;
+
+ private:
+  void begin_next_stage();
+  void reset_displacement();
+  void take_step();
+  void take_static_step();
+  void end(RunStatus status, std::string message);
+  void fail(const std::string& message);
+  void add_row();
+  void write_summary(const ResultFolder& results) const;
+
+  std::shared_ptr<const LoadedScene> scene_;    ///< of all stages
+  std::shared_ptr<const LoadedScene> present_;  ///< the present stage
+  int threads_;
+  BuiltSimulation built_;
+  std::vector<Measure> measures_;
+  StagePlace place_;
+  bool stage_has_ended_ = false;
+  std::vector<std::vector<double>> rows_;
+  std::optional<RunStatus> status_;
+  std::string message_;
+  std::unique_ptr<FolderClaim> claim_;     ///< of the folder that is recorded to; null: none
+  std::unique_ptr<ResultFolder> results_;  ///< in claim_
+};
+
+}  // namespace ashlar

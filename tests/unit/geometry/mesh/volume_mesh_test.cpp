@@ -1,0 +1,195 @@
+#include "geometry/mesh/volume_mesh.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/solid/polyhedron.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// The cube [0, 1]^3 in six tetrahedra about its diagonal; the last one is inside out.
+const std::string nodes = R"(8
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 1 1 0
+5 0 0 1
+6 1 0 1
+7 0 1 1
+8 1 1 1
+)";
+const std::string version_2 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+2 9 "skin"
+3 1 "lower half"
+3 2 "upper"
+$EndPhysicalNames
+$Nodes
+)" + nodes + R"($EndNodes
+$Elements
+7
+1 2 2 9 1 1 2 3
+2 4 2 1 1 1 2 4 8
+3 4 2 1 1 1 4 3 8
+4 4 2 1 1 1 3 7 8
+5 4 2 2 1 1 7 5 8
+6 4 2 2 1 1 5 6 8
+7 4 2 3 1 6 1 2 8
+$EndElements
+)";
+const std::string version_4 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Comments
+anything
+$EndComments
+$PhysicalNames
+1
+3 7 "rock"
+$EndPhysicalNames
+$Entities
+1 0 0 2
+1 0 0 0 0
+1 0 0 0 1 1 1 1 7 0
+2 0 0 0 1 1 1 0 0
+$EndEntities
+$Nodes
+2 5 1 9
+0 1 0 1
+1
+0 0 0
+3 1 0 4
+2
+3
+5
+9
+2 0 0
+0 2 0
+0 0 2
+2 2 2
+$EndNodes
+$Elements
+3 3 1 3
+0 1 15 1
+1 1
+3 1 4 1
+2 1 2 3 5
+3 2 4 1
+3 2 3 5 9
+$EndElements
+)";
+
+double volume_of(const TriangleMesh& mesh) {
+  return Polyhedron(mesh).volume();
+}
+
+TEST(VolumeMesh, TheSurfaceOfACubeOfTetrahedraIsTheCube) {
+  const VolumeMesh mesh = read_msh(version_2);
+  ASSERT_EQ(mesh.tetrahedra.size(), 6U);
+  EXPECT_THAT(mesh.groups, ElementsAre("lower half", "upper", "3"));
+  const TriangleMesh surface = surface_of(mesh);
+  EXPECT_EQ(surface.triangles.size(), 12U);
+  const Polyhedron cube(surface);
+  EXPECT_EQ(cube.volume(), 1.0);
+  EXPECT_EQ(cube.faces().size(), 6U);
+  for (const MeshGroup& tetrahedron : surfaces_of_tetrahedra(mesh)) {
+    EXPECT_EQ(volume_of(tetrahedron.mesh), 1.0 / 6.0) << tetrahedron.name;
+    EXPECT_EQ(tetrahedron.mesh.points.size(), 4U);
+  }
+}
+
+TEST(VolumeMesh, GroupsAreBodies) {
+  const VolumeMesh mesh = read_msh(version_2);
+  const std::vector<MeshGroup> bodies = surfaces_of_groups(mesh);
+  ASSERT_EQ(bodies.size(), 3U);
+  EXPECT_EQ(bodies[0].name, "lower half");
+  EXPECT_EQ(volume_of(bodies[0].mesh), 0.5);
+  EXPECT_NEAR(volume_of(bodies[1].mesh), 1.0 / 3.0, 1e-15);
+  const VolumeMesh upper = only_group(mesh, "upper");
+  EXPECT_EQ(upper.tetrahedra.size(), 2U);
+  EXPECT_NEAR(volume_of(surface_of(upper)), 1.0 / 3.0, 1e-15);
+  try {
+    (void)only_group(mesh, "middle");
+    FAIL();
+  } catch (const MeshFileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("(middle), there are lower half, upper, 3"));
+  }
+}
+
+TEST(VolumeMesh, Version4HasGroupsByVolume) {
+  const VolumeMesh mesh = read_msh(version_4);
+  EXPECT_THAT(mesh.groups, ElementsAre("rock", "default"));
+  ASSERT_EQ(mesh.tetrahedra.size(), 2U);
+  EXPECT_EQ(mesh.points[1], Vector3(2, 0, 0));
+  // 2^3 / 6, and the regular tetrahedron of edge 2 sqrt(2): 8 / 3.
+  EXPECT_EQ(volume_of(surfaces_of_tetrahedra(mesh)[0].mesh), 8.0 / 6.0);
+  EXPECT_EQ(volume_of(surfaces_of_tetrahedra(mesh)[1].mesh), 8.0 / 3.0);
+  EXPECT_EQ(volume_of(surface_of(mesh)), 4.0);
+}
+
+struct Fault {
+  std::string from, to, says;
+};
+
+class BadMsh : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(BadMsh, IsRefusedAtItsPlace) {
+  std::string text = version_2;
+  const std::size_t place = text.find(GetParam().from);
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, GetParam().from.size(), GetParam().to);
+  try {
+    (void)read_msh(text);
+    FAIL() << "read";
+  } catch (const MeshFileError& error) {
+    EXPECT_THAT(std::to_string(error.line()) + ": " + error.what(), HasSubstr(GetParam().says));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    VolumeMesh, BadMsh,
+    ::testing::Values(Fault{"2.2 0", "4.0 0", "2: version of the format (4.0), must be 2.2 or 4.1"},
+                      Fault{"2.2 0", "2.2 1", "2: kind of file (1), must be 0"},
+                      Fault{"$MeshFormat", "$Mesh", "1: "}, Fault{"\"upper\"", "\"upper", "8: "},
+                      Fault{"8 1 1 1", "7 1 1 1", "19: number of a node (7), is given twice"},
+                      Fault{"8 1 1 1", "8 1 1 x", "19: z coordinate (x)"},
+                      Fault{"6 4 2 2 1 1 5 6 8", "6 4 2 2 1 1 5 6 9", "number of a node (9), no node"},
+                      Fault{"6 4 2 2 1 1 5 6 8", "6 4 2 2 1 1 5 5 8", "it has no volume"},
+                      Fault{"6 4 2 2 1 1 5 6 8", "6 11 2 2 1 1 5 6 8",
+                            "(11), must be 4: tetrahedra with 4 nodes"},
+                      Fault{"7 4 2 3 1 6 1 2 8\n", "", "number of an element ($EndElements)"},
+                      Fault{"$EndElements", "", "file ends before $EndElements"},
+                      Fault{"$Elements\n7", "$Elements\n1", "$EndElements"}));
+
+TEST(VolumeMesh, AFileWithoutTetrahedraIsRefused) {
+  EXPECT_THROW((void)read_msh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"), MeshFileError);
+  EXPECT_THROW((void)read_msh(""), MeshFileError);
+}
+
+TEST(VolumeMesh, AFacetOfThreeTetrahedraIsRefused) {
+  std::string text = version_2;
+  const std::string last = "7 4 2 3 1 6 1 2 8\n";
+  text.replace(text.find(last), last.size(), "7 4 2 3 1 1 2 4 8\n");
+  text.replace(text.find("6 4 2 2 1 1 5 6 8\n"), 18, "6 4 2 2 1 1 2 4 8\n");
+  EXPECT_THROW((void)surface_of(read_msh(text)), MeshFileError);
+}
+
+TEST(VolumeMesh, FilesAreReadByTheirEnding) {
+  const TemporaryFolder folder;
+  write_text(folder / "cube.msh", version_2);
+  EXPECT_EQ(volume_of(read_mesh(folder / "cube.msh")), 1.0);
+  EXPECT_EQ(read_mesh_groups(folder / "cube.msh").size(), 3U);
+  EXPECT_EQ(read_volume_mesh(folder / "cube.msh").points.size(), 8U);
+  EXPECT_THROW((void)read_volume_mesh(folder / "cube.obj"), MeshFileError);
+}
+
+}  // namespace
+}  // namespace ashlar
