@@ -21,6 +21,12 @@ BlockRows::BlockRows(const AdmissibleSpace& space, const Eigen::MatrixXd& phi) :
     }
     starts_[n + 1] = starts_[n] + values(axis).cols();
   }
+  if (!same_) supported_ = phi;
+}
+
+Eigen::Matrix3Xd BlockRows::displacements(const Eigen::MatrixX3d& change) const {
+  if (same_ && fixed()) return Eigen::Matrix3Xd(3, 0);
+  return ((same_ ? values_[0] : supported_) * change).transpose();
 }
 
 void BlockRows::add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3Xd& motion) const {

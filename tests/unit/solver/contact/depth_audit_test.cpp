@@ -13,7 +13,7 @@ namespace {
 using test_support::block_of;
 
 const Material rock{2500.0, 1e10, 0.2};
-const AuditScope all_pairs{[](int, int) { return true; }, std::vector<bool>(8, true), 1e-6, 1};
+const AuditScope all_pairs{[](int, int) { return true; }, std::vector<bool>(8, true), 1e-6};
 
 /// Audits two blocks where they are placed.
 std::vector<PairDepth> audit(const Polyhedron& first, const Polyhedron& second, int order,
@@ -29,7 +29,7 @@ std::vector<PairDepth> audit(const Polyhedron& first, const Polyhedron& second, 
   }
   DepthAudit audit(2);
   (void)audit.run(blocks, states, surfaces, scope);
-  return audit.run(blocks, states, surfaces, scope);  // with what the first one has found clear
+  return audit.run(blocks, states, surfaces, scope).depths;  // with what the first one has found clear
 }
 
 Polyhedron cube(const Vector3& low, double side = 1.0) {
