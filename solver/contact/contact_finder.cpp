@@ -104,9 +104,10 @@ std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states
     track.motion = 0.0;
     if (!near[k]) continue;
     const bool unseen = track.box.low.x() > track.box.high.x();
-    if (unseen || surfaces_[k].curves() || !(track.path - track.box_path <= enough)) look_at(static_cast<int>(k), states[k]);
-    track.motion = motion.loose[k] - motion.fall <= enough ? motion.loose[k]
-                                                           : motion.closer(static_cast<int>(k));
+    if (unseen || surfaces_[k].curves() || !(track.path - track.box_path <= enough))
+      look_at(static_cast<int>(k), states[k]);
+    track.motion =
+        motion.loose[k] - motion.fall <= enough ? motion.loose[k] : motion.closer(static_cast<int>(k));
     boxes[k] = loose_box(static_cast<int>(k)).grown(track.motion + settings_.contact_distance);
   }
   return boxes;
@@ -254,7 +255,8 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const Kn
     if (below) again.push_back(k);
   }
   parallel_for(settings_.threads, again.size(), [&](std::size_t n) {
-    auto& [blocks, contacts] = searched[again[n]];
+    const PairKey& blocks = searched[again[n]].blocks;
+    PairContacts& contacts = searched[again[n]].contacts;
     const HiddenPlaces places = hidden_sides_->of_pair(blocks);
     const DecisionCounts counts = contacts.counts;
     contacts = find_contacts(placed(blocks[0]), placed(blocks[1]), limits[again[n]], &places);
@@ -271,7 +273,8 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
   std::vector<std::size_t> open;
   std::vector<std::optional<ConvexSurface>> hulls(surfaces_.size());
   for (std::size_t k = 0; k < searched.size(); ++k) {
-    auto& [blocks, contacts] = searched[k];
+    const PairKey& blocks = searched[k].blocks;
+    PairContacts& contacts = searched[k].contacts;
     // Which of a hull's faces are hidden is not known there.
     if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])] || hidden_.count(blocks) > 0) continue;
     if (!contacts.overlaps.empty()) {
@@ -286,13 +289,14 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
   counts_.convex_pairs += open.size();
   std::vector<std::optional<EntranceName>> settled(open.size());
   parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
-    auto& [blocks, contacts] = searched[open[k]];
+    const PairKey& blocks = searched[open[k]].blocks;
+    PairContacts& contacts = searched[open[k]].contacts;
     ContactHistory history;
-    const PairHistory& known = history_of(histories, blocks);
-    history.entrance = known.entrance;
+    const PairHistory& before = history_of(histories, blocks);
+    history.entrance = before.entrance;
     // What the last step has not left so deep was not met through that facet.
     history.depth =
-        settings_.search.passing_share * settings_.contact_distance + 2.0 * known.depth_to_search();
+        settings_.search.passing_share * settings_.contact_distance + 2.0 * before.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
     settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });

@@ -206,7 +206,8 @@ class ContactFinder {
   std::vector<NearPair> near_;                        ///< of the step
   std::vector<NearPair> found_apart_;                 ///< of the last search
   std::optional<HiddenSides> fixed_sides_;            ///< of fixed blocks, found when first asked for
-  std::optional<HiddenSides> hidden_sides_;  ///< of the step, noted when first asked for; empty if no vertex is in a block
+  std::optional<HiddenSides>
+      hidden_sides_;          ///< of the step, noted when first asked for; empty if no vertex is in a block
   std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };

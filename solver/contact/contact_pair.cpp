@@ -41,8 +41,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, KeptCont
   kind_.goes_on = true;
   if (law.augmented) return;
   std::vector<double> rests;
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    rests.push_back(points_[k].gap + memory_[k].compression);
+  for (std::size_t k = 0; k < points_.size(); ++k) rests.push_back(points_[k].gap + memory_[k].compression);
   rests_ = std::move(rests);
   // Not the gap less the rest: what springs hold must not change by rounding.
   for (std::size_t k = 0; k < points_.size(); ++k)

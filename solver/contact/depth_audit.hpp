@@ -29,9 +29,9 @@ struct PairDepth {
   Vector3 place;              ///< current coordinates, m
   /// Points of the first block's surface that it is on: one, or both ends of an edge.
   std::array<int, 2> points;
-  double along = 0.0;  ///< of the edge, from its first end, 0 to 1
-  int face = -1;       ///< of the second block's solid: the nearest
-  Vector3 normal;      ///< of it, outward, current coordinates, unit
+  double along = 0.0;                ///< of the edge, from its first end, 0 to 1
+  int face = -1;                     ///< of the second block's solid: the nearest
+  Vector3 normal;                    ///< of it, outward, current coordinates, unit
   std::array<Vector3, 2> materials;  ///< the point in both blocks, reference coordinates, m
 };
 
@@ -43,9 +43,10 @@ struct MeasuredDepth {
 
 /// What is known from the audits of the steps before: part of the state of a run. By block.
 struct KnownDepths {
-  std::vector<Eigen::MatrixX3d> positions;  ///< where the block was when all of its neighbours were looked for; empty: never
-  std::vector<Box> boxes;                   ///< of it there
-  std::vector<MeasuredDepth> depths;        ///< of all pairs, in the order of meeting_boxes()
+  std::vector<Eigen::MatrixX3d>
+      positions;           ///< where the block was when all of its neighbours were looked for; empty: never
+  std::vector<Box> boxes;  ///< of it there
+  std::vector<MeasuredDepth> depths;  ///< of all pairs, in the order of meeting_boxes()
 };
 
 /// A ball in the reference shape of a solid that has nothing of the solid in it.
@@ -97,7 +98,8 @@ struct AuditScope {
 
 /// What an audit has found.
 struct Audit {
-  std::vector<PairDepth> depths;  ///< the deepest point of every ordered pair of blocks that are in each other, by blocks
+  std::vector<PairDepth>
+      depths;  ///< the deepest point of every ordered pair of blocks that are in each other, by blocks
   /// Blocks that were looked at anew, with where they are; to be taken over into KnownDepths with `measured`
   std::vector<int> moved;
   std::vector<Eigen::MatrixX3d> positions;  ///< of them

@@ -104,7 +104,8 @@ bool fits(const PairContacts& contacts, const SubFaceSurface& a, const SubFaceSu
   };
   return std::all_of(contacts.overlaps.begin(), contacts.overlaps.end(),
                      [&](const CellOverlap& overlap) {
-                       return within(overlap.cell_a, a.cells.size()) && within(overlap.cell_b, b.cells.size());
+                       return within(overlap.cell_a, a.cells.size()) &&
+                              within(overlap.cell_b, b.cells.size());
                      }) &&
          std::all_of(contacts.vertices.begin(), contacts.vertices.end(),
                      [&](const VertexContact& contact) {
@@ -143,12 +144,12 @@ bool fits(const ContactPoints& found) {
 std::shared_ptr<const LastingContacts> with_rows(const LastingContacts& lasting, const BlockModel& a,
                                                  const BlockModel& b, const BlockSurface& surface_a,
                                                  const BlockSurface& surface_b) {
-  const bool sizes_fit = lasting.positions[0].rows() == a.basis().size() &&
-                         lasting.positions[1].rows() == b.basis().size();
+  const bool sizes_fit =
+      lasting.positions[0].rows() == a.basis().size() && lasting.positions[1].rows() == b.basis().size();
   // Surfaces that curve are divided before contacts with them are looked at.
   const bool divided = surface_a.curves() || surface_b.curves();
-  if (!sizes_fit || (!divided && !fits(lasting.contacts, surface_a.surface(), surface_b.surface())) || !fits(lasting.found.points, a, b) ||
-      !fits(lasting.found))
+  if (!sizes_fit || (!divided && !fits(lasting.contacts, surface_a.surface(), surface_b.surface())) ||
+      !fits(lasting.found.points, a, b) || !fits(lasting.found))
     throw std::invalid_argument("contacts that last are of other blocks");
   LastingContacts completed = lasting;
   if (!completed.found.points.empty()) completed.rows = PairRows::values_of(a, b, completed.found.points);

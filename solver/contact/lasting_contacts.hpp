@@ -31,9 +31,9 @@ struct LastingContacts {
   std::array<Eigen::MatrixX3d, 2> positions;  ///< of both blocks when they were found, (p, 3)
   /// How both surfaces were divided (BlockSurface::wanted).
   std::array<std::vector<std::uint64_t>, 2> divisions;
-  double reach = 0.0;                         ///< m, up to which gap contacts were looked for
-  JointLaw law;                               ///< as it was, with the rounding of the pair's coordinates
-  ContactPoints found;                        ///< what was made of the contacts
+  double reach = 0.0;                            ///< m, up to which gap contacts were looked for
+  JointLaw law;                                  ///< as it was, with the rounding of the pair's coordinates
+  ContactPoints found;                           ///< what was made of the contacts
   std::shared_ptr<const PairRows::Values> rows;  ///< of the points; null: not made yet (a checkpoint's)
 };
 
@@ -47,7 +47,7 @@ struct KeptContacts {
 /// The motion of a and of b since their contacts were found.
 struct RelativeMotion {
   std::array<Eigen::MatrixX3d, 2> changes;  ///< of the positions, (p, 3)
-  Vector3 shift = Vector3::Zero();          ///< translation of b's centroid; of a's if b is fixed, 0 if both are
+  Vector3 shift = Vector3::Zero();  ///< translation of b's centroid; of a's if b is fixed, 0 if both are
 };
 [[nodiscard]] RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a,
                                           const ContactBody& b);

@@ -26,7 +26,7 @@ struct Clearance {
 
 /// One pair of blocks. What is not known has its default.
 struct PairHistory {
-  ContactMemory memory;                  ///< of the contacts of the last step; empty: there were none
+  ContactMemory memory;  ///< of the contacts of the last step; empty: there were none
   /// What was found at the last search, if it may last: where it has points, those of the memory; null: nothing
   std::shared_ptr<const LastingContacts> lasting;
   std::optional<Clearance> clearance;    ///< unless the last search found contacts

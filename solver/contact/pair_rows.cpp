@@ -72,9 +72,9 @@ std::shared_ptr<const PairRows::Values> PairRows::values_of(const BlockModel& a,
 PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
                    const Tie* tie)
     : PairRows(a, b, points,
-               tie == nullptr ? values_of(*a.model, *b.model, points)
-                              : completed({rows_of(*a.model, tie->a), rows_of(*b.model, tie->b)},
-                                          frames_of(points)),
+               tie == nullptr
+                   ? values_of(*a.model, *b.model, points)
+                   : completed({rows_of(*a.model, tie->a), rows_of(*b.model, tie->b)}, frames_of(points)),
                tie) {}
 
 PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,

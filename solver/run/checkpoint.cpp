@@ -210,8 +210,8 @@ static void visit_members(Archive& archive, Rejection& rejection) {
 template <class Archive>
 static void visit_members(Archive& archive, FinderCounts& counts) {
   archive(counts.block_pairs_tested, counts.convex_pairs, counts.block_pairs_skipped, counts.block_pairs_kept,
-          counts.block_pairs_far,
-          counts.motions_checked, counts.divisions, counts.divisions_at_limit, counts.predicates);
+          counts.block_pairs_far, counts.motions_checked, counts.divisions, counts.divisions_at_limit,
+          counts.predicates);
 }
 
 template <class Archive>
@@ -274,8 +274,8 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PairHistory& pair) {
-  archive(pair.memory, pair.lasting, pair.clearance, pair.entrance, pair.work, pair.taken, pair.bonded, pair.broken,
-          pair.depth);
+  archive(pair.memory, pair.lasting, pair.clearance, pair.entrance, pair.work, pair.taken, pair.bonded,
+          pair.broken, pair.depth);
 }
 
 template <class Archive>

@@ -32,7 +32,9 @@ Audit measure_depths(const RunContext& run, const std::vector<BlockState>& state
   const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
                          run.system.moving(),
                          (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
-                         settings.threads, settings.lasting_motion(), fine};
+                         settings.threads,
+                         settings.lasting_motion(),
+                         fine};
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
 }
 

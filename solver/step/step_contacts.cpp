@@ -158,10 +158,10 @@ std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockS
     const auto bound_of = [this](int block) {
       return [this, block](const Eigen::MatrixX3d& change) { return finder_.motion_bound(block, change); };
     };
-    std::optional<KeptContacts> found = kept_contacts(
-        lasting, body_at_start(system, state, blocks[0], nullptr),
-        body_at_start(system, state, blocks[1], nullptr), *laws[n], {settings.lasting_motion(), reach},
-        {bound_of(blocks[0]), bound_of(blocks[1])});
+    std::optional<KeptContacts> found =
+        kept_contacts(lasting, body_at_start(system, state, blocks[0], nullptr),
+                      body_at_start(system, state, blocks[1], nullptr), *laws[n],
+                      {settings.lasting_motion(), reach}, {bound_of(blocks[0]), bound_of(blocks[1])});
     if (found) result[n] = std::make_shared<const KeptContacts>(std::move(*found));
   });
   return result;
@@ -189,8 +189,8 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   forget_far_pairs(state.pairs, near, system.moving());
   for (const NearPair& apart : finder_.found_apart()) {
     if (step > 0.0 && may_last(system, apart.blocks))
-      state.pairs[apart.blocks].lasting =
-          std::make_shared<const LastingContacts>(as_found(finder_, state, apart, law_of(system, apart.blocks), {}));
+      state.pairs[apart.blocks].lasting = std::make_shared<const LastingContacts>(
+          as_found(finder_, state, apart, law_of(system, apart.blocks), {}));
   }
   for (std::size_t n = 0; n < near.size(); ++n) {
     if (known[n] != nullptr && !known[n]->empty())
@@ -223,9 +223,9 @@ void StepContacts::leave_out_seams_of(const BlockSystem& system, const RunState&
     if (pair.kept != nullptr) continue;
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
-    leave_out_seams(
-        a, b, ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given), stands,
-        pair.contacts);
+    leave_out_seams(a, b,
+                    ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
+                    stands, pair.contacts);
   }
 }
 
@@ -234,9 +234,9 @@ ContactPair StepContacts::kept_pair(const BlockSystem& system, const RunState& s
   const auto [a, b] = found.blocks;
   const PairHistory& known = history_of(state.pairs, found.blocks);
   law.rounding = found.kept->lasting->law.rounding;
-  ContactPair pair(PairBodies{a, b, body_at_start(system, state, a, nullptr),
-                              body_at_start(system, state, b, nullptr)},
-                   law, *found.kept, known.memory.of_same(found.kept->points));
+  ContactPair pair(
+      PairBodies{a, b, body_at_start(system, state, a, nullptr), body_at_start(system, state, b, nullptr)},
+      law, *found.kept, known.memory.of_same(found.kept->points));
   if (law.augmented) pair.hold_where_found(known.taken);
   return pair;
 }
@@ -257,8 +257,7 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
       first_is_master(body_a, body_b, contacts.overlaps, [&covered, a = a, b = b](const RimPlace& rim) {
         return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
       });
-  ContactPoints made =
-      contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
+  ContactPoints made = contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
   std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.
   if (points.empty()) return std::nullopt;
@@ -290,8 +289,8 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   const SimulationSettings& settings = system.settings();
   const bool goes_on = use == PairUse::motion && state.has_begun();
   std::vector<ContactPair> pairs;
-  const bool all_kept = std::all_of(found.begin(), found.end(),
-                                    [](const FoundContacts& pair) { return pair.kept != nullptr; });
+  const bool all_kept =
+      std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
   const std::vector<FoundContacts> none;
   const CoveredFaces covered(
       all_kept ? none : found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
