@@ -45,6 +45,8 @@ class BlockRows {
   [[nodiscard]] double squared_row(Eigen::Index point, const Eigen::Vector3d& direction) const;
 
  private:
+  /// Whether the block is free and of order 1.
+  [[nodiscard]] bool is_affine() const { return same_ && values_[0].cols() == 4; }
   [[nodiscard]] const Eigen::MatrixXd& values(int axis) const {
     return values_[static_cast<std::size_t>(same_ ? 0 : axis)];
   }

@@ -372,10 +372,15 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
                                                         const std::vector<BlockState>& after,
                                                         double tolerance, const PairHistories& histories,
                                                         std::vector<std::vector<Vector3>>& ends) {
-  std::vector<Box> swept;
+  double most = 0.0;  // of any block
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     tracks_[k].checked_motion =
         moving_[k] ? surfaces_[k].quick_motion_bound(after[k].position - before[k].position) : 0.0;
+    most = std::max(most, tracks_[k].checked_motion);
+  }
+  if (2.0 * most <= tolerance) return {};
+  std::vector<Box> swept;
+  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     swept.push_back(loose_box(static_cast<int>(k)).grown(tracks_[k].checked_motion));
   }
   const auto both = [&](const PairKey& pair) {

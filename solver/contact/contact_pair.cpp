@@ -32,12 +32,12 @@ ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffn
                   tie_points(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)),
                   tie_memory(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)), &tie) {}
 
-ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, KeptContacts kept,
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
                          std::vector<PointMemory> memory)
     : ContactPair(bodies, law, kept.points, std::move(memory),
                   PairRows(bodies.of_a, bodies.of_b, kept.points, kept.lasting->rows), false) {
   cuts_ = kept.lasting->found.cuts;
-  lasting_ = std::move(kept.lasting);
+  lasting_ = kept.lasting;
   kind_.goes_on = true;
   if (law.augmented) return;
   std::vector<double> rests;

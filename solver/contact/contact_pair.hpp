@@ -49,7 +49,7 @@ class ContactPair {
 
   /// Contacts that were known (lasting_contacts.hpp). @param memory of the same points. Springs go on from where the
   /// last step left them, multipliers as hold_where_found() says
-  ContactPair(const PairBodies& bodies, const JointLaw& law, KeptContacts kept,
+  ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
               std::vector<PointMemory> memory);
 
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and

@@ -316,7 +316,9 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
     state.log.counts.contact_points += pair->points().size();
     pairs.push_back(std::move(*pair));
   }
-  if (goes_on) {
+  const bool all_go_on =
+      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.goes_on(); });
+  if (goes_on && !all_go_on) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, state.pairs, system.moving());
     for (std::size_t k = 0; k < pairs.size(); ++k)
       if (!pairs[k].goes_on()) pairs[k].hold_at_most(bounds[k]);
