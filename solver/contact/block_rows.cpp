@@ -89,6 +89,8 @@ Eigen::VectorXd BlockRows::force(const Eigen::Matrix3Xd& forces) const {
 }
 
 Eigen::MatrixXd BlockRows::tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const {
+  if (is_affine() && other.is_affine())
+    return affine_tangent(stiffnesses, as_affine(values_[0]), as_affine(other.values_[0]));
   Eigen::MatrixXd result(unknowns(), other.unknowns());
   const bool itself = this == &other;
   // t is symmetric.

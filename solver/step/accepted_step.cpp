@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -154,10 +155,15 @@ bool is_live(const RunContext& run, int a, int b) {
 void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // Springs of one pair may take over what those of another one held.
   double change = 0.0;
-  for (const ContactPair& pair : pairs)
-    change += pair.tied() ? 0.0 : pair.start_energy();  // a tie is the same in every step
+  std::set<PairKey> going_on;  // these, like ties, are the same as before
+  for (const ContactPair& pair : pairs) {
+    if (pair.goes_on())
+      going_on.insert({pair.a(), pair.b()});
+    else if (!pair.tied())
+      change += pair.start_energy();
+  }
   for (const PairRecord& record : run.state.records) {
-    if (!is_live(run, record.a, record.b)) continue;
+    if (!is_live(run, record.a, record.b) || going_on.count({record.a, record.b}) > 0) continue;
     for (const PointResponse& response : record.responses) change -= response.energy();
   }
   run.state.ledger.found_anew(change);
