@@ -116,8 +116,6 @@ class ContactFinder {
   /// All contacts within reach at the start of a step.
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
                                                 const ExpectedMotion& motion, PairHistories& histories);
-  /// Pairs of the last search in which nothing was found, and up to which gap.
-  [[nodiscard]] const std::vector<NearPair>& found_apart() const { return found_apart_; }
   [[nodiscard]] bool leaves_out(int a, int b) const {
     return absent_[static_cast<std::size_t>(a)] || absent_[static_cast<std::size_t>(b)] ||
            left_out_.count({a, b}) > 0;
@@ -204,7 +202,6 @@ class ContactFinder {
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
   std::vector<BlockTrack> tracks_;                    ///< by block
   std::vector<NearPair> near_;                        ///< of the step
-  std::vector<NearPair> found_apart_;                 ///< of the last search
   std::optional<HiddenSides> fixed_sides_;            ///< of fixed blocks, found when first asked for
   std::optional<HiddenSides>
       hidden_sides_;          ///< of the step, noted when first asked for; empty if no vertex is in a block

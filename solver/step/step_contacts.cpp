@@ -187,11 +187,7 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   std::vector<FoundContacts> found = finder_.find(state.states, known, state.pairs);
   const bool any_new = !found.empty();
   forget_far_pairs(state.pairs, near, system.moving());
-  for (const NearPair& apart : finder_.found_apart()) {
-    if (step > 0.0 && may_last(system, apart.blocks))
-      state.pairs[apart.blocks].lasting = std::make_shared<const LastingContacts>(
-          as_found(finder_, state, apart, law_of(system, apart.blocks), {}));
-  }
+  if (step > 0.0) note_apart(system, state, near, known, found);
   for (std::size_t n = 0; n < near.size(); ++n) {
     if (known[n] != nullptr && !known[n]->empty())
       found.push_back({near[n].blocks, std::move(known_contacts[n]), near[n].reach, std::move(kept[n])});
@@ -200,6 +196,21 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
             [](const FoundContacts& x, const FoundContacts& y) { return x.blocks < y.blocks; });
   if (any_new) leave_out_seams_of(system, state, found);
   return found;
+}
+
+void StepContacts::note_apart(const BlockSystem& system, RunState& state, const std::vector<NearPair>& near,
+                              const KnownContacts& known, const std::vector<FoundContacts>& found) const {
+  auto next = found.begin();
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    if (known[n] != nullptr) continue;
+    // Both are sorted, and what was found is of pairs that were not known.
+    if (next != found.end() && next->blocks == near[n].blocks) {
+      ++next;
+    } else if (may_last(system, near[n].blocks)) {
+      state.pairs[near[n].blocks].lasting = std::make_shared<const LastingContacts>(
+          as_found(finder_, state, near[n], law_of(system, near[n].blocks), {}));
+    }
+  }
 }
 
 const WaysOut& StepContacts::ways_out(const RunState& state, const std::vector<bool>& moving,

@@ -51,6 +51,10 @@ class StepContacts {
   /// Contacts of near pairs that need not be found anew, empty where they have to be.
   [[nodiscard]] std::vector<std::shared_ptr<const KeptContacts>> kept(
       const BlockSystem& system, const RunState& state, const std::vector<NearPair>& near) const;
+  /// Notes that nothing was found of near pairs that were searched.
+  /// @param found by the search, without what was known
+  void note_apart(const BlockSystem& system, RunState& state, const std::vector<NearPair>& near,
+                  const KnownContacts& known, const std::vector<FoundContacts>& found) const;
   /// Contacts of seams are left out of those that were found anew.
   void leave_out_seams_of(const BlockSystem& system, const RunState& state,
                           std::vector<FoundContacts>& found);
