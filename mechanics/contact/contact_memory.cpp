@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace ashlar {
 namespace {
@@ -148,6 +149,19 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
     const double ratio = entries_[static_cast<std::size_t>(sources[k])].area / points[k].area;
     result[k].normal_multiplier *= ratio;
     result[k].shear_multiplier *= ratio;
+  }
+  return result;
+}
+
+std::vector<PointMemory> ContactMemory::of_same(const std::vector<ContactPoint>& points) const {
+  if (points.size() != entries_.size()) throw std::logic_error("memory is of other points");
+  std::vector<PointMemory> result;
+  result.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    PointMemory& memory = result.emplace_back(entries_[k].memory);
+    if (points[k].normal == entries_[k].normal) continue;
+    for (Vector3* vector : {&memory.slip, &memory.level_slip, &memory.shear_multiplier})
+      *vector = turned(*vector, points[k].normal);
   }
   return result;
 }

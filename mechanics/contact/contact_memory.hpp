@@ -61,6 +61,9 @@ class ContactMemory {
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points, double bond_distance,
                                                 bool keep_forces = false) const;
 
+  /// Memory of the very points that were stored, with vectors in the tangent planes of these normals.
+  [[nodiscard]] std::vector<PointMemory> of_same(const std::vector<ContactPoint>& points) const;
+
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
   /// springs at its end
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,

@@ -48,6 +48,8 @@ struct ResidualStrength {
   double friction = 0.0;          ///< tan(phi)
   double cohesion = 0.0;          ///< Pa
   double tensile_strength = 0.0;  ///< Pa
+
+  friend bool operator==(const ResidualStrength&, const ResidualStrength&) = default;
 };
 
 /// Parameters of a pair of blocks.
@@ -64,6 +66,8 @@ struct JointLaw {
   bool gives_way = false;  ///< springs hold it, also where multipliers hold other joints
   /// Of surfaces that have failed, or were never bonded; each value at most that above. Empty: `friction` only
   std::optional<ResidualStrength> residual = std::nullopt;
+
+  friend bool operator==(const JointLaw&, const JointLaw&) = default;
 };
 
 /// One point's constants within a step.

@@ -32,16 +32,38 @@ ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffn
                   tie_points(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)),
                   tie_memory(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)), &tie) {}
 
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
+                         std::vector<PointMemory> memory)
+    : ContactPair(bodies, law, kept.points, std::move(memory),
+                  PairRows(bodies.of_a, bodies.of_b, kept.points, kept.lasting->rows), false) {
+  cuts_ = kept.lasting->found.cuts;
+  lasting_ = kept.lasting;
+  kind_.goes_on = true;
+  if (law.augmented) return;
+  std::vector<double> rests;
+  for (std::size_t k = 0; k < points_.size(); ++k) rests.push_back(points_[k].gap + memory_[k].compression);
+  rests_ = std::move(rests);
+  // Not the gap less the rest: what springs hold must not change by rounding.
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_(0, static_cast<Eigen::Index>(k)) = -memory_[k].compression;
+  respond_at_start();
+}
+
 ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
                          std::vector<PointMemory> memory, const Tie* tie)
+    : ContactPair(bodies, law, points, std::move(memory), PairRows(bodies.of_a, bodies.of_b, points, tie),
+                  tie != nullptr) {}
+
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+                         std::vector<PointMemory> memory, PairRows rows, bool tied)
     : a_(bodies.a),
       b_(bodies.b),
       points_(std::move(points)),
       memory_(std::move(memory)),
       rests_(points_.size(), 0.0),
-      kind_{tie != nullptr, law.rigid || law.augmented || tie != nullptr, law.area_springs},
+      kind_{tied, law.rigid || law.augmented || tied, law.area_springs},
       start_(3, static_cast<Eigen::Index>(points_.size())),
-      rows_(bodies.of_a, bodies.of_b, points_, tie) {
+      rows_(std::move(rows)) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
     if (law.augmented) {
@@ -106,22 +128,6 @@ Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
   const Eigen::Vector2d slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
   return kind_.counts_slip ? Eigen::Vector2d(slip - elastic_slip(laws_[k], start_responses_[k], slip))
                            : Eigen::Vector2d::Zero();
-}
-
-bool ContactPair::bonded() const {
-  return !tied() &&
-         std::any_of(laws_.begin(), laws_.end(), [](const PointLaw& law) { return law.weakens(); });
-}
-
-void ContactPair::hold_bonds() {
-  kind_.holds_bonds = true;
-  const JointLaw bond = unbreakable_law(1.0);
-  for (PointLaw& law : laws_) {
-    if (tied() || !law.weakens() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
-    law.cohesion = bond.cohesion;
-    if (law.tension > 0.0) law.tension = bond.tensile_strength;
-  }
-  respond_at_start();
 }
 
 double ContactPair::depth_found() const {
@@ -355,22 +361,6 @@ ContactPair ContactPair::setting_off(const PairResponse& response, const std::ve
   }
   pair.respond_at_start();
   return pair;
-}
-
-BondedArea ContactPair::bonded_area(const std::vector<PointMemory>& memory) const {
-  BondedArea area;
-  for (std::size_t k = 0; !tied() && k < memory.size(); ++k) {
-    if (!memory_[k].intact || !laws_[k].weakens()) continue;
-    (memory[k].intact ? area.left : area.lost) += points_[k].area;
-  }
-  return area;
-}
-
-bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
-  for (std::size_t k = 0; k < memory.size(); ++k) {
-    if (memory_[k].intact && !memory[k].intact && laws_[k].weakens()) return true;
-  }
-  return false;
 }
 
 double ContactPair::start_energy() const {

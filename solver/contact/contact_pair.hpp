@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
 #include "mechanics/contact/contact_points.hpp"
 #include "mechanics/contact/spring_energy.hpp"
 #include "mechanics/contact/tie.hpp"
+#include "solver/contact/lasting_contacts.hpp"
 #include "solver/contact/pair_rows.hpp"
 
 namespace ashlar {
@@ -45,6 +47,11 @@ class ContactPair {
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, std::vector<PressureCut> cuts = {});
 
+  /// Contacts that were known (lasting_contacts.hpp). @param memory of the same points. Springs go on from where the
+  /// last step left them, multipliers as hold_where_found() says
+  ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
+              std::vector<PointMemory> memory);
+
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
   /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
   /// @param stiffness Pa/m
@@ -65,6 +72,11 @@ class ContactPair {
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
+  /// What may last of its contacts; null: nothing.
+  [[nodiscard]] const std::shared_ptr<const LastingContacts>& lasting() const { return lasting_; }
+  void may_last(std::shared_ptr<const LastingContacts> lasting) { lasting_ = std::move(lasting); }
+  /// Whether its springs are those of the last step, not found anew.
+  [[nodiscard]] bool goes_on() const { return kind_.goes_on; }
 
   /// Laws of the points at the start of the step.
   [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
@@ -190,10 +202,14 @@ class ContactPair {
     bool area_springs;  ///< multipliers are remembered per area
     bool counts_slip = false;
     bool holds_bonds = false;
+    bool goes_on = false;
   };
 
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, const Tie* tie);
+  /// Of points whose rows are known.
+  ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+              std::vector<PointMemory> memory, PairRows rows, bool tied);
   [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
     return kind_.area_springs ? point.area : 1.0;
   }
@@ -214,6 +230,7 @@ class ContactPair {
   std::vector<ContactPoint> points_;
   std::vector<PointMemory> memory_;
   std::vector<PressureCut> cuts_ = {};
+  std::shared_ptr<const LastingContacts> lasting_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds

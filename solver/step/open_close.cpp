@@ -214,8 +214,11 @@ class OpenClose {
     least_ = std::numeric_limits<double>::infinity();
     int without_gain = 0;
     bool last_factor = false;  // was used once more
-        // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
+    // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
     constexpr double most_of_it = 0.1;
+    // Where states are as they were, what a system has taken so much of it will take so much of again.
+    constexpr double nearly_all = 1e-2;
+    double before = 0.0;
     double last =
         std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
     for (int k = 1; k <= most; ++k) {
@@ -243,8 +246,10 @@ class OpenClose {
       // The last system will do for what is left.
       const bool falls = balance.worst < most_of_it * last;
       last = falls ? balance.worst : 0.0;
-      const bool nearly =
-          falls || (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
+      const double worst_before = std::exchange(before, balance.worst);
+      const bool contracts = as_before && balance.worst < nearly_all * worst_before;
+      const bool nearly = falls || contracts ||
+                          (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
       last_factor = nearly;
       factorized_ = true;
       if (!nearly && problem_.update_factor() != FactorStatus::success) return Outcome::singular;
