@@ -42,7 +42,7 @@ static void visit_members(Archive& archive, RunSeconds& seconds) {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 16;
+constexpr std::uint32_t layout_version = 17;
 
 /// What follows the magic line; the payload follows it.
 struct Header {

@@ -86,10 +86,10 @@ void ContactFinder::look_at(int block, const BlockState& state) {
   tracks_[at(block)].box_path = tracks_[at(block)].path;
 }
 
-void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedMotion& motion) {
+void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedMotion& motion, double reach) {
   std::vector<Box> loose;
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
-    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
+    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + reach));
   std::vector<bool> near(surfaces_.size(), false);
   const auto can_meet = [&](const PairKey& pair) {
     return (moving_[at(pair[0])] || moving_[at(pair[1])]) && !leaves_out(pair[0], pair[1]);
@@ -103,7 +103,7 @@ void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedM
     if (!near[k]) continue;
     look_at(static_cast<int>(k), states[k]);
     tracks_[k].motion = motion.closer(static_cast<int>(k));
-    boxes[k] = tracks_[k].box.grown(tracks_[k].motion + settings_.contact_distance);
+    boxes[k] = tracks_[k].box.grown(tracks_[k].motion + reach);
   }
   candidates_.clear();
   std::vector<std::vector<Box>> neighbours(surfaces_.size());
@@ -236,20 +236,27 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, Pa
 
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,
                                                const ExpectedMotion& motion, PairHistories& histories) {
-  place(states, motion);
+  // Blocks that sliding has brought apart touch across that gap.
+  const auto reach = [&](const PairHistory& pair) {
+    return settings_.contact_distance + pair.memory.most_dilation();
+  };
+  double farthest = settings_.contact_distance;
+  for (const auto& [blocks, pair] : histories) farthest = std::max(farthest, reach(pair));
+  place(states, motion, farthest);
   const std::size_t all = surfaces_.size() * (surfaces_.size() - 1) / 2;
   counts_.block_pairs_skipped += all - candidates_.size();
   std::vector<FoundContacts> searched;
   std::vector<ContactLimits> limits;
   for (const PairKey& pair : candidates_) {
     const double both = tracks_[at(pair[0])].motion + tracks_[at(pair[1])].motion;
-    if (known_apart(pair, settings_.contact_distance + both, histories)) {
+    const double distance = reach(history_of(histories, pair)) + both;
+    if (known_apart(pair, distance, histories)) {
       ++counts_.block_pairs_far;
       continue;
     }
     searched.push_back({pair, {}});
     limits.push_back(
-        {settings_.contact_distance + both,
+        {distance,
          std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
              2.0 * history_of(histories, pair).depth_to_search(),
          settings_.search.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});

@@ -130,7 +130,8 @@ class ContactFinder {
   /// Contains a block at the start of the step, from where it was seen last and what it has gone since.
   [[nodiscard]] Box loose_box(int block) const;
   void look_at(int block, const BlockState& state);
-  void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
+  /// @param reach m, beyond the motion: how far apart blocks may be that touch
+  void place(const std::vector<BlockState>& states, const ExpectedMotion& motion, double reach);
   [[nodiscard]] bool known_apart(const PairKey& pair, double reach, const PairHistories& histories) const;
   [[nodiscard]] Clearance clearance_of(const PairKey& pair) const;
   /// Pairs whose surfaces have to be followed on the way from the last search to new states.
