@@ -20,6 +20,12 @@ double area_of(const std::vector<ContactMemory::Entry>& entries) {
                          [](double sum, const ContactMemory::Entry& entry) { return sum + entry.area; });
 }
 
+double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
+  double most = 0.0;
+  for (const ContactMemory::Entry& entry : entries) most = std::max(most, entry.memory.dilation);
+  return most;
+}
+
 /// A tangential vector in another tangent plane, its length kept.
 Vector3 turned(const Vector3& vector, const Vector3& normal) {
   const Vector3 flat = vector - normal.dot(vector) * normal;
@@ -37,7 +43,8 @@ ContactMemory::ContactMemory(std::vector<Entry> entries, std::vector<PressureCut
       bulge_(bulge),
       held_(held),
       squared_reach_(area_of(entries_)),
-      largest_area_(largest_area_of(entries_)) {}
+      largest_area_(largest_area_of(entries_)),
+      most_dilation_(most_dilation_of(entries_)) {}
 
 ContactMemory::Places ContactMemory::places() const {
   const auto count = static_cast<Eigen::Index>(entries_.size());
@@ -104,6 +111,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     result.normal_multiplier += weight * memory.normal_multiplier;
     result.shear_multiplier += weight * memory.shear_multiplier;
     result.unrubbed += weight * memory.unrubbed;
+    result.dilation += weight * memory.dilation;
+    result.level_dilation += weight * memory.level_dilation;
     if (memory.intact) intact += weight;
   }
   // A bond halfway between a whole and a broken one is broken, whatever rounding says.
@@ -115,6 +124,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   result.normal_multiplier /= sum;
   result.shear_multiplier /= sum;
   result.unrubbed /= sum;
+  result.dilation /= sum;
+  result.level_dilation /= sum;
   return found;
 }
 
@@ -181,6 +192,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   held_ = held;
   squared_reach_ = area_of(entries_);
   largest_area_ = largest_area_of(entries_);
+  most_dilation_ = most_dilation_of(entries_);
 }
 
 void ContactMemory::drop_multipliers() {
@@ -193,6 +205,7 @@ void ContactMemory::drop_multipliers() {
 void ContactMemory::start_level() {
   for (Entry& entry : entries_) {
     entry.memory.level_slip = entry.memory.slip;
+    entry.memory.level_dilation = entry.memory.dilation;
     entry.memory.in_level = entry.memory.state != ContactState::open;
   }
 }

@@ -87,10 +87,10 @@ void ContactFinder::look_at(int block, const BlockState& state) {
 }
 
 std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states,
-                                           const ExpectedMotion& motion) {
+                                           const ExpectedMotion& motion, double reach) {
   std::vector<Box> loose;
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
-    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
+    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + reach));
   std::vector<bool> near(surfaces_.size(), false);
   for (const PairKey& pair : meeting_boxes(loose)) {
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
@@ -107,7 +107,7 @@ std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states
       look_at(static_cast<int>(k), states[k]);
     track.motion =
         motion.loose[k] - motion.fall <= enough ? motion.loose[k] : motion.closer(static_cast<int>(k));
-    boxes[k] = loose_box(static_cast<int>(k)).grown(track.motion + settings_.contact_distance);
+    boxes[k] = loose_box(static_cast<int>(k)).grown(track.motion + reach);
   }
   return boxes;
 }
@@ -130,7 +130,13 @@ void ContactFinder::divide_curved(const std::vector<PairKey>& candidates, const 
 const std::vector<NearPair>& ContactFinder::near_pairs(const std::vector<BlockState>& states,
                                                        const ExpectedMotion& motion,
                                                        const PairHistories& histories) {
-  const std::vector<Box> boxes = near_boxes(states, motion);
+  // Blocks that sliding has brought apart touch across that gap.
+  const auto distance = [&](const PairHistory& pair) {
+    return settings_.contact_distance + pair.memory.most_dilation();
+  };
+  double farthest = settings_.contact_distance;
+  for (const auto& [blocks, pair] : histories) farthest = std::max(farthest, distance(pair));
+  const std::vector<Box> boxes = near_boxes(states, motion, farthest);
   std::vector<PairKey> candidates = meeting_boxes(boxes);
   std::erase_if(candidates, [this](const PairKey& pair) { return !can_meet(pair); });
   divide_curved(candidates, boxes);
@@ -138,7 +144,7 @@ const std::vector<NearPair>& ContactFinder::near_pairs(const std::vector<BlockSt
   near_.clear();
   for (const PairKey& pair : candidates) {
     const double reach =
-        settings_.contact_distance + tracks_[at(pair[0])].motion + tracks_[at(pair[1])].motion;
+        distance(history_of(histories, pair)) + tracks_[at(pair[0])].motion + tracks_[at(pair[1])].motion;
     if (known_apart(pair, reach, histories)) {
       ++counts_.block_pairs_far;
       continue;

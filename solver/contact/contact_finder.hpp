@@ -153,8 +153,9 @@ class ContactFinder {
   [[nodiscard]] Box loose_box(int block) const;
   void look_at(int block, const BlockState& state);
   /// Boxes of all blocks that may be near others, grown by what they may do in the step; others are empty.
+  /// @param reach m, beyond the motion: how far apart blocks may be that touch
   [[nodiscard]] std::vector<Box> near_boxes(const std::vector<BlockState>& states,
-                                            const ExpectedMotion& motion);
+                                            const ExpectedMotion& motion, double reach);
   /// Divides the surfaces of blocks that curve. @param candidates pairs whose boxes meet
   /// @param boxes of the blocks that were looked at
   void divide_curved(const std::vector<PairKey>& candidates, const std::vector<Box>& boxes);

@@ -97,6 +97,12 @@ class ContactPair {
   /// also above it.
   /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
   void hold_where_found(double taken);
+  /// Dashpots beside the springs, for a step of this length (mechanics/notes/joint_damping.md). @param step s, > 0
+  void damp(double step);
+  /// By how much the rest of a point's normal spring is above the surface for what has slid before the step, m, >= 0.
+  [[nodiscard]] double dilation_before(std::size_t point) const {
+    return kind_.counts_slip ? memory_[point].level_dilation : memory_[point].dilation;
+  }
   /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
   /// point since the level began, m
   void count_slip(const std::vector<Vector3>& moved);
@@ -142,8 +148,8 @@ class ContactPair {
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const { return rows_.tangent(response); }
 
-  /// -d (shear force) / d gap of every point (MeanResponse::coupling). @return (2, #)
-  [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response);
+  /// MeanResponse::coupling of every point.
+  [[nodiscard]] static PairCoupling sliding_couplings(const PairResponse& response);
   [[nodiscard]] const PairRows& rows() const { return rows_; }
 
   // pair_impulses.cpp
@@ -189,9 +195,11 @@ class ContactPair {
                                                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                                       double tearing_gap) const;
   /// Work that sliding takes in the step, J, also of points that have opened in it; with multipliers, which
-  /// hold none, all that points take that slide.
+  /// hold none, all that points take that slide. Less what the normal forces do where they dilate.
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Energy that the dashpots take in the step, J, >= 0.
+  [[nodiscard]] static double damped(const PairResponse& response);
   /// Spring energy at the end of the step, J.
   [[nodiscard]] static SpringEnergy energies(const PairResponse& response);
 
@@ -200,6 +208,8 @@ class ContactPair {
     bool tied;
     bool rigid;
     bool area_springs;  ///< multipliers are remembered per area
+    double dilation;    ///< tan(psi)
+    double damping;     ///< share of critical
     bool counts_slip = false;
     bool holds_bonds = false;
     bool goes_on = false;
@@ -213,6 +223,7 @@ class ContactPair {
   [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
     return kind_.area_springs ? point.area : 1.0;
   }
+  /// Also how points dilate in the step: those that are open at its start have slid nowhere yet.
   void respond_at_start();
   /// Trial slip at the start that no spring holds, of a load level, m.
   [[nodiscard]] Eigen::Vector2d slid_before(std::size_t point) const;
@@ -235,6 +246,7 @@ class ContactPair {
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
   double taken_ = 0.0;
+  double reduced_mass_;  ///< of both blocks, kg
   Kind kind_;
   Eigen::Matrix3Xd start_;  ///< gap over the rest and slip at the start of the step
   PairRows rows_;

@@ -225,15 +225,15 @@ PairTangent PairRows::tangent(const PairResponse& response) const {
   return tangent;
 }
 
-void PairRows::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da,
+void PairRows::add_coupling(const PairCoupling& coupling, const Eigen::VectorXd& da,
                             const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
                             Eigen::Ref<Eigen::VectorXd> to_b) const {
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count_);
   if (da.size() > 0) values_->a.add_motion(da, 1.0, moved);
   if (db.size() > 0) values_->b.add_motion(db, -1.0, moved);
   for (Eigen::Index k = 0; k < count_; ++k) {
-    const double opening = frame(k).col(0).dot(moved.col(k));
-    moved.col(k) = opening * (frame(k).rightCols<2>() * couplings.col(k));
+    const double by = (frame(k) * coupling.by.col(k)).dot(moved.col(k));
+    moved.col(k) = by * (frame(k) * coupling.force.col(k));
   }
   if (da.size() > 0) to_a += values_->a.force(moved);
   if (db.size() > 0) to_b -= values_->b.force(moved);

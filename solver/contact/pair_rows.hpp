@@ -48,6 +48,12 @@ struct BlockInStep {
   Eigen::MatrixX3d prescribed;  ///< change of the position by supports that move; empty: none
 };
 
+/// Coupling of all points, columns in their frames.
+struct PairCoupling {
+  Eigen::Matrix3Xd force;  ///< (3, #points), N/m
+  Eigen::Matrix3Xd by;     ///< (3, #points)
+};
+
 /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed, (na, nb).
 struct PairTangent {
   Eigen::MatrixXd aa;
@@ -112,9 +118,9 @@ class PairRows {
                   const Eigen::VectorXd& forces, PairResponse& response) const;
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const;
-  /// Adds to the forces of a and b what couplings of shear forces to gaps make of changes of the unknowns: the part of
-  /// the Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks. @param couplings (2, #points)
-  void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
+  /// Adds to the forces of a and b what couplings make of changes of the unknowns: the part of the Jacobian of -force
+  /// that is not symmetric. Empty vectors stand for fixed blocks.
+  void add_coupling(const PairCoupling& coupling, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
                     Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
 
   /// Norm of the longest row of each block; 0: fixed.

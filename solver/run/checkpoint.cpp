@@ -25,7 +25,8 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
   archive(memory.slip, memory.level_slip, memory.in_level, memory.compression, memory.state, memory.intact,
-          memory.normal_multiplier, memory.shear_multiplier, memory.unrubbed);
+          memory.normal_multiplier, memory.shear_multiplier, memory.unrubbed, memory.dilation,
+          memory.level_dilation);
 }
 
 template <class Archive>

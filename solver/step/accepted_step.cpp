@@ -289,6 +289,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
   double held_by_all = 0.0;
   for (const SleepingIsland& island : run.state.sleep.islands) held_by_all += island.held;
   double friction = 0.0;
+  double damped = 0.0;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const IslandResult& result = problem.results[i];
     report.iterations = std::max(report.iterations, result.iterations);
@@ -307,6 +308,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       if (pair.tied()) continue;
       const double slid = pair.friction_work(response, result.laws[n], ya, yb);
       friction += slid;
+      damped += ContactPair::damped(response);
       if (run.settings().augmented && !scheme.from_rest)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
       count_states(response.points, report);
@@ -317,7 +319,8 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
   }
   ledger.springs_hold(held_by_all);
   ledger.sliding_took(friction);
-  ledger.integrator_took(-(potential.work + potential.change + friction));
+  ledger.damping_took(damped);
+  ledger.integrator_took(-(potential.work + potential.change + friction + damped));
 }
 
 }  // namespace

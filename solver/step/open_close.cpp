@@ -117,7 +117,7 @@ class OpenClose {
       for (std::size_t k = 0; k < laws.size(); ++k) {
         PointLaw& law = laws[k];
         if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
-            gaps[k] <= settings_.tearing_gap())
+            gaps[k] - problem_.pair(pair).dilation_before(k) <= settings_.tearing_gap())
           continue;
         law.bridged = false;
         open(law);
@@ -154,8 +154,8 @@ class OpenClose {
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         PointLaw& law = problem_.laws()[pair][k];
-        const double found =
-            given_way(law, problem_.responses()[pair].points[k], problem_.pair(pair).points()[k].gap);
+        const double gap = problem_.pair(pair).points()[k].gap - problem_.pair(pair).dilation_before(k);
+        const double found = given_way(law, problem_.responses()[pair].points[k], gap);
         if (found <= 1.0) continue;
         stiffer = true;
         const double factor = std::min(margin * found, most);
