@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -84,6 +85,15 @@ std::string check_section(const std::optional<std::string>& text) {
   return fmt::format("section ({}), an axis and a place such as x,0.5 or -x,0.5 is needed", *text);
 }
 
+/// Names become part of an address.
+std::string check_hidden(const std::string& names) {
+  const bool plain = std::all_of(names.begin(), names.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == ',' || c == '.' || c == '-' || c == '_';
+  });
+  return plain ? ""
+               : fmt::format("blocks ({}), names of letters, digits, . - and _ or numbers are needed", names);
+}
+
 std::string check_range(const PictureOptions& options) {
   const std::optional<std::string>& text = options.parts.range;
   if (!text) return "";
@@ -112,6 +122,7 @@ std::string wishes(const PictureOptions& options, const std::string& frames) {
   if (parts.si) text += "&units=si";
   text += fmt::format("&joints={}&vectors={}", parts.joints, parts.vectors);
   if (parts.section) text += "&section=" + *parts.section;
+  if (!parts.hidden.empty()) text += "&hide=" + parts.hidden;
   if (options.at) text += "&at=" + *options.at;
   if (options.frame_range) text += "&range=frame";
   if (parts.range) {
@@ -186,7 +197,7 @@ std::string fault_of_look(const PictureOptions& options) {
        {check_size(options.size), check_direction(options.from), check_point(options.at),
         check_positive("zoom", options.zoom), check_positive("scale", options.scale),
         check_positive("time limit", options.time_limit), check_section(options.parts.section),
-        check_range(options)})
+        check_range(options), check_hidden(options.parts.hidden)})
     if (!fault.empty()) return fault;
   return "";
 }
@@ -269,6 +280,8 @@ void declare_parts(CLI::App& command, PictureParts& parts) {
   command.add_flag("--crosses", parts.crosses, "Crosses of principal stresses");
   command.add_option("--section", parts.section, "Cut at x = 0.5: x,0.5; keeping the other side: -x,0.5")
       ->type_name("AXIS,M");
+  command.add_option("--hide", parts.hidden, "Blocks that are not drawn, by name or number")
+      ->type_name("A,B,...");
   command.add_option("--range", parts.range, "Colours from LOW to HIGH, SI units")->type_name("LOW,HIGH");
   command.add_flag("--si", parts.si, "SI units (default: mm, kN, MPa)");
   command.add_flag("--dark", parts.dark, "On a dark ground");

@@ -25,6 +25,7 @@ struct PictureParts {
   std::optional<std::string>
       section;  ///< "x,0.5": cut at x = 0.5 m, what is beyond is left out; "-x,0.5": what is before
   std::optional<std::string> range;  ///< "low,high" of colours, SI
+  std::string hidden;                ///< names or numbers of blocks that are not drawn, a,b,c
   bool si = false;                   ///< SI units, else mm, kN, MPa
   bool dark = false;
 };

@@ -44,8 +44,14 @@ function readSection(text) {
   if (side && Number.isFinite(Number(at))) Object.assign(current, {section: side, sectionAt: Number(at)});
 }
 
+/// Number of a block that the address calls by it or by its name; -1: there is none.
+function blockCalled(text) {
+  const named = data.blocks.findIndex((block) => block.name === text);
+  return named < 0 && /^\d+$/.test(text) && Number(text) in data.blocks ? Number(text) : named;
+}
+
 function readHidden(wishes) {
-  const numbers = (key) => wishes.get(key).split(",").map(Number).filter((k) => k in data.blocks);
+  const numbers = (key) => wishes.get(key).split(",").map(blockCalled).filter((k) => k >= 0);
   if (wishes.has("hide")) current.hidden = new Set(numbers("hide"));
   if (!wishes.has("only")) return;
   const only = new Set(numbers("only"));

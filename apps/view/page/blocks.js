@@ -39,14 +39,16 @@ function hide(blocks, hidden) {
     if (hidden) current.hidden.add(block);
     else current.hidden.delete(block);
   }
+  updatePicked();
+  showBlockList();
   show();
-  showPicked();
 }
 
 function isolate(blocks) {
   current.hidden = new Set(data.blocks.map((_, k) => k).filter((k) => !blocks.includes(k)));
+  updatePicked();
+  showBlockList();
   show();
-  showPicked();
 }
 
 function tieBlockList() {

@@ -161,6 +161,7 @@ function resize() {
 }
 
 function render() {
+  if (!sharpness.isStarted) return;
   if (renderer) renderer.render(stage, camera);
   const marks = element("marks");
   const context = marks.getContext("2d");
@@ -171,8 +172,8 @@ function render() {
 
 // ---- turning ----------------------------------------------------------------------------------------------
 
-/// Where a picture takes longer than a thirtieth of a second, as without a graphics card, fewer pixels are drawn while
-/// one turns, and all of them as soon as one stops.
+/// Where a picture takes longer than a thirtieth of a second, as without a graphics card, fewer pixels and no edges are
+/// drawn while one turns, and all of them as soon as one stops.
 const SLOW = 1000 / 30;
 
 function renderTurning() {
@@ -192,6 +193,7 @@ function renderTurning() {
 function setTurningSharpness(share) {
   sharpness.turning = share;
   renderer.setPixelRatio(sharpness.full * share);
+  meshes.edges.visible = current.edges && share > 0.5;
 }
 
 function beginTurning() {

@@ -45,8 +45,8 @@ function showFrame(index) {
   if (index !== current.frame && (current.picked.contact || current.picked.joint !== undefined)) current.picked = {};
   current.frame = index;
   element("slider").value = index;
+  updatePicked();
   show();
-  showPicked();
   for (const plot of plots) plot.draw();
 }
 
@@ -109,8 +109,8 @@ function afterChange(member) {
   if (member === "theme") setTheme();
   if (member === "units" || member === "theme") for (const number of [1, 2]) showPlot(number);
   if (member === "units") showSummary();
+  updatePicked();
   show();
-  showPicked();
 }
 
 function tieControls() {

@@ -81,16 +81,21 @@ function fillTable(table, rows) {
   }));
 }
 
-function showPicked() {
+/// Brings table and marked edges in line with what is picked; the picture is drawn later.
+function updatePicked() {
   const {block, contact, joint} = current.picked;
   const rows = contact ? rowsOfContact(contact) : joint !== undefined ? rowsOfJoint(joint)
     : block !== undefined ? rowsOfBlock(block) : [];
   fillTable(element("picked"), rows);
   element("hint").hidden = rows.length > 0;
   element("picked-buttons").hidden = block === undefined;
-  const chosen = surface.edges.filter((edge) => edge.block === block);
+  const chosen = block === undefined ? [] : surface.edges.filter((edge) => edge.block === block);
   meshes.selection.geometry.setIndex(edgeIndex(chosen));
   meshes.selection.visible = chosen.length > 0;
+}
+
+function showPicked() {
+  updatePicked();
   showBlockList();
   render();
 }

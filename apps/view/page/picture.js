@@ -15,6 +15,9 @@ function faultOf(wishes) {
     return "the run has no " + wishes.get("color") + " (output.fields)";
   if (current.joints !== "none" && !hasJoints()) return "the run has no contact faces (joints.pvd)";
   if (current.vectors === "velocity" && !data.velocity) return "the run has no velocity (output.fields)";
+  const unknown = ["hide", "only"].flatMap((key) => (wishes.get(key) || "").split(","))
+    .find((name) => name !== "" && blockCalled(name) < 0);
+  if (unknown) return "the run has no block " + unknown;
   if (current.crosses && !data.stress) return "the run has no stress (output.fields)";
   return "";
 }
@@ -29,6 +32,7 @@ function makePicture(wishes) {
   setFrame(framing(width, height, {heading: 36, player: 12}));
   setTheme();
   lookFrom(current.from);
+  sharpness.isStarted = true;
   const [first, last] = (wishes.get("frames") || "").split(":").map(Number);
   if (!wishes.has("frames")) return leaveText("picture", drawnPicture(width, height));
   const pictures = [];

@@ -5,7 +5,7 @@ let camera, controls, renderer, stage;
 const current = {};
 const plots = [];
 const frameSize = {width: 1, height: 1, left: 0, top: 0, bottom: 0, legend: {x: 0, y: 0, width: 1, height: 1, flat: false}};
-const sharpness = {full: 1, turning: 1, isTurning: false, lastMilliseconds: 0};
+const sharpness = {full: 1, turning: 1, isTurning: false, isStarted: false, lastMilliseconds: 0};
 
 /// three.js and Chart.js, each as if it stood in the page.
 async function runLibraries() {
@@ -72,6 +72,7 @@ async function start() {
   resize();
   lookFrom(current.from);
   buildPlots();
+  sharpness.isStarted = true;
   showFrame(current.frame);
 }
 

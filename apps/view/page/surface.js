@@ -104,7 +104,7 @@ function colourSurface(field, frame, range) {
 function styleSurface() {
   const glass = current.seeThrough || current.joints !== "none";
   Object.assign(meshes.mesh.material, {transparent: glass, opacity: current.joints !== "none" ? 0.12 : glass ? 0.35 : 1,
-    depthWrite: !glass});
+    depthWrite: !glass, side: glass ? THREE.DoubleSide : THREE.FrontSide});
   meshes.edges.visible = current.edges;
   meshes.innerEdges.visible = current.subFaces;
   meshes.edges.material.color.set(current.joints !== "none" ? theme().faintEdge : theme().edge);
