@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "geometry/mesh/mesh_io.hpp"
+#include "apps/scene/mesh_import.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "geometry/mesh/surface_repair.hpp"
 
@@ -25,9 +26,9 @@ class Import {
   std::vector<MeshGroup> stones() {
     std::vector<MeshGroup> stones;
     if (mesh_.split == SceneMesh::Split::groups)
-      stones = read_mesh_groups(file_);
+      stones = read_mesh_file_groups(file_);
     else
-      stones.push_back({"", read_mesh(file_)});
+      stones.push_back({"", read_mesh_file(file_)});
     weld(stones);
     if (mesh_.split == SceneMesh::Split::components) stones = components_of(std::move(stones.front().mesh));
     repair(stones);
@@ -140,10 +141,13 @@ bool is_imported(const SceneBlock& block) {
 
 std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const std::string& path,
                                   Diagnostics& diagnostics) {
-  if (!is_imported(block)) return {block};
+  if (!std::holds_alternative<SceneMesh>(block.shape)) return {block};
   const SceneMesh& mesh = std::get<SceneMesh>(block.shape);
   const Place place = scene.places.value(path + ".mesh.file");
   const std::filesystem::path file = scene.file.parent_path() / mesh.file;
+  const std::optional<std::string> warning = import_warning(file);
+  if (warning && !mesh.stone) diagnostics.warning(place, *warning);
+  if (!is_imported(block)) return {block};
   SceneBlock without_shape = block;
   without_shape.shape = {};
   Import import(mesh, file);
@@ -154,10 +158,9 @@ std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const s
     for (MeshGroup& stone : stones) blocks.push_back(block_of(block, std::move(stone), blocks.size() + 1));
     return blocks;
   } catch (const MeshFileError& error) {
-    diagnostics.error(
-        place, fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL or PLY file "
-                           "is needed",
-                           to_string(Place{file.string(), error.line(), error.column()}), error.what()));
+    diagnostics.error(place, fmt::format("mesh file cannot be used ({}: {}), {} is needed",
+                                         to_string(Place{file.string(), error.line(), error.column()}),
+                                         error.what(), readable_mesh));
   } catch (const std::invalid_argument& error) {
     diagnostics.error(place, fmt::format("mesh cannot be welded or repaired ({})", error.what()));
   }

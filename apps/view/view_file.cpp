@@ -132,6 +132,11 @@ const std::filesystem::path& checked_folder(const std::filesystem::path& folder)
   return folder;
 }
 
+/// Frames of a run with output.solid have volumes, and the surfaces of blocks beside them.
+const char* surface_series(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "surfaces.pvd") ? "surfaces.pvd" : "blocks.pvd";
+}
+
 /// Whether blocks may come and go.
 bool has_stages(const std::filesystem::path& folder) {
   const std::vector<std::string> columns = read_history(folder / "history.csv", 1).columns;
@@ -142,7 +147,7 @@ class FrameReader {
  public:
   explicit FrameReader(const std::filesystem::path& folder)
       : folder_(checked_folder(folder)),
-        blocks_(read_pvd(folder / "blocks.pvd")),
+        blocks_(read_pvd(folder / surface_series(folder))),
         contacts_(read_pvd(folder / "contacts.pvd")) {
     // A run that goes on has written one of the two first.
     count_ = std::min(blocks_.size(), contacts_.size());

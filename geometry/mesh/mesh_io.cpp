@@ -106,17 +106,20 @@ std::vector<PolygonSoup> divided(const PolygonSoup& soup) {
 
 }  // namespace
 
+std::vector<MeshGroup> triangulated_groups(const PolygonSoup& soup) {
+  std::vector<MeshGroup> groups;
+  for (PolygonSoup& part : divided(soup))
+    groups.push_back({soup.groups[groups.size()], triangulated(std::move(part))});
+  return groups;
+}
+
 std::vector<MeshGroup> read_mesh_groups(const fs::path& path) {
   const Format& format = format_of(path);
   if (format.read != read_obj)
     throw MeshFileError("groups of a " + std::string(format.ending) + " file, only .obj files have groups", 0,
                         0);
   const std::string bytes = read_bytes(path);
-  const PolygonSoup soup = read_obj(bytes);
-  std::vector<MeshGroup> groups;
-  for (PolygonSoup& part : divided(soup))
-    groups.push_back({soup.groups[groups.size()], triangulated(std::move(part))});
-  return groups;
+  return triangulated_groups(read_obj(bytes));
 }
 
 TriangleMesh read_mesh(const fs::path& path) {
