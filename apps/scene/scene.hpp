@@ -360,12 +360,14 @@ struct SceneOutput {
     bool displacement = true;
     bool velocity = true;
     bool stress = true;
+    bool principal_stress = false;
   };
   std::optional<int> every;        ///< steps between frames, >= 1; exactly one of every and interval is set
   std::optional<double> interval;  ///< s between frames, > 0
   int history_every = 1;           ///< steps between rows of the history, >= 1
   Fields fields;                   ///< by name in the array `fields`
-  bool curved = false;             ///< blocks as Lagrange triangles; not with formulation incremental
+  bool curved = false;             ///< blocks as Lagrange cells; not with formulation incremental
+  bool solid = false;              ///< blocks as volumes; not with formulation incremental
 };
 
 /// The whole scene.

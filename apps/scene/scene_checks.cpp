@@ -180,6 +180,8 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
     refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
   if (scene.output.curved)
     refuse("output.curved", "the surface of an incremental block is its flat sub-faces (true)");
+  if (scene.output.solid)
+    refuse("output.solid", "the points inside an incremental block are not followed (true)");
   if (scene.contact.chord_tolerance)
     refuse("contact.chord_tolerance",
            fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",

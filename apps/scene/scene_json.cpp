@@ -319,6 +319,7 @@ Json to_json(const SceneOutput& output) {
   for (const auto& [name, member] : field_names)
     if (output.fields.*member) json["fields"].push_back(name);
   json["curved"] = output.curved;
+  json["solid"] = output.solid;
   return json;
 }
 

@@ -198,6 +198,7 @@ void read_output(TomlTableReader table, SceneOutput& output) {
   if (!every_given && !interval_given) output.every = default_frame_distance;
   table.read_integer("history_every", output.history_every, 1, std::numeric_limits<int>::max());
   table.read_bool("curved", output.curved);
+  table.read_bool("solid", output.solid);
   std::vector<std::string> fields;
   if (!table.read_words("fields", fields, field_names)) return;
   for (const auto& [name, member] : field_names)

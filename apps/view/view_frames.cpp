@@ -10,8 +10,8 @@
 
 #include "apps/results/grid_arrays.hpp"
 #include "apps/results/history_table.hpp"
-#include "apps/results/input_file.hpp"
 #include "apps/results/vtu_reader.hpp"
+#include "apps/scene/input_file.hpp"
 #include "apps/view/joint_resultants.hpp"
 #include "apps/view/packed_numbers.hpp"
 #include "geometry/index.hpp"
@@ -141,6 +141,11 @@ const std::filesystem::path& checked_folder(const std::filesystem::path& folder)
   return folder;
 }
 
+/// Frames of a run with output.solid have volumes, and the surfaces of blocks beside them.
+const char* surface_series(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "surfaces.pvd") ? "surfaces.pvd" : "blocks.pvd";
+}
+
 /// Whether blocks may come and go.
 bool has_stages(const std::filesystem::path& folder) {
   const std::vector<std::string> columns = read_history(folder / "history.csv", 1).columns;
@@ -157,7 +162,7 @@ std::vector<PvdFrame> joint_frames(const std::filesystem::path& folder) {
 ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
     : folder_(checked_folder(folder)),
       points_(points),
-      blocks_(read_pvd(folder / "blocks.pvd")),
+      blocks_(read_pvd(folder / surface_series(folder))),
       contacts_(read_pvd(folder / "contacts.pvd")),
       joints_(joint_frames(folder)) {
   // A run that goes on has written some of them first.

@@ -80,6 +80,20 @@ struct ViewCommand : ::testing::Test {
   }
 };
 
+TEST_F(ViewCommand, OfSolidsThePageHoldsTheSurfaces) {
+  simulate();
+  ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+  const std::string page = read_text(folder / "out/view.html");
+  simulate({"--set", "output.solid=true", "--force"});
+  for (const VtkCellType type : read_vtu(folder / "out/frames/blocks_0000004.vtu").types)
+    EXPECT_EQ(type, VtkCellType::tetrahedron);
+  ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+  const std::string frames = "<script id=\"frames\" type=\"text/plain\">\n";
+  EXPECT_EQ(element(read_text(folder / "out/view.html"), frames), element(page, frames));
+  simulate({"--force"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/surfaces.pvd"));
+}
+
 TEST_F(ViewCommand, ThePageHoldsTheFrames) {
   simulate();
   ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
