@@ -36,6 +36,9 @@ struct SearchSettings {
   /// m, > 0, as a share of contact_distance: two blocks may get this far into each other in a step that no
   /// contact was found for; deeper, and the step is cut to the first touch
   double passing_share = 0.01;
+  /// >= 0, of contact_distance: how far two blocks may have moved relative to each other for what was found of them
+  /// to last (notes/lasting_contacts.md); 0: contacts are found in each step
+  double lasting_share = 1e-3;
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
   double smallest_cut = 0.01;
 };
@@ -177,6 +180,8 @@ struct SimulationSettings {
 
   /// What a point without pressure may be open by and still have its cohesion, m.
   [[nodiscard]] double tearing_gap() const { return tearing_share * contact_distance; }
+  /// How far two blocks may move before their contacts are found anew, m.
+  [[nodiscard]] double lasting_motion() const { return search.lasting_share * contact_distance; }
   /// What rows at the start of a step may leave out of a gap at its end, m; more, and they are taken anew
   /// (notes/contact_at_the_end_of_a_step.md). Springs give way by more than two blocks may meet by unseen.
   [[nodiscard]] double followed_gap() const {

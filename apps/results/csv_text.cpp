@@ -26,6 +26,13 @@ void append_csv_number(std::string& text, double value) {
   text.append(begin, result.ptr);
 }
 
+std::optional<double> csv_number(std::string_view field) {
+  double number = 0.0;
+  const char* const end = field.data() + field.size();
+  const auto result = std::from_chars(field.data(), end, number);
+  return result.ec == std::errc() && result.ptr == end ? std::optional(number) : std::nullopt;
+}
+
 std::string quote_csv_field(std::string_view text) {
   std::string field = looks_like_formula(text) ? '\'' + std::string(text) : std::string(text);
   if (field.find_first_of(",\"\r\n") == std::string::npos) return field;

@@ -1,6 +1,7 @@
 // Fields of comma-separated tables (history.csv, contacts.csv, studies).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,9 @@ namespace ashlar {
 /// Appends the shortest decimal text that reads back as the same double; whole numbers below 1e15 without
 /// exponent, "nan", "inf" and "-inf" for what is not finite.
 void append_csv_number(std::string& text, double value);
+
+/// The number that a whole field is; none if it is anything else.
+[[nodiscard]] std::optional<double> csv_number(std::string_view field);
 
 /// A field that is text, as a name of the scene: RFC 4180, so that one with a comma, a quote or a line break
 /// is quoted; and with an apostrophe before it if it begins with = + - @ or a tab, after any apostrophes,

@@ -15,10 +15,6 @@ constexpr int pieces_per_order = 4;
 constexpr int most_pieces = 16;
 constexpr double most_triangles = 40'000;
 
-bool may_curve(const BlockModel& block) {
-  return block.incremental() == nullptr && block.order() >= 2 && !block.fixed();
-}
-
 /// Longest side of the triangles over the diagonal of the box around them; 0 if that is a point or not
 /// finite.
 double relative_side(const CurvedTriangles& block) {
@@ -58,7 +54,7 @@ DrawnSurface divided(const CurvedTriangles& triangles, const std::vector<int>& f
   for (const SharedLattice::Point& point : lattice.points) {
     Vector3 sum = Vector3::Zero();
     for (std::size_t k = 0; k < 3; ++k)
-      sum += point.weights[k] * triangles.points[at(triangles.corners[point.triangle][k])];
+      sum += point.weights[k] * triangles.points[at(triangles.corners[point.cell][k])];
     drawn.points.emplace_back(sum / pieces);
   }
   const auto small = lattice_triangles(pieces);
@@ -91,6 +87,10 @@ std::vector<int> pieces_of_sides(const std::vector<CurvedTriangles>& blocks) {
     }
     if (triangles <= most_triangles || share == 0) return pieces;
   }
+}
+
+bool may_curve(const BlockModel& block) {
+  return block.incremental() == nullptr && block.order() >= 2 && !block.fixed();
 }
 
 std::vector<DrawnSurface> drawn_surfaces(const std::vector<BlockModel>& blocks, bool lagrange) {

@@ -34,6 +34,9 @@ struct CurvedTriangles {
 /// @return (#blocks), each at least 1
 [[nodiscard]] std::vector<int> pieces_of_sides(const std::vector<CurvedTriangles>& blocks);
 
+/// Whether a block's faces may bend: of the total formulation, of order 2 or more.
+[[nodiscard]] bool may_curve(const BlockModel& block);
+
 /// Of each block: whole faces if it stays affine; the fixed sub-faces of an incremental one; else the
 /// triangles of its mesh, divided by pieces_of_sides, or whole as Lagrange triangles of the block's order.
 /// VTK takes them up to order 12, the highest there is.

@@ -24,7 +24,8 @@ constexpr std::string_view marker_text = "This folder was made by ashlar; it kee
 constexpr std::array run_files = {"history.csv",        "contacts.csv",           "blocks.pvd",
                                   "contacts.pvd",       "summary.json",           "checkpoint",
                                   "view.html",          "summary.json.tmp",       "checkpoint.tmp",
-                                  "factor_trials.json", "factor_trials.json.tmp", "joints.pvd"};
+                                  "factor_trials.json", "factor_trials.json.tmp", "joints.pvd",
+                                  "surfaces.pvd"};
 
 std::string reason(int code) {
   return std::generic_category().message(code);

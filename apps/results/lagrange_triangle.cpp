@@ -1,6 +1,5 @@
 #include "apps/results/lagrange_triangle.hpp"
 
-#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -12,17 +11,6 @@ double binomial(double z, int count) {
   double value = 1.0;
   for (int j = 0; j < count; ++j) value *= (z - j) / (j + 1);
   return value;
-}
-
-/// Corners with the weight they have in a point, the same from whichever triangle it is seen.
-using SharedKey = std::array<std::pair<int, int>, 3>;
-
-SharedKey key_of(const std::array<int, 3>& corners, const LatticeWeights& weights) {
-  SharedKey key;
-  for (std::size_t k = 0; k < 3; ++k)
-    key[k] = weights[k] == 0 ? std::pair(-1, 0) : std::pair(corners[k], weights[k]);
-  std::sort(key.begin(), key.end());
-  return key;
 }
 
 }  // namespace
@@ -75,20 +63,7 @@ std::vector<std::array<int, 3>> lattice_triangles(int order) {
 }
 
 SharedLattice shared_lattice(const std::vector<std::array<int, 3>>& corners, int order) {
-  const std::vector<LatticeWeights> weights = lagrange_nodes(order);
-  SharedLattice lattice;
-  std::map<SharedKey, int> known;
-  for (std::size_t t = 0; t < corners.size(); ++t) {
-    std::vector<int>& nodes = lattice.nodes.emplace_back();
-    for (const LatticeWeights& node : weights) {
-      const bool inside = std::min({node[0], node[1], node[2]}) > 0;
-      int index = static_cast<int>(lattice.points.size());
-      if (!inside) index = known.try_emplace(key_of(corners[t], node), index).first->second;
-      if (index == static_cast<int>(lattice.points.size())) lattice.points.push_back({t, node});
-      nodes.push_back(index);
-    }
-  }
-  return lattice;
+  return simplex_lattice(corners, lagrange_nodes(order));
 }
 
 }  // namespace ashlar

@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "apps/results/simplex_lattice.hpp"
+
 namespace ashlar {
 
 using LatticeWeights = std::array<int, 3>;  ///< of the three corners; not negative, their sum is the order
@@ -26,17 +28,8 @@ using LatticeWeights = std::array<int, 3>;  ///< of the three corners; not negat
 /// @return indices into lagrange_nodes(order)
 [[nodiscard]] std::vector<std::array<int, 3>> lattice_triangles(int order);
 
-/// The lattice points of triangles that share corners; neighbours share those of their common side.
-struct SharedLattice {
-  /// Where a point lies; of a shared one in the first triangle that has it.
-  struct Point {
-    std::size_t triangle;
-    LatticeWeights weights;
-  };
-  std::vector<Point> points;  ///< in the order of their first use
-  std::vector<std::vector<int>>
-      nodes;  ///< (#triangles) indices into `points`, in the order of lagrange_nodes
-};
+/// The lattice points of triangles that share corners.
+using SharedLattice = SimplexLattice<3>;
 
 /// @param corners of each triangle; equal numbers mean the same corner
 [[nodiscard]] SharedLattice shared_lattice(const std::vector<std::array<int, 3>>& corners, int order);

@@ -19,9 +19,9 @@
 namespace ashlar {
 namespace {
 
-/// "blocks_0000010.vtu", "contacts_0000010.vtu", "joints_0000010.vtu", or what a killed run left of one
+/// "blocks_0000010.vtu" and the like, or what a killed run left of one
 bool is_frame_name(std::string_view name) {
-  for (const std::string_view start : {"blocks_", "contacts_", "joints_"}) {
+  for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_"}) {
     if (!name.starts_with(start)) continue;
     const std::string_view rest = name.substr(start.size());
     const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
@@ -50,7 +50,7 @@ std::filesystem::path emptied(std::filesystem::path folder) {
   }
   remove_frames_but(folder, {});
   // Removed, not emptied: other names of these files keep what they have.
-  for (const char* name : {"summary.json", "view.html", "history.csv", "contacts.csv"})
+  for (const char* name : {"summary.json", "view.html", "history.csv", "contacts.csv", "surfaces.pvd"})
     std::filesystem::remove(folder / name);
   return folder;
 }
@@ -133,52 +133,6 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   return values;
 }
 
-UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
-                             const std::vector<DrawnSurface>& surfaces, const SceneOutput::Fields& fields,
-                             const std::vector<bool>& absent, const DisplacementOrigin& origin) {
-  UnstructuredGrid grid;
-  std::vector<double> displacement;
-  std::vector<double> velocity;
-  std::vector<double> stress;
-  std::vector<std::int32_t> block_of_cell;
-  std::vector<std::int32_t> order_of_cell;
-  std::vector<std::int32_t> face_of_cell;
-  for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
-    if (!absent.empty() && absent[at(b)]) continue;
-    const BlockModel& block = blocks[at(b)];
-    const BlockState& state = states[at(b)];
-    const DrawnSurface& surface = surfaces[at(b)];
-    const int first = static_cast<int>(grid.points.size());
-    for (std::size_t k = 0; k < surface.points.size(); ++k) {
-      const PointMotion motion = block.motion_of(state, surface.points[k]);
-      grid.points.push_back(motion.place);
-      append(displacement, origin.surfaces.empty()
-                               ? motion.displacement
-                               : Vector3(motion.displacement - origin.surfaces[at(b)][k]));
-      append(velocity, motion.velocity);
-      if (fields.stress) append_stress(stress, motion.stress);
-    }
-    for (const DrawnSurface::Cell& cell : surface.cells) {
-      std::vector<int> points;
-      for (const int point : cell.points) points.push_back(first + point);
-      grid.add_cell(cell.type, points);
-      block_of_cell.push_back(b);
-      order_of_cell.push_back(block.fixed() || block.rigid() ? 0 : block.order());
-      face_of_cell.push_back(cell.face);
-    }
-  }
-  if (fields.displacement)
-    grid.point_data.push_back({"displacement", 3, {"x", "y", "z"}, std::move(displacement)});
-  if (fields.velocity) grid.point_data.push_back({"velocity", 3, {"x", "y", "z"}, std::move(velocity)});
-  if (fields.stress) {
-    grid.point_data.push_back({"stress", 6, {"xx", "yy", "zz", "xy", "yz", "xz"}, std::move(stress)});
-  }
-  grid.cell_data.push_back({"block", 1, {}, std::move(block_of_cell)});
-  grid.cell_data.push_back({"order", 1, {}, std::move(order_of_cell)});
-  grid.cell_data.push_back({"face", 1, {}, std::move(face_of_cell)});
-  return grid;
-}
-
 UnstructuredGrid contact_frame(const Simulation& simulation) {
   UnstructuredGrid grid;
   std::vector<double> gap;
@@ -220,7 +174,7 @@ UnstructuredGrid contact_frame(const Simulation& simulation) {
 }
 
 DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
-                             const std::vector<DrawnSurface>& surfaces) {
+                             const DrawnBlocks& drawn) {
   DisplacementOrigin origin;
   const auto displacement = [&](int block, const Vector3& point) {
     return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
@@ -229,11 +183,15 @@ DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Mea
     origin.measures.push_back(measure.kind == Measure::Kind::pair
                                   ? Vector3(Vector3::Zero())
                                   : displacement(measure.block, measure.point));
-  for (std::size_t b = 0; b < surfaces.size(); ++b) {
-    origin.surfaces.emplace_back();
-    for (const Vector3& point : surfaces[b].points)
-      origin.surfaces.back().push_back(displacement(static_cast<int>(b), point));
-  }
+  const auto displacements = [&](const auto& of_blocks, std::vector<std::vector<Vector3>>& by_block) {
+    for (std::size_t b = 0; b < of_blocks.size(); ++b) {
+      by_block.emplace_back();
+      for (const Vector3& point : of_blocks[b].points)
+        by_block.back().push_back(displacement(static_cast<int>(b), point));
+    }
+  };
+  displacements(drawn.surfaces, origin.surfaces);
+  displacements(drawn.solids, origin.solids);
   return origin;
 }
 
@@ -242,18 +200,19 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     : folder_(emptied(std::move(folder))),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
-      surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
+      drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
       joints_(folder_ / "joints.pvd"),
-      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty),
-      stage_(scene.stage.empty() ? 0 : place.stage),
-      elapsed_(place.elapsed),
-      origin_(place.origin) {
-  if (stage_ == 1 && scene.stage.front().reset_displacement)
-    origin_ = origin_of(simulation, measures_, surfaces_);
+      contact_rows_(folder_ / "contacts.csv", OutputFile::Start::empty) {
+  progress_.stage = scene.stage.empty() ? 0 : place.stage;
+  progress_.elapsed = place.elapsed;
+  progress_.origin = place.origin;
+  if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd");
+  if (progress_.stage == 1 && scene.stage.front().reset_displacement)
+    progress_.origin = origin_of(simulation, measures_, drawn_);
   contact_rows_.write(contact_columns);
   add_step(simulation);
 }
@@ -263,20 +222,17 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
     : folder_(std::move(folder)),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
-      surfaces_(drawn_surfaces(simulation.blocks(), output_.curved)),
+      drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
-                                     history_columns(measures_, !scene.stage.empty()), state.last_row_step)),
+                                     history_columns(measures_, !scene.stage.empty()),
+                                     state.progress.last_row_step)),
       blocks_(folder_ / "blocks.pvd", state.block_frames),
       contacts_(folder_ / "contacts.pvd", state.contact_frames),
       joints_(folder_ / "joints.pvd", state.joint_frames),
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
-      last_row_step_(state.last_row_step),
-      last_frame_step_(state.last_frame_step),
-      intervals_written_(state.intervals_written),
-      stage_(state.stage),
-      elapsed_(state.elapsed),
-      origin_(state.origin) {
+      progress_(state.progress) {
+  if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd", state.surface_frames);
   if (contact_rows_.size() < state.contact_bytes) {
     throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
                                          contact_rows_.path().string(), contact_rows_.size(),
@@ -284,7 +240,8 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   }
   contact_rows_.truncate(state.contact_bytes);
   std::set<std::filesystem::path> kept;
-  for (const auto* frames : {&state.block_frames, &state.contact_frames, &state.joint_frames}) {
+  for (const auto* frames :
+       {&state.block_frames, &state.surface_frames, &state.contact_frames, &state.joint_frames}) {
     for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
   }
   remove_frames_but(folder_, kept);
@@ -296,22 +253,18 @@ ResultFolderState ResultFolder::synced_state() {
   history_.sync();
   contact_rows_.sync();
   return {.block_frames = blocks_.frames(),
+          .surface_frames = surfaces_ ? surfaces_->frames() : std::vector<PvdFrame>(),
           .contact_frames = contacts_.frames(),
           .joint_frames = joints_.frames(),
           .contact_bytes = contact_rows_.size(),
-          .last_row_step = last_row_step_,
-          .last_frame_step = last_frame_step_,
-          .intervals_written = intervals_written_,
-          .stage = stage_,
-          .elapsed = elapsed_,
-          .origin = origin_};
+          .progress = progress_};
 }
 
 void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement) {
-  ++stage_;
-  elapsed_ = elapsed;
-  intervals_written_ = 1;  // That of its start is the end of the last stage.
-  if (reset_displacement) origin_ = origin_of(simulation, measures_, surfaces_);
+  ++progress_.stage;
+  progress_.elapsed = elapsed;
+  progress_.intervals_written = 1;  // That of its start is the end of the last stage.
+  if (reset_displacement) progress_.origin = origin_of(simulation, measures_, drawn_);
 }
 
 void ResultFolder::check_in_place() const {
@@ -324,7 +277,7 @@ void ResultFolder::add_step(const Simulation& simulation) {
   if (simulation.steps() % output_.history_every == 0) add_row(simulation);
   if (!frame_is_due(simulation)) return;
   add_frame(simulation);
-  if (!output_.every) ++intervals_written_;
+  if (!output_.every) ++progress_.intervals_written;
 }
 
 void ResultFolder::add_end(const Simulation& simulation) {
@@ -334,53 +287,61 @@ void ResultFolder::add_end(const Simulation& simulation) {
 }
 
 bool ResultFolder::frame_is_due(const Simulation& simulation) const {
-  if (simulation.steps() == last_frame_step_) return false;
+  if (simulation.steps() == progress_.last_frame_step) return false;
   if (output_.every) return simulation.steps() % *output_.every == 0;
   // Half a step early is as near as half a step late.
-  const double due = intervals_written_ * output_.interval.value_or(0.0);
+  const double due = progress_.intervals_written * output_.interval.value_or(0.0);
   return simulation.time() + 0.5 * simulation.report().step >= due;
 }
 
 void ResultFolder::add_row(const Simulation& simulation) {
-  if (simulation.steps() == last_row_step_) return;
-  history_.append(simulation.steps(), history_row(simulation, measures_, origin_, stage_));
-  last_row_step_ = simulation.steps();
+  if (simulation.steps() == progress_.last_row_step) return;
+  history_.append(simulation.steps(), history_row(simulation, measures_, progress_.origin, progress_.stage));
+  progress_.last_row_step = simulation.steps();
 }
 
 void ResultFolder::add_frame(const Simulation& simulation) {
-  if (simulation.steps() == last_frame_step_) return;
-  const std::string blocks = fmt::format("frames/blocks_{:07}.vtu", simulation.steps());
-  const std::string contacts = fmt::format("frames/contacts_{:07}.vtu", simulation.steps());
-  const std::string joints = fmt::format("frames/joints_{:07}.vtu", simulation.steps());
+  if (simulation.steps() == progress_.last_frame_step) return;
+  const auto file_of = [&](const char* series) {
+    return fmt::format("frames/{}_{:07}.vtu", series, simulation.steps());
+  };
   std::vector<std::string> names;
   for (const BlockModel& block : simulation.blocks()) names.push_back(block.name());
   // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
   const auto write = [&](const std::string& name, UnstructuredGrid grid) {
-    grid.time = elapsed_ + simulation.time();
+    grid.time = progress_.elapsed + simulation.time();
     grid.block_names = names;
     const std::string bytes = to_vtu(grid);
     check_in_place();
     write_file_atomically(folder_ / name, bytes, Durability::process);
   };
-  write(blocks, block_frame(simulation.blocks(), simulation.states(), surfaces_, output_.fields,
-                            simulation.system().absent(), origin_));
-  write(contacts, contact_frame(simulation));
-  write(joints, joint_frame(simulation, joint_surfaces_));
+  std::vector<std::pair<PvdWriter*, std::string>> series;
+  const auto add = [&](PvdWriter& to, const char* name, UnstructuredGrid grid) {
+    write(series.emplace_back(&to, file_of(name)).second, std::move(grid));
+  };
+  const std::vector<bool>& absent = simulation.system().absent();
+  const auto shown = [&](const auto& frame, const auto& drawn) {
+    return frame(simulation.blocks(), simulation.states(), drawn, output_.fields, absent, progress_.origin);
+  };
+  if (surfaces_) add(blocks_, "blocks", shown(solid_frame, drawn_.solids));
+  add(surfaces_ ? *surfaces_ : blocks_, surfaces_ ? "surfaces" : "blocks",
+      shown(block_frame, drawn_.surfaces));
+  add(contacts_, "contacts", contact_frame(simulation));
+  add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
   // What fails leaves none of them.
   std::vector<PvdWriter*> added;
   try {
-    for (const auto& [series, file] :
-         {std::pair{&blocks_, &blocks}, std::pair{&contacts_, &contacts}, std::pair{&joints_, &joints}}) {
+    for (const auto& [to, file] : series) {
       check_in_place();
-      series->add_frame(elapsed_ + simulation.time(), *file);
-      added.push_back(series);
+      to->add_frame(progress_.elapsed + simulation.time(), file);
+      added.push_back(to);
     }
     add_contact_rows(simulation);
   } catch (...) {
-    for (PvdWriter* series : added) series->drop_last();
+    for (PvdWriter* to : added) to->drop_last();
     throw;
   }
-  last_frame_step_ = simulation.steps();
+  progress_.last_frame_step = simulation.steps();
 }
 
 void ResultFolder::add_contact_rows(const Simulation& simulation) {

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/results/drawn_surface.hpp"
+#include "apps/results/block_frames.hpp"
 #include "apps/results/history_writer.hpp"
 #include "apps/results/joint_faces.hpp"
 #include "apps/results/largest_values.hpp"
@@ -18,12 +19,6 @@
 
 namespace ashlar {
 
-/// Displacements that results count from, m: those where a stage has set them back.
-struct DisplacementOrigin {
-  std::vector<Vector3> measures;               ///< by measure, zero of pairs; empty: as placed
-  std::vector<std::vector<Vector3>> surfaces;  ///< by block and point of its DrawnSurface; empty: as placed
-};
-
 /// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy,
 /// syz, sxz; Pa, tension positive); of a run in stages `stage` last.
 [[nodiscard]] std::vector<std::string> history_columns(const std::vector<Measure>& measures,
@@ -34,16 +29,6 @@ struct DisplacementOrigin {
 [[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
                                               const std::vector<Measure>& measures,
                                               const DisplacementOrigin& origin = {}, int stage = 0);
-
-/// All blocks that are there, in a state. Point data: those of displacement, velocity and stress (xx, yy, zz, xy, yz, xz)
-/// that are asked for. Cell data: block, order and face.
-/// @param absent by block, or empty
-[[nodiscard]] UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks,
-                                           const std::vector<BlockState>& states,
-                                           const std::vector<DrawnSurface>& surfaces,
-                                           const SceneOutput::Fields& fields,
-                                           const std::vector<bool>& absent = {},
-                                           const DisplacementOrigin& origin = {});
 
 /// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
 /// blocks.
@@ -57,23 +42,28 @@ struct StagePlace {
   DisplacementOrigin origin;
 };
 
-/// The present displacements of the points of measures and surfaces.
-/// @param surfaces of each block, or empty: those of measures alone
+/// The present displacements of the points of measures and of what frames show.
 [[nodiscard]] DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
-                                           const std::vector<DrawnSurface>& surfaces);
+                                           const DrawnBlocks& drawn);
+
+/// What has been added so far.
+struct ResultProgress {
+  int last_row_step = -1;  ///< in history.csv
+  int last_frame_step = -1;
+  int intervals_written = 0;  ///< output.interval: frames due by time
+  int stage = 0;              ///< 1-based; 0: the run has none
+  double elapsed = 0.0;       ///< s, of all stages before
+  DisplacementOrigin origin;
+};
 
 /// How far the files are; a checkpoint holds it.
 struct ResultFolderState {
   std::vector<PvdFrame> block_frames;
+  std::vector<PvdFrame> surface_frames;  ///< empty unless output.solid
   std::vector<PvdFrame> contact_frames;
   std::vector<PvdFrame> joint_frames;
   std::uint64_t contact_bytes = 0;  ///< in contacts.csv
-  int last_row_step = -1;           ///< in history.csv
-  int last_frame_step = -1;
-  int intervals_written = 0;
-  int stage = 0;         ///< 1-based; 0: the run has none
-  double elapsed = 0.0;  ///< s, of all stages before
-  DisplacementOrigin origin;
+  ResultProgress progress;
 };
 
 /// Writes everything but the summary and the checkpoint; files of frames are in `frames/`. Errors are
@@ -105,7 +95,7 @@ class ResultFolder {
 
   /// Displacements count from where the last stage has set them back.
   [[nodiscard]] LargestValues largest(const Simulation& simulation) const {
-    return largest_values(simulation, surfaces_, origin_.surfaces);
+    return largest_values(simulation, drawn_.surfaces, progress_.origin.surfaces);
   }
 
   /// Waits until the tables are on the disk; a checkpoint counts on them.
@@ -124,19 +114,15 @@ class ResultFolder {
   std::filesystem::path folder_;
   SceneOutput output_;
   std::vector<Measure> measures_;
-  std::vector<DrawnSurface> surfaces_;
+  DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;
+  std::optional<PvdWriter> surfaces_;  ///< where blocks_ shows volumes: their surfaces, for the page
   PvdWriter contacts_;
   PvdWriter joints_;
   OutputFile contact_rows_;
-  int last_row_step_ = -1;
-  int last_frame_step_ = -1;
-  int intervals_written_ = 0;  ///< output.interval: frames due by time so far
-  int stage_;                  ///< see ResultFolderState
-  double elapsed_ = 0.0;
-  DisplacementOrigin origin_;
+  ResultProgress progress_;
 };
 
 }  // namespace ashlar

@@ -19,14 +19,19 @@ static void visit_members(Archive& archive, PvdFrame& frame) {
 
 template <class Archive>
 static void visit_members(Archive& archive, DisplacementOrigin& origin) {
-  archive(origin.measures, origin.surfaces);
+  archive(origin.measures, origin.surfaces, origin.solids);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ResultProgress& progress) {
+  archive(progress.last_row_step, progress.last_frame_step, progress.intervals_written, progress.stage,
+          progress.elapsed, progress.origin);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.contact_frames, state.joint_frames, state.contact_bytes,
-          state.last_row_step, state.last_frame_step, state.intervals_written, state.stage, state.elapsed,
-          state.origin);
+  archive(state.block_frames, state.surface_frames, state.contact_frames, state.joint_frames,
+          state.contact_bytes, state.progress);
 }
 
 template <class Archive>

@@ -74,7 +74,7 @@ void SceneRun::begin_next_stage() {
 
 void SceneRun::reset_displacement() {
   place_.origin =
-      origin_of(simulation(), measures_, drawn_surfaces(simulation().blocks(), scene_->scene.output.curved));
+      origin_of(simulation(), measures_, drawn_blocks(simulation().blocks(), scene_->scene.output));
 }
 
 void SceneRun::take_step() {

@@ -16,11 +16,13 @@ namespace ashlar {
 
 /// Cells with VTK's numbers for them.
 enum class VtkCellType : std::uint8_t {
-  vertex = 1,              ///< one point
-  line = 3,                ///< two points
-  triangle = 5,            ///< three points
-  polygon = 7,             ///< three or more points, planar, in order around the boundary
-  lagrange_triangle = 69,  ///< (n + 1)(n + 2) / 2 points of a triangle of order n, see lagrange_triangle.hpp
+  vertex = 1,                 ///< one point
+  line = 3,                   ///< two points
+  triangle = 5,               ///< three points
+  polygon = 7,                ///< three or more points, planar, in order around the boundary
+  tetrahedron = 10,           ///< four points; the last sees the others counter-clockwise from within
+  lagrange_triangle = 69,     ///< (n + 1)(n + 2) / 2 points of order n, see lagrange_triangle.hpp
+  lagrange_tetrahedron = 71,  ///< (n + 1)(n + 2)(n + 3) / 6 points, see lagrange_tetrahedron.hpp
 };
 
 /// Largest number of components of a field: a tensor has nine.

@@ -161,6 +161,8 @@ JointLaw reduced(JointLaw law, double factor) {
   for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.residual->friction,
                            &law.residual->cohesion, &law.residual->tensile_strength})
     *strength /= factor;
+  // A joint dilates by no more than its friction.
+  law.dilation = std::min(law.dilation, law.residual->friction);
   return law;
 }
 
@@ -209,6 +211,9 @@ class JointLaws {
         std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),
         std::min(result.cohesion, given.cohesion_residual.value_or(0.0)),
         std::min(result.tensile_strength, given.tensile_strength_residual.value_or(0.0))};
+    // Neither may several entries together make energy.
+    result.dilation = std::min(tangent(given.dilation_angle), result.residual->friction);
+    result.damping = given.damping;
     return result;
   }
 

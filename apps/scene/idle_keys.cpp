@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 namespace ashlar {
@@ -54,6 +56,31 @@ void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
   }
 }
 
+/// Only springs have dashpots beside them, and only in motion.
+void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
+  const auto check = [&](const std::string& path, const SceneJointLaw& law, bool gives_way) {
+    if (law.damping == 0.0) return;
+    const std::string key = path + ".damping";
+    if (is_static(scene.analysis))
+      keys.warn(key, "a static analysis has no motion in time");
+    else if (scene.contact.augmented.value_or(false))
+      keys.warn(key,
+                "multipliers hold joints here, and only springs are damped: augmented = false has springs");
+    else if (has_multipliers(scene) && !gives_way)
+      keys.warn(key,
+                "multipliers hold this joint, and only springs are damped: normal_stiffness gives it some");
+  };
+  const bool any = std::any_of(scene.joint.begin(), scene.joint.end(), [](const SceneJoint& joint) {
+    return joint.normal_stiffness.value_or(std::nullopt) || joint.shear_stiffness.value_or(std::nullopt);
+  });
+  check("contact", scene.contact.law, any || scene.contact.law.gives_stiffness());
+  for (std::size_t k = 0; k < scene.joint.size(); ++k) {
+    SceneJointLaw law = scene.contact.law;
+    override_law(law, scene.joint[k]);
+    check(fmt::format("joint.{}", k), law, law.gives_stiffness());
+  }
+}
+
 /// A joint that ties two blocks by their names. Globs may also match pairs that a later joint unties.
 void warn_of_ties(const Scene& scene, IdleKeys& keys) {
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
@@ -62,9 +89,9 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
       return name.find_first_of("*?[") != std::string::npos;
     };
     if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
-    for (const char* key :
-         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength",
-          "friction_angle_residual", "cohesion_residual", "tensile_strength_residual"})
+    for (const char* key : {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion",
+                            "tensile_strength", "friction_angle_residual", "cohesion_residual",
+                            "tensile_strength_residual", "dilation_angle", "damping"})
       keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
   }
 }
@@ -76,6 +103,7 @@ void warn_of_idle_keys(const Scene& scene, Diagnostics& diagnostics) {
   warn_of_analysis(scene, keys);
   warn_of_blocks(scene, keys);
   warn_of_ties(scene, keys);
+  warn_of_joint_damping(scene, keys);
 }
 
 }  // namespace ashlar

@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "geometry/mesh/mesh_io.hpp"
+#include "apps/scene/mesh_import.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "geometry/mesh/surface_repair.hpp"
 #include "geometry/mesh/volume_mesh.hpp"
@@ -61,8 +62,8 @@ class Import {
   [[nodiscard]] std::vector<MeshGroup> bodies() const {
     const bool of_tetrahedra = mesh_.split == SceneMesh::Split::tetrahedra;
     if (!of_tetrahedra && mesh_.group.empty()) {
-      if (mesh_.split == SceneMesh::Split::groups) return read_mesh_groups(file_);
-      return {{"", read_mesh(file_)}};
+      if (mesh_.split == SceneMesh::Split::groups) return read_mesh_file_groups(file_);
+      return {{"", read_mesh_file(file_)}};
     }
     VolumeMesh volume = read_volume_mesh(file_);
     if (!mesh_.group.empty()) volume = only_group(volume, mesh_.group);
@@ -151,10 +152,13 @@ bool is_imported(const SceneBlock& block) {
 
 std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const std::string& path,
                                   Diagnostics& diagnostics) {
-  if (!is_imported(block)) return {block};
+  if (!std::holds_alternative<SceneMesh>(block.shape)) return {block};
   const SceneMesh& mesh = std::get<SceneMesh>(block.shape);
   const Place place = scene.places.value(path + ".mesh.file");
   const std::filesystem::path file = scene.file.parent_path() / mesh.file;
+  const std::optional<std::string> warning = import_warning(file);
+  if (warning && !mesh.stone) diagnostics.warning(place, *warning);
+  if (!is_imported(block)) return {block};
   SceneBlock without_shape = block;
   without_shape.shape = {};
   Import import(mesh, file);
@@ -165,10 +169,9 @@ std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const s
     for (MeshGroup& stone : stones) blocks.push_back(block_of(block, std::move(stone), blocks.size() + 1));
     return blocks;
   } catch (const MeshFileError& error) {
-    diagnostics.error(
-        place, fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL, PLY or MSH file "
-                           "is needed",
-                           to_string(Place{file.string(), error.line(), error.column()}), error.what()));
+    diagnostics.error(place, fmt::format("mesh file cannot be used ({}: {}), {} is needed",
+                                         to_string(Place{file.string(), error.line(), error.column()}),
+                                         error.what(), readable_mesh));
   } catch (const std::invalid_argument& error) {
     diagnostics.error(place, fmt::format("mesh cannot be welded or repaired ({})", error.what()));
   }

@@ -187,7 +187,13 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
         place, fmt::format("record cannot be read (\"{}\"), a readable CSV file is needed", path.string()));
     return std::nullopt;
   }
-  return RecordReader(record, path.string(), diagnostics).read(stream);
+  return parse_record(record, stream, path.string(), diagnostics);
+}
+
+std::optional<std::vector<std::vector<double>>> parse_record(const SceneRecord& record, std::istream& content,
+                                                             const std::string& name,
+                                                             Diagnostics& diagnostics) {
+  return RecordReader(record, name, diagnostics).read(content);
 }
 
 }  // namespace ashlar

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/scene/diagnostics.hpp"
@@ -20,5 +22,11 @@ namespace ashlar {
                                                                           const std::filesystem::path& folder,
                                                                           const Place& place,
                                                                           Diagnostics& diagnostics);
+
+/// The same of what is in a file. @param name of the file, for messages
+[[nodiscard]] std::optional<std::vector<std::vector<double>>> parse_record(const SceneRecord& record,
+                                                                           std::istream& content,
+                                                                           const std::string& name,
+                                                                           Diagnostics& diagnostics);
 
 }  // namespace ashlar

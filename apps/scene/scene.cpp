@@ -18,6 +18,8 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   replace(law.friction_angle_residual, joint.friction_angle_residual);
   replace(law.cohesion_residual, joint.cohesion_residual);
   replace(law.tensile_strength_residual, joint.tensile_strength_residual);
+  law.dilation_angle = joint.dilation_angle.value_or(law.dilation_angle);
+  law.damping = joint.damping.value_or(law.damping);
   law.tied = joint.tied.value_or(law.tied);
 }
 

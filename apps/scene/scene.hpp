@@ -102,7 +102,9 @@ struct SceneJointLaw {
   double tensile_strength = 0.0;           ///< Pa, >= 0
   /// Of what has failed, or touches later; at most the values above. Empty: friction_angle, no cohesion, none
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
-  bool tied = false;  ///< bonded over the common face; a key of [[joint]] only
+  double dilation_angle = 0.0;  ///< deg, 0 to friction_angle and its residual value
+  double damping = 0.0;         ///< share of critical, of the joint's springs, 0 to 1
+  bool tied = false;            ///< bonded over the common face; a key of [[joint]] only
 
   [[nodiscard]] bool gives_stiffness() const { return normal_stiffness || shear_stiffness; }
 };
@@ -138,6 +140,7 @@ struct SceneJoint {
   std::optional<double> cohesion;
   std::optional<double> tensile_strength;
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
+  std::optional<double> dilation_angle, damping;
   std::optional<bool> tied;
 };
 
@@ -357,12 +360,14 @@ struct SceneOutput {
     bool displacement = true;
     bool velocity = true;
     bool stress = true;
+    bool principal_stress = false;
   };
   std::optional<int> every;        ///< steps between frames, >= 1; exactly one of every and interval is set
   std::optional<double> interval;  ///< s between frames, > 0
   int history_every = 1;           ///< steps between rows of the history, >= 1
   Fields fields;                   ///< by name in the array `fields`
-  bool curved = false;             ///< blocks as Lagrange triangles; not with formulation incremental
+  bool curved = false;             ///< blocks as Lagrange cells; not with formulation incremental
+  bool solid = false;              ///< blocks as volumes; not with formulation incremental
 };
 
 /// The whole scene.

@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "apps/scene/joint_checks.hpp"
 #include "apps/scene/joint_table.hpp"
 #include "apps/scene/name_pattern.hpp"
 #include "apps/scene/nearest_name.hpp"
@@ -18,9 +19,6 @@
 
 namespace ashlar {
 namespace {
-
-/// Of joints, with a residual value each.
-constexpr std::array strength_keys = {"friction_angle", "cohesion", "tensile_strength"};
 
 std::string entry_key(const char* table, std::size_t index, const char* key) {
   return fmt::format("{}.{}.{}", table, index, key);
@@ -123,38 +121,6 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
   }
 }
 
-/// A joint that failed bears no more than one that has not. @param path of the table that gave the last of both
-void check_residuals(const Scene& scene, const SceneJointLaw& law, const std::string& path,
-                     Diagnostics& diagnostics) {
-  const auto check = [&](const char* key, double strength, const std::optional<double>& residual,
-                         const char* unit) {
-    if (!residual || *residual <= strength) return;
-    const std::string name = fmt::format("{}_residual", key);
-    const bool given = scene.places.contains(fmt::format("{}.{}", path, name));
-    diagnostics.error(scene.places.value(fmt::format("{}.{}", path, given ? name : key)),
-                      fmt::format("{} is above {} ({} {}), at most {} {} is allowed", name, key, *residual,
-                                  unit, strength, unit));
-  };
-  check("friction_angle", law.friction_angle, law.friction_angle_residual, "degrees");
-  check("cohesion", law.cohesion, law.cohesion_residual, "Pa");
-  check("tensile_strength", law.tensile_strength, law.tensile_strength_residual, "Pa");
-}
-
-void check_residuals(const Scene& scene, Diagnostics& diagnostics) {
-  check_residuals(scene, scene.contact.law, "contact", diagnostics);
-  for (std::size_t i = 0; i < scene.joint.size(); ++i) {
-    const std::string path = fmt::format("joint.{}", i);
-    const bool given = std::any_of(strength_keys.begin(), strength_keys.end(), [&](const char* key) {
-      return scene.places.contains(fmt::format("{}.{}", path, key)) ||
-             scene.places.contains(fmt::format("{}.{}_residual", path, key));
-    });
-    if (!given) continue;
-    SceneJointLaw law = scene.contact.law;
-    override_law(law, scene.joint[i]);
-    check_residuals(scene, law, path, diagnostics);
-  }
-}
-
 /// What a search for a factor is of.
 void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
   const bool of_joints = scene.analysis.type == SceneAnalysis::Type::safety;
@@ -214,6 +180,8 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
     refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
   if (scene.output.curved)
     refuse("output.curved", "the surface of an incremental block is its flat sub-faces (true)");
+  if (scene.output.solid)
+    refuse("output.solid", "the points inside an incremental block are not followed (true)");
   if (scene.contact.chord_tolerance)
     refuse("contact.chord_tolerance",
            fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",
@@ -357,7 +325,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
                                     measure.pair[0]));
   }
   check_joints(scene, blocks, diagnostics);
-  check_residuals(scene, diagnostics);
+  check_joint_laws(scene, diagnostics);
   check_factor_search(scene, diagnostics);
 }
 

@@ -79,6 +79,8 @@ Json to_json(const SceneContact& contact, bool augmented) {
                {"distance", or_auto(contact.distance)},
                {"angle", or_auto(contact.angle)}};
   add_residuals(json, contact.law);
+  json["dilation_angle"] = contact.law.dilation_angle;
+  json["damping"] = contact.law.damping;
   if (contact.subdivisions)
     json["subdivisions"] = *contact.subdivisions;
   else
@@ -99,6 +101,8 @@ Json to_json(const SceneJoint& joint) {
   if (joint.cohesion) json["cohesion"] = *joint.cohesion;
   if (joint.tensile_strength) json["tensile_strength"] = *joint.tensile_strength;
   add_residuals(json, joint);
+  if (joint.dilation_angle) json["dilation_angle"] = *joint.dilation_angle;
+  if (joint.damping) json["damping"] = *joint.damping;
   if (joint.tied) json["tied"] = *joint.tied;
   return json;
 }
@@ -315,6 +319,7 @@ Json to_json(const SceneOutput& output) {
   for (const auto& [name, member] : field_names)
     if (output.fields.*member) json["fields"].push_back(name);
   json["curved"] = output.curved;
+  json["solid"] = output.solid;
   return json;
 }
 

@@ -58,10 +58,11 @@ inline constexpr ChoiceNames<SceneMesh::Split, 4> split_names = {
      {"groups", SceneMesh::Split::groups},
      {"tetrahedra", SceneMesh::Split::tetrahedra}}};
 
-inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 3> field_names = {
+inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 4> field_names = {
     {{"displacement", &SceneOutput::Fields::displacement},
      {"velocity", &SceneOutput::Fields::velocity},
-     {"stress", &SceneOutput::Fields::stress}}};
+     {"stress", &SceneOutput::Fields::stress},
+     {"principal_stress", &SceneOutput::Fields::principal_stress}}};
 
 /// The word for a choice.
 template <typename Choice, std::size_t count>

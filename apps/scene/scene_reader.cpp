@@ -84,10 +84,12 @@ void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_
 
 /// @param law a SceneJointLaw or a SceneJoint
 template <class Law>
-void read_residuals(TomlTableReader& table, Law& law) {
+void read_more_of_joint(TomlTableReader& table, Law& law) {
   table.read_number("friction_angle_residual", law.friction_angle_residual, range::zero_to_below_90);
   table.read_number("cohesion_residual", law.cohesion_residual, range::not_negative);
   table.read_number("tensile_strength_residual", law.tensile_strength_residual, range::not_negative);
+  table.read_number("dilation_angle", law.dilation_angle, range::zero_to_below_90);
+  table.read_number("damping", law.damping, range::zero_to_one);
 }
 
 void read_contact(TomlTableReader table, SceneContact& contact) {
@@ -98,7 +100,7 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   table.read_number("friction_angle", contact.law.friction_angle, range::zero_to_below_90);
   table.read_number("cohesion", contact.law.cohesion, range::not_negative);
   table.read_number("tensile_strength", contact.law.tensile_strength, range::not_negative);
-  read_residuals(table, contact.law);
+  read_more_of_joint(table, contact.law);
   table.read_number_or_auto("distance", contact.distance, range::positive);
   table.read_number_or_auto("angle", contact.angle, range::zero_to_45);
   table.read_number_or_auto("chord_tolerance", contact.chord_tolerance, range::positive);
@@ -143,7 +145,7 @@ SceneJoint read_joint(TomlTableReader& table) {
   table.read_number("friction_angle", joint.friction_angle, range::zero_to_below_90);
   table.read_number("cohesion", joint.cohesion, range::not_negative);
   table.read_number("tensile_strength", joint.tensile_strength, range::not_negative);
-  read_residuals(table, joint);
+  read_more_of_joint(table, joint);
   bool tied = false;
   if (table.read_bool("tied", tied)) joint.tied = tied;
   return joint;
@@ -196,6 +198,7 @@ void read_output(TomlTableReader table, SceneOutput& output) {
   if (!every_given && !interval_given) output.every = default_frame_distance;
   table.read_integer("history_every", output.history_every, 1, std::numeric_limits<int>::max());
   table.read_bool("curved", output.curved);
+  table.read_bool("solid", output.solid);
   std::vector<std::string> fields;
   if (!table.read_words("fields", fields, field_names)) return;
   for (const auto& [name, member] : field_names)

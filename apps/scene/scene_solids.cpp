@@ -10,10 +10,10 @@
 #include <stdexcept>
 
 #include "apps/scene/exact_turn.hpp"
+#include "apps/scene/mesh_import.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
 #include "geometry/exact/degree_turn.hpp"
-#include "geometry/mesh/mesh_io.hpp"
 #include "geometry/solid/hull_solid.hpp"
 #include "geometry/solid/shape_loss.hpp"
 #include "geometry/solid/shapes.hpp"
@@ -86,15 +86,13 @@ std::string describe_defects(const MeshError& error) {
 Polyhedron build_mesh_solid(const Scene& scene, const SceneMesh& shape) {
   const std::filesystem::path file = scene.file.parent_path() / shape.file;
   try {
-    TriangleMesh mesh = shape.stone ? *shape.stone : read_mesh(file);
+    TriangleMesh mesh = shape.stone ? *shape.stone : read_mesh_file(file);
     const double resolution = resolution_of(mesh.points);
     return not_lost(Polyhedron(std::move(mesh), resolution), resolution);
   } catch (const MeshFileError& error) {
     const std::string place = to_string(Place{file.string(), error.line(), error.column()});
     throw ShapeError(
-        fmt::format("mesh file cannot be used ({}: {}), a readable OFF, OBJ, STL, PLY or MSH file is "
-                    "needed",
-                    place, error.what()));
+        fmt::format("mesh file cannot be used ({}: {}), {} is needed", place, error.what(), readable_mesh));
   } catch (const MeshError& error) {
     throw ShapeError(
         fmt::format("mesh bounds no solid ({}: {}), one closed surface without self-intersections, "

@@ -29,37 +29,74 @@ struct Point {
   double y;
 };
 
-/// Logarithms of the points that have one.
-std::vector<Point> logarithms(const PlotSeries& series) {
+/// Points in the numbers of the axes: their logarithms, of those that have one, unless the axes are linear.
+std::vector<Point> points_of(const PlotSeries& series, bool linear) {
   std::vector<Point> points;
   for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k) {
     const double x = series.x[k];
     const double y = series.y[k];
+    if (linear && std::isfinite(x) && std::isfinite(y)) points.push_back({x, y});
+    if (linear) continue;
     if (x > 0.0 && y > 0.0 && std::isfinite(x) && std::isfinite(y))
       points.push_back({std::log10(x), std::log10(y)});
   }
   return points;
 }
 
-/// One axis, from the last 1, 2 or 5 times a power of ten at or below the least value to the first above the
-/// largest.
+/// One axis. A logarithmic one goes from the last 1, 2 or 5 times a power of ten at or below the least value to the first
+/// above the largest; a linear one from tick to tick, which are 1, 2 or 5 times a power of ten apart.
 class Axis {
  public:
   struct Tick {
-    double logarithm;
+    double value;       ///< in the numbers of the axis
     std::string label;  ///< SVG; empty: a fine line alone
   };
+  struct Ends {
+    double start;  ///< in pixels
+    double end;
+  };
 
-  Axis(double least, double most, double start, double end)
-      : start_(start), end_(end), low_(round_mantissa(least, false)), high_(round_mantissa(most, true)) {
-    if (high_ <= low_) high_ = low_ + 1.0;
+  Axis(double least, double most, Ends ends, bool linear) : ends_(ends), low_(least), high_(most) {
+    if (linear) {
+      step_ = linear_step(most > least ? most - least : std::max(std::abs(most), 1.0));
+      low_ = std::floor(least / step_ + slack) * step_;
+      high_ = std::ceil(most / step_ - slack) * step_;
+    } else {
+      low_ = round_mantissa(least, false);
+      high_ = round_mantissa(most, true);
+    }
+    if (high_ <= low_) high_ = low_ + (linear ? step_ : 1.0);
   }
 
-  [[nodiscard]] double place(double logarithm) const {
-    return start_ + (logarithm - low_) / (high_ - low_) * (end_ - start_);
+  [[nodiscard]] double place(double value) const {
+    return ends_.start + (value - low_) / (high_ - low_) * (ends_.end - ends_.start);
   }
 
-  [[nodiscard]] std::vector<Tick> ticks() const {
+  [[nodiscard]] std::vector<Tick> ticks() const { return step_ > 0.0 ? linear_ticks() : decade_ticks(); }
+
+ private:
+  // Far below what a picture shows, far above the rounding of logarithms.
+  static constexpr double slack = 1e-9;
+
+  /// For four to ten of them.
+  static double linear_step(double range) {
+    const double power = std::pow(10.0, std::floor(std::log10(range / 4.0)));
+    for (const double mantissa : {5.0, 2.0})
+      if (mantissa * power <= range / 4.0) return mantissa * power;
+    return power;
+  }
+
+  [[nodiscard]] std::vector<Tick> linear_ticks() const {
+    std::vector<Tick> ticks;
+    const auto first = std::llround(low_ / step_), last = std::llround(high_ / step_);
+    for (auto k = first; k <= last; ++k) {
+      const double value = static_cast<double>(k) * step_;
+      ticks.push_back({value, fmt::format("{:.10g}", value)});
+    }
+    return ticks;
+  }
+
+  [[nodiscard]] std::vector<Tick> decade_ticks() const {
     const double decades = high_ - low_;
     const int stride = static_cast<int>(std::ceil(decades / 10.0));
     std::vector<Tick> ticks;
@@ -77,10 +114,6 @@ class Axis {
     }
     return ticks;
   }
-
- private:
-  // Far below what a picture shows, far above the rounding of logarithms.
-  static constexpr double slack = 1e-9;
 
   static double round_mantissa(double logarithm, bool up) {
     const double exponent = std::floor(logarithm + slack);
@@ -100,10 +133,10 @@ class Axis {
     return mantissa == 1 ? power : fmt::format("{}\u00b7{}", mantissa, power);
   }
 
-  double start_;
-  double end_;
+  Ends ends_;
   double low_;
   double high_;
+  double step_ = 0.0;  ///< between ticks of a linear axis; 0: it is logarithmic
 };
 
 std::string text_at(double x, double y, const char* anchor, std::string_view text) {
@@ -120,12 +153,12 @@ std::string draw_grid(const Axis& x_axis, const Axis& y_axis) {
   };
   std::string svg;
   for (const Axis::Tick& tick : x_axis.ticks()) {
-    const double x = x_axis.place(tick.logarithm);
+    const double x = x_axis.place(tick.value);
     svg += line(tick, x, top, x, bottom);
     if (!tick.label.empty()) svg += text_at(x, bottom + 24.0, "middle", tick.label);
   }
   for (const Axis::Tick& tick : y_axis.ticks()) {
-    const double y = y_axis.place(tick.logarithm);
+    const double y = y_axis.place(tick.value);
     svg += line(tick, left, y, right, y);
     if (!tick.label.empty()) svg += text_at(left - 8.0, y + 5.0, "end", tick.label);
   }
@@ -183,7 +216,7 @@ std::string draw_legend(const PlotSeries& series, bool slopes, std::size_t row, 
 }  // namespace
 
 double last_slope(const PlotSeries& series, std::size_t count) {
-  std::vector<Point> points = logarithms(series);
+  std::vector<Point> points = points_of(series, false);
   if (points.size() > count) points.erase(points.begin(), points.end() - static_cast<std::ptrdiff_t>(count));
   Point mean{0.0, 0.0};
   for (const Point& point : points) {
@@ -204,15 +237,15 @@ std::string to_svg(const LogLogPlot& plot) {
   Point low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Point high{-low.x, -low.y};
   for (const PlotSeries& series : plot.series) {
-    points.push_back(logarithms(series));
+    points.push_back(points_of(series, plot.linear));
     for (const Point& point : points.back()) {
       low = {std::min(low.x, point.x), std::min(low.y, point.y)};
       high = {std::max(high.x, point.x), std::max(high.y, point.y)};
     }
   }
   if (!(low.x <= high.x)) low = high = {0.0, 0.0};
-  const Axis x_axis(low.x, high.x, left, right);
-  const Axis y_axis(low.y, high.y, bottom, top);
+  const Axis x_axis(low.x, high.x, {left, right}, plot.linear);
+  const Axis y_axis(low.y, high.y, {bottom, top}, plot.linear);
   std::string svg = fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}">
 <style>text {{ font: 14px sans-serif; }} .title {{ font: bold 16px sans-serif; }}

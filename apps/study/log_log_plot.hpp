@@ -1,5 +1,5 @@
-// Log-log plots as SVG: the pictures of studies. Every series carries the slope of its last points in the
-// legend, which is what a convergence study is read for.
+// Plots as SVG: the pictures of studies, with logarithmic axes, and of sweeps, with linear ones. Every series of a study
+// carries the slope of its last points in the legend, which is what a convergence study is read for.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace ashlar {
 
-/// Points of a series that are not positive and finite are left out of the picture.
+/// Points of a series that are not finite, and on logarithmic axes those that are not positive, are left out of the
+/// picture.
 struct PlotSeries {
   std::string name;
   std::vector<double> x;
@@ -21,7 +22,8 @@ struct LogLogPlot {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
-  bool slopes = true;  ///< write them into the legend; false where a power law is not what is looked for
+  bool slopes = true;   ///< write them into the legend; false where a power law is not what is looked for
+  bool linear = false;  ///< both axes
 };
 
 /// Slope d log y / d log x through the last `count` points by least squares; NaN with fewer than two

@@ -25,8 +25,11 @@
 #include "apps/scene/input_file.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "apps/scene/scene_loading.hpp"
+#include "apps/study/log_log_plot.hpp"
+#include "apps/sweep/sweep_plot.hpp"
 #include "apps/sweep/sweep_table.hpp"
 #include "apps/sweep/variants.hpp"
+#include "apps/view/svg_picture.hpp"
 
 namespace ashlar {
 namespace {
@@ -186,6 +189,45 @@ bool may_be_replaced(const std::filesystem::path& table, const SweepTable& mine)
   return line.starts_with(fmt::format("{}", fmt::join(mine.columns.begin(), folder + 2, ",")));
 }
 
+/// @param names what is varied in each
+std::vector<RunOptions> runs_of(const SweepOptions& options, const std::vector<VariedKey>& keys,
+                                const std::vector<Variant>& variants, const std::filesystem::path& folder,
+                                std::vector<std::string>& names) {
+  std::vector<RunOptions> runs;
+  for (const Variant& variant : variants) {
+    RunOptions& run = runs.emplace_back();
+    run.scene = options.scene;
+    run.overrides = options.overrides;
+    std::vector<std::string> settings;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      settings.push_back(fmt::format("{}={}", keys[k].key, variant.values[k]));
+    run.overrides.insert(run.overrides.end(), settings.begin(), settings.end());
+    run.out = folder / variant.folder;
+    run.force = options.force;
+    run.quiet = true;
+    names.push_back(fmt::format("{}", fmt::join(settings, ", ")));
+  }
+  return runs;
+}
+
+/// Of the first value that was asked for, or else of the first usual one beside the time.
+void write_picture(const SweepOptions& options, const std::vector<VariedKey>& keys, const SweepTable& table,
+                   std::ostream& err) {
+  const std::size_t first = keys.size() + 2;  // after folder and status
+  std::string value = table.columns.at(first);
+  if (!options.values.empty())
+    value = options.values.front();
+  else if (table.columns.size() > first + 1)
+    value = table.columns[first + 1];
+  const std::string svg = sweep_svg(keys, table, value);
+  std::filesystem::path file = *options.picture;
+  file.replace_extension(".svg");
+  write_file_atomically(file, svg, Durability::process);
+  if (!options.quiet) err << fmt::format("picture: {}\n", file.string());
+  if (options.picture->extension() == ".png")
+    err << write_png(svg, *options.picture, plot_width, plot_height) << '\n';
+}
+
 }  // namespace
 
 int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& err) {
@@ -193,12 +235,16 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
     err << fmt::format("ashlar: error: {}\n", why);
     return static_cast<int>(exit_status::bad_input);
   };
+  if (options.picture && options.picture->extension() != ".svg" && options.picture->extension() != ".png")
+    return refuse(
+        fmt::format("{} is no picture that is made, .svg or .png is needed", options.picture->string()));
   if (options.scene == "-") return refuse("a sweep reads its scene many times (-), a file is needed");
   std::vector<VariedKey> keys;
   std::vector<Variant> variants;
   try {
     for (const std::string& text : options.varied) keys.push_back(parse_varied_key(text));
     variants = variants_of(keys);
+    if (options.picture) (void)sweep_svg(keys, {{"value"}, {}}, "value");  // told before the runs, not after
   } catch (const std::invalid_argument& fault) {
     return refuse(fault.what());
   }
@@ -212,22 +258,10 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
         fmt::format("{} is no table of these keys, another name or --force is needed", file.string()));
   std::filesystem::create_directories(folder);
 
-  std::vector<RunOptions> runs;
   std::vector<std::string> names;
   std::vector<std::filesystem::path> folders;
-  for (const Variant& variant : variants) {
-    RunOptions& run = runs.emplace_back();
-    run.scene = options.scene;
-    run.overrides = options.overrides;
-    std::vector<std::string> settings;
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      settings.push_back(fmt::format("{}={}", keys[k].key, variant.values[k]));
-    run.overrides.insert(run.overrides.end(), settings.begin(), settings.end());
-    run.out = folders.emplace_back(folder / variant.folder);
-    run.force = options.force;
-    run.quiet = true;
-    names.push_back(fmt::format("{}", fmt::join(settings, ", ")));
-  }
+  std::vector<RunOptions> runs = runs_of(options, keys, variants, folder, names);
+  for (const RunOptions& run : runs) folders.push_back(*run.out);
   const int status = Runs(options, std::move(runs), std::move(names), err).go();
   const SweepTable table = sweep_table(keys, variants, folders, options.values);
   for (std::size_t k = 0; k < options.values.size(); ++k) {
@@ -240,6 +274,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   write_file_atomically(file, text, Durability::process);
   out << text;
   if (!options.quiet) err << fmt::format("table: {}\n", file.string());
+  if (options.picture) write_picture(options, keys, table, err);
   return status;
 }
 
@@ -266,6 +301,10 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
   command
       ->add_option("-o,--out", options->table,
                    "The table (default: scene name + .sweep.csv); runs are beside it")
+      ->type_name("FILE");
+  command
+      ->add_option("--picture", options->picture,
+                   "A picture too, of the first value against the keys: .svg, or .png with an .svg beside it")
       ->type_name("FILE");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time (default: one for each processor)")
       ->check(CLI::PositiveNumber)

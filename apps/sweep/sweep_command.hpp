@@ -21,9 +21,11 @@ struct SweepOptions {
   std::vector<std::string> overrides;          ///< "key.path=value" each, for all variants
   std::vector<std::string> values;             ///< columns wanted, see sweep_table.hpp; empty: the usual ones
   std::optional<std::filesystem::path> table;  ///< empty: the scene's name + ".sweep.csv"
-  int jobs = 0;                                ///< runs at a time; 0: as many as there are processors
-  bool force = false;                          ///< replace results of other scenes, and a strange table
-  bool quiet = false;                          ///< no line per run on stderr
+  std::optional<std::filesystem::path>
+      picture;         ///< .svg or .png: the first value of the table against the keys
+  int jobs = 0;        ///< runs at a time; 0: as many as there are processors
+  bool force = false;  ///< replace results of other scenes, and a strange table
+  bool quiet = false;  ///< no line per run on stderr
 };
 
 /// Runs what is not there yet and writes the table, whatever became of the runs.

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -18,13 +17,6 @@ namespace ashlar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::optional<double> number_of(const std::string& text) {
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, number);
-  return result.ec == std::errc() && result.ptr == end ? std::optional(number) : std::nullopt;
-}
 
 /// What one run left.
 struct RunValues {
@@ -95,8 +87,7 @@ SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Var
     std::vector<std::string>& row = table.rows.emplace_back();
     for (const std::string& value : variants[k].values) {
       // Numbers, negative ones too, are numbers in the table.
-      const std::optional<double> number = number_of(value);
-      row.push_back(number ? value : quote_csv_field(value));
+      row.push_back(csv_number(value) ? value : quote_csv_field(value));
     }
     row.push_back(quote_csv_field(folders[k].parent_path().filename().string() + "/" + variants[k].folder));
     row.push_back(runs[k].summary.is_object() ? runs[k].summary.value("status", std::string("damaged"))

@@ -63,6 +63,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> contact_spring_cases();
 /// Friction on slopes.
 [[nodiscard]] std::span<const VerificationCase> slope_cases();
+/// What joints have beside friction.
+[[nodiscard]] std::span<const VerificationCase> joint_cases();
 /// Factors of safety.
 [[nodiscard]] std::span<const VerificationCase> safety_cases();
 /// Stacks, columns and arches.

@@ -3,11 +3,13 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "apps/run/factor_analysis.hpp"
 #include "apps/verify/sliding_wedge.hpp"
 #include "apps/verify/toppling_columns.hpp"
 #include "apps/verify/verification_contacts.hpp"
+#include "apps/verify/voussoir_arch.hpp"
 
 namespace ashlar {
 namespace {
@@ -101,9 +103,28 @@ std::vector<VerificationCheck> toppling_safety(const Placement& placement) {
           check_absolute(fmt::format("and at most {:.4f}", most), upper <= most ? 1.0 : 0.0, 1.0, 0.0)};
 }
 
+/// F = tan(phi) over the least friction that rigid voussoirs need: thin arches hinge at crown and haunch while their
+/// springings slide, thick ones slide at haunch and springing.
+std::vector<VerificationCheck> arch_safety(const Placement& placement) {
+  std::vector<VerificationCheck> checks;
+  for (const VoussoirArch& arch : {VoussoirArch{8, 0.15}, VoussoirArch{8, 0.3}, VoussoirArch{26, 0.15}}) {
+    JointLaw law;
+    law.friction = tangent_of(40);
+    const double size = std::cbrt(arch.ratio * VoussoirArch::mean_radius * VoussoirArch::depth *
+                                  std::numbers::pi * VoussoirArch::mean_radius / arch.count);
+    checks.push_back(
+        check_factor(fmt::format("{} voussoirs, t / R = {}", arch.count, arch.ratio),
+                     safety_of(
+                         law, size, [&](ContactScene& scene) { arch.add_to(scene, rock); }, placement),
+                     law.friction / arch.least_friction()));
+  }
+  return checks;
+}
+
 constexpr VerificationCase cases[] = {
     {"plane-slide-safety", "factor of safety of a block on a plane", plane_slide_safety},
     {"wedge-safety", "factor of safety of a wedge", wedge_safety},
+    {"arch-safety", "factor of safety of semicircular arches that slide", arch_safety},
     {"toppling-safety", "factor of safety of toppling columns", toppling_safety},
 };
 

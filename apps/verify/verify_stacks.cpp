@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "apps/verify/toppling_columns.hpp"
 #include "apps/verify/verification_contacts.hpp"
-#include "solver/state/automatic.hpp"
+#include "apps/verify/voussoir_arch.hpp"
 
 namespace ashlar {
 namespace {
@@ -53,33 +52,11 @@ double farthest_in(Simulation& simulation, double time) {
   return farthest;
 }
 
-/// Half circle of `count` equal voussoirs with straight sides on two fixed blocks: their inner and outer
-/// corners lie on the circles of radius R -+ t/2, R = 10 m, joints are radial.
 /// @param ratio t / R
 Simulation arch(int count, double ratio, const Placement& placement) {
-  constexpr double mean_radius = 10.0;
-  constexpr double depth = 2.0;
-  const double t = ratio * mean_radius;
   const Material rock{2500.0, 1e10, 0.2};
   ContactScene scene(placement);
-  const auto joint = [&](int k, std::vector<Vector3>& points) {
-    const double angle = std::numbers::pi * k / count;
-    for (const double radius : {mean_radius - 0.5 * t, mean_radius + 0.5 * t}) {
-      for (const double y : {0.0, depth})
-        points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
-    }
-  };
-  double size = 0.0;
-  for (int k = 0; k < count; ++k) {
-    std::vector<Vector3> points;
-    joint(k, points);
-    joint(k + 1, points);
-    BlockDefinition block = define_block(hull_of(points), rock, 1);
-    if (k == 0) size = block_size(BlockModel(block));
-    scene.add(std::move(block));
-  }
-  for (const double side : {-mean_radius, mean_radius})
-    scene.add_fixed(Polyhedron(make_box({side - 2.0, -1.0, -2.0}, {side + 2.0, depth + 1.0, 0})));
+  const double size = VoussoirArch{count, ratio}.add_to(scene, rock);
   choose_as_for_statics(scene, size, rock.young_modulus, tangent_of(60));
   scene.settings.time_step = 5e-3;
   return scene.build();

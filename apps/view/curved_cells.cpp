@@ -126,7 +126,7 @@ void CurvedCells::divide(const Block& block, int pieces) {
   const SharedLattice lattice = shared_lattice(block.triangles.corners, pieces);
   const int first_point = static_cast<int>(points_.size());
   for (const SharedLattice::Point& point : lattice.points) {
-    const int cell = block.cells[point.triangle];
+    const int cell = block.cells[point.cell];
     points_.push_back({cell == 0 ? 0 : offsets_[at(cell) - 1], row_of.at(point.weights)});
   }
   const auto small = lattice_triangles(pieces);

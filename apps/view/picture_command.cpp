@@ -1,9 +1,12 @@
 #include "apps/view/picture_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -52,10 +55,16 @@ bool is_vector(const std::vector<double>& numbers) {
          std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
+constexpr std::array view_names = {"front", "back", "left",
+                                   "right", "top",  "iso"};  // those of page/camera.js
+
 std::string check_direction(const std::string& text) {
+  if (std::find(view_names.begin(), view_names.end(), text) != view_names.end()) return "";
   const std::vector<double> direction = numbers_of<double>(text, ',');
   const bool good = is_vector(direction) && direction != std::vector(3, 0.0);
-  return good ? "" : fmt::format("direction ({}), x,y,z, not all zero, is needed", text);
+  return good ? ""
+              : fmt::format("direction ({}), x,y,z, not all zero, or {} is needed", text,
+                            fmt::join(view_names, ", "));
 }
 
 std::string check_point(const std::optional<std::string>& text) {
@@ -63,20 +72,71 @@ std::string check_point(const std::optional<std::string>& text) {
   return fmt::format("point ({}), x,y,z is needed", *text);
 }
 
+/// "x,0.5" or "-x,0.5"
+std::string check_section(const std::optional<std::string>& text) {
+  if (!text) return "";
+  const std::size_t comma = text->find(',');
+  const std::string axis =
+      text->substr(text->starts_with('-') ? 1 : 0, comma - (text->starts_with('-') ? 1 : 0));
+  const bool good = comma != std::string::npos && (axis == "x" || axis == "y" || axis == "z");
+  const std::vector<double> place =
+      good ? numbers_of<double>(std::string_view(*text).substr(comma + 1), ',') : std::vector<double>{};
+  if (place.size() == 1 && std::isfinite(place.front())) return "";
+  return fmt::format("section ({}), an axis and a place such as x,0.5 or -x,0.5 is needed", *text);
+}
+
+/// Names become part of an address.
+std::string check_hidden(const std::string& names) {
+  const bool plain = std::all_of(names.begin(), names.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == ',' || c == '.' || c == '-' || c == '_';
+  });
+  return plain ? ""
+               : fmt::format("blocks ({}), names of letters, digits, . - and _ or numbers are needed", names);
+}
+
+std::string check_range(const PictureOptions& options) {
+  const std::optional<std::string>& text = options.parts.range;
+  if (!text) return "";
+  const std::vector<double> range = numbers_of<double>(*text, ',');
+  if (range.size() != 2 || !std::isfinite(range[0]) || !std::isfinite(range[1]) || !(range[0] < range[1]))
+    return fmt::format("range ({}), LOW,HIGH in SI units with LOW < HIGH is needed", *text);
+  return "";
+}
+
 std::string check_positive(std::string_view name, double value) {
   return value > 0.0 && std::isfinite(value) ? ""
                                              : fmt::format("{} ({}), more than 0 is needed", name, value);
 }
 
-/// What follows # in the page's address; view_page.js reads it. @param frames "frame=3" or "frames=0:7"
+/// What follows # in the page's address; page/address.js reads it. @param frames "frame=3" or "frames=0:7"
 std::string wishes(const PictureOptions& options, const std::string& frames) {
-  std::string text = fmt::format("picture&{}&size={}&from={}&color={}&zoom={}&scale={}", frames, options.size,
-                                 options.from, options.color, options.zoom, options.scale);
-  text += "&contacts=" + options.contacts;
-  if (options.no_arrows) text += "&arrows=none";
+  const PictureParts& parts = options.parts;
+  std::string text =
+      fmt::format("picture&{}&size={}&from={}&color={}&zoom={}&scale={}&theme={}", frames, options.size,
+                  options.from, options.color, options.zoom, options.scale, parts.dark ? "dark" : "light");
+  if (parts.contacts != "auto") text += "&contacts=" + parts.contacts;
+  if (parts.no_arrows) text += "&arrows=none";
+  if (parts.force_chain) text += "&chain=yes";
+  if (parts.thrust_line) text += "&thrust=yes";
+  if (parts.crosses) text += "&crosses=yes";
+  if (parts.si) text += "&units=si";
+  text += fmt::format("&joints={}&vectors={}", parts.joints, parts.vectors);
+  if (parts.section) text += "&section=" + *parts.section;
+  if (!parts.hidden.empty()) text += "&hide=" + parts.hidden;
   if (options.at) text += "&at=" + *options.at;
   if (options.frame_range) text += "&range=frame";
+  if (parts.range) {
+    const std::size_t comma = parts.range->find(',');
+    text += fmt::format("&range=own&low={}&high={}", parts.range->substr(0, comma),
+                        parts.range->substr(comma + 1));
+  }
   return text;
+}
+
+/// Points that somebody asks for are in the page however many they are.
+ViewPoints points_of(const PictureOptions& options) {
+  const std::string& contacts = options.parts.contacts;
+  return contacts == "state" || contacts == "type" ? ViewPoints::all : ViewPoints::few;
 }
 
 int make_picture(const PictureOptions& options, const std::filesystem::path& browser, std::ostream& out,
@@ -91,6 +151,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   try {
     ViewOptions wanted;
     wanted.frame = options.frame;
+    wanted.points = points_of(options);
     report = write_view_file(options.folder, view, wanted);
   } catch (const std::exception& error) {
     return complain(error.what(), exit_status::bad_input);
@@ -135,7 +196,8 @@ std::string fault_of_look(const PictureOptions& options) {
   for (const std::string& fault :
        {check_size(options.size), check_direction(options.from), check_point(options.at),
         check_positive("zoom", options.zoom), check_positive("scale", options.scale),
-        check_positive("time limit", options.time_limit)})
+        check_positive("time limit", options.time_limit), check_section(options.parts.section),
+        check_range(options), check_hidden(options.parts.hidden)})
     if (!fault.empty()) return fault;
   return "";
 }
@@ -148,7 +210,9 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
   const std::filesystem::path view = scratch.path() / "view.html";
   ViewReport report;
   try {
-    report = write_view_file(options.folder, view, {});
+    ViewOptions wanted;
+    wanted.points = points_of(options);
+    report = write_view_file(options.folder, view, wanted);
   } catch (const std::exception& error) {
     throw std::invalid_argument(error.what());
   }
@@ -194,25 +258,55 @@ int picture_command(const PictureOptions& options, std::ostream& out, std::ostre
   return options.frames ? make_pictures(options, out, err) : make_picture(options, *browser, out, err);
 }
 
+namespace {
+
+void declare_parts(CLI::App& command, PictureParts& parts) {
+  command
+      .add_option("--contacts", parts.contacts,
+                  "Points by state, type or none (default: state, up to 500 of them)")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"auto", "state", "type", "none"}));
+  command.add_flag("--no-arrows", parts.no_arrows,
+                   "Contacts without their forces, as where there are more than 500");
+  command
+      .add_option("--joints", parts.joints, "Joint faces by opening, slip, state, normal or shear (stress)")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"none", "opening", "slip", "state", "normal", "shear"}));
+  command.add_flag("--force-chain", parts.force_chain, "A bar for the force in each joint");
+  command.add_flag("--thrust-line", parts.thrust_line, "The line through the forces in the joints");
+  command.add_option("--vectors", parts.vectors, "Arrows of displacement or velocity")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"none", "displacement", "velocity"}));
+  command.add_flag("--crosses", parts.crosses, "Crosses of principal stresses");
+  command.add_option("--section", parts.section, "Cut at x = 0.5: x,0.5; keeping the other side: -x,0.5")
+      ->type_name("AXIS,M");
+  command.add_option("--hide", parts.hidden, "Blocks that are not drawn, by name or number")
+      ->type_name("A,B,...");
+  command.add_option("--range", parts.range, "Colours from LOW to HIGH, SI units")->type_name("LOW,HIGH");
+  command.add_flag("--si", parts.si, "SI units (default: mm, kN, MPa)");
+  command.add_flag("--dark", parts.dark, "On a dark ground");
+}
+
+}  // namespace
+
 void declare_look(CLI::App& command, PictureOptions& options) {
   command.add_option("--size", options.size, "Pixels (default: " + options.size + ")")->type_name("WxH");
-  command.add_option("--from", options.from, "Direction to the eye (default: " + options.from + ")")
+  command
+      .add_option("--from", options.from,
+                  "Direction to the eye, or front, right, top, iso ... (default: " + options.from + ")")
       ->type_name("X,Y,Z");
   command.add_option("--color", options.color, "Colour by (default: displacement)")
       ->type_name("FIELD")
-      ->check(CLI::IsMember({"displacement", "velocity", "von_mises", "pressure", "stress_xx", "stress_yy",
-                             "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order"}));
+      ->check(CLI::IsMember({"displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
+                             "von_mises", "pressure", "sigma_1", "sigma_3", "stress_xx", "stress_yy",
+                             "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order", "stone"}));
   command.add_flag("--frame-range", options.frame_range,
                    "Colours over the values of this frame (default: of the whole run)");
   command.add_option("--at", options.at, "Point looked at (default: the middle of all blocks)")
       ->type_name("X,Y,Z");
   command.add_option("--zoom", options.zoom, "How much nearer than to see all (default: 1)")->type_name("F");
   command.add_option("--scale", options.scale, "Displacements times (default: 1)")->type_name("F");
-  command.add_option("--contacts", options.contacts, "Points by state, type or none (default: state)")
-      ->type_name("WORD")
-      ->check(CLI::IsMember({"state", "type", "none"}));
-  command.add_flag("--no-arrows", options.no_arrows,
-                   "Contacts without their forces, as where there are more than 500");
+  declare_parts(command, options.parts);
   command
       .add_option("--time-limit", options.time_limit,
                   fmt::format("Seconds for the browser (default: {:g})", options.time_limit))

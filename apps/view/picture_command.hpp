@@ -11,19 +11,38 @@
 
 namespace ashlar {
 
+/// What is drawn besides the blocks and how: as the controls of the page say it.
+struct PictureParts {
+  std::string contacts =
+      "auto";  ///< colours of contact points: state, type, or none for no points and no forces; auto:
+               ///< state, none where there are more than most_few_points
+  bool no_arrows = false;       ///< no forces
+  std::string joints = "none";  ///< colours of joint faces: opening, slip, state, normal, shear
+  bool force_chain = false;     ///< a bar a joint, also with many contacts
+  bool thrust_line = false;
+  std::string vectors = "none";  ///< displacement, velocity
+  bool crosses = false;          ///< of principal stresses
+  std::optional<std::string>
+      section;  ///< "x,0.5": cut at x = 0.5 m, what is beyond is left out; "-x,0.5": what is before
+  std::optional<std::string> range;  ///< "low,high" of colours, SI
+  std::string hidden;                ///< names or numbers of blocks that are not drawn, a,b,c
+  bool si = false;                   ///< SI units, else mm, kN, MPa
+  bool dark = false;
+};
+
 struct PictureOptions {
-  std::filesystem::path folder;       ///< result folder
-  std::optional<std::size_t> frame;   ///< index, 0 the first; empty: the last
-  std::string size = "1200x800";      ///< pixels, WIDTHxHEIGHT, 16 to 8192 each
-  std::string from = "0.55,-1,0.45";  ///< x,y,z: direction from the blocks to the eye; z is up
-  std::optional<std::string> at;      ///< x,y,z: point looked at, m; empty: the middle of all blocks
-  double zoom = 1.0;                  ///< > 0; 1 shows all blocks
-  double scale = 1.0;                 ///< > 0; of displacements; contacts are shown with 1 only
+  std::filesystem::path folder;      ///< result folder
+  std::optional<std::size_t> frame;  ///< index, 0 the first; empty: the last
+  std::string size = "1200x800";     ///< pixels, WIDTHxHEIGHT, 16 to 8192 each
+  std::string from =
+      "0.55,-1,0.45";  ///< x,y,z: direction from the blocks to the eye, z is up; or the name of a view
+  std::optional<std::string> at;  ///< x,y,z: point looked at, m; empty: the middle of all blocks
+  double zoom = 1.0;              ///< > 0; 1 shows all blocks
+  double scale = 1.0;             ///< > 0; of displacements
   std::string color = "displacement";
-  bool frame_range = false;        ///< colours over the values of this frame, else of the whole run
-  std::string contacts = "state";  ///< colours of contact points: state, type, or none for no points
-  bool no_arrows = false;          ///< contacts without their forces, as it is with more than 500
-  double time_limit = 120.0;       ///< s, > 0: after that a browser that makes no picture is ended
+  bool frame_range = false;  ///< colours over the values of this frame, else of the whole run
+  PictureParts parts;
+  double time_limit = 120.0;  ///< s, > 0: after that a browser that makes no picture is ended
   std::optional<std::string>
       frames;  ///< "a:b", indices: all of these, NAME_0007.png and so on; not with frame
   std::filesystem::path picture;

@@ -21,33 +21,27 @@
 
 ASHLAR_EMBED(ashlar_view_page, ASHLAR_VIEW_PAGE)
 ASHLAR_EMBED(ashlar_view_style, ASHLAR_VIEW_STYLE)
-ASHLAR_EMBED(ashlar_view_script_data, ASHLAR_VIEW_SCRIPT_DATA)
-ASHLAR_EMBED(ashlar_view_script_scene, ASHLAR_VIEW_SCRIPT_SCENE)
-ASHLAR_EMBED(ashlar_view_script_panels, ASHLAR_VIEW_SCRIPT_PANELS)
-ASHLAR_EMBED(ashlar_view_script_page, ASHLAR_VIEW_SCRIPT_PAGE)
+ASHLAR_EMBED(ashlar_view_script, ASHLAR_VIEW_SCRIPT)
 ASHLAR_EMBED(ashlar_view_three, ASHLAR_VIEW_THREE)
 ASHLAR_EMBED(ashlar_view_orbit_controls, ASHLAR_VIEW_ORBIT_CONTROLS)
+ASHLAR_EMBED(ashlar_view_segments_geometry, ASHLAR_VIEW_SEGMENTS_GEOMETRY)
+ASHLAR_EMBED(ashlar_view_line_material, ASHLAR_VIEW_LINE_MATERIAL)
+ASHLAR_EMBED(ashlar_view_line_segments, ASHLAR_VIEW_LINE_SEGMENTS)
 ASHLAR_EMBED(ashlar_view_chart, ASHLAR_VIEW_CHART)
 
+// The text between the symbols of an embedded file.
+#define ASHLAR_EMBEDDED(name) \
+  std::string_view(name##_begin, static_cast<std::size_t>(name##_end - name##_begin))
+
 namespace ashlar {
-namespace {
-
-std::string_view between(const char* begin, const char* end) {
-  return {begin, static_cast<std::size_t>(end - begin)};
-}
-
-}  // namespace
 
 ViewAssets view_assets() {
-  return {between(ashlar_view_page_begin, ashlar_view_page_end),
-          between(ashlar_view_style_begin, ashlar_view_style_end),
-          between(ashlar_view_script_data_begin, ashlar_view_script_data_end),
-          between(ashlar_view_script_scene_begin, ashlar_view_script_scene_end),
-          between(ashlar_view_script_panels_begin, ashlar_view_script_panels_end),
-          between(ashlar_view_script_page_begin, ashlar_view_script_page_end),
-          between(ashlar_view_three_begin, ashlar_view_three_end),
-          between(ashlar_view_orbit_controls_begin, ashlar_view_orbit_controls_end),
-          between(ashlar_view_chart_begin, ashlar_view_chart_end)};
+  return {ASHLAR_EMBEDDED(ashlar_view_page),
+          ASHLAR_EMBEDDED(ashlar_view_style),
+          ASHLAR_EMBEDDED(ashlar_view_script),
+          {ASHLAR_EMBEDDED(ashlar_view_three), ASHLAR_EMBEDDED(ashlar_view_orbit_controls),
+           ASHLAR_EMBEDDED(ashlar_view_segments_geometry), ASHLAR_EMBEDDED(ashlar_view_line_material),
+           ASHLAR_EMBEDDED(ashlar_view_line_segments), ASHLAR_EMBEDDED(ashlar_view_chart)}};
 }
 
 }  // namespace ashlar

@@ -1,23 +1,19 @@
 // The parts of a view file that are the same for every run, embedded in the program.
 #pragma once
 
+#include <array>
 #include <string_view>
 
 namespace ashlar {
 
-/// Texts of files, found by CMake and embedded when the program is built: view_*.{html,css,js} of this
-/// folder, three.js with its orbit controls (Debian's libjs-three) and Chart.js (libjs-chart.js).
+/// Texts of files, found by CMake and embedded when the program is built: those of the folder page/, and the
+/// libraries of Debian's libjs-three and libjs-chart.js.
 struct ViewAssets {
-  std::string_view page;   ///< view_page.html, with a line @NAME@ where a part goes
-  std::string_view style;  ///< view_page.css
-  // The script, in its order.
-  std::string_view script_data;    ///< view_data.js
-  std::string_view script_scene;   ///< view_scene.js
-  std::string_view script_panels;  ///< view_panels.js
-  std::string_view script_page;    ///< view_page.js
-  std::string_view three;
-  std::string_view orbit_controls;
-  std::string_view chart;
+  std::string_view page;    ///< page.html, with a line @NAME@ where a part goes
+  std::string_view style;   ///< page.css
+  std::string_view script;  ///< all of page/*.js, one after the other
+  std::array<std::string_view, 6>
+      libraries;  ///< in the order in which they run: three.js and its parts, Chart.js
 };
 
 [[nodiscard]] ViewAssets view_assets();

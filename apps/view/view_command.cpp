@@ -13,7 +13,9 @@ namespace ashlar {
 int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostream& err) {
   const std::filesystem::path page = options.page.value_or(options.folder / "view.html");
   try {
-    const ViewReport report = write_view_file(options.folder, page);
+    const ViewReport report =
+        write_view_file(options.folder, page,
+                        {.points = options.all_points ? ViewPoints::all : ViewPoints::few, .frame = {}});
     out << fmt::format("view: {} ({} of {} frames, {:.1f} MB); open it in a browser\n", page.string(),
                        report.frames_kept, report.frames, 1e-6 * static_cast<double>(report.bytes));
     return exit_status::done;
@@ -29,6 +31,7 @@ void declare_view_command(CLI::App& program, CommandContext& context) {
   const auto options = std::make_shared<ViewCommandOptions>();
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("-o,--out", options->page, "Page to write (default: DIR/view.html)")->type_name("FILE");
+  command->add_flag("--points", options->all_points, "All contact points, also of frames with more than 500");
   command->callback(
       [options, &context] { context.status = view_command(*options, context.out, context.err); });
 }

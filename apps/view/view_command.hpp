@@ -12,6 +12,7 @@ namespace ashlar {
 struct ViewCommandOptions {
   std::filesystem::path folder;               ///< result folder
   std::optional<std::filesystem::path> page;  ///< empty: view.html in the folder
+  bool all_points = false;                    ///< contact points of frames with many of them too
 };
 
 /// Writes the page and says where it is and what is in it.

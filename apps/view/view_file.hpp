@@ -1,13 +1,15 @@
 // view.html: the results of a run as one page that any browser shows, without a network or anything
 // installed.
 //
-// The page holds the libraries it needs, the surfaces and fields of the frames as base64 of 32-bit floats,
-// the history and the summary. view_page.js says how it reads them.
+// The page holds the libraries it needs, the surfaces and fields of the frames as 16-bit numbers, deflated
+// (packed_numbers.hpp, view_frames.hpp), the history and the summary. page/data.js reads them.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+
+#include "apps/view/view_frames.hpp"
 
 namespace ashlar {
 
@@ -15,6 +17,7 @@ struct ViewOptions {
   /// Bytes of the page that are not exceeded if it holds more than the first and the last frame: of a longer
   /// run every second, fourth, ... frame is kept. 50 MB open in a second or two and still go by mail.
   std::size_t most_bytes = 50'000'000;
+  ViewPoints points = ViewPoints::few;
   std::optional<std::size_t> frame;  ///< index of a frame that is kept whatever the others do
 };
 

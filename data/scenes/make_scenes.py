@@ -57,23 +57,6 @@ def contact(kn, ks, friction, springs="area"):
     return f'springs = "{springs}"\nnormal_stiffness = {kn}\nshear_stiffness = {ks}\nfriction_angle = {friction}\n'
 
 
-def dominoes():
-    result = HEAD.format(
-        story=story("""
-Fifteen dominoes in a row; the first one is pushed over.
-
-Each is 0.6 m high, 0.1 m thick and 0.3 m wide, 0.3 m behind the one before. The first starts with a turn of 2 rad/s
-about its width. A wave of falling dominoes runs along the row at a speed that soon no longer depends on the push.
-"""), title="Dominoes", kind="dynamic", end=3.0, step="1e-3", contact=contact("5e9", "2e9", 30), modulus="5e9")
-    result += box("ground", (-1, -1, -0.3), (7, 1, 0), fixed=True)
-    for k in range(15):
-        x = 0.3 * k
-        extra = "velocity = [0.6, 0, 0]\nangular_velocity = [0, 2, 0]\n" if k == 0 else ""
-        result += box(f"domino{k + 1}", (x, -0.15, 0), (x + 0.1, 0.15, 0.6), extra)
-    write("dominoes.toml", result + output(20, [("first", "domino1", (0.1, 0, 0.6)),
-                                                ("last", "domino15", (4.3, 0, 0.6))]))
-
-
 def columns():
     result = HEAD.format(
         story=story("""
@@ -193,7 +176,6 @@ def pulses():
 
 if __name__ == "__main__":
     pulses()
-    dominoes()
     columns()
     tower()
     rockfall()

@@ -14,7 +14,6 @@
 #include "geometry/cutting/surface_partition.hpp"
 #include "geometry/cutting/voronoi_complex.hpp"
 #include "geometry/exact/rounding_mode.hpp"
-#include "geometry/solid/shapes.hpp"
 #include "geometry/union_find.hpp"
 
 namespace ashlar {
@@ -43,17 +42,7 @@ struct CutSolid::State {
     if (solid.convex()) {
       whole.cells = {complex.add_cell(ConvexShape::from_polyhedron(solid))};
     } else {
-      const Box box = box_of(solid.mesh().points);
-      const double margin = (box.high - box.low).maxCoeff();
-      const Box around = box.grown(margin);
-      const int first = complex.add_cell(ConvexShape::from_mesh(make_box(around.low, around.high)));
-      for (const CellSide& leaf :
-           partition_by_surface(complex, {first}, solid.mesh(), -1, most_surface_cells)) {
-        if (leaf.inside)
-          whole.cells.push_back(leaf.cell);
-        else
-          complex.remove(leaf.cell);
-      }
+      whole.cells = cells_of_solid(complex, solid, most_surface_cells);
     }
     pieces.push_back(std::move(whole));
     settle(0);

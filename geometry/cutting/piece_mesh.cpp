@@ -250,6 +250,10 @@ TriangleMesh mesh_of_loops(const CellComplex& complex, const std::vector<std::pa
 
 }  // namespace
 
+std::vector<std::array<int, 3>> triangles_of_face(const CellComplex& complex, int face) {
+  return triangles_of(complex, complex.face(face));
+}
+
 std::vector<int> merge_points(const CellComplex& complex, double resolution) {
   const std::size_t count = complex.point_count();
   std::vector<int> order(count);

@@ -2,6 +2,7 @@
 // sources of this layer include this file.
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,10 @@ namespace ashlar {
 [[nodiscard]] TriangleMesh mesh_of_faces(const CellComplex& complex,
                                          const std::vector<std::pair<int, bool>>& faces,
                                          const std::vector<int>& merged);
+
+/// A face as triangles, counter-clockwise as seen from above its plane. Points in its straight sides are corners too, and
+/// no triangle is without area (exactly). @return indices into ComplexFace::points
+[[nodiscard]] std::vector<std::array<int, 3>> triangles_of_face(const CellComplex& complex, int face);
 
 /// (#points): the first of the points that each is one with: those that round to within a resolution of each
 /// other in every coordinate, and what is connected by such. @param resolution m, >= 0

@@ -9,6 +9,7 @@
 
 #include "geometry/boxes/box.hpp"
 #include "geometry/cutting/cut_error.hpp"
+#include "geometry/solid/shapes.hpp"
 #include "geometry/solid/solid_location.hpp"
 
 namespace ashlar {
@@ -218,6 +219,24 @@ std::vector<CellSide> partition_by_surface(CellComplex& complex, const std::vect
     leaves.insert(leaves.end(), parts.begin(), parts.end());
   }
   return leaves;
+}
+
+int add_box_around(CellComplex& complex, const TriangleMesh& surface) {
+  const Box box = box_of(surface.points);
+  const Box around = box.grown((box.high - box.low).maxCoeff());
+  return complex.add_cell(ConvexShape::from_mesh(make_box(around.low, around.high)));
+}
+
+std::vector<int> cells_of_solid(CellComplex& complex, const Polyhedron& solid, int most_cells) {
+  const int first = add_box_around(complex, solid.mesh());
+  std::vector<int> cells;
+  for (const CellSide& leaf : partition_by_surface(complex, {first}, solid.mesh(), -1, most_cells)) {
+    if (leaf.inside)
+      cells.push_back(leaf.cell);
+    else
+      complex.remove(leaf.cell);
+  }
+  return cells;
 }
 
 }  // namespace ashlar

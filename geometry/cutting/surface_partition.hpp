@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/cutting/cell_complex.hpp"
+#include "geometry/solid/polyhedron.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
@@ -22,5 +23,12 @@ struct CellSide {
 [[nodiscard]] std::vector<CellSide> partition_by_surface(CellComplex& complex, const std::vector<int>& cells,
                                                          const TriangleMesh& surface, int mark,
                                                          int most_cells);
+
+/// A cell well around a surface, in a complex. @return the cell
+int add_box_around(CellComplex& complex, const TriangleMesh& surface);
+
+/// Puts a solid that is not convex into an empty complex, parted along its own triangles. @return its cells
+/// @throws CutError if the complex had more than most_cells
+[[nodiscard]] std::vector<int> cells_of_solid(CellComplex& complex, const Polyhedron& solid, int most_cells);
 
 }  // namespace ashlar

@@ -61,4 +61,7 @@ struct PolygonSoup {
 /// The faces divided by triangulate_polygon. @throws MeshFileError if their corners are too many for that
 [[nodiscard]] TriangleMesh triangulated(PolygonSoup soup);
 
+/// The same of each group, with the points that it uses. @param soup of read_obj. @throws MeshFileError as triangulated
+[[nodiscard]] std::vector<MeshGroup> triangulated_groups(const PolygonSoup& soup);
+
 }  // namespace ashlar

@@ -111,6 +111,13 @@ bool is_volume_mesh(const fs::path& path) {
   return equal_ignoring_case(path.extension().string(), ".msh");
 }
 
+std::vector<MeshGroup> triangulated_groups(const PolygonSoup& soup) {
+  std::vector<MeshGroup> groups;
+  for (PolygonSoup& part : divided(soup))
+    groups.push_back({soup.groups[groups.size()], triangulated(std::move(part))});
+  return groups;
+}
+
 std::vector<MeshGroup> read_mesh_groups(const fs::path& path) {
   if (is_volume_mesh(path)) return surfaces_of_groups(read_volume_mesh(path));
   const Format& format = format_of(path);
@@ -118,11 +125,7 @@ std::vector<MeshGroup> read_mesh_groups(const fs::path& path) {
     throw MeshFileError(
         "groups of a " + std::string(format.ending) + " file, only .obj and .msh files have groups", 0, 0);
   const std::string bytes = read_mesh_bytes(path);
-  const PolygonSoup soup = read_obj(bytes);
-  std::vector<MeshGroup> groups;
-  for (PolygonSoup& part : divided(soup))
-    groups.push_back({soup.groups[groups.size()], triangulated(std::move(part))});
-  return groups;
+  return triangulated_groups(read_obj(bytes));
 }
 
 TriangleMesh read_mesh(const fs::path& path) {

@@ -34,6 +34,8 @@ class BlockSurface {
   /// Largest speed of the surface's points, m/s.
   [[nodiscard]] double largest_speed(const BlockState& state) const;
 
+  /// Whether its faces may curve, so that they are divided.
+  [[nodiscard]] bool curves() const { return adaptive_.has_value(); }
   /// Divides and joins the faces of a block that curves. @return true if cells changed
   bool divide(const DivisionDemand& demand);
   [[nodiscard]] const SubFaceSurface& surface() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace ashlar {
 namespace {
@@ -17,6 +18,12 @@ double largest_area_of(const std::vector<ContactMemory::Entry>& entries) {
 double area_of(const std::vector<ContactMemory::Entry>& entries) {
   return std::accumulate(entries.begin(), entries.end(), 0.0,
                          [](double sum, const ContactMemory::Entry& entry) { return sum + entry.area; });
+}
+
+double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
+  double most = 0.0;
+  for (const ContactMemory::Entry& entry : entries) most = std::max(most, entry.memory.dilation);
+  return most;
 }
 
 /// A tangential vector in another tangent plane, its length kept.
@@ -36,7 +43,8 @@ ContactMemory::ContactMemory(std::vector<Entry> entries, std::vector<PressureCut
       bulge_(bulge),
       held_(held),
       squared_reach_(area_of(entries_)),
-      largest_area_(largest_area_of(entries_)) {}
+      largest_area_(largest_area_of(entries_)),
+      most_dilation_(most_dilation_of(entries_)) {}
 
 ContactMemory::Places ContactMemory::places() const {
   const auto count = static_cast<Eigen::Index>(entries_.size());
@@ -103,6 +111,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     result.normal_multiplier += weight * memory.normal_multiplier;
     result.shear_multiplier += weight * memory.shear_multiplier;
     result.unrubbed += weight * memory.unrubbed;
+    result.dilation += weight * memory.dilation;
+    result.level_dilation += weight * memory.level_dilation;
     if (memory.intact) intact += weight;
   }
   // A bond halfway between a whole and a broken one is broken, whatever rounding says.
@@ -114,6 +124,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   result.normal_multiplier /= sum;
   result.shear_multiplier /= sum;
   result.unrubbed /= sum;
+  result.dilation /= sum;
+  result.level_dilation /= sum;
   return found;
 }
 
@@ -152,6 +164,19 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
   return result;
 }
 
+std::vector<PointMemory> ContactMemory::of_same(const std::vector<ContactPoint>& points) const {
+  if (points.size() != entries_.size()) throw std::logic_error("memory is of other points");
+  std::vector<PointMemory> result;
+  result.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    PointMemory& memory = result.emplace_back(entries_[k].memory);
+    if (points[k].normal == entries_[k].normal) continue;
+    for (Vector3* vector : {&memory.slip, &memory.level_slip, &memory.shear_multiplier})
+      *vector = turned(*vector, points[k].normal);
+  }
+  return result;
+}
+
 void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
                           double deepest, const SpringEnergy& held, double bulge,
                           std::vector<PressureCut> cuts) {
@@ -167,6 +192,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
   held_ = held;
   squared_reach_ = area_of(entries_);
   largest_area_ = largest_area_of(entries_);
+  most_dilation_ = most_dilation_of(entries_);
 }
 
 void ContactMemory::drop_multipliers() {
@@ -179,6 +205,7 @@ void ContactMemory::drop_multipliers() {
 void ContactMemory::start_level() {
   for (Entry& entry : entries_) {
     entry.memory.level_slip = entry.memory.slip;
+    entry.memory.level_dilation = entry.memory.dilation;
     entry.memory.in_level = entry.memory.state != ContactState::open;
   }
 }

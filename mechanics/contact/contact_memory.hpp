@@ -1,5 +1,5 @@
-// What contact points remember from step to step: elastic slip, state, multipliers and whether the joint is
-// still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
+// What contact points remember from step to step: elastic slip, state, multipliers, dilation and whether the joint
+// is still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
 // the nearest old one, nearest in the material of either block, or from all that are within half as near
 // again: a new point in the middle of old ones has their mean, whichever rounding calls the nearest. Where
 // the contact passes on to another face, over an edge that is not sharp, slip goes with it; a bond does not,
@@ -31,6 +31,8 @@ struct PointMemory {
   /// they were when the present load level began, m
   Vector3 level_slip = Vector3::Zero();
   bool in_level = false;  ///< whether it has been closed since then, or was: others have slipped nowhere yet
+  double dilation = 0.0;  ///< by how much sliding has raised the rest of the normal spring, m, >= 0
+  double level_dilation = 0.0;  ///< the same when the present load level began
 };
 
 /// Memory of a pair of blocks.
@@ -61,6 +63,9 @@ class ContactMemory {
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points, double bond_distance,
                                                 bool keep_forces = false) const;
 
+  /// Memory of the very points that were stored, with vectors in the tangent planes of these normals.
+  [[nodiscard]] std::vector<PointMemory> of_same(const std::vector<ContactPoint>& points) const;
+
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
   /// springs at its end
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
@@ -77,6 +82,8 @@ class ContactMemory {
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
+  /// How far apart sliding has brought the surfaces where it did most, m, >= 0: blocks touch across such gaps.
+  [[nodiscard]] double most_dilation() const { return most_dilation_; }
   /// How much deeper the blocks may be between the points, m, >= 0.
   [[nodiscard]] double bulge() const { return bulge_; }
   /// What store() was told of the last step; nothing where there was no contact.
@@ -114,6 +121,7 @@ class ContactMemory {
   SpringEnergy held_;
   double squared_reach_ = 0.0;  ///< area of all entries, m^2
   double largest_area_ = 0.0;   ///< of an entry, m^2
+  double most_dilation_ = 0.0;  ///< of an entry, m
 };
 
 }  // namespace ashlar

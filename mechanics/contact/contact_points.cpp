@@ -188,8 +188,12 @@ void add_area_springs(const Search& search, const CellOverlap& overlap, bool mas
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
   const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
   std::optional<PressureEnd> end;
-  if (true_gaps) end = cut_of(overlap, outline, whole, points, make, search);
+  if (true_gaps) {
+    end = cut_of(overlap, outline, whole, points, make, search);
+    result.overlaps.push_back({outline, degree, result.points.size(), points.size(), end, {}});
+  }
   if (end) {
+    result.overlaps.back().whole = std::move(points);
     points.clear();
     add_points(polygon_rule(part_under_pressure(outline, *end), degree));
     add_points(polygon_rule(part_without_pressure(outline, *end), degree));
@@ -288,6 +292,16 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
 }
 
 }  // namespace
+
+bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance) {
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  const bool may_end = gaps.size() > 0 && *least<-tolerance&& * most> tolerance;
+  if (!overlap.end && !may_end) return true;
+  const PolygonRule rule = polygon_rule(overlap.outline, overlap.degree);
+  const std::optional<PressureEnd> end = end_of_pressure(overlap.outline, rule, gaps, tolerance, overlap.end);
+  if (!end || !overlap.end) return !end && !overlap.end;
+  return end->point == overlap.end->point && end->open == overlap.end->open;
+}
 
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                              const std::vector<bool>& masters, const ContactPointSettings& settings,

@@ -11,6 +11,8 @@
 // that x_a - x_b is along the normal; with flat surfaces both points stay on their sub-face planes.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geometry/contacts/contact_search.hpp"
@@ -36,10 +38,26 @@ struct ContactPointSettings {
   bool multipliers = false;
 };
 
+/// An overlap whose points are those of area springs, and what it takes to tell where its pressure ends.
+struct RuledOverlap {
+  std::vector<Eigen::Vector2d> outline;  ///< seen in the overlap's frame
+  int degree = 0;                        ///< of its rule
+  std::size_t first = 0;                 ///< its first point among those of the pair
+  std::size_t count = 0;                 ///< of the rule on all of it
+  std::optional<PressureEnd> end;        ///< where it is cut
+  std::vector<ContactPoint> whole;       ///< of the rule on all of it, if it is cut; else they are the pair's
+};
+
+/// Whether pressure ends where it did when the points were made, or nowhere inside as then.
+/// @param gaps of the rule on all of the overlap, m. @param tolerance m, gaps within it count as 0
+[[nodiscard]] bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps,
+                                           double tolerance);
+
 /// Of a pair of blocks.
 struct ContactPoints {
   std::vector<ContactPoint> points;
-  std::vector<PressureCut> cuts;  ///< of overlaps that are in part open
+  std::vector<PressureCut> cuts;       ///< of overlaps that are in part open
+  std::vector<RuledOverlap> overlaps;  ///< where cuts are looked for, others are left out
 };
 
 /// All contact points of a pair, in a fixed order. @param masters whether a is the master, on whose surface

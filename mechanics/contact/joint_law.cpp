@@ -1,6 +1,9 @@
 #include "mechanics/contact/joint_law.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "mechanics/contact/sliding_point.hpp"
 
 namespace ashlar {
 
@@ -10,6 +13,7 @@ PointLaw point_law(const JointLaw& law, double area, bool intact) {
   PointLaw point{law.normal_stiffness * scale, law.shear_stiffness * scale, law.friction,
                  law.cohesion * area,          law.tensile_strength * area, law.rounding};
   point.residual = {residual.friction, residual.cohesion * area, residual.tensile_strength * area};
+  point.dilation.tangent = law.dilation;
   if (!intact) point.fail();
   return point;
 }
@@ -30,17 +34,20 @@ RubbingForce rubbing_force(const PointLaw& law, double normal) {
   return {pushing + law.impulse_force, 1.0};
 }
 
-/// What the shear force is at most, N. @param normal force, N
-double shear_limit(const PointLaw& law, double normal) {
-  return law.held_limit >= 0.0 ? law.held_limit
-                               : rubbing_force(law, normal).value * law.friction + law.cohesion;
+/// @param normal force, N. @param dilation tan(psi) in the step
+ShearBound shear_bound(const PointLaw& law, double normal, double dilation) {
+  const bool pushes = normal >= 0.0;
+  if (law.held_limit >= 0.0)
+    return {law.held_limit + dilation * std::max(normal, 0.0), pushes ? dilation : 0.0};
+  const RubbingForce rubbing = rubbing_force(law, normal);
+  return {rubbing.value * law.friction + law.cohesion, pushes ? rubbing.slope * law.friction : 0.0};
 }
 
 /// Whether a trial shear force is within the limit but for rounding. Nothing locks what has no friction.
 bool is_locked(const PointLaw& law, double trial, double limit) {
-  const bool smooth =
-      law.held_limit >= 0.0 ? law.held_limit == 0.0 : law.friction == 0.0 && law.cohesion == 0.0;
-  return trial <= (smooth ? limit : limit + law.shear_stiffness * law.rounding);
+  const bool smooth = law.held_limit >= 0.0 ? law.held_limit == 0.0 && law.dilation.tangent == 0.0
+                                            : law.friction == 0.0 && law.cohesion == 0.0;
+  return trial <= (smooth ? limit : limit + (law.shear_stiffness + law.dashpots.shear) * law.rounding);
 }
 
 /// A trial shear force, cut to the limit. @param length of the trial
@@ -48,53 +55,129 @@ Eigen::Vector2d within(double limit, const Eigen::Vector2d& trial, double length
   return length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
 }
 
+/// tan(psi) over a step and how it falls with the gap at its end.
+struct StepDilation {
+  double tangent;
+  double fall;  ///< 1/m
+
+  /// How much a gap changes the dilated one, of a point that slides by this much.
+  [[nodiscard]] double lever(double slip) const { return 1.0 + slip * fall; }
+};
+
+/// @param gap at the end of the step, without dilation
+StepDilation step_dilation(const Dilation& dilation, double gap) {
+  if (!(dilation.landing_from > 0.0)) return {dilation.tangent, 0.0};
+  if (!(gap < 0.0)) return {0.0, 0.0};
+  const double way = dilation.landing_from - gap;
+  return {dilation.tangent * -gap / way, dilation.tangent * dilation.landing_from / (way * way)};
+}
+
+double normal_resistance(const PointLaw& law) {
+  return law.normal_stiffness + law.dashpots.normal;
+}
+
+/// A gap as a dashpot sees it: without a bond it acts below the surface only.
+double damped_gap(const PointLaw& law, double gap) {
+  return law.tension > 0.0 ? gap : std::min(gap, 0.0);
+}
+
+/// What the normal dashpot takes over a step, J, of a spring with force `spring` at its end. It may leave as much of
+/// its push to the spring as that has: where blocks part below the surface, all of it.
+double taken_by_normal(const PointLaw& law, double spring, double force, double gap) {
+  return law.dashpots.normal > 0.0 ? (spring - force) * (gap - law.dashpots.start_gap) : 0.0;
+}
+
+}  // namespace
+
+double trial_normal(const PointLaw& law, double gap) {
+  const double normal = law.normal_multiplier - normal_resistance(law) * gap;
+  return law.dashpots.normal > 0.0 ? normal + law.dashpots.normal * damped_gap(law, law.dashpots.start_gap)
+                                   : normal;
+}
+
+namespace {
+
+/// Sets what the normal spring and its dashpot have at the end of a step. @param gap over the rest
+void set_normal(const PointLaw& law, double gap, double normal, bool open, PointResponse& response) {
+  if (!open) {
+    response.force[0] = std::max(normal, -law.tension);
+    response.tangent(0, 0) = normal_resistance(law);
+  }
+  const bool damps = law.dashpots.normal > 0.0;
+  const bool strained = damps ? gap < 0.0 || (law.tension > 0.0 && !open) : response.force[0] != 0.0;
+  if (law.augmented || !strained) return;
+  response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
+  if (damps) response.damped += taken_by_normal(law, -law.normal_stiffness * gap, response.force[0], gap);
+}
+
+/// Sets what the shear spring and its dashpot have at the end of a step. @param slip elastic, m
+void set_shear_energy(const PointLaw& law, const Eigen::Vector2d& slip, PointResponse& response) {
+  if (law.augmented) return;
+  response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
+  if (law.dashpots.shear == 0.0) return;
+  response.shear_damped = -law.dashpots.shear * (slip - law.dashpots.start_slip);
+  response.damped += law.dashpots.shear * (slip - law.dashpots.start_slip).squaredNorm();
+}
+
 }  // namespace
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
-  const double normal = law.normal_multiplier - law.normal_stiffness * gap;
-  const bool open = normal < -(law.tension + law.normal_stiffness * law.rounding);
-  if (open && law.held_limit <= 0.0 && !law.bridged) return response;
-  if (!open) {
-    response.force[0] = std::max(normal, -law.tension);
-    response.tangent(0, 0) = law.normal_stiffness;
-    if (!law.augmented && response.force[0] != 0.0)
-      response.normal_energy = 0.5 * law.normal_stiffness * gap * gap;
-  }
-  const double limit = shear_limit(law, normal);
-  const Eigen::Vector2d trial = law.shear_multiplier - law.shear_stiffness * slip;
+  double normal = trial_normal(law, gap);
+  const double resistance = law.shear_stiffness + law.dashpots.shear;
+  Eigen::Vector2d trial = law.shear_multiplier - resistance * slip;
+  if (law.dashpots.shear > 0.0) trial += law.dashpots.shear * law.dashpots.start_slip;
   const double length = trial.norm();
-  if (is_locked(law, length, limit)) {
+  const StepDilation dilation = step_dilation(law.dilation, gap);
+  const bool locked = is_locked(law, length, shear_bound(law, normal, dilation.tangent).value);
+  double slid = 0.0;
+  if (!locked && dilation.tangent > 0.0 && resistance > 0.0) {
+    const double lift = normal_resistance(law) * dilation.tangent;
+    slid = plastic_slip(length, resistance, [&](double way) {
+      const ShearBound bound = shear_bound(law, normal + lift * way, dilation.tangent);
+      return ShearBound{bound.value, bound.slope * lift};
+    });
+    normal += lift * slid;
+  }
+  const bool open = normal < -(law.tension + normal_resistance(law) * law.rounding);
+  if (!open) response.dilation = dilation.tangent * slid;
+  set_normal(law, gap - response.dilation, normal, open, response);
+  if (open && law.held_limit <= 0.0 && !law.bridged) return response;
+  const ShearBound bound = shear_bound(law, normal, dilation.tangent);
+  if (locked) {
     response.state = ContactState::locked;
-    response.force.tail<2>() = within(limit, trial, length);
-    response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(law.shear_stiffness);
-    if (!law.augmented) response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
+    response.force.tail<2>() = within(bound.value, trial, length);
+    response.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(resistance);
+    set_shear_energy(law, slip, response);
     return response;
   }
   response.state = ContactState::sliding;
-  const Eigen::Vector2d direction = trial / length;
-  response.direction = direction;
-  response.force.tail<2>() = limit * direction;
-  response.tangent.bottomRightCorner<2, 2>() =
-      law.shear_stiffness * limit / length *
-      (Eigen::Matrix2d::Identity() - direction * direction.transpose());
-  if (law.shear_stiffness > 0.0 && !law.augmented)
-    response.shear_energy = 0.5 * limit * limit / law.shear_stiffness;
+  response.direction = trial / length;
+  response.force.tail<2>() = bound.value * response.direction;
+  // A point in touch that has no force yet rubs where it is pressed.
+  const double bound_slope = open ? 0.0 : shear_bound(law, response.force[0], dilation.tangent).slope;
+  const double slope = response.tangent(0, 0) * dilation.lever(slid);
+  const Coupling coupling =
+      tangent_of({slope, bound_slope * slope, resistance, dilation.tangent / dilation.lever(slid),
+                  bound.value / length, response.direction},
+                 response.tangent);
+  if (law.held_limit < 0.0) response.coupling = coupling;
+  if (law.shear_stiffness > 0.0)
+    set_shear_energy(law,
+                     (law.dashpots.shear * law.dashpots.start_slip - response.force.tail<2>()) / resistance,
+                     response);
   return response;
 }
 
-Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response) {
-  // Also of a point in touch that has no force yet.
-  const bool pushes = response.force[0] >= 0.0 && response.tangent(0, 0) > 0.0;
-  if (response.state != ContactState::sliding || !pushes || law.held_limit >= 0.0)
-    return Eigen::Vector2d::Zero();
-  return rubbing_force(law, response.force[0]).slope * law.friction * law.normal_stiffness *
-         response.direction;
-}
-
-MeanResponse end_response(const PointLaw& law, const PointResponse& end) {
-  const double limit = end.state == ContactState::open ? 0.0 : shear_limit(law, end.force[0]);
-  return {end.force, end.tangent, sliding_coupling(law, end), limit};
+MeanResponse end_response(const PointLaw& law, const PointResponse& end, double gap) {
+  double limit = 0.0;
+  if (end.state != ContactState::open) {
+    const double dilation = step_dilation(law.dilation, gap).tangent;
+    limit = law.held_limit >= 0.0 ? law.held_limit : shear_bound(law, end.force[0], dilation).value;
+    if (law.held_limit < 0.0 && dilation > 0.0)
+      limit = std::max(0.0, limit - dilation * std::max(end.force[0], 0.0));
+  }
+  return {end.force, end.tangent, end.coupling, limit};
 }
 
 namespace {
@@ -143,59 +226,128 @@ ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap,
 
 }  // namespace
 
+namespace {
+
+/// What acts along the normal over a step whose end is at a gap, and bounds the shear force.
+struct MeanNormal {
+  PointResponse end;           ///< of the spring
+  double undamped = 0.0;       ///< N, without the dashpot
+  double force = 0.0;          ///< N
+  double slope = 0.0;          ///< -d force / d gap, N/m
+  ShearBound bound{0.0, 0.0};  ///< slope: -d limit / d gap, N/m
+  double limit = 0.0;          ///< of Coulomb's law, N
+};
+
+/// @param start_gap,end_gap over the rest that each has, m
+/// @param dilation tan(psi) over the step
+MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double start_gap, double end_gap,
+                       double dilation) {
+  PointLaw spring = law;
+  spring.held_limit = -1.0;
+  spring.bridged = false;
+  spring.dilation = {};
+  spring.dashpots = {};
+  MeanNormal result{point_response(spring, end_gap, Eigen::Vector2d::Zero())};
+  const double seen_start = seen_gap(law, start, start_gap);
+  const double seen_end = seen_gap(law, result.end, end_gap);
+  MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, 0.0};
+  set_mean_normal(law, start, seen_start, result.end, seen_end, mean);
+  result.force = result.undamped = mean.force[0];
+  result.slope = mean.tangent(0, 0);
+  const bool end_open = result.end.state == ContactState::open;
+  if (law.dashpots.normal > 0.0 && !(law.tension > 0.0 && end_open)) {
+    result.force -= law.dashpots.normal * (damped_gap(law, end_gap) - damped_gap(law, start_gap));
+    if (!end_open) result.slope += law.dashpots.normal;
+    if (law.tension == 0.0 && result.force < 0.0) result.force = result.slope = 0.0;
+  }
+  const bool start_open = start.state == ContactState::open;
+  const ClosedShare closed = closed_share(law, start_open, seen_start, end_open, seen_end);
+  const double pushing = std::max(result.force, 0.0);
+  const double by_force = result.force >= 0.0 ? result.slope : 0.0;
+  result.limit = pushing * law.friction + closed.value * law.cohesion;
+  result.bound = law.held_limit >= 0.0
+                     ? ShearBound{law.held_limit + dilation * pushing, dilation * by_force}
+                     : ShearBound{result.limit, law.friction * by_force - law.cohesion * closed.by_end_gap};
+  if (law.held_limit < 0.0) result.limit = std::max(0.0, result.limit - dilation * pushing);
+  return result;
+}
+
+/// Slides a point that dilates, and takes what acts along the normal then. @param trial shear force, N
+/// @param stiffness of it, N/m. @param normal_at of slip, m. @return its slip, m
+template <class NormalAt>
+double lift(double trial, double stiffness, double dilation, NormalAt normal_at, MeanNormal& normal) {
+  const double slip = plastic_slip(trial, stiffness, [&](double way) {
+    const ShearBound bound = normal_at(way).bound;
+    return ShearBound{bound.value, bound.slope * dilation};
+  });
+  MeanNormal risen = normal_at(slip);
+  // Where nothing pushes it, nothing rises.
+  if (!(risen.force > 0.0) && risen.end.state == ContactState::open) return 0.0;
+  normal = std::move(risen);
+  return slip;
+}
+
+}  // namespace
+
 AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
                            const Eigen::Vector3d& start_place, const Eigen::Vector3d& end_place) {
   if (law.augmented) {
     const PointResponse end = point_response(law, end_place[0], end_place.tail<2>());
-    return {end, end_response(law, end)};
+    return {end, end_response(law, end, end_place[0])};
   }
-  PointLaw normal_only = law;
-  normal_only.held_limit = -1.0;
-  normal_only.bridged = false;
-  AveragedStep step{point_response(normal_only, end_place[0], Eigen::Vector2d::Zero()),
-                    {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0}};
-  PointResponse& end = step.end;
-  MeanResponse& mean = step.mean;
-  const double start_gap = seen_gap(law, start, start_place[0]);
-  const double end_gap = seen_gap(law, end, end_place[0]);
-  set_mean_normal(law, start, start_gap, end, end_gap, mean);
-  const bool end_open = end.state == ContactState::open;
-  const bool start_open = start.state == ContactState::open;
-  const ClosedShare closed = closed_share(law, start_open, start_gap, end_open, end_gap);
-  mean.limit = std::max(mean.force[0], 0.0) * law.friction + closed.value * law.cohesion;
-  const double limit = law.held_limit >= 0.0 ? law.held_limit : mean.limit;
-  if (limit <= 0.0 && end_open) return step;
   Eigen::Vector2d start_slip = start_place.tail<2>();
   if (start.state == ContactState::sliding) start_slip = elastic_slip(law, start, start_slip);
   const Eigen::Vector2d way = end_place.tail<2>() - start_place.tail<2>();
-  const Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
+  const double stiffness = 0.5 * law.shear_stiffness + law.dashpots.shear;
+  Eigen::Vector2d trial = -law.shear_stiffness * (start_slip + 0.5 * way);
+  if (law.dashpots.shear > 0.0) trial -= law.dashpots.shear * way;
   const double length = trial.norm();
+  const StepDilation dilation = step_dilation(law.dilation, end_place[0]);
+  const auto normal_at = [&](double slip) {
+    return mean_normal(law, start, start_place[0], end_place[0] - dilation.tangent * slip, dilation.tangent);
+  };
+  MeanNormal normal = normal_at(0.0);
+  const bool locked = is_locked(law, length, normal.bound.value);
+  const bool rises = !locked && dilation.tangent > 0.0 && stiffness > 0.0;
+  const double slid = rises ? lift(length, stiffness, dilation.tangent, normal_at, normal) : 0.0;
+  AveragedStep step{normal.end, {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, normal.limit}};
+  PointResponse& end = step.end;
+  MeanResponse& mean = step.mean;
+  mean.force[0] = normal.force;
+  mean.tangent(0, 0) = normal.slope;
+  end.dilation = dilation.tangent * slid;
+  const double end_gap = end_place[0] - end.dilation;
+  if (law.dashpots.normal > 0.0) end.damped = (normal.undamped - normal.force) * (end_gap - start_place[0]);
+  const bool end_open = end.state == ContactState::open;
+  const double limit = normal.bound.value;
+  if (limit <= 0.0 && end_open) return step;
   Eigen::Vector2d end_slip = start_slip + way;
-  auto tangent = mean.tangent.bottomRightCorner<2, 2>();
-  if (is_locked(law, length, limit)) {
+  if (locked) {
     mean.force.tail<2>() = within(limit, trial, length);
-    tangent.diagonal().setConstant(0.5 * law.shear_stiffness);
+    mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness);
   } else {
     const Eigen::Vector2d direction = trial / length;
     mean.force.tail<2>() = limit * direction;
-    tangent = 0.5 * law.shear_stiffness * limit / length *
-              (Eigen::Matrix2d::Identity() - direction * direction.transpose());
-    if (law.held_limit < 0.0) {
-      mean.coupling = -law.cohesion * closed.by_end_gap * direction;
-      if (mean.force[0] >= 0.0) mean.coupling += law.friction * mean.tangent(0, 0) * direction;
-    }
-    end_slip = -2.0 / law.shear_stiffness * mean.force.tail<2>() - start_slip;
+    const double lever = dilation.lever(slid);
+    mean.coupling = tangent_of({normal.slope * lever, normal.bound.slope * lever, stiffness,
+                                dilation.tangent / lever, limit / length, direction},
+                               mean.tangent);
+    if (law.held_limit >= 0.0) mean.coupling = {};
+    const double both = law.shear_stiffness + 2.0 * law.dashpots.shear;
+    end_slip = -2.0 / both * mean.force.tail<2>() -
+               (law.shear_stiffness - 2.0 * law.dashpots.shear) / both * start_slip;
     if (!end_open) end.state = ContactState::sliding;
   }
   if (end_open) return step;
   end.force.tail<2>() = -law.shear_stiffness * end_slip;
   end.shear_energy = 0.5 * law.shear_stiffness * end_slip.squaredNorm();
+  if (law.dashpots.shear > 0.0) end.damped += law.dashpots.shear * (end_slip - start_slip).squaredNorm();
   return step;
 }
 
 Eigen::Vector2d borne_slip(const PointLaw& law, double normal, const Eigen::Vector2d& slip) {
   const double force = law.shear_stiffness * slip.norm();
-  const double limit = shear_limit(law, normal);
+  const double limit = shear_bound(law, normal, 0.0).value;
   return force > limit ? Eigen::Vector2d(limit / force * slip) : slip;
 }
 
@@ -208,7 +360,7 @@ Eigen::Vector2d elastic_slip(const PointLaw& law, const PointResponse& response,
     case ContactState::locked:
       return slip;
     case ContactState::sliding:
-      return -response.force.tail<2>() / law.shear_stiffness;
+      return (response.shear_damped - response.force.tail<2>()) / law.shear_stiffness;
   }
   return slip;
 }

@@ -27,7 +27,13 @@
 // would choose the side. A bridged point keeps its cohesion across the gap until a balance shows that it has
 // opened (solver/step/open_close.hpp).
 //
-// With a held limit the shear force is bounded by that limit whatever N is, also across an open gap: the
+// Dilation (notes/dilation.md): a point that slides by p raises the rest of its normal spring by p tan(psi) at once:
+//     N = -kn (g - p tan(psi)),    ks (|s| - p) = max(N, 0) tan(phi) + c A,    p >= 0
+//
+// Damping (notes/joint_damping.md): a dashpot beside each spring, before the slider, where the point is closed. Without
+// tensile strength it never makes N negative.
+//
+// With a held limit h the shear force is bounded by h + max(N, 0) tan(psi), also across an open gap: the
 // forces are then the gradient of a convex function of (g, s), which Coulomb's law has not.
 #pragma once
 
@@ -48,6 +54,8 @@ struct ResidualStrength {
   double friction = 0.0;          ///< tan(phi)
   double cohesion = 0.0;          ///< Pa
   double tensile_strength = 0.0;  ///< Pa
+
+  friend bool operator==(const ResidualStrength&, const ResidualStrength&) = default;
 };
 
 /// Parameters of a pair of blocks.
@@ -62,8 +70,28 @@ struct JointLaw {
   double rounding = 0.0;   ///< m, >= 0: what gaps and slips of the pair may be by rounding errors
   bool rigid = false;      ///< its springs only stand for contact that does not give way: they are no joint's
   bool gives_way = false;  ///< springs hold it, also where multipliers hold other joints
+  double dilation = 0.0;   ///< tan(psi), 0 to the least friction: more would make energy
+  double damping = 0.0;    ///< >= 0, share of critical, of springs (ContactPair::damp)
   /// Of surfaces that have failed, or were never bonded; each value at most that above. Empty: `friction` only
   std::optional<ResidualStrength> residual = std::nullopt;
+
+  friend bool operator==(const JointLaw&, const JointLaw&) = default;
+};
+
+/// How a point opens where it slides.
+struct Dilation {
+  double tangent = 0.0;  ///< tan(psi)
+  /// Gap over the rest at the start of the step of a point that is open then, m: it dilates in the share of the step in
+  /// which it is closed, its gap linear in time. 0: it is closed at the start
+  double landing_from = 0.0;
+};
+
+/// What resists motion over a step beside the springs.
+struct Dashpots {
+  double normal = 0.0;                                   ///< coefficient over the length of the step, N/m
+  double shear = 0.0;                                    ///< likewise
+  double start_gap = 0.0;                                ///< over the rest, at the start of the step, m
+  Eigen::Vector2d start_slip = Eigen::Vector2d::Zero();  ///< elastic slip there, m
 };
 
 /// One point's constants within a step.
@@ -74,7 +102,7 @@ struct PointLaw {
   double cohesion;                 ///< c A, N
   double tension;                  ///< T A, N; infinity: a joint that must not break now
   double rounding = 0.0;           ///< of gaps and slips, m
-  double held_limit = -1.0;        ///< N; >= 0: the bound of the shear force, whatever the normal force is
+  double held_limit = -1.0;        ///< N; >= 0: in place of what friction beyond dilation and cohesion bear
   bool bridged = false;            ///< cohesion bears shear across an open gap too
   bool augmented = false;          ///< its forces become the next multipliers; its springs hold no energy
   double normal_multiplier = 0.0;  ///< lambda_n, N
@@ -84,6 +112,8 @@ struct PointLaw {
   double impulse_force = 0.0;
   /// What is left once it has failed: friction tan(phi), cohesion and tension N
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
+  Dilation dilation = {};
+  Dashpots dashpots = {};
 
   /// Whether it has strength to lose.
   [[nodiscard]] bool weakens() const {
@@ -102,16 +132,28 @@ struct PointLaw {
 /// @param area tributary area of the point, m^2. @param intact false: with residual strength
 [[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact);
 
+/// What a symmetric tangent leaves out of -d force / d (g, s1, s2): force by'. With dilation
+///   -d force / d (g, s) = k (1, -f e) (1, -tan(psi) e)' + what turns the force,   e = s/|s|, f: of the limit by N
+/// and the tangent has  k (1, -m e) (1, -m e)'  with m the smaller of both tangents.
+struct Coupling {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< N/m
+  Eigen::Vector3d by = Eigen::Vector3d::UnitX();
+};
+
 /// Force of a point and how it changes, in the frame (n, t1, t2) of the point; the force acts on a, its
 /// opposite on b.
 struct PointResponse {
   ContactState state;
   Eigen::Vector3d force;  ///< N
   Eigen::Matrix3d
-      tangent;  ///< -d force / d (g, s1, s2) with the dependence of friction on N left out; symmetric
-  double normal_energy;                                 ///< of the normal spring, J
-  double shear_energy;                                  ///< of the shear spring, J
+      tangent;           ///< symmetric part of -d force / d (g, s1, s2), positive semi-definite; see Coupling
+  double normal_energy;  ///< of the normal spring, J
+  double shear_energy;   ///< of the shear spring, J
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< unit, of the shear force of a point that slides
+  Coupling coupling = {};  ///< of a point that slides under Coulomb's law; zero of others
+  double dilation = 0.0;   ///< by how much the rest has risen in the step, m
+  double damped = 0.0;     ///< what the dashpots have taken in the step, J
+  Eigen::Vector2d shear_damped = Eigen::Vector2d::Zero();  ///< what of `force` is the shear dashpot's, N
 
   [[nodiscard]] double energy() const { return normal_energy + shear_energy; }
 };
@@ -119,19 +161,19 @@ struct PointResponse {
 /// @param gap m; @param slip trial slip (2), m, as if locked
 [[nodiscard]] PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip);
 
-/// -d (shear force) / d g of a sliding point under Coulomb's law, which PointResponse::tangent leaves out;
-/// zero of others.
-[[nodiscard]] Eigen::Vector2d sliding_coupling(const PointLaw& law, const PointResponse& response);
+/// The normal force at a gap without slip, negative where nothing bears that, N.
+[[nodiscard]] double trial_normal(const PointLaw& law, double gap);
 
 /// Force and tangent that act over a step.
 struct MeanResponse {
-  Eigen::Vector3d force;     ///< N
-  Eigen::Matrix3d tangent;   ///< N/m, derivative by the end of the step, positive semi-definite
-  Eigen::Vector2d coupling;  ///< -d (shear force) / d g, what the tangent leaves out, N/m
-  double limit;              ///< what Coulomb's law lets the shear force be, N; 0 where the point is open
+  Eigen::Vector3d force;    ///< N
+  Eigen::Matrix3d tangent;  ///< N/m, by the end of the step, symmetric and positive semi-definite
+  Coupling coupling;        ///< what the tangent leaves out
+  double limit;             ///< what PointLaw::held_limit stands for: 0 where the point is open
 };
 /// The response at the end of a step as what acts over it.
-[[nodiscard]] MeanResponse end_response(const PointLaw& law, const PointResponse& end);
+/// @param gap that gave it, m
+[[nodiscard]] MeanResponse end_response(const PointLaw& law, const PointResponse& end, double gap);
 
 /// A step over which mean forces act.
 struct AveragedStep {
@@ -149,6 +191,8 @@ struct AveragedStep {
 /// where it slides and nothing where it stays locked. In full sliding friction is L whatever the forces at
 /// both ends are, which alternate where contacts are stiff. Where a point opens, its shear spring is lost.
 /// Augmented points, which have no energy, act with their forces at the end.
+/// With dashpots c over the step,  F = -ks (e0 + e1)/2 - c (e1 - e0);  with dilation N is the mean over a gap that ends
+/// lower by p tan(psi), p = |s1 - s0 - e1 + e0|, so that it does work N p tan(psi) beside that of its spring.
 /// @param start at the start of the step. @param start_place,end_place gap and trial slip, m
 [[nodiscard]] AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
                                          const Eigen::Vector3d& start_place,

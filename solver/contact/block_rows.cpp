@@ -10,6 +10,39 @@ Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& x, const Eigen::Matrix
   return x.transpose() * y;
 }
 
+/// Functions of a block of order 1, of which most scenes are made: products of a known size need no buffers.
+constexpr int affine = 4;
+using AffineValues = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, affine>>;
+using AffineUnknowns = Eigen::Matrix<double, affine, 3>;
+
+AffineValues as_affine(const Eigen::MatrixXd& values) {
+  return {values.data(), values.rows(), affine};
+}
+
+/// Phi' diag(t) Phi of two affine blocks for each t of the stiffnesses, as tangent() of all unknowns.
+Eigen::MatrixXd affine_tangent(const PointStiffnesses& stiffnesses, const AffineValues& of_a,
+                               const AffineValues& of_b) {
+  using Square = Eigen::Matrix<double, affine, affine>;
+  std::array<Square, 6> sums;
+  sums.fill(Square::Zero());
+  for (Eigen::Index k = 0; k < stiffnesses.cols(); ++k) {
+    const Square outer = of_a.row(k).transpose() * of_b.row(k);
+    std::size_t n = 0;
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i <= j; ++i) sums[n++] += stiffnesses(3 * j + i, k) * outer;
+  }
+  Eigen::MatrixXd result(3 * affine, 3 * affine);
+  std::size_t n = 0;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i <= j; ++i) {
+      result.block<affine, affine>(affine * i, affine * j) = sums[n];
+      if (i < j) result.block<affine, affine>(affine * j, affine * i) = sums[n];
+      ++n;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 BlockRows::BlockRows(const AdmissibleSpace& space, const Eigen::MatrixXd& phi) : same_(space.free()) {
@@ -21,16 +54,34 @@ BlockRows::BlockRows(const AdmissibleSpace& space, const Eigen::MatrixXd& phi) :
     }
     starts_[n + 1] = starts_[n] + values(axis).cols();
   }
+  if (!same_) supported_ = phi;
+}
+
+Eigen::Matrix3Xd BlockRows::displacements(const Eigen::MatrixX3d& change) const {
+  if (same_ && fixed()) return Eigen::Matrix3Xd(3, 0);
+  return ((same_ ? values_[0] : supported_) * change).transpose();
 }
 
 void BlockRows::add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3Xd& motion) const {
   if (fixed()) return;
+  if (is_affine()) {
+    const Eigen::Map<const AffineUnknowns> unknowns(y.data());
+    motion += sign * (as_affine(values_[0]) * unknowns).transpose();
+    return;
+  }
   for (int axis = 0; axis < 3; ++axis)
     motion.row(axis).transpose() += sign * (values(axis) * y.segment(start(axis), count(axis)));
 }
 
 Eigen::VectorXd BlockRows::force(const Eigen::Matrix3Xd& forces) const {
   Eigen::VectorXd result(unknowns());
+  if (is_affine()) {
+    AffineUnknowns sum = AffineUnknowns::Zero();
+    for (Eigen::Index k = 0; k < forces.cols(); ++k)
+      sum += as_affine(values_[0]).row(k).transpose() * forces.col(k).transpose();
+    Eigen::Map<AffineUnknowns>(result.data()) = sum;
+    return result;
+  }
   for (int axis = 0; axis < 3; ++axis)
     result.segment(start(axis), count(axis)).noalias() =
         values(axis).transpose() * forces.row(axis).transpose();
@@ -38,6 +89,8 @@ Eigen::VectorXd BlockRows::force(const Eigen::Matrix3Xd& forces) const {
 }
 
 Eigen::MatrixXd BlockRows::tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const {
+  if (is_affine() && other.is_affine())
+    return affine_tangent(stiffnesses, as_affine(values_[0]), as_affine(other.values_[0]));
   Eigen::MatrixXd result(unknowns(), other.unknowns());
   const bool itself = this == &other;
   // t is symmetric.

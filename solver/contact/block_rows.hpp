@@ -36,12 +36,17 @@ class BlockRows {
   [[nodiscard]] Eigen::VectorXd force(const Eigen::Matrix3Xd& forces) const;
   /// Tangent of this block's unknowns with those of another one at the same points. (unknowns, other's unknowns)
   [[nodiscard]] Eigen::MatrixXd tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const;
-  /// Some of the points. @param points indices
+  /// How far the points go when the position's coefficients change, along x, y, z. @param change (p, 3)
+  /// @return (3, #points); no columns if fixed
+  [[nodiscard]] Eigen::Matrix3Xd displacements(const Eigen::MatrixX3d& change) const;
+  /// Some of the points; they know no displacements where the block is supported. @param points indices
   [[nodiscard]] BlockRows at_points(const std::vector<Eigen::Index>& points) const;
   /// Square of the norm of the row of a point along a direction.
   [[nodiscard]] double squared_row(Eigen::Index point, const Eigen::Vector3d& direction) const;
 
  private:
+  /// Whether the block is free and of order 1.
+  [[nodiscard]] bool is_affine() const { return same_ && values_[0].cols() == 4; }
   [[nodiscard]] const Eigen::MatrixXd& values(int axis) const {
     return values_[static_cast<std::size_t>(same_ ? 0 : axis)];
   }
@@ -52,6 +57,7 @@ class BlockRows {
   std::array<Eigen::MatrixXd, 3> values_;   ///< Phi_i; of blocks that are free only the first
   std::array<Eigen::Index, 4> starts_{};    ///< of the unknowns of each component, and their number
   std::array<Eigen::VectorXd, 3> squares_;  ///< of the norms of the rows of Phi_i
+  Eigen::MatrixXd supported_;               ///< (#points, p) values where Phi_i are others
 };
 
 }  // namespace ashlar

@@ -12,7 +12,6 @@
 #include "geometry/subfaces/surface_distance.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
 #include "solver/contact/hidden_sides.hpp"
-#include "solver/contact/open_faces.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -67,6 +66,7 @@ ExpectedMotion ContactFinder::expected_motion(const std::vector<BlockState>& sta
     const double speed = moving_[k] ? surfaces_[k].quick_motion_bound(states[k].velocity) : 0.0;
     motion.loose.push_back(moving_[k] ? step * speed + fall : 0.0);
   }
+  motion.fall = fall;
   motion.closer = [this, &states, step, fall](int block) {
     return moving_[at(block)] ? step * surfaces_[at(block)].largest_speed(states[at(block)]) + fall : 0.0;
   };
@@ -86,40 +86,107 @@ void ContactFinder::look_at(int block, const BlockState& state) {
   tracks_[at(block)].box_path = tracks_[at(block)].path;
 }
 
-void ContactFinder::place(const std::vector<BlockState>& states, const ExpectedMotion& motion) {
+std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states,
+                                           const ExpectedMotion& motion, double reach) {
   std::vector<Box> loose;
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
-    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + settings_.contact_distance));
+    loose.push_back(loose_box(static_cast<int>(k)).grown(motion.loose[k] + reach));
   std::vector<bool> near(surfaces_.size(), false);
-  const auto can_meet = [&](const PairKey& pair) {
-    return (moving_[at(pair[0])] || moving_[at(pair[1])]) && !leaves_out(pair[0], pair[1]);
-  };
   for (const PairKey& pair : meeting_boxes(loose)) {
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
   }
   std::vector<Box> boxes(surfaces_.size());
-  for (BlockTrack& track : tracks_) track.motion = 0.0;
+  // What is known to less than this is known well enough.
+  const double enough = settings_.lasting_motion();
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+    BlockTrack& track = tracks_[k];
+    track.motion = 0.0;
     if (!near[k]) continue;
-    look_at(static_cast<int>(k), states[k]);
-    tracks_[k].motion = motion.closer(static_cast<int>(k));
-    boxes[k] = tracks_[k].box.grown(tracks_[k].motion + settings_.contact_distance);
+    const bool unseen = track.box.low.x() > track.box.high.x();
+    if (unseen || surfaces_[k].curves() || !(track.path - track.box_path <= enough))
+      look_at(static_cast<int>(k), states[k]);
+    track.motion =
+        motion.loose[k] - motion.fall <= enough ? motion.loose[k] : motion.closer(static_cast<int>(k));
+    boxes[k] = loose_box(static_cast<int>(k)).grown(track.motion + reach);
   }
-  candidates_.clear();
+  return boxes;
+}
+
+void ContactFinder::divide_curved(const std::vector<PairKey>& candidates, const std::vector<Box>& boxes) {
   std::vector<std::vector<Box>> neighbours(surfaces_.size());
-  for (const PairKey& pair : meeting_boxes(boxes)) {
-    if (!can_meet(pair)) continue;
-    candidates_.push_back(pair);
-    neighbours[at(pair[0])].push_back(boxes[at(pair[1])]);
-    neighbours[at(pair[1])].push_back(boxes[at(pair[0])]);
+  for (const PairKey& pair : candidates) {
+    if (surfaces_[at(pair[0])].curves()) neighbours[at(pair[0])].push_back(boxes[at(pair[1])]);
+    if (surfaces_[at(pair[1])].curves()) neighbours[at(pair[1])].push_back(boxes[at(pair[0])]);
   }
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    placed_[k].reset();
-    if (!near[k]) continue;
+    const bool looked_at = boxes[k].low.x() <= boxes[k].high.x();
+    if (!looked_at || !surfaces_[k].curves()) continue;
     if (surfaces_[k].divide({settings_.search.chord_tolerance, neighbours[k]})) ++counts_.divisions;
     const std::size_t cells = surfaces_[k].surface().cells.size();
     if (cells >= static_cast<std::size_t>(AdaptiveSurface::max_cells)) ++counts_.divisions_at_limit;
-    if (!neighbours[k].empty()) placed_[k] = surfaces_[k].placed();
+  }
+}
+
+const std::vector<NearPair>& ContactFinder::near_pairs(const std::vector<BlockState>& states,
+                                                       const ExpectedMotion& motion,
+                                                       const PairHistories& histories) {
+  // Blocks that sliding has brought apart touch across that gap.
+  const auto distance = [&](const PairHistory& pair) {
+    return settings_.contact_distance + pair.memory.most_dilation();
+  };
+  double farthest = settings_.contact_distance;
+  for (const auto& [blocks, pair] : histories) farthest = std::max(farthest, distance(pair));
+  const std::vector<Box> boxes = near_boxes(states, motion, farthest);
+  std::vector<PairKey> candidates = meeting_boxes(boxes);
+  std::erase_if(candidates, [this](const PairKey& pair) { return !can_meet(pair); });
+  divide_curved(candidates, boxes);
+  for (std::optional<PlacedSurface>& placed : placed_) placed.reset();
+  near_.clear();
+  for (const PairKey& pair : candidates) {
+    const double reach =
+        distance(history_of(histories, pair)) + tracks_[at(pair[0])].motion + tracks_[at(pair[1])].motion;
+    if (known_apart(pair, reach, histories)) {
+      ++counts_.block_pairs_far;
+      continue;
+    }
+    near_.push_back({pair, reach});
+  }
+  counts_.block_pairs_skipped += surfaces_.size() * (surfaces_.size() - 1) / 2 - candidates.size();
+  return near_;
+}
+
+void ContactFinder::forget_neighbours(KnownContacts& known) const {
+  std::vector<std::vector<std::pair<int, std::size_t>>> neighbours(surfaces_.size());  // with the pair
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    const auto [a, b] = near_[n].blocks;
+    neighbours[at(a)].emplace_back(b, n);
+    neighbours[at(b)].emplace_back(a, n);
+  }
+  if (std::all_of(known.begin(), known.end(), [](const PairContacts* one) { return one == nullptr; })) return;
+  std::vector<std::size_t> forgotten;
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (known[n] != nullptr) continue;
+    const auto* few = &neighbours[at(near_[n].blocks[0])];
+    const auto* many = &neighbours[at(near_[n].blocks[1])];
+    if (few->size() > many->size()) std::swap(few, many);
+    for (const auto& [block, pair] : *few) {
+      // Lists are sorted by block, as pairs are.
+      const auto common = std::lower_bound(many->begin(), many->end(), std::pair(block, std::size_t{0}));
+      if (common == many->end() || common->first != block) continue;
+      forgotten.insert(forgotten.end(), {pair, common->second});
+    }
+  }
+  for (const std::size_t n : forgotten) known[n] = nullptr;
+}
+
+void ContactFinder::place_near(const std::vector<BlockState>& states) {
+  for (const NearPair& pair : near_) {
+    for (const int block : pair.blocks) {
+      if (placed_[at(block)]) continue;
+      // Those that curve have been looked at: cells are as of their last division.
+      if (!surfaces_[at(block)].curves()) look_at(block, states[at(block)]);
+      placed_[at(block)] = surfaces_[at(block)].placed();
+    }
   }
 }
 
@@ -153,27 +220,34 @@ void ContactFinder::hide_fixed_sides() {
   }
 }
 
-void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
-                                  const std::vector<ContactLimits>& limits) {
-  hidden_.clear();
-  hidden_sides_ = HiddenSides();
-  const bool any_inside = std::any_of(searched.begin(), searched.end(), [](const FoundContacts& pair) {
-    return std::any_of(pair.contacts.vertices.begin(), pair.contacts.vertices.end(),
+void ContactFinder::note_hidden_sides(const std::vector<std::pair<PairKey, const PairContacts*>>& contacts) {
+  hidden_sides_.emplace();
+  const bool any_inside = std::any_of(contacts.begin(), contacts.end(), [](const auto& pair) {
+    return std::any_of(pair.second->vertices.begin(), pair.second->vertices.end(),
                        [](const VertexContact& contact) { return contact.gap < 0.0; });
   });
   if (!any_inside) return;
   if (!fixed_sides_) hide_fixed_sides();
   hidden_sides_ = *fixed_sides_;
-  for (const auto& [blocks, contacts] : searched) {
-    hidden_sides_.add(blocks, contacts.overlaps, placed(blocks[0]).surface(), placed(blocks[1]).surface(),
-                      settings_.contact_distance);
+  for (const auto& [blocks, of_pair] : contacts) {
+    hidden_sides_->add(blocks, of_pair->overlaps, placed(blocks[0]).surface(), placed(blocks[1]).surface(),
+                       settings_.contact_distance);
   }
-  if (hidden_sides_.empty()) return;
+}
+
+void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const KnownContacts& known,
+                                  const std::vector<ContactLimits>& limits) {
+  std::vector<std::pair<PairKey, const PairContacts*>> all;
+  for (const auto& pair : searched) all.emplace_back(pair.blocks, &pair.contacts);
+  for (std::size_t n = 0; n < near_.size(); ++n)
+    if (known[n] != nullptr) all.emplace_back(near_[n].blocks, known[n]);
+  note_hidden_sides(all);
+  if (hidden_sides_->empty()) return;
   std::vector<std::size_t> again;
   for (std::size_t k = 0; k < searched.size(); ++k) {
     const auto& blocks = searched[k].blocks;
     const auto& contacts = searched[k].contacts;
-    const HiddenPlaces places = hidden_sides_.of_pair(blocks);
+    const HiddenPlaces places = hidden_sides_->of_pair(blocks);
     const bool below =
         std::any_of(contacts.vertices.begin(), contacts.vertices.end(), [&](const auto& contact) {
           const PlacedSurface& with_cell = placed(blocks[contact.vertex_of_a ? 1 : 0]);
@@ -186,8 +260,9 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
     if (below) again.push_back(k);
   }
   parallel_for(settings_.threads, again.size(), [&](std::size_t n) {
-    auto& [blocks, contacts] = searched[again[n]];
-    const HiddenPlaces places = hidden_sides_.of_pair(blocks);
+    const PairKey& blocks = searched[again[n]].blocks;
+    PairContacts& contacts = searched[again[n]].contacts;
+    const HiddenPlaces places = hidden_sides_->of_pair(blocks);
     const DecisionCounts counts = contacts.counts;
     contacts = find_contacts(placed(blocks[0]), placed(blocks[1]), limits[again[n]], &places);
     contacts.counts.filter += counts.filter;
@@ -197,12 +272,14 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched,
   for (const std::size_t k : again) hidden_.insert(searched[k].blocks);
 }
 
-void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, PairHistories& histories) {
+void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, const KnownContacts& known,
+                                        PairHistories& histories) {
   std::map<PairKey, EntranceName> entrances;
   std::vector<std::size_t> open;
   std::vector<std::optional<ConvexSurface>> hulls(surfaces_.size());
   for (std::size_t k = 0; k < searched.size(); ++k) {
-    auto& [blocks, contacts] = searched[k];
+    const PairKey& blocks = searched[k].blocks;
+    PairContacts& contacts = searched[k].contacts;
     // Which of a hull's faces are hidden is not known there.
     if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])] || hidden_.count(blocks) > 0) continue;
     if (!contacts.overlaps.empty()) {
@@ -217,51 +294,68 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, Pa
   counts_.convex_pairs += open.size();
   std::vector<std::optional<EntranceName>> settled(open.size());
   parallel_for(settings_.threads, open.size(), [&](std::size_t k) {
-    auto& [blocks, contacts] = searched[open[k]];
+    const PairKey& blocks = searched[open[k]].blocks;
+    PairContacts& contacts = searched[open[k]].contacts;
     ContactHistory history;
-    const PairHistory& known = history_of(histories, blocks);
-    history.entrance = known.entrance;
+    const PairHistory& before = history_of(histories, blocks);
+    history.entrance = before.entrance;
     // What the last step has not left so deep was not met through that facet.
     history.depth =
-        settings_.search.passing_share * settings_.contact_distance + 2.0 * known.depth_to_search();
+        settings_.search.passing_share * settings_.contact_distance + 2.0 * before.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));
     settled[k] = settle_convex_contacts(*hulls[at(blocks[0])], *hulls[at(blocks[1])], history, contacts);
   });
   for (std::size_t k = 0; k < open.size(); ++k)
     if (settled[k]) entrances.emplace(searched[open[k]].blocks, *settled[k]);
+  std::set<PairKey> kept;
+  for (std::size_t n = 0; n < near_.size(); ++n)
+    if (known[n] != nullptr) kept.insert(near_[n].blocks);
   for (auto& [blocks, pair] : histories)
-    if (moving_[at(blocks[0])] || moving_[at(blocks[1])]) pair.entrance.reset();
+    if ((moving_[at(blocks[0])] || moving_[at(blocks[1])]) && kept.count(blocks) == 0) pair.entrance.reset();
   for (const auto& [blocks, name] : entrances) histories[blocks].entrance = name;
+}
+
+ContactLimits ContactFinder::limits_of(const NearPair& pair, const PairHistories& histories) const {
+  const auto& [a, b] = pair.blocks;
+  return {pair.reach,
+          std::min({settings_.contact_distance, thickness_[at(a)], thickness_[at(b)]}) +
+              2.0 * history_of(histories, pair.blocks).depth_to_search(),
+          settings_.search.contact_angle, thickness_[at(a)] + thickness_[at(b)]};
 }
 
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states,
                                                const ExpectedMotion& motion, PairHistories& histories) {
-  place(states, motion);
-  const std::size_t all = surfaces_.size() * (surfaces_.size() - 1) / 2;
-  counts_.block_pairs_skipped += all - candidates_.size();
+  KnownContacts known(near_pairs(states, motion, histories).size(), nullptr);
+  return find(states, known, histories);
+}
+
+std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states, KnownContacts& known,
+                                               PairHistories& histories) {
+  hidden_.clear();
+  hidden_sides_.reset();
+  const auto is_unknown = [](const PairContacts* contacts) { return contacts == nullptr; };
+  if (std::none_of(known.begin(), known.end(), is_unknown)) {
+    counts_.block_pairs_kept += known.size();
+    return {};
+  }
+  forget_neighbours(known);
+  place_near(states);
   std::vector<FoundContacts> searched;
   std::vector<ContactLimits> limits;
-  for (const PairKey& pair : candidates_) {
-    const double both = tracks_[at(pair[0])].motion + tracks_[at(pair[1])].motion;
-    if (known_apart(pair, settings_.contact_distance + both, histories)) {
-      ++counts_.block_pairs_far;
-      continue;
-    }
-    searched.push_back({pair, {}});
-    limits.push_back(
-        {settings_.contact_distance + both,
-         std::min({settings_.contact_distance, thickness_[at(pair[0])], thickness_[at(pair[1])]}) +
-             2.0 * history_of(histories, pair).depth_to_search(),
-         settings_.search.contact_angle, thickness_[at(pair[0])] + thickness_[at(pair[1])]});
+  for (std::size_t n = 0; n < near_.size(); ++n) {
+    if (known[n] != nullptr) continue;
+    searched.push_back({near_[n].blocks, {}, near_[n].reach});
+    limits.push_back(limits_of(near_[n], histories));
   }
+  counts_.block_pairs_kept += known.size() - searched.size();
   counts_.block_pairs_tested += searched.size();
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
     const auto& [a, b] = searched[k].blocks;
     searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
     leave_out_slivers(placed(a), placed(b), searched[k].contacts);
   });
-  search_hidden(searched, limits);
-  settle_convex_pairs(searched, histories);
+  search_hidden(searched, known, limits);
+  settle_convex_pairs(searched, known, histories);
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
     counts_.predicates.filter += pair.contacts.counts.filter;
@@ -277,82 +371,6 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   return found;
 }
 
-std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockState>& before,
-                                                        const std::vector<BlockState>& after,
-                                                        double tolerance, const PairHistories& histories,
-                                                        std::vector<std::vector<Vector3>>& ends) {
-  std::vector<Box> swept;
-  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    tracks_[k].checked_motion =
-        moving_[k] ? surfaces_[k].quick_motion_bound(after[k].position - before[k].position) : 0.0;
-    swept.push_back(loose_box(static_cast<int>(k)).grown(tracks_[k].checked_motion));
-  }
-  const auto both = [&](const PairKey& pair) {
-    return tracks_[at(pair[0])].checked_motion + tracks_[at(pair[1])].checked_motion;
-  };
-  std::vector<PairKey> pairs = meeting_boxes(swept);
-  std::erase_if(pairs, [&](const PairKey& pair) {
-    return leaves_out(pair[0], pair[1]) || both(pair) <= tolerance ||
-           known_apart(pair, both(pair), histories);
-  });
-  // What is left is looked at with the true surfaces and their true motion.
-  ends.resize(surfaces_.size());
-  for (const PairKey& pair : pairs) {
-    for (const int block : pair) {
-      if (!ends[at(block)].empty()) continue;
-      if (!placed_[at(block)]) {
-        look_at(block, before[at(block)]);
-        placed_[at(block)] = surfaces_[at(block)].placed();
-      }
-      if (moving_[at(block)])
-        tracks_[at(block)].checked_motion =
-            surfaces_[at(block)].motion_bound(before[at(block)], after[at(block)]);
-      ends[at(block)] = surfaces_[at(block)].points(after[at(block)]);
-    }
-  }
-  std::erase_if(pairs, [&](const PairKey& pair) {
-    const Box of_a = tracks_[at(pair[0])].box.grown(tracks_[at(pair[0])].checked_motion);
-    const Box of_b = tracks_[at(pair[1])].box.grown(tracks_[at(pair[1])].checked_motion);
-    return both(pair) <= tolerance || known_apart(pair, both(pair), histories) || !of_a.meets(of_b);
-  });
-  return pairs;
-}
-
-std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockState>& before,
-                                                       const std::vector<BlockState>& after,
-                                                       const std::vector<FoundContacts>& found,
-                                                       const PairHistories& histories) {
-  const double tolerance = settings_.search.passing_share * settings_.contact_distance;
-  std::vector<std::vector<Vector3>> ends;
-  const std::vector<PairKey> pairs = pairs_that_may_pass(before, after, tolerance, histories, ends);
-  counts_.motions_checked += pairs.size();
-  std::vector<std::vector<Touch>> touches(pairs.size());
-  parallel_for(settings_.threads, pairs.size(), [&](std::size_t k) {
-    const auto& [a, b] = pairs[k];
-    const PlacedSurface end_a(surfaces_[at(a)].surface(), ends[at(a)]);
-    const PlacedSurface end_b(surfaces_[at(b)].surface(), ends[at(b)]);
-    const auto known = std::lower_bound(
-        found.begin(), found.end(), pairs[k],
-        [](const FoundContacts& contacts, const PairKey& pair) { return contacts.blocks < pair; });
-    const bool in_contact = known != found.end() && known->blocks == pairs[k];
-    const MotionLimits limits{tolerance, settings_.contact_distance + tracks_[at(a)].checked_motion +
-                                             tracks_[at(b)].checked_motion};
-    touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
-                              in_contact ? known->contacts : PairContacts{}, limits);
-    if (hidden_sides_.empty()) return;
-    const HiddenPlaces hidden = hidden_sides_.of_pair(pairs[k]);
-    turn_to_open_faces({&placed(a), &end_a}, {&placed(b), &end_b}, hidden, touches[k]);
-  });
-  std::vector<PassingBlocks> passing;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    for (const Touch& touch : touches[k]) passing.push_back({pairs[k], touch});
-  }
-  std::stable_sort(passing.begin(), passing.end(), [](const PassingBlocks& x, const PassingBlocks& y) {
-    return x.touch.share < y.touch.share;
-  });
-  return passing;
-}
-
 void ContactFinder::accept_motion() {
   for (BlockTrack& track : tracks_) track.path += track.checked_motion;
 }
@@ -362,7 +380,9 @@ void ContactFinder::renew(int block, const BlockModel& model, PairHistories& his
   placed_[at(block)].reset();
   tracks_[at(block)].box = Box{};
   for (auto& [blocks, pair] : histories) {
-    if (blocks[0] == block || blocks[1] == block) pair.clearance.reset();
+    if (blocks[0] != block && blocks[1] != block) continue;
+    pair.clearance.reset();
+    pair.lasting.reset();
   }
 }
 

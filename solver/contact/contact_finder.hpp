@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -25,7 +26,18 @@ namespace ashlar {
 struct FoundContacts {
   PairKey blocks;
   PairContacts contacts;
+  double reach = 0.0;  ///< m, up to which gap they were looked for; 0: they are of this step only
+  std::shared_ptr<const KeptContacts> kept = nullptr;  ///< null: they were found anew
 };
+
+/// Two blocks whose boxes can meet in a step and that are not known to be apart.
+struct NearPair {
+  PairKey blocks;
+  double reach;  ///< m, up to which gap contacts are looked for
+};
+
+/// What is known of a near pair without a search; null: nothing.
+using KnownContacts = std::vector<const PairContacts*>;
 
 /// Blocks that would pass through each other in a step.
 struct PassingBlocks {
@@ -38,6 +50,7 @@ struct FinderCounts {
   std::uint64_t block_pairs_tested = 0;   ///< whose surfaces were searched
   std::uint64_t convex_pairs = 0;         ///< of them, convex solids that were classified as such
   std::uint64_t block_pairs_skipped = 0;  ///< whose boxes cannot meet in the step
+  std::uint64_t block_pairs_kept = 0;     ///< whose last search still holds
   std::uint64_t block_pairs_far = 0;      ///< known to be too far apart to have met since the last search
   std::uint64_t motions_checked = 0;      ///< pairs whose surfaces were followed through a step
   std::uint64_t divisions = 0;            ///< times the sub-faces of a block changed
@@ -66,6 +79,7 @@ struct FinderState {
 struct ExpectedMotion {
   std::vector<double> loose;          ///< (#blocks) from above, cheap
   std::function<double(int)> closer;  ///< of a block that may be near another, at most `loose`
+  double fall = 0.0;                  ///< what of it gravity does
 };
 
 /// Keeps surfaces from step to step. What it finds out about pairs is noted in their histories.
@@ -90,8 +104,16 @@ class ContactFinder {
     return surfaces_[static_cast<std::size_t>(block)].quick_motion_bound(change);
   }
 
-  /// All contacts within reach at the start of a step.
+  /// Pairs that may have contacts within reach at the start of a step, sorted: those to give to find().
+  [[nodiscard]] const std::vector<NearPair>& near_pairs(const std::vector<BlockState>& states,
+                                                        const ExpectedMotion& motion,
+                                                        const PairHistories& histories);
+  /// Contacts of the near pairs of which nothing is known, and of those with a neighbour that is near to both and has
+  /// contacts with one of them that are not known: they are no longer known either.
   /// @param histories of pairs: how deep they were, clearances and entrances are read and noted
+  [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states, KnownContacts& known,
+                                                PairHistories& histories);
+  /// All contacts within reach at the start of a step.
   [[nodiscard]] std::vector<FoundContacts> find(const std::vector<BlockState>& states,
                                                 const ExpectedMotion& motion, PairHistories& histories);
   [[nodiscard]] bool leaves_out(int a, int b) const {
@@ -130,7 +152,22 @@ class ContactFinder {
   /// Contains a block at the start of the step, from where it was seen last and what it has gone since.
   [[nodiscard]] Box loose_box(int block) const;
   void look_at(int block, const BlockState& state);
-  void place(const std::vector<BlockState>& states, const ExpectedMotion& motion);
+  /// Boxes of all blocks that may be near others, grown by what they may do in the step; others are empty.
+  /// @param reach m, beyond the motion: how far apart blocks may be that touch
+  [[nodiscard]] std::vector<Box> near_boxes(const std::vector<BlockState>& states,
+                                            const ExpectedMotion& motion, double reach);
+  /// Divides the surfaces of blocks that curve. @param candidates pairs whose boxes meet
+  /// @param boxes of the blocks that were looked at
+  void divide_curved(const std::vector<PairKey>& candidates, const std::vector<Box>& boxes);
+  /// Places the surfaces of all near blocks that are not placed.
+  void place_near(const std::vector<BlockState>& states);
+  /// Forgets what is known of pairs near to one that is not known, of which they share a block.
+  void forget_neighbours(KnownContacts& known) const;
+  /// Whether two near blocks can have contacts.
+  [[nodiscard]] bool can_meet(const PairKey& pair) const {
+    const auto moves = [this](int block) { return moving_[static_cast<std::size_t>(block)]; };
+    return (moves(pair[0]) || moves(pair[1])) && !leaves_out(pair[0], pair[1]);
+  }
   [[nodiscard]] bool known_apart(const PairKey& pair, double reach, const PairHistories& histories) const;
   [[nodiscard]] Clearance clearance_of(const PairKey& pair) const;
   /// Pairs whose surfaces have to be followed on the way from the last search to new states.
@@ -139,13 +176,19 @@ class ContactFinder {
                                                          const std::vector<BlockState>& after,
                                                          double tolerance, const PairHistories& histories,
                                                          std::vector<std::vector<Vector3>>& ends);
+  [[nodiscard]] ContactLimits limits_of(const NearPair& pair, const PairHistories& histories) const;
   /// Searches pairs again in which a vertex is in a block below a hidden part of its face.
   /// @param limits of the pairs
-  void search_hidden(std::vector<FoundContacts>& searched, const std::vector<ContactLimits>& limits);
+  void search_hidden(std::vector<FoundContacts>& searched, const KnownContacts& known,
+                     const std::vector<ContactLimits>& limits);
+  /// Notes the faces of near blocks that lie on each other, if any vertex is in a block.
+  /// @param contacts of pairs
+  void note_hidden_sides(const std::vector<std::pair<PairKey, const PairContacts*>>& contacts);
   /// Notes the faces of fixed blocks that lie on each other.
   void hide_fixed_sides();
   /// Completes the contacts of pairs of convex solids, with history.
-  void settle_convex_pairs(std::vector<FoundContacts>& searched, PairHistories& histories);
+  void settle_convex_pairs(std::vector<FoundContacts>& searched, const KnownContacts& known,
+                           PairHistories& histories);
 
   SimulationSettings settings_;
   Eigen::Matrix3d axes_;  ///< of the boxes below
@@ -159,9 +202,10 @@ class ContactFinder {
   std::vector<BlockSurface> surfaces_;
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
   std::vector<BlockTrack> tracks_;                    ///< by block
-  std::vector<PairKey> candidates_;                   ///< pairs whose boxes can meet in the step
+  std::vector<NearPair> near_;                        ///< of the step
   std::optional<HiddenSides> fixed_sides_;            ///< of fixed blocks, found when first asked for
-  HiddenSides hidden_sides_;  ///< at the last search; empty if no vertex was in a block
+  std::optional<HiddenSides>
+      hidden_sides_;          ///< of the step, noted when first asked for; empty if no vertex is in a block
   std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };

@@ -19,6 +19,15 @@ SpringEnergy sum_of(const std::vector<PointResponse>& points) {
   return sum;
 }
 
+/// Of two blocks against each other, kg; fixed ones do not move.
+double reduced_mass(const BlockModel& a, const BlockModel& b) {
+  const auto mobility = [](const BlockModel& block) {
+    return block.fixed() ? 0.0 : 1.0 / (block.material().density * block.basis().volume());
+  };
+  const double sum = mobility(a) + mobility(b);
+  return sum > 0.0 ? 1.0 / sum : 0.0;
+}
+
 }  // namespace
 
 ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
@@ -32,16 +41,40 @@ ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffn
                   tie_points(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)),
                   tie_memory(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)), &tie) {}
 
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
+                         std::vector<PointMemory> memory)
+    : ContactPair(bodies, law, kept.points, std::move(memory),
+                  PairRows(bodies.of_a, bodies.of_b, kept.points, kept.lasting->rows), false) {
+  cuts_ = kept.lasting->found.cuts;
+  lasting_ = kept.lasting;
+  kind_.goes_on = true;
+  if (law.augmented) return;
+  std::vector<double> rests;
+  for (std::size_t k = 0; k < points_.size(); ++k) rests.push_back(points_[k].gap + memory_[k].compression);
+  rests_ = std::move(rests);
+  // Not the gap less the rest: what springs hold must not change by rounding.
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    start_(0, static_cast<Eigen::Index>(k)) = -memory_[k].compression;
+  respond_at_start();
+}
+
 ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
                          std::vector<PointMemory> memory, const Tie* tie)
+    : ContactPair(bodies, law, points, std::move(memory), PairRows(bodies.of_a, bodies.of_b, points, tie),
+                  tie != nullptr) {}
+
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+                         std::vector<PointMemory> memory, PairRows rows, bool tied)
     : a_(bodies.a),
       b_(bodies.b),
       points_(std::move(points)),
       memory_(std::move(memory)),
       rests_(points_.size(), 0.0),
-      kind_{tie != nullptr, law.rigid || law.augmented || tie != nullptr, law.area_springs},
+      reduced_mass_(reduced_mass(*bodies.of_a.model, *bodies.of_b.model)),
+      kind_{tied, law.rigid || law.augmented || tied, law.area_springs, law.dilation,
+            law.augmented ? 0.0 : law.damping},
       start_(3, static_cast<Eigen::Index>(points_.size())),
-      rows_(bodies.of_a, bodies.of_b, points_, tie) {
+      rows_(std::move(rows)) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
     if (law.augmented) {
@@ -51,8 +84,9 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vec
       laws_[k].normal_multiplier = scale * memory_[k].normal_multiplier;
       laws_[k].shear_multiplier = {points_[k].tangent_1.dot(shear), points_[k].tangent_2.dot(shear)};
     }
-    start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap, points_[k].tangent_1.dot(memory_[k].slip),
-        points_[k].tangent_2.dot(memory_[k].slip);
+    rests_[k] = dilation_before(k);
+    start_.col(static_cast<Eigen::Index>(k)) << points_[k].gap - rests_[k],
+        points_[k].tangent_1.dot(memory_[k].slip), points_[k].tangent_2.dot(memory_[k].slip);
   }
   respond_at_start();
 }
@@ -61,7 +95,11 @@ void ContactPair::respond_at_start() {
   start_responses_.clear();
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto start = start_.col(static_cast<Eigen::Index>(k));
+    laws_[k].dilation = {kind_.counts_slip ? kind_.dilation : 0.0};
     start_responses_.push_back(point_response(laws_[k], start[0], start.tail<2>()));
+    const bool open = start_responses_.back().state == ContactState::open;
+    const bool lands = open && !(kind_.counts_slip && memory_[k].in_level);
+    laws_[k].dilation = {kind_.dilation, lands ? start[0] : 0.0};
   }
 }
 
@@ -81,7 +119,7 @@ void ContactPair::hold_where_found(double taken) {
   taken_ = taken;
   std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k)
-    rests.push_back(laws_[k].tension > 0.0 ? points_[k].gap : std::min(0.0, points_[k].gap));
+    rests.push_back(laws_[k].tension > 0.0 ? points_[k].gap : std::min(dilation_before(k), points_[k].gap));
   rest_at(std::move(rests));
 }
 
@@ -93,6 +131,8 @@ void ContactPair::count_slip(const std::vector<Vector3>& moved) {
     };
     PointMemory& memory = memory_[k];
     if (!memory.in_level) memory.level_slip = -flat(k, along(moved[k]));
+    rests_[k] = memory.level_dilation;
+    start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
     start_.col(static_cast<Eigen::Index>(k)).tail<2>() = along(memory.level_slip + moved[k]);
   }
   respond_at_start();
@@ -108,22 +148,6 @@ Eigen::Vector2d ContactPair::slid_before(std::size_t k) const {
                            : Eigen::Vector2d::Zero();
 }
 
-bool ContactPair::bonded() const {
-  return !tied() &&
-         std::any_of(laws_.begin(), laws_.end(), [](const PointLaw& law) { return law.weakens(); });
-}
-
-void ContactPair::hold_bonds() {
-  kind_.holds_bonds = true;
-  const JointLaw bond = unbreakable_law(1.0);
-  for (PointLaw& law : laws_) {
-    if (tied() || !law.weakens() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
-    law.cohesion = bond.cohesion;
-    if (law.tension > 0.0) law.tension = bond.tensile_strength;
-  }
-  respond_at_start();
-}
-
 double ContactPair::depth_found() const {
   double depth = 0.0;
   for (std::size_t k = 0; !tied() && k < points_.size(); ++k) {
@@ -136,6 +160,7 @@ ContactPair ContactPair::moved_apart(double depth) const {
   ContactPair pair = *this;
   pair.start_.setZero();
   pair.rows_.prescribe_nothing();
+  pair.kind_.dilation = 0.0;
   const JointLaw bond = unbreakable_law(1.0);
   for (std::size_t k = 0; k < points_.size(); ++k) {
     PointLaw& law = pair.laws_[k];
@@ -144,8 +169,10 @@ ContactPair ContactPair::moved_apart(double depth) const {
            bonded ? bond.tensile_strength : 0.0};
     law.augmented = !tied();
     if (bonded) continue;
-    pair.rests_[k] = -depth;
-    pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap + depth;
+    // Where sliding has raised it, the surface is where the point touches.
+    const double surface = std::max(0.0, std::min(points_[k].gap, dilation_before(k)));
+    pair.rests_[k] = surface - depth;
+    pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - surface + depth;
   }
   pair.respond_at_start();
   return pair;
@@ -156,10 +183,12 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
   std::vector<double> stiffnesses, gaps, remembered;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     stiffnesses.push_back(laws_[k].normal_stiffness);
-    gaps.push_back(points_[k].gap);
-    remembered.push_back(std::min(0.0, points_[k].gap + memory_[k].compression));
+    gaps.push_back(points_[k].gap - dilation_before(k));
+    remembered.push_back(std::min(0.0, gaps.back() + memory_[k].compression));
   }
-  rest_at(rest_gaps(stiffnesses, gaps, remembered, held.normal));
+  std::vector<double> rests = rest_gaps(stiffnesses, gaps, remembered, held.normal);
+  for (std::size_t k = 0; k < points_.size(); ++k) rests[k] += dilation_before(k);
+  rest_at(std::move(rests));
   // What friction does not bear is cut off in any case: where that is what makes the energies equal, their
   // rounding must not choose.
   double shear = 0.0;
@@ -206,7 +235,8 @@ double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::Vecto
                                    const std::vector<PointLaw>& laws) const {
   double stiffness = 0.0;
   for (const PointLaw& law : laws)
-    stiffness = std::max({stiffness, law.normal_stiffness, law.shear_stiffness});
+    stiffness = std::max(
+        {stiffness, law.normal_stiffness + law.dashpots.normal, law.shear_stiffness + law.dashpots.shear});
   const double row_a = rows_.longest_of_a();
   const double row_b = rows_.longest_of_b();
   return 2.0 * std::numeric_limits<double>::epsilon() * stiffness *
@@ -224,7 +254,7 @@ double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::Vecto
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const double gap = place(0, static_cast<Eigen::Index>(k));
     if (in_doubt(response.points[k]))
-      sum += std::max(0.0, laws[k].normal_stiffness * gap - laws[k].normal_multiplier);
+      sum += std::max(0.0, -trial_normal(laws[k], gap - response.points[k].dilation));
   }
   return std::max(rows_.longest_of_a(), rows_.longest_of_b()) * sum;
 }
@@ -259,7 +289,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
     } else {
       const PointResponse end = point_response(laws[k], place(0, column), place.col(column).tail<2>());
       response.points.push_back(end);
-      response.means.push_back(end_response(laws[k], end));
+      response.means.push_back(end_response(laws[k], end, place(0, column)));
     }
     forces.segment<3>(3 * column) = response.means.back().force;
   }
@@ -268,10 +298,14 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   return response;
 }
 
-Eigen::Matrix2Xd ContactPair::sliding_couplings(const PairResponse& response) {
-  Eigen::Matrix2Xd result(2, static_cast<Eigen::Index>(response.means.size()));
-  for (std::size_t k = 0; k < response.means.size(); ++k)
-    result.col(static_cast<Eigen::Index>(k)) = response.means[k].coupling;
+PairCoupling ContactPair::sliding_couplings(const PairResponse& response) {
+  const auto count = static_cast<Eigen::Index>(response.means.size());
+  PairCoupling result{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Coupling& coupling = response.means[static_cast<std::size_t>(k)].coupling;
+    result.force.col(k) = coupling.force;
+    result.by.col(k) = coupling.by;
+  }
   return result;
 }
 
@@ -298,11 +332,14 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     memory.level_slip = memory_[k].level_slip;
     memory.in_level = kind_.counts_slip && (memory_[k].in_level || point.state != ContactState::open ||
                                             start_responses_[k].state != ContactState::open);
-    memory.compression = -place(0, static_cast<Eigen::Index>(k));
+    memory.level_dilation = memory_[k].level_dilation;
+    memory.dilation = dilation_before(k) + point.dilation;
+    const double gap = place(0, static_cast<Eigen::Index>(k)) - point.dilation;
+    memory.compression = -gap;
     memory.state = point.state;
     const bool open = point.state == ContactState::open;
-    const bool torn = laws_[k].tension > 0.0 ? open || laws[k].tension < laws_[k].tension
-                                             : open && place(0, static_cast<Eigen::Index>(k)) > tearing_gap;
+    const bool torn =
+        laws_[k].tension > 0.0 ? open || laws[k].tension < laws_[k].tension : open && gap > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].weakens_by_sliding();
     memory.intact = memory_[k].intact && (kind_.holds_bonds || (!torn && !sheared));
     if (laws[k].augmented && point.state != ContactState::open) {
@@ -332,6 +369,8 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
     else if (point.state == ContactState::sliding)
       elastic = elastic_slip(laws[k], point, slip) + slid_before(k);
     work += response.means[k].force.tail<2>().dot(elastic - slip);
+    if (point.dilation > 0.0)
+      work -= response.means[k].force[0] * (point.dilation - start_responses_[k].dilation);
   }
   return work;
 }
@@ -355,22 +394,6 @@ ContactPair ContactPair::setting_off(const PairResponse& response, const std::ve
   }
   pair.respond_at_start();
   return pair;
-}
-
-BondedArea ContactPair::bonded_area(const std::vector<PointMemory>& memory) const {
-  BondedArea area;
-  for (std::size_t k = 0; !tied() && k < memory.size(); ++k) {
-    if (!memory_[k].intact || !laws_[k].weakens()) continue;
-    (memory[k].intact ? area.left : area.lost) += points_[k].area;
-  }
-  return area;
-}
-
-bool ContactPair::fails(const std::vector<PointMemory>& memory) const {
-  for (std::size_t k = 0; k < memory.size(); ++k) {
-    if (memory_[k].intact && !memory[k].intact && laws_[k].weakens()) return true;
-  }
-  return false;
 }
 
 double ContactPair::start_energy() const {

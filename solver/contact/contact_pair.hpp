@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <memory>
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
 #include "mechanics/contact/contact_points.hpp"
 #include "mechanics/contact/spring_energy.hpp"
 #include "mechanics/contact/tie.hpp"
+#include "solver/contact/lasting_contacts.hpp"
 #include "solver/contact/pair_rows.hpp"
 
 namespace ashlar {
@@ -45,6 +47,11 @@ class ContactPair {
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, std::vector<PressureCut> cuts = {});
 
+  /// Contacts that were known (lasting_contacts.hpp). @param memory of the same points. Springs go on from where the
+  /// last step left them, multipliers as hold_where_found() says
+  ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
+              std::vector<PointMemory> memory);
+
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
   /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
   /// @param stiffness Pa/m
@@ -65,6 +72,11 @@ class ContactPair {
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
+  /// What may last of its contacts; null: nothing.
+  [[nodiscard]] const std::shared_ptr<const LastingContacts>& lasting() const { return lasting_; }
+  void may_last(std::shared_ptr<const LastingContacts> lasting) { lasting_ = std::move(lasting); }
+  /// Whether its springs are those of the last step, not found anew.
+  [[nodiscard]] bool goes_on() const { return kind_.goes_on; }
 
   /// Laws of the points at the start of the step.
   [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
@@ -85,6 +97,12 @@ class ContactPair {
   /// also above it.
   /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
   void hold_where_found(double taken);
+  /// Dashpots beside the springs, for a step of this length (mechanics/notes/joint_damping.md). @param step s, > 0
+  void damp(double step);
+  /// By how much the rest of a point's normal spring is above the surface for what has slid before the step, m, >= 0.
+  [[nodiscard]] double dilation_before(std::size_t point) const {
+    return kind_.counts_slip ? memory_[point].level_dilation : memory_[point].dilation;
+  }
   /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
   /// point since the level began, m
   void count_slip(const std::vector<Vector3>& moved);
@@ -130,8 +148,8 @@ class ContactPair {
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const { return rows_.tangent(response); }
 
-  /// -d (shear force) / d gap of every point (MeanResponse::coupling). @return (2, #)
-  [[nodiscard]] static Eigen::Matrix2Xd sliding_couplings(const PairResponse& response);
+  /// MeanResponse::coupling of every point.
+  [[nodiscard]] static PairCoupling sliding_couplings(const PairResponse& response);
   [[nodiscard]] const PairRows& rows() const { return rows_; }
 
   // pair_impulses.cpp
@@ -177,9 +195,11 @@ class ContactPair {
                                                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                                       double tearing_gap) const;
   /// Work that sliding takes in the step, J, also of points that have opened in it; with multipliers, which
-  /// hold none, all that points take that slide.
+  /// hold none, all that points take that slide. Less what the normal forces do where they dilate.
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Energy that the dashpots take in the step, J, >= 0.
+  [[nodiscard]] static double damped(const PairResponse& response);
   /// Spring energy at the end of the step, J.
   [[nodiscard]] static SpringEnergy energies(const PairResponse& response);
 
@@ -188,15 +208,22 @@ class ContactPair {
     bool tied;
     bool rigid;
     bool area_springs;  ///< multipliers are remembered per area
+    double dilation;    ///< tan(psi)
+    double damping;     ///< share of critical
     bool counts_slip = false;
     bool holds_bonds = false;
+    bool goes_on = false;
   };
 
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, const Tie* tie);
+  /// Of points whose rows are known.
+  ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
+              std::vector<PointMemory> memory, PairRows rows, bool tied);
   [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
     return kind_.area_springs ? point.area : 1.0;
   }
+  /// Also how points dilate in the step: those that are open at its start have slid nowhere yet.
   void respond_at_start();
   /// Trial slip at the start that no spring holds, of a load level, m.
   [[nodiscard]] Eigen::Vector2d slid_before(std::size_t point) const;
@@ -214,10 +241,12 @@ class ContactPair {
   std::vector<ContactPoint> points_;
   std::vector<PointMemory> memory_;
   std::vector<PressureCut> cuts_ = {};
+  std::shared_ptr<const LastingContacts> lasting_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< gap at which each normal spring is at rest, m, <= 0 but of bonds
   double taken_ = 0.0;
+  double reduced_mass_;  ///< of both blocks, kg
   Kind kind_;
   Eigen::Matrix3Xd start_;  ///< gap over the rest and slip at the start of the step
   PairRows rows_;

@@ -50,6 +50,46 @@ std::optional<std::array<double, 2>> clipped(const Box& box, const Vector3& star
   return std::array{low, high};
 }
 
+/// Where the material points of a depth are.
+std::array<Vector3, 2> places_of(const PairDepth& pair, const std::vector<BlockModel>& blocks,
+                                 const std::vector<BlockState>& states) {
+  std::array<Vector3, 2> places;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t block = at(pair.blocks[k]);
+    places[k] = states[block].position.transpose() * blocks[block].basis().values(pair.materials[k]);
+  }
+  return places;
+}
+
+/// The depth of the same two points in another state.
+PairDepth depth_now(const MeasuredDepth& measured, const std::vector<BlockModel>& blocks,
+                    const std::vector<BlockState>& states) {
+  const std::array<Vector3, 2> places = places_of(measured.pair, blocks, states);
+  PairDepth now = measured.pair;
+  const Vector3 moved = places[0] - measured.places[0];
+  now.depth -= now.normal.dot(moved - (places[1] - measured.places[1]));
+  now.place += moved;
+  return now;
+}
+
+bool by_blocks(const MeasuredDepth& x, const MeasuredDepth& y) {
+  const auto key = [](const PairDepth& depth) {
+    const auto [low, high] = std::minmax(depth.blocks[0], depth.blocks[1]);
+    return std::array{low, high, depth.blocks[0]};
+  };
+  return key(x.pair) < key(y.pair);
+}
+
+/// Whether a block is where it was looked at, but for what counts as unmoved.
+bool has_stayed(std::size_t block, const BlockModel& model, const BlockState& state,
+                const BlockSurface& surface, const AuditScope& scope, const KnownDepths& known) {
+  // Coordinates of an incremental block are others in each step.
+  if (block >= known.positions.size() || model.incremental() != nullptr) return false;
+  const Eigen::MatrixX3d& position = known.positions[block];
+  return position.rows() == state.position.rows() &&
+         surface.quick_motion_bound(state.position - position) <= scope.unmoved;
+}
+
 /// Asks for the points of one block in another one.
 class PairAudit {
  public:
@@ -162,6 +202,7 @@ class PairAudit {
     deepest_.points = points;
     deepest_.along = along;
     deepest_.face = found.face;
+    deepest_.materials[1] = found.place;
     deepest_.normal = map_.placed_normal(found.place, found.way_out);
   }
 
@@ -186,6 +227,12 @@ void DepthAudit::forget(std::size_t block) {
       clear_, [&](const auto& entry) { return at(entry.first[0]) == block || at(entry.first[1]) == block; });
 }
 
+bool DepthAudit::is_convex(int block, const std::vector<BlockModel>& blocks) {
+  std::optional<SolidDepthFinder>& finder = finders_[static_cast<std::size_t>(block)];
+  if (!finder) finder.emplace(blocks[static_cast<std::size_t>(block)].solid());
+  return finder->convex();
+}
+
 void DepthAudit::prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges) {
   ClearParts& clear = clear_[blocks];
   const bool convex = finders_[at(blocks[1])]->convex();
@@ -193,18 +240,11 @@ void DepthAudit::prepare(const std::array<int, 2>& blocks, std::size_t points, s
   if (clear.edges.size() != (convex ? 0 : edges)) clear.edges.assign(convex ? 0 : edges, {});
 }
 
-std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
-                                       const std::vector<BlockState>& states,
-                                       const std::vector<BlockSurface>& surfaces, const AuditScope& scope) {
-  std::vector<Box> boxes;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    if (scope.moving[k] || audited_[k].points.empty()) audited_[k] = placed_block(surfaces[k], states[k]);
-    boxes.push_back(audited_[k].box);
-  }
-  std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
-  std::erase_if(pairs, [&](const auto& pair) {
-    return (!scope.moving[at(pair[0])] && !scope.moving[at(pair[1])]) || !scope.pairs(pair[0], pair[1]);
-  });
+std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<std::array<int, 2>>& pairs,
+                                               const std::vector<BlockModel>& blocks,
+                                               const std::vector<BlockState>& states,
+                                               const std::vector<BlockSurface>& surfaces,
+                                               const AuditScope& scope) {
   std::vector<std::optional<MaterialMap>> maps(blocks.size());
   for (const auto& pair : pairs) {
     for (const int block : pair) {
@@ -214,31 +254,96 @@ std::vector<PairDepth> DepthAudit::run(const std::vector<BlockModel>& blocks,
         place_edges(surfaces[at(block)], states[at(block)], audited_[at(block)]);
     }
   }
-  std::vector<std::array<PairDepth, 2>> found(pairs.size());
   for (const auto& [a, b] : pairs) {
     for (const auto& [inner, outer] : {std::array{a, b}, std::array{b, a}}) {
       const AuditedBlock& block = audited_[at(inner)];
       prepare({inner, outer}, block.points.size(), block.edges.size() + block.middles.size());
     }
   }
+  std::vector<std::array<PairDepth, 2>> found(pairs.size());
   parallel_for(scope.threads, pairs.size(), [&](std::size_t k) {
     const auto& [a, b] = pairs[k];
     const auto audit = [&](int inner, int outer) {
-      PairDepth depth = PairAudit(audited_[at(inner)], surfaces[at(inner)].surface(),
+      const SubFaceSurface& surface = surfaces[at(inner)].surface();
+      PairDepth depth = PairAudit(audited_[at(inner)], surface,
                                   {audited_[at(outer)], *finders_[at(outer)], *maps[at(outer)]},
                                   scope.resolution, clear_.at({inner, outer}))
                             .run();
       depth.blocks = {inner, outer};
+      if (!(depth.depth > 0.0)) return depth;
+      const Vector3& start = surface.points[at(depth.points[0])];
+      depth.materials[0] = start + depth.along * (surface.points[at(depth.points[1])] - start);
       return depth;
     };
     found[k] = {audit(a, b), audit(b, a)};
   });
-  std::vector<PairDepth> result;
+  std::vector<MeasuredDepth> result;
   for (const auto& both : found) {
     for (const PairDepth& depth : both)
-      if (depth.depth > 0.0) result.push_back(depth);
+      if (depth.depth > 0.0) result.push_back({depth, places_of(depth, blocks, states)});
   }
   return result;
+}
+
+Audit DepthAudit::run(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
+                      const std::vector<BlockSurface>& surfaces, const AuditScope& scope,
+                      const KnownDepths& known) {
+  Audit audit;
+  std::vector<bool> moved(blocks.size(), false);
+  std::vector<Box> boxes(blocks.size());
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    moved[k] = !has_stayed(k, blocks[k], states[k], surfaces[k], scope, known);
+    if (!moved[k]) {
+      boxes[k] = known.boxes[k].grown(scope.unmoved);
+      continue;
+    }
+    if (!blocks[k].fixed() || audited_[k].points.empty()) audited_[k] = placed_block(surfaces[k], states[k]);
+    boxes[k] = audited_[k].box;
+    audit.moved.push_back(static_cast<int>(k));
+    audit.positions.push_back(states[k].position);
+    audit.boxes.push_back(audited_[k].box);
+  }
+  const auto is_live = [&](const std::array<int, 2>& pair) {
+    return scope.moving[at(pair[0])] || scope.moving[at(pair[1])];
+  };
+  const auto is_asked = [&](const std::array<int, 2>& pair) {
+    if (!is_live(pair)) return false;
+    if (moved[at(pair[0])] || moved[at(pair[1])]) return true;
+    return scope.fine && !(is_convex(pair[0], blocks) && is_convex(pair[1], blocks));
+  };
+  std::vector<std::array<int, 2>> pairs;
+  if (!audit.moved.empty() || scope.fine) pairs = meeting_boxes(boxes);
+  std::erase_if(pairs, [&](const auto& pair) { return !is_asked(pair) || !scope.pairs(pair[0], pair[1]); });
+  std::vector<bool> placed = moved;
+  for (const auto& pair : pairs) {
+    for (const int block : pair) {
+      if (placed[at(block)]) continue;
+      placed[at(block)] = true;
+      if (!blocks[at(block)].fixed() || audited_[at(block)].points.empty())
+        audited_[at(block)] = placed_block(surfaces[at(block)], states[at(block)]);
+    }
+  }
+  audit.measured = measure(pairs, blocks, states, surfaces, scope);
+  for (const MeasuredDepth& depth : known.depths)
+    if (!is_asked(depth.pair.blocks)) audit.measured.push_back(depth);
+  std::sort(audit.measured.begin(), audit.measured.end(), by_blocks);
+  for (const MeasuredDepth& depth : audit.measured) {
+    if (!is_live(depth.pair.blocks)) continue;
+    const PairDepth now = depth_now(depth, blocks, states);
+    if (now.depth > 0.0) audit.depths.push_back(now);
+  }
+  return audit;
+}
+
+void Audit::take_over(KnownDepths& known) const {
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const std::size_t block = at(moved[k]);
+    if (known.positions.size() <= block) known.positions.resize(block + 1);
+    if (known.boxes.size() <= block) known.boxes.resize(block + 1);
+    known.positions[block] = positions[k];
+    known.boxes[block] = boxes[k];
+  }
+  known.depths = measured;
 }
 
 }  // namespace ashlar

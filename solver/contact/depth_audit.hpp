@@ -5,6 +5,9 @@
 // where faces are flat whatever the block's order is, and asked there how deep they are (solid_depth.hpp).
 // The depth is that in the current shape: a layer below a face is thinner where the block is pressed. It is
 // exact to rounding for blocks of order 1, and to the change of the deformation within the depth for others.
+//
+// What has hardly moved is not asked again (notes/lasting_contacts.md): the depth of two blocks that have not is that
+// of the same two material points.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +29,24 @@ struct PairDepth {
   Vector3 place;              ///< current coordinates, m
   /// Points of the first block's surface that it is on: one, or both ends of an edge.
   std::array<int, 2> points;
-  double along = 0.0;  ///< of the edge, from its first end, 0 to 1
-  int face = -1;       ///< of the second block's solid: the nearest
-  Vector3 normal;      ///< of it, outward, current coordinates, unit
+  double along = 0.0;                ///< of the edge, from its first end, 0 to 1
+  int face = -1;                     ///< of the second block's solid: the nearest
+  Vector3 normal;                    ///< of it, outward, current coordinates, unit
+  std::array<Vector3, 2> materials;  ///< the point in both blocks, reference coordinates, m
+};
+
+/// A depth as it was measured, and where its two material points were then.
+struct MeasuredDepth {
+  PairDepth pair;
+  std::array<Vector3, 2> places;  ///< current coordinates, m
+};
+
+/// What is known from the audits of the steps before: part of the state of a run. By block.
+struct KnownDepths {
+  std::vector<Eigen::MatrixX3d>
+      positions;           ///< where the block was when all of its neighbours were looked for; empty: never
+  std::vector<Box> boxes;  ///< of it there
+  std::vector<MeasuredDepth> depths;  ///< of all pairs, in the order of meeting_boxes()
 };
 
 /// A ball in the reference shape of a solid that has nothing of the solid in it.
@@ -70,28 +88,52 @@ struct AuditedBlock {
 /// What an audit looks at.
 struct AuditScope {
   std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
-  std::vector<bool> moving;             ///< by block; others are where they were in the last audit
+  std::vector<bool> moving;             ///< by block; depths of two that are held are of no interest
   double resolution = 0.0;  ///< m, > 0: how exact depths of edges are in solids that are not convex
   int threads = 1;
+  /// m, >= 0: blocks that have moved less since they were looked at are not asked again
+  double unmoved = 0.0;
+  bool fine = true;  ///< whether pairs with solids that are not convex are measured in any case
 };
 
-/// Keeps what does not change of each block from audit to audit.
+/// What an audit has found.
+struct Audit {
+  std::vector<PairDepth>
+      depths;  ///< the deepest point of every ordered pair of blocks that are in each other, by blocks
+  /// Blocks that were looked at anew, with where they are; to be taken over into KnownDepths with `measured`
+  std::vector<int> moved;
+  std::vector<Eigen::MatrixX3d> positions;  ///< of them
+  std::vector<Box> boxes;                   ///< of them
+  std::vector<MeasuredDepth> measured;      ///< of all pairs, old and new
+
+  /// What the next audit is to know.
+  void take_over(KnownDepths& known) const;
+};
+
+/// Keeps what does not change of each block from audit to audit; results do not depend on it.
 class DepthAudit {
  public:
   explicit DepthAudit(std::size_t blocks) : audited_(blocks), finders_(blocks) {}
 
-  /// The deepest point of every ordered pair of blocks that are in each other, by blocks.
-  /// @param states finite
-  [[nodiscard]] std::vector<PairDepth> run(const std::vector<BlockModel>& blocks,
-                                           const std::vector<BlockState>& states,
-                                           const std::vector<BlockSurface>& surfaces,
-                                           const AuditScope& scope);
+  /// @param states finite. @param known empty: nothing
+  [[nodiscard]] Audit run(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
+                          const std::vector<BlockSurface>& surfaces, const AuditScope& scope,
+                          const KnownDepths& known = {});
   /// To be called when the solid of a block has changed.
   void forget(std::size_t block);
 
  private:
+  /// Whether the solid of a block is convex.
+  [[nodiscard]] bool is_convex(int block, const std::vector<BlockModel>& blocks);
   /// Makes room for what is known of the points of the first block near the second.
   void prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges);
+
+  /// The deepest points of pairs of placed blocks in each other.
+  [[nodiscard]] std::vector<MeasuredDepth> measure(const std::vector<std::array<int, 2>>& pairs,
+                                                   const std::vector<BlockModel>& blocks,
+                                                   const std::vector<BlockState>& states,
+                                                   const std::vector<BlockSurface>& surfaces,
+                                                   const AuditScope& scope);
 
   std::vector<AuditedBlock> audited_;                     ///< those of fixed blocks stay
   std::vector<std::optional<SolidDepthFinder>> finders_;  ///< of blocks that have been near others

@@ -15,7 +15,7 @@ const PairHistory& history_of(const PairHistories& histories, const PairKey& pai
 void drop_empty(PairHistories& histories) {
   std::erase_if(histories, [](const auto& entry) {
     const PairHistory& pair = entry.second;
-    return pair.memory.empty() && !pair.clearance && !pair.entrance && pair.work == 0.0 &&
+    return pair.memory.empty() && !pair.lasting && !pair.clearance && !pair.entrance && pair.work == 0.0 &&
            pair.taken == 0.0 && pair.depth == 0.0 && pair.bonded == 0.0;
   });
 }
@@ -34,6 +34,9 @@ void validate(const PairHistories& histories, int blocks) {
     demand(is_size(pair.bonded) && is_size(pair.broken), "an area of bonds is negative or not finite");
     demand(is_size(pair.depth), "depth is negative or not finite");
     demand(is_size(pair.memory.deepest()) && is_size(pair.memory.bulge()), "depth of contacts is none");
+    demand(!pair.lasting || pair.lasting->found.points.empty() ||
+               pair.lasting->found.points.size() == pair.memory.entries().size(),
+           "points that last are not those of the memory");
     demand(!pair.clearance || !std::isnan(pair.clearance->distance + pair.clearance->path),
            "clearance is not a number");
     for (const ContactMemory::Entry& entry : pair.memory.entries()) {

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "geometry/contacts/convex_search.hpp"
 #include "mechanics/contact/contact_memory.hpp"
+#include "solver/contact/lasting_contacts.hpp"
 
 namespace ashlar {
 
@@ -24,7 +26,9 @@ struct Clearance {
 
 /// One pair of blocks. What is not known has its default.
 struct PairHistory {
-  ContactMemory memory;                  ///< of the contacts of the last step; empty: there were none
+  ContactMemory memory;  ///< of the contacts of the last step; empty: there were none
+  /// What was found at the last search, if it may last: where it has points, those of the memory; null: nothing
+  std::shared_ptr<const LastingContacts> lasting;
   std::optional<Clearance> clearance;    ///< unless the last search found contacts
   std::optional<EntranceName> entrance;  ///< of convex pairs that were near each other at the last search
   double work = 0.0;    ///< of the contact forces on both blocks since the start of the run, J

@@ -34,7 +34,7 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     const PointResponse& point = end.points[k];
-    MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector2d::Zero(), 0.0};
+    MeanResponse mean{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), {}, 0.0};
     const auto stiffness = [&](double mobile) {
       if (mobile <= 0.0) return 0.0;
       const bool whole = tied() || laws[k].tension > 0.0;
@@ -47,6 +47,12 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
       mean.force = -end.means[k].force;
     } else if (is_held(laws[k], point)) {
       mean.tangent(0, 0) = stiffness(mobility(3 * column, 1));
+      // A sliding point that dilates is stopped along the way that it may not go: across its slope.
+      if (point.state == ContactState::sliding && laws[k].dilation.tangent > 0.0) {
+        Eigen::Vector3d across(1.0, 0.0, 0.0);
+        across.tail<2>() = laws[k].dilation.tangent * point.direction;
+        mean.tangent = mean.tangent(0, 0) / across.squaredNorm() * across * across.transpose();
+      }
       if (point.state == ContactState::locked)
         mean.tangent.bottomRightCorner<2, 2>().diagonal().setConstant(stiffness(mobility(3 * column + 1, 2)));
     }
@@ -69,7 +75,11 @@ void ContactPair::remember_impulses(const PairResponse& response, const std::vec
   for (std::size_t k = 0; k < impulses.size(); ++k) {
     const Eigen::Vector3d& force = response.points[k].force;
     if (response.points[k].state == ContactState::open || laws[k].friction == 0.0) continue;
-    const double rubbed = std::max(0.0, force.tail<2>().norm() - laws[k].cohesion) / laws[k].friction;
+    Eigen::Vector2d shear = force.tail<2>();
+    // Impulses across the slope of a point that dilates have some friction.
+    if (response.points[k].state == ContactState::sliding && laws[k].dilation.tangent > 0.0)
+      shear += impulses[k].tail<2>();
+    const double rubbed = std::max(0.0, shear.norm() - laws[k].cohesion) / laws[k].friction;
     const double due = force[0] + laws[k].impulse_force + impulses[k][0];
     const double most = response.points[k].state == ContactState::sliding
                             ? std::numeric_limits<double>::infinity()

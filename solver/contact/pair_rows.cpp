@@ -31,6 +31,20 @@ Eigen::Matrix3Xd frames_of(const std::vector<ContactPoint>& points) {
   return frames;
 }
 
+/// Norm of the longest row of a block. @param frames (3, 3 #points)
+double longest_row(const BlockRows& rows, const Eigen::Matrix3Xd& frames) {
+  double longest = 0.0;
+  for (Eigen::Index column = 0; column < frames.cols(); ++column)
+    longest = std::max(longest, rows.squared_row(column / 3, frames.col(column)));
+  return std::sqrt(longest);
+}
+
+std::shared_ptr<const PairRows::Values> completed(PairRows::Values values, const Eigen::Matrix3Xd& frames) {
+  values.longest_a = longest_row(values.a, frames);
+  values.longest_b = longest_row(values.b, frames);
+  return std::make_shared<const PairRows::Values>(std::move(values));
+}
+
 bool is_free(const ContactBody& body) {
   return !body.model->fixed() && body.model->space().free();
 }
@@ -49,40 +63,45 @@ Eigen::MatrixX3d MeanDeformation::levers(const Eigen::VectorXd& change) const {
   return gradients * middle.inverse();
 }
 
+std::shared_ptr<const PairRows::Values> PairRows::values_of(const BlockModel& a, const BlockModel& b,
+                                                            const std::vector<ContactPoint>& points) {
+  return completed({rows_of(a, values_at(a, points, true)), rows_of(b, values_at(b, points, false))},
+                   frames_of(points));
+}
+
 PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
                    const Tie* tie)
-    : a_(rows_of(*a.model, tie != nullptr ? tie->a : values_at(*a.model, points, true))),
-      b_(rows_of(*b.model, tie != nullptr ? tie->b : values_at(*b.model, points, false))),
+    : PairRows(a, b, points,
+               tie == nullptr
+                   ? values_of(*a.model, *b.model, points)
+                   : completed({rows_of(*a.model, tie->a), rows_of(*b.model, tie->b)}, frames_of(points)),
+               tie) {}
+
+PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
+                   std::shared_ptr<const Values> values)
+    : PairRows(a, b, points, std::move(values), nullptr) {}
+
+PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
+                   std::shared_ptr<const Values> values, const Tie* tie)
+    : values_(std::move(values)),
       frames_(frames_of(points)),
       count_(static_cast<Eigen::Index>(points.size())),
       tie_(tie),
       // The forces of a tie are along the gap, so that they have no couple worth the name.
       free_pair_(tie == nullptr && is_free(a) && is_free(b)) {
-  longest_a_ = longest_row(a_);
-  longest_b_ = longest_row(b_);
   if (!free_pair_) return;
   deformation_a_ = mean_deformation(a);
   deformation_b_ = mean_deformation(b);
-  apart_.resize(3, count_);
   // Forces act where the material points are. Places of points whose feet are on flat sub-faces are not there.
-  const PlacedBlock placed_a{a.model, &a.state->position};
-  const PlacedBlock placed_b{b.model, &b.state->position};
-  for (std::size_t k = 0; k < points.size(); ++k)
-    apart_.col(static_cast<Eigen::Index>(k)) = in_frame(
-        points[k], place_of(placed_a, points[k].material_a) - place_of(placed_b, points[k].material_b));
-}
-
-double PairRows::longest_row(const BlockRows& rows) const {
-  double longest = 0.0;
-  for (Eigen::Index column = 0; column < frames_.cols(); ++column)
-    longest = std::max(longest, rows.squared_row(column / 3, frames_.col(column)));
-  return std::sqrt(longest);
+  apart_ = values_->a.displacements(a.state->position) - values_->b.displacements(b.state->position);
+  for (Eigen::Index k = 0; k < count_; ++k)
+    apart_.col(k) = in_frame(points[static_cast<std::size_t>(k)], apart_.col(k));
 }
 
 Eigen::Matrix3Xd PairRows::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, count_);
-  a_.add_motion(ya, 1.0, result);
-  b_.add_motion(yb, -1.0, result);
+  values_->a.add_motion(ya, 1.0, result);
+  values_->b.add_motion(yb, -1.0, result);
   for (Eigen::Index k = 0; k < count_; ++k) result.col(k) = (frame(k).transpose() * result.col(k)).eval();
   if (prescribed_.size() > 0) result += prescribed_;
   return result;
@@ -116,11 +135,8 @@ double PairRows::prescribed_work(const PairResponse& response) const {
 
 void PairRows::act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b,
                       std::vector<ContactPoint>& points) {
-  a_ = rows_of(*a.model, values_at(*a.model, acting, true));
-  b_ = rows_of(*b.model, values_at(*b.model, acting, false));
+  values_ = values_of(*a.model, *b.model, acting);
   frames_ = frames_of(acting);
-  longest_a_ = longest_row(a_);
-  longest_b_ = longest_row(b_);
   prescribe(acting, *a.model, a.prescribed, *b.model, b.prescribed);
   for (std::size_t k = 0; k < acting.size(); ++k) {
     points[k].normal = acting[k].normal;
@@ -164,8 +180,8 @@ Eigen::Matrix3Xd PairRows::along_axes(const Eigen::VectorXd& forces) const {
 
 void PairRows::set_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
   const Eigen::Matrix3Xd acting = along_axes(forces);
-  if (!a_.fixed()) response.force_on_a = a_.force(acting);
-  if (!b_.fixed()) response.force_on_b = -b_.force(acting);
+  if (!values_->a.fixed()) response.force_on_a = values_->a.force(acting);
+  if (!values_->b.fixed()) response.force_on_b = -values_->b.force(acting);
 }
 
 void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd& ya,
@@ -198,37 +214,37 @@ PairTangent PairRows::tangent(const PairResponse& response) const {
     stiffnesses.col(static_cast<Eigen::Index>(n)) = along_axes.reshaped();
   }
   const bool all = static_cast<Eigen::Index>(active.size()) == count_;
-  const BlockRows some_a = all || a_.fixed() ? BlockRows() : a_.at_points(active);
-  const BlockRows some_b = all || b_.fixed() ? BlockRows() : b_.at_points(active);
-  const BlockRows& of_a = all ? a_ : some_a;
-  const BlockRows& of_b = all ? b_ : some_b;
+  const BlockRows some_a = all || values_->a.fixed() ? BlockRows() : values_->a.at_points(active);
+  const BlockRows some_b = all || values_->b.fixed() ? BlockRows() : values_->b.at_points(active);
+  const BlockRows& of_a = all ? values_->a : some_a;
+  const BlockRows& of_b = all ? values_->b : some_b;
   PairTangent tangent;
-  if (!a_.fixed()) tangent.aa = of_a.tangent(stiffnesses, of_a);
-  if (!b_.fixed()) tangent.bb = of_b.tangent(stiffnesses, of_b);
-  if (!a_.fixed() && !b_.fixed()) tangent.ab = -of_a.tangent(stiffnesses, of_b);
+  if (!values_->a.fixed()) tangent.aa = of_a.tangent(stiffnesses, of_a);
+  if (!values_->b.fixed()) tangent.bb = of_b.tangent(stiffnesses, of_b);
+  if (!values_->a.fixed() && !values_->b.fixed()) tangent.ab = -of_a.tangent(stiffnesses, of_b);
   return tangent;
 }
 
-void PairRows::add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da,
+void PairRows::add_coupling(const PairCoupling& coupling, const Eigen::VectorXd& da,
                             const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
                             Eigen::Ref<Eigen::VectorXd> to_b) const {
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count_);
-  if (da.size() > 0) a_.add_motion(da, 1.0, moved);
-  if (db.size() > 0) b_.add_motion(db, -1.0, moved);
+  if (da.size() > 0) values_->a.add_motion(da, 1.0, moved);
+  if (db.size() > 0) values_->b.add_motion(db, -1.0, moved);
   for (Eigen::Index k = 0; k < count_; ++k) {
-    const double opening = frame(k).col(0).dot(moved.col(k));
-    moved.col(k) = opening * (frame(k).rightCols<2>() * couplings.col(k));
+    const double by = (frame(k) * coupling.by.col(k)).dot(moved.col(k));
+    moved.col(k) = by * (frame(k) * coupling.force.col(k));
   }
-  if (da.size() > 0) to_a += a_.force(moved);
-  if (db.size() > 0) to_b -= b_.force(moved);
+  if (da.size() > 0) to_a += values_->a.force(moved);
+  if (db.size() > 0) to_b -= values_->b.force(moved);
 }
 
 double PairRows::mobility(Eigen::Index first, Eigen::Index count, double inertia_a, double inertia_b) const {
   double sum = 0.0;
   for (Eigen::Index row = first; row < first + count; ++row) {
     const Vector3 direction = frames_.col(row);
-    if (!a_.fixed()) sum += a_.squared_row(row / 3, direction) / inertia_a;
-    if (!b_.fixed()) sum += b_.squared_row(row / 3, direction) / inertia_b;
+    if (!values_->a.fixed()) sum += values_->a.squared_row(row / 3, direction) / inertia_a;
+    if (!values_->b.fixed()) sum += values_->b.squared_row(row / 3, direction) / inertia_b;
   }
   return sum / static_cast<double>(count);
 }

@@ -48,6 +48,12 @@ struct BlockInStep {
   Eigen::MatrixX3d prescribed;  ///< change of the position by supports that move; empty: none
 };
 
+/// Coupling of all points, columns in their frames.
+struct PairCoupling {
+  Eigen::Matrix3Xd force;  ///< (3, #points), N/m
+  Eigen::Matrix3Xd by;     ///< (3, #points)
+};
+
 /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed, (na, nb).
 struct PairTangent {
   Eigen::MatrixXd aa;
@@ -69,9 +75,23 @@ struct PairTangent {
 /// Points are those of the pair that rows are made of, and given to all that need their frames.
 class PairRows {
  public:
+  /// Rows of both blocks: what lasts as long as the points do.
+  struct Values {
+    BlockRows a;
+    BlockRows b;
+    double longest_a = 0.0;  ///< norm of the longest row; 0: fixed
+    double longest_b = 0.0;
+  };
+  [[nodiscard]] static std::shared_ptr<const Values> values_of(const BlockModel& a, const BlockModel& b,
+                                                               const std::vector<ContactPoint>& points);
+
   /// @param tie null for contacts; otherwise points stand for its functions. To outlive this
   PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
            const Tie* tie);
+  /// Of contacts whose rows are known. @param values values_of() the points
+  PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
+           std::shared_ptr<const Values> values);
+  [[nodiscard]] const std::shared_ptr<const Values>& values() const { return values_; }
 
   /// @return (3, #points), m
   [[nodiscard]] Eigen::Matrix3Xd motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
@@ -98,14 +118,14 @@ class PairRows {
                   const Eigen::VectorXd& forces, PairResponse& response) const;
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const;
-  /// Adds to the forces of a and b what couplings of shear forces to gaps make of changes of the unknowns: the part of
-  /// the Jacobian of -force that is not symmetric. Empty vectors stand for fixed blocks. @param couplings (2, #points)
-  void add_coupling(const Eigen::Matrix2Xd& couplings, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
+  /// Adds to the forces of a and b what couplings make of changes of the unknowns: the part of the Jacobian of -force
+  /// that is not symmetric. Empty vectors stand for fixed blocks.
+  void add_coupling(const PairCoupling& coupling, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
                     Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
 
   /// Norm of the longest row of each block; 0: fixed.
-  [[nodiscard]] double longest_of_a() const { return longest_a_; }
-  [[nodiscard]] double longest_of_b() const { return longest_b_; }
+  [[nodiscard]] double longest_of_a() const { return values_->longest_a; }
+  [[nodiscard]] double longest_of_b() const { return values_->longest_b; }
   /// What a force moves a row by in a step, m/N, mean of some rows: it does not depend on how axes lie.
   /// @param inertia_a,inertia_b density over the step squared, kg/(m^3 s^2)
   [[nodiscard]] double mobility(Eigen::Index first, Eigen::Index count, double inertia_a,
@@ -116,18 +136,15 @@ class PairRows {
   void act_at(const std::vector<ContactPoint>& acting, const BlockInStep& a, const BlockInStep& b,
               std::vector<ContactPoint>& points);
 
-  /// Norm of the longest row of a block.
-  [[nodiscard]] double longest_row(const BlockRows& rows) const;
+  PairRows(const ContactBody& a, const ContactBody& b, const std::vector<ContactPoint>& points,
+           std::shared_ptr<const Values> values, const Tie* tie);
   /// Normal, tangent 1 and tangent 2 of a point, as columns.
   [[nodiscard]] auto frame(Eigen::Index point) const { return frames_.middleCols<3>(3 * point); }
   /// Forces along normals and tangents as forces along x, y, z. @param forces (3 #points). @return (3, #points)
   [[nodiscard]] Eigen::Matrix3Xd along_axes(const Eigen::VectorXd& forces) const;
 
-  BlockRows a_;
-  BlockRows b_;
-  Eigen::Matrix3Xd frames_;  ///< (3, 3 #points)
-  double longest_a_ = 0.0;   ///< norm of the longest row
-  double longest_b_ = 0.0;
+  std::shared_ptr<const Values> values_;
+  Eigen::Matrix3Xd frames_;      ///< (3, 3 #points)
   Eigen::Matrix3Xd prescribed_;  ///< change of both by supports that move; empty: none
   Eigen::Index count_;           ///< of points
   const Tie* tie_;

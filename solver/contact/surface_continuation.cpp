@@ -17,7 +17,9 @@ double height(const PlacedSurface& surface, int cell, const ViewFrame& frame, co
 CoveredFaces::CoveredFaces(const std::vector<FoundContacts>& found,
                            const std::function<const PlacedSurface&(int)>& placed, double reach)
     : reach_(reach) {
-  for (const auto& [blocks, contacts] : found) {
+  for (const FoundContacts& pair : found) {
+    const PairKey& blocks = pair.blocks;
+    const PairContacts& contacts = pair.contacts;
     if (contacts.overlaps.empty()) continue;
     const PlacedSurface& a = placed(blocks[0]);
     const PlacedSurface& b = placed(blocks[1]);

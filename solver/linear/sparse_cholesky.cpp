@@ -18,11 +18,14 @@ Eigen::VectorXd times(const SymmetricMatrix& matrix, const Eigen::VectorXd& x) {
   for (int column = 0; column < matrix.size; ++column) {
     const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
     const auto last = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column) + 1]);
+    const double here = x[column];
+    double sum = 0.0;  // of the row that mirrors the column
     for (std::size_t k = first; k < last; ++k) {
       const int row = matrix.rows[k];
-      y[row] += matrix.values[k] * x[column];
-      if (row != column) y[column] += matrix.values[k] * x[row];
+      y[row] += matrix.values[k] * here;
+      sum += row == column ? 0.0 : matrix.values[k] * x[row];
     }
+    y[column] += sum;
   }
   return y;
 }

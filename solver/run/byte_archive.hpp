@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -68,6 +69,11 @@ class ByteWriter {
   template <class T>
   void write(const std::optional<T>& value) {
     write(value.has_value());
+    if (value) write(*value);
+  }
+  template <class T>
+  void write(const std::shared_ptr<const T>& value) {
+    write(value != nullptr);
     if (value) write(*value);
   }
   template <class T>
@@ -144,6 +150,16 @@ class ByteReader {
     read(has_value);
     value.reset();
     if (has_value) read(value.emplace());
+  }
+  template <class T>
+  void read(std::shared_ptr<const T>& value) {
+    bool has_value = false;
+    read(has_value);
+    value.reset();
+    if (!has_value) return;
+    T stored;
+    read(stored);
+    value = std::make_shared<const T>(std::move(stored));
   }
   template <class T>
   requires std::is_class_v<T>

@@ -25,7 +25,8 @@ static void visit_members(Archive& archive, CarriedShape& shape) {
 template <class Archive>
 static void visit_members(Archive& archive, PointMemory& memory) {
   archive(memory.slip, memory.level_slip, memory.in_level, memory.compression, memory.state, memory.intact,
-          memory.normal_multiplier, memory.shear_multiplier, memory.unrubbed);
+          memory.normal_multiplier, memory.shear_multiplier, memory.unrubbed, memory.dilation,
+          memory.level_dilation);
 }
 
 template <class Archive>
@@ -64,7 +65,84 @@ static void visit_members(Archive& archive, StepReport& report) {
 template <class Archive>
 static void visit_members(Archive& archive, ContactPoint& point) {
   archive(point.type, point.face_a, point.face_b, point.material_a, point.material_b, point.place_a,
-          point.place_b, point.normal, point.tangent_1, point.tangent_2, point.gap, point.area);
+          point.place_b, point.normal, point.tangent_1, point.tangent_2, point.gap, point.area, point.source,
+          point.edge_a, point.edge_b);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ViewFrame& frame) {
+  archive(frame.origin, frame.e1, frame.e2, frame.w);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PlaneLocation& location) {
+  archive(location.dimension, location.index);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, OverlapCorner& corner) {
+  archive(corner.in_a, corner.in_b, corner.place);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, CellOverlap& overlap) {
+  archive(overlap.cell_a, overlap.cell_b, overlap.frame, overlap.corners, overlap.gaps);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, VertexContact& contact) {
+  archive(contact.vertex_of_a, contact.point, contact.own_cell, contact.cell, contact.gap, contact.area);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, CrossedSide& side) {
+  archive(side.ends, side.cell, side.along);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, EdgeContact& contact) {
+  archive(contact.of_a, contact.of_b, contact.normal, contact.gap, contact.area);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, DecisionCounts& counts) {
+  archive(counts.filter, counts.exact);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PairContacts& contacts) {
+  archive(contacts.overlaps, contacts.vertices, contacts.edges, contacts.type, contacts.counts);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ResidualStrength& residual) {
+  archive(residual.friction, residual.cohesion, residual.tensile_strength);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, JointLaw& law) {
+  archive(law.normal_stiffness, law.shear_stiffness, law.friction, law.cohesion, law.tensile_strength,
+          law.area_springs, law.augmented, law.rounding, law.rigid, law.gives_way, law.residual);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PressureEnd& end) {
+  archive(end.point, end.open);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, RuledOverlap& overlap) {
+  archive(overlap.outline, overlap.degree, overlap.first, overlap.count, overlap.end, overlap.whole);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, ContactPoints& found) {
+  archive(found.points, found.cuts, found.overlaps);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, LastingContacts& lasting) {
+  archive(lasting.contacts, lasting.positions, lasting.divisions, lasting.reach, lasting.law, lasting.found);
 }
 
 template <class Archive>
@@ -131,19 +209,31 @@ static void visit_members(Archive& archive, Rejection& rejection) {
 }
 
 template <class Archive>
-static void visit_members(Archive& archive, DecisionCounts& counts) {
-  archive(counts.filter, counts.exact);
-}
-
-template <class Archive>
 static void visit_members(Archive& archive, FinderCounts& counts) {
-  archive(counts.block_pairs_tested, counts.convex_pairs, counts.block_pairs_skipped, counts.block_pairs_far,
-          counts.motions_checked, counts.divisions, counts.divisions_at_limit, counts.predicates);
+  archive(counts.block_pairs_tested, counts.convex_pairs, counts.block_pairs_skipped, counts.block_pairs_kept,
+          counts.block_pairs_far, counts.motions_checked, counts.divisions, counts.divisions_at_limit,
+          counts.predicates);
 }
 
 template <class Archive>
 static void visit_members(Archive& archive, Box& box) {
   archive(box.low, box.high);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, PairDepth& depth) {
+  archive(depth.blocks, depth.depth, depth.place, depth.points, depth.along, depth.face, depth.normal,
+          depth.materials);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, MeasuredDepth& depth) {
+  archive(depth.pair, depth.places);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, KnownDepths& known) {
+  archive(known.positions, known.boxes, known.depths);
 }
 
 template <class Archive>
@@ -185,8 +275,8 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PairHistory& pair) {
-  archive(pair.memory, pair.clearance, pair.entrance, pair.work, pair.taken, pair.bonded, pair.broken,
-          pair.depth);
+  archive(pair.memory, pair.lasting, pair.clearance, pair.entrance, pair.work, pair.taken, pair.bonded,
+          pair.broken, pair.depth);
 }
 
 template <class Archive>
@@ -202,7 +292,7 @@ static void visit_members(Archive& archive, RunLog& log) {
 template <class Archive>
 static void visit_members(Archive& archive, RunState& run) {
   archive(run.clock, run.next_step, run.steps, run.remembers_statics, run.states, run.accelerations,
-          run.spin_debts, run.pairs, run.statics, run.sleep, run.ledger, run.report, run.records,
+          run.spin_debts, run.pairs, run.depths, run.statics, run.sleep, run.ledger, run.report, run.records,
           run.extremes, run.log);
 }
 

@@ -40,6 +40,7 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     PairHistory& kept = state.pairs.emplace(blocks, pair).first->second;
     // Paths of blocks, which it counts, begin anew.
     kept.clearance.reset();
+    kept.lasting.reset();
     kept.work = 0.0;
   }
   state.records.clear();

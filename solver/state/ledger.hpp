@@ -19,8 +19,8 @@ struct Ledger {
   double elastic = 0.0;
   double gravity = 0.0;         ///< -m g . x; 0 if gravity has a history
   double contact = 0.0;         ///< stored in normal and shear springs
-  double friction = 0.0;        ///< dissipated by sliding so far
-  double damping = 0.0;         ///< taken by mass damping so far
+  double friction = 0.0;        ///< dissipated by sliding so far, less what dilation gave back
+  double damping = 0.0;         ///< taken by damping of mass, of stiffness and of joints so far
   double applied = 0.0;         ///< work of loads, supports that move, and gravity that has a history, so far
   double numerical = 0.0;       ///< taken by the time integrator so far
   double refound_gained = 0.0;  ///< came into springs where contacts were found anew, so far, >= 0

@@ -8,6 +8,7 @@
 
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/contact_pair.hpp"
+#include "solver/contact/depth_audit.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/linear/sparse_cholesky.hpp"
 #include "solver/state/ledger_keeper.hpp"
@@ -135,6 +136,7 @@ struct RunState {
   /// J, <= 0: what dda steps have created, and must dissipate before spin may take up any of it
   std::vector<double> spin_debts;
   PairHistories pairs;
+  KnownDepths depths;
   StaticState statics;
   Sleep sleep;
   LedgerKeeper ledger;

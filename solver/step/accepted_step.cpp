@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -154,10 +155,15 @@ bool is_live(const RunContext& run, int a, int b) {
 void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // Springs of one pair may take over what those of another one held.
   double change = 0.0;
-  for (const ContactPair& pair : pairs)
-    change += pair.tied() ? 0.0 : pair.start_energy();  // a tie is the same in every step
+  std::set<PairKey> going_on;  // these, like ties, are the same as before
+  for (const ContactPair& pair : pairs) {
+    if (pair.goes_on())
+      going_on.insert({pair.a(), pair.b()});
+    else if (!pair.tied())
+      change += pair.start_energy();
+  }
   for (const PairRecord& record : run.state.records) {
-    if (!is_live(run, record.a, record.b)) continue;
+    if (!is_live(run, record.a, record.b) || going_on.count({record.a, record.b}) > 0) continue;
     for (const PointResponse& response : record.responses) change -= response.energy();
   }
   run.state.ledger.found_anew(change);
@@ -199,7 +205,10 @@ double deepest_of(const std::vector<double>& gaps) {
 void keep_sleeping_pairs(const RunContext& run) {
   StepReport& report = run.state.report;
   for (auto& [blocks, pair] : run.state.pairs)
-    if (is_live(run, blocks[0], blocks[1])) pair.memory = ContactMemory();
+    if (is_live(run, blocks[0], blocks[1])) {
+      pair.memory = ContactMemory();
+      if (pair.lasting && !pair.lasting->found.points.empty()) pair.lasting.reset();
+    }
   std::erase_if(run.state.records,
                 [&run](const PairRecord& record) { return is_live(run, record.a, record.b); });
   for (const PairRecord& record : run.state.records) {
@@ -234,6 +243,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   const BondedArea bonds = pair.bonded_area(remembered);
   history.broken += bonds.lost;
   history.bonded = std::max(history.bonded, history.broken + bonds.left);
+  history.lasting = pair.lasting();
   history.memory.store(pair.points(), std::move(remembered), deepest, ContactPair::energies(response), bulge,
                        pair.cuts());
   // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.
@@ -279,6 +289,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
   double held_by_all = 0.0;
   for (const SleepingIsland& island : run.state.sleep.islands) held_by_all += island.held;
   double friction = 0.0;
+  double damped = 0.0;
   for (std::size_t i = 0; i < problem.islands.size(); ++i) {
     const IslandResult& result = problem.results[i];
     report.iterations = std::max(report.iterations, result.iterations);
@@ -297,6 +308,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       if (pair.tied()) continue;
       const double slid = pair.friction_work(response, result.laws[n], ya, yb);
       friction += slid;
+      damped += ContactPair::damped(response);
       if (run.settings().augmented && !scheme.from_rest)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
       count_states(response.points, report);
@@ -307,7 +319,8 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
   }
   ledger.springs_hold(held_by_all);
   ledger.sliding_took(friction);
-  ledger.integrator_took(-(potential.work + potential.change + friction));
+  ledger.damping_took(damped);
+  ledger.integrator_took(-(potential.work + potential.change + friction + damped));
 }
 
 }  // namespace
@@ -329,7 +342,8 @@ void accept(const RunContext& run, const TimeScheme& scheme, StepProblem& proble
   ++run.state.steps;
   ContactExtremes& extremes = run.state.extremes;
   extremes.penetration = std::max(extremes.penetration, run.state.report.penetration);
-  note_depths(run, problem.depths);
+  note_depths(run, problem.audit.depths);
+  problem.audit.take_over(run.state.depths);
   note_rest(run, scheme, problem);
   run.state.ledger.close_step(run.system, run.state.states);
   drop_empty(run.state.pairs);

@@ -25,13 +25,17 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
 }
 
 /// How deep blocks are in each other. @param fine see SimulationSettings::depth::fine_interval
-std::vector<PairDepth> measure_depths(const RunContext& run, const std::vector<BlockState>& states,
-                                      bool fine) {
+/// @param known of earlier audits
+Audit measure_depths(const RunContext& run, const std::vector<BlockState>& states, bool fine,
+                     const KnownDepths& known) {
+  const SimulationSettings& settings = run.settings();
   const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
                          run.system.moving(),
-                         (fine ? run.settings().search.passing_share : 1.0) * run.settings().contact_distance,
-                         run.settings().threads};
-  return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope);
+                         (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
+                         settings.threads,
+                         settings.lasting_motion(),
+                         fine};
+  return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
 }
 
 /// The pair that is too deep by most. @param known depths of contacts, m
@@ -80,7 +84,7 @@ std::optional<StateFault> broken_block(const RunContext& run, const StepProblem&
 
 std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& problem, bool fine) {
   const Stopwatch watch(run.state.log.seconds.depth_audit);
-  problem.depths = measure_depths(run, states_after(run.system, run.state, problem), fine);
+  problem.audit = measure_depths(run, states_after(run.system, run.state, problem), fine, run.state.depths);
   std::map<PairKey, double> known;
   for (const ContactPair& pair : problem.pairs) {
     if (pair.tied()) continue;
@@ -89,7 +93,7 @@ std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& probl
          pair.gaps(problem.bodies[at(pair.a())].change, problem.bodies[at(pair.b())].change))
       deepest = std::max(deepest, -gap);
   }
-  return too_deep_of(run, problem.depths, known);
+  return too_deep_of(run, problem.audit.depths, known);
 }
 
 std::optional<StateFault> audit_present(const RunContext& run) {
@@ -99,7 +103,7 @@ std::optional<StateFault> audit_present(const RunContext& run) {
     double& deepest = known[{pair.a, pair.b}];
     for (const double gap : pair.gaps) deepest = std::max(deepest, -gap);
   }
-  const std::vector<PairDepth> depths = measure_depths(run, run.state.states, true);
+  const std::vector<PairDepth> depths = measure_depths(run, run.state.states, true, {}).depths;
   note_depths(run, depths);
   return too_deep_of(run, depths, known);
 }

@@ -234,7 +234,7 @@ Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block)
   return body.of_unknowns(of_island.segment(solver_.matrix.offset(place_of_block), body.model->freedom()));
 }
 
-void IslandProblem::add_couplings(const std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>>& couplings,
+void IslandProblem::add_couplings(const std::vector<std::pair<std::size_t, PairCoupling>>& couplings,
                                   const Eigen::VectorXd& x, Eigen::VectorXd& force) {
   for (const auto& [k, coupling] : couplings) {
     const Eigen::VectorXd of_a = part(x, pair(k).a());
@@ -251,10 +251,10 @@ void IslandProblem::add_couplings(const std::vector<std::pair<std::size_t, Eigen
 }
 
 Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool coupled) {
-  std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>> couplings;
+  std::vector<std::pair<std::size_t, PairCoupling>> couplings;
   for (std::size_t k = 0; coupled && k < pairs(); ++k) {
-    Eigen::Matrix2Xd found = ContactPair::sliding_couplings(responses_[k]);
-    if (!found.isZero(0.0)) couplings.emplace_back(k, std::move(found));
+    PairCoupling found = ContactPair::sliding_couplings(responses_[k]);
+    if (!found.force.isZero(0.0)) couplings.emplace_back(k, std::move(found));
   }
   const IterationSettings& settings = settings_.iteration;
   if (factor_is_old_) {

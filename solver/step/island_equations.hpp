@@ -110,7 +110,7 @@ class IslandProblem {
   /// Factorises what has been assembled. @param kept for later steps
   [[nodiscard]] FactorStatus factorize_assembled(bool kept);
   /// Adds what the couplings of sliding points make of changes of the unknowns to forces on them.
-  void add_couplings(const std::vector<std::pair<std::size_t, Eigen::Matrix2Xd>>& couplings,
+  void add_couplings(const std::vector<std::pair<std::size_t, PairCoupling>>& couplings,
                      const Eigen::VectorXd& x, Eigen::VectorXd& force);
   [[nodiscard]] BlockInStep placed(const BodyStep& body) const;
   /// What rows that are not taken anew leave out of the gaps of a pair's closed points, m.

@@ -117,7 +117,7 @@ class OpenClose {
       for (std::size_t k = 0; k < laws.size(); ++k) {
         PointLaw& law = laws[k];
         if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
-            gaps[k] <= settings_.tearing_gap())
+            gaps[k] - problem_.pair(pair).dilation_before(k) <= settings_.tearing_gap())
           continue;
         law.bridged = false;
         open(law);
@@ -154,8 +154,8 @@ class OpenClose {
     for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
       for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
         PointLaw& law = problem_.laws()[pair][k];
-        const double found =
-            given_way(law, problem_.responses()[pair].points[k], problem_.pair(pair).points()[k].gap);
+        const double gap = problem_.pair(pair).points()[k].gap - problem_.pair(pair).dilation_before(k);
+        const double found = given_way(law, problem_.responses()[pair].points[k], gap);
         if (found <= 1.0) continue;
         stiffer = true;
         const double factor = std::min(margin * found, most);
@@ -214,8 +214,11 @@ class OpenClose {
     least_ = std::numeric_limits<double>::infinity();
     int without_gain = 0;
     bool last_factor = false;  // was used once more
-        // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
+    // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
     constexpr double most_of_it = 0.1;
+    // Where states are as they were, what a system has taken so much of it will take so much of again.
+    constexpr double nearly_all = 1e-2;
+    double before = 0.0;
     double last =
         std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
     for (int k = 1; k <= most; ++k) {
@@ -243,8 +246,10 @@ class OpenClose {
       // The last system will do for what is left.
       const bool falls = balance.worst < most_of_it * last;
       last = falls ? balance.worst : 0.0;
-      const bool nearly =
-          falls || (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
+      const double worst_before = std::exchange(before, balance.worst);
+      const bool contracts = as_before && balance.worst < nearly_all * worst_before;
+      const bool nearly = falls || contracts ||
+                          (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
       last_factor = nearly;
       factorized_ = true;
       if (!nearly && problem_.update_factor() != FactorStatus::success) return Outcome::singular;

@@ -76,6 +76,13 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
     run.contacts.finder().start_step(block);
   }
   run.contacts.finder().restore(snapshot.finder);
+  for (auto& [blocks, pair] : run.state.pairs) {
+    const auto [a, b] = blocks;
+    const std::vector<BlockSurface>& surfaces = run.contacts.finder().surfaces();
+    if (pair.lasting != nullptr && pair.lasting->rows == nullptr)
+      pair.lasting = with_rows(*pair.lasting, run.blocks().at(at(a)), run.blocks().at(at(b)),
+                               surfaces.at(at(a)), surfaces.at(at(b)));
+  }
   run.factors = std::move(factors);
   run.state.ledger.measure_elastic(run.system, run.state.states);
 }

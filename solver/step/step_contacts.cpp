@@ -38,6 +38,47 @@ ContactBody body_at_start(const BlockSystem& system, const RunState& state, int 
   return {&system.blocks()[at(block)], &state.states[at(block)], placed};
 }
 
+/// The law of a pair as its points have it, less the rounding of coordinates.
+JointLaw law_of(const BlockSystem& system, const PairKey& blocks) {
+  JointLaw law = system.law(blocks[0], blocks[1]);
+  law.augmented = system.settings().augmented && !law.gives_way;
+  return law;
+}
+
+/// Contacts at the present state, without points: that there are none may last too.
+LastingContacts as_found(const ContactFinder& finder, const RunState& state, const NearPair& pair,
+                         const JointLaw& law, PairContacts contacts) {
+  LastingContacts found;
+  found.contacts = std::move(contacts);
+  for (std::size_t k = 0; k < 2; ++k) {
+    found.positions[k] = state.states[at(pair.blocks[k])].position;
+    found.divisions[k] = finder.surfaces()[at(pair.blocks[k])].wanted();
+  }
+  found.reach = pair.reach;
+  found.law = law;
+  return found;
+}
+
+/// Whether contacts of two blocks may last: an incremental block has other coordinates in each step.
+bool may_last(const BlockSystem& system, const PairKey& blocks) {
+  return system.blocks()[at(blocks[0])].incremental() == nullptr &&
+         system.blocks()[at(blocks[1])].incremental() == nullptr;
+}
+bool may_last(const BlockSystem& system, const FoundContacts& found, PairUse use) {
+  return use == PairUse::motion && found.reach > 0.0 && may_last(system, found.blocks);
+}
+
+/// Forgets that nothing was found of pairs that are no longer near. @param near sorted
+void forget_far_pairs(PairHistories& histories, const std::vector<NearPair>& near,
+                      const std::vector<bool>& moving) {
+  auto next = near.begin();
+  for (auto& [blocks, pair] : histories) {
+    while (next != near.end() && next->blocks < blocks) ++next;
+    if (next != near.end() && next->blocks == blocks) continue;
+    if (moving[at(blocks[0])] || moving[at(blocks[1])]) pair.lasting.reset();
+  }
+}
+
 /// How far a has moved past b at each point since the load level began, m.
 std::vector<Vector3> moved_in_level(const BlockSystem& system, const RunState& state, const PairKey& blocks,
                                     const std::vector<ContactPoint>& points) {
@@ -69,6 +110,7 @@ bool is_far(const BlockSystem& system, const RunState& state, int block) {
 void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved,
                std::vector<PointMemory>& memory) {
   for (std::size_t k = 0; k < points.size(); ++k) {
+    memory[k].level_dilation = memory[k].dilation;
     if (!memory[k].in_level) continue;
     const Vector3 slid = memory[k].level_slip + moved[k] - memory[k].slip;
     memory[k].level_slip -= slid - points[k].normal.dot(slid) * points[k].normal;
@@ -85,6 +127,8 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
         [](const FoundContacts& contacts, const PairKey& pair) { return contacts.blocks < pair; });
     if (place == found.end() || place->blocks != blocks.blocks)
       place = found.insert(place, FoundContacts{blocks.blocks, {}});
+    place->kept.reset();
+    place->reach = 0.0;
     if (const auto* vertex = std::get_if<VertexContact>(&blocks.touch.contact)) {
       place->contacts.vertices.push_back(*vertex);
     } else {
@@ -97,47 +141,136 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
 StepContacts::StepContacts(const BlockSystem& system)
     : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()) {}
 
+std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockSystem& system,
+                                                                    const RunState& state,
+                                                                    const std::vector<NearPair>& near) const {
+  const SimulationSettings& settings = system.settings();
+  std::vector<std::shared_ptr<const KeptContacts>> result(near.size());
+  std::vector<std::optional<JointLaw>> laws(near.size());
+  // Laws are the caller's, who need not expect several threads.
+  for (std::size_t n = 0; n < near.size(); ++n)
+    if (history_of(state.pairs, near[n].blocks).lasting != nullptr) laws[n] = law_of(system, near[n].blocks);
+  parallel_for(settings.threads, near.size(), [&](std::size_t n) {
+    if (!laws[n]) return;
+    const auto& [blocks, reach] = near[n];
+    const std::shared_ptr<const LastingContacts>& lasting = history_of(state.pairs, blocks).lasting;
+    for (std::size_t k = 0; k < 2; ++k)
+      if (finder_.surfaces()[at(blocks[k])].wanted() != lasting->divisions[k]) return;
+    const auto bound_of = [this](int block) {
+      return [this, block](const Eigen::MatrixX3d& change) { return finder_.motion_bound(block, change); };
+    };
+    std::optional<KeptContacts> found =
+        kept_contacts(lasting, body_at_start(system, state, blocks[0], nullptr),
+                      body_at_start(system, state, blocks[1], nullptr), *laws[n],
+                      {settings.lasting_motion(), reach}, {bound_of(blocks[0]), bound_of(blocks[1])});
+    if (found) result[n] = std::make_shared<const KeptContacts>(std::move(*found));
+  });
+  return result;
+}
+
 std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunState& state, double step) {
   const Stopwatch watch(state.log.seconds.contact_search);
   const std::vector<BlockState> driven = driven_states(system, state, step);
   const ExpectedMotion motion = driven.empty() ? finder_.expected_motion(state.states, step)
                                                : finder_.expected_motion(driven, step > 0.0 ? step : 1.0);
   finder_.watch(system.moving());
-  std::vector<FoundContacts> found = finder_.find(state.states, motion, state.pairs);
-  ways_out_ = WaysOut(state.pairs, system.moving());
-  for (const auto& [blocks, contacts] : found) {
-    if (!(history_of(state.pairs, blocks).memory.deepest() > 0.0))
-      ways_out_.add_touching(blocks, finder_.placed(blocks[0]), finder_.placed(blocks[1]), contacts);
+  ways_out_.reset();
+  const std::vector<NearPair> near = finder_.near_pairs(state.states, motion, state.pairs);
+  std::vector<std::shared_ptr<const KeptContacts>> kept(near.size());
+  if (step > 0.0) kept = this->kept(system, state, near);
+  std::vector<PairContacts> known_contacts(near.size());
+  KnownContacts known(near.size(), nullptr);
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    if (kept[n] == nullptr) continue;
+    known_contacts[n] = shifted(kept[n]->lasting->contacts, kept[n]->shift);
+    known[n] = &known_contacts[n];
   }
+  std::vector<FoundContacts> found = finder_.find(state.states, known, state.pairs);
+  const bool any_new = !found.empty();
+  forget_far_pairs(state.pairs, near, system.moving());
+  if (step > 0.0) note_apart(system, state, near, known, found);
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    if (known[n] != nullptr && !known[n]->empty())
+      found.push_back({near[n].blocks, std::move(known_contacts[n]), near[n].reach, std::move(kept[n])});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const FoundContacts& x, const FoundContacts& y) { return x.blocks < y.blocks; });
+  if (any_new) leave_out_seams_of(system, state, found);
+  return found;
+}
+
+void StepContacts::note_apart(const BlockSystem& system, RunState& state, const std::vector<NearPair>& near,
+                              const KnownContacts& known, const std::vector<FoundContacts>& found) const {
+  auto next = found.begin();
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    if (known[n] != nullptr) continue;
+    // Both are sorted, and what was found is of pairs that were not known.
+    if (next != found.end() && next->blocks == near[n].blocks) {
+      ++next;
+    } else if (may_last(system, near[n].blocks)) {
+      state.pairs[near[n].blocks].lasting = std::make_shared<const LastingContacts>(
+          as_found(finder_, state, near[n], law_of(system, near[n].blocks), {}));
+    }
+  }
+}
+
+const WaysOut& StepContacts::ways_out(const RunState& state, const std::vector<bool>& moving,
+                                      const std::vector<FoundContacts>& found) {
+  if (ways_out_) return *ways_out_;
+  ways_out_ = WaysOut(state.pairs, moving);
+  for (const auto& pair : found) {
+    if (!(history_of(state.pairs, pair.blocks).memory.deepest() > 0.0))
+      ways_out_->add_touching(pair.blocks, finder_.placed(pair.blocks[0]), finder_.placed(pair.blocks[1]),
+                              pair.contacts);
+  }
+  return *ways_out_;
+}
+
+void StepContacts::leave_out_seams_of(const BlockSystem& system, const RunState& state,
+                                      std::vector<FoundContacts>& found) {
+  const WaysOut& ways = ways_out(state, system.moving(), found);
   const auto stands = standing_ways(system, state, found);
   const GivenWay given = given_way(system, state);
-  for (auto& [pair, contacts] : found) {
-    const PlacedSurface& a = finder_.placed(pair[0]);
-    const PlacedSurface& b = finder_.placed(pair[1]);
-    leave_out_seams(a, b, ways_out_.of_pair(pair[0], pair[1], normals_of(a, b, contacts), given), stands,
-                    contacts);
+  for (FoundContacts& pair : found) {
+    if (pair.kept != nullptr) continue;
+    const PlacedSurface& a = finder_.placed(pair.blocks[0]);
+    const PlacedSurface& b = finder_.placed(pair.blocks[1]);
+    leave_out_seams(a, b,
+                    ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
+                    stands, pair.contacts);
   }
-  return found;
+}
+
+ContactPair StepContacts::kept_pair(const BlockSystem& system, const RunState& state,
+                                    const FoundContacts& found, JointLaw law) {
+  const auto [a, b] = found.blocks;
+  const PairHistory& known = history_of(state.pairs, found.blocks);
+  law.rounding = found.kept->lasting->law.rounding;
+  ContactPair pair(
+      PairBodies{a, b, body_at_start(system, state, a, nullptr), body_at_start(system, state, b, nullptr)},
+      law, *found.kept, known.memory.of_same(found.kept->points));
+  if (law.augmented) pair.hold_where_found(known.taken);
+  return pair;
 }
 
 std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, const RunState& state,
                                                  const FoundContacts& found, JointLaw law, PairUse use,
                                                  const CoveredFaces& covered) const {
-  const auto& [blocks, contacts] = found;
+  const PairKey& blocks = found.blocks;
+  const PairContacts& contacts = found.contacts;
   const auto [a, b] = blocks;
   const ContactBody body_a = body_at_start(system, state, a, &finder_.placed(a));
   const ContactBody body_b = body_at_start(system, state, b, &finder_.placed(b));
   const PairHistory& known = history_of(state.pairs, blocks);
   const SimulationSettings& settings = system.settings();
   const bool goes_on = use == PairUse::motion && state.has_begun();
-  law.augmented = settings.augmented && !law.gives_way;
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented};
   const std::vector<bool> masters =
       first_is_master(body_a, body_b, contacts.overlaps, [&covered, a = a, b = b](const RimPlace& rim) {
         return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
       });
-  auto [points, cuts] =
-      contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
+  ContactPoints made = contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
+  std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.
   if (points.empty()) return std::nullopt;
   auto memory = known.memory.recall(
@@ -149,8 +282,13 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
     moved = moved_in_level(system, state, blocks, points);
     if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
   }
-  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory),
-                   std::move(cuts));
+  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory), made.cuts);
+  if (may_last(system, found, use)) {
+    LastingContacts lasting = as_found(finder_, state, {blocks, found.reach}, law, contacts);
+    lasting.found = std::move(made);
+    lasting.rows = pair.rows().values();
+    pair.may_last(std::make_shared<const LastingContacts>(std::move(lasting)));
+  }
   if (goes_on && law.augmented) pair.hold_where_found(known.taken);
   if (!moved.empty()) pair.count_slip(moved);
   if (use == PairUse::statics && state.statics.holds_bonds) pair.hold_bonds();
@@ -163,23 +301,39 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   const SimulationSettings& settings = system.settings();
   const bool goes_on = use == PairUse::motion && state.has_begun();
   std::vector<ContactPair> pairs;
+  const bool all_kept =
+      std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
+  const std::vector<FoundContacts> none;
   const CoveredFaces covered(
-      found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
+      all_kept ? none : found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
       settings.contact_distance);
   // Laws are the caller's, who need not expect several threads.
   std::vector<JointLaw> laws;
-  for (const FoundContacts& pair : found) laws.push_back(system.law(pair.blocks[0], pair.blocks[1]));
+  for (const FoundContacts& pair : found) laws.push_back(law_of(system, pair.blocks));
   std::vector<std::optional<ContactPair>> made(found.size());
-  parallel_for(settings.threads, found.size(),
-               [&](std::size_t n) { made[n] = pair_of(system, state, found[n], laws[n], use, covered); });
+  parallel_for(settings.threads, found.size(), [&](std::size_t n) {
+    if (found[n].kept == nullptr) {
+      made[n] = pair_of(system, state, found[n], laws[n], use, covered);
+    } else if (!found[n].kept->points.empty()) {
+      made[n] = kept_pair(system, state, found[n], laws[n]);
+    }
+  });
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    if (made[n] || found[n].kept != nullptr || !may_last(system, found[n], use)) continue;
+    state.pairs[found[n].blocks].lasting = std::make_shared<const LastingContacts>(
+        as_found(finder_, state, {found[n].blocks, found[n].reach}, laws[n], found[n].contacts));
+  }
   for (std::optional<ContactPair>& pair : made) {
     if (!pair) continue;
     state.log.counts.contact_points += pair->points().size();
     pairs.push_back(std::move(*pair));
   }
-  if (goes_on) {
+  const bool all_go_on =
+      std::all_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.goes_on(); });
+  if (goes_on && !all_go_on) {
     const std::vector<SpringEnergy> bounds = energy_bounds(pairs, state.pairs, system.moving());
-    for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].hold_at_most(bounds[k]);
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      if (!pairs[k].goes_on()) pairs[k].hold_at_most(bounds[k]);
   }
   for (const TiedBlocks& tied : system.ties()) {
     if (!system.moving()[at(tied.a)] && !system.moving()[at(tied.b)]) continue;
@@ -195,13 +349,15 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
                                                       const std::vector<FoundContacts>& found) {
   const Stopwatch watch(state.log.seconds.motion_check);
   std::vector<PassingBlocks> passing = finder_.check_motion(state.states, after, found, state.pairs);
+  if (passing.empty()) return passing;
+  const WaysOut& ways_out = this->ways_out(state, system.moving(), found);
   const auto stands = standing_ways(system, state, found);
   const GivenWay given = given_way(system, state);
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
     const std::vector<WayOut> ways =
-        ways_out_.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
+        ways_out.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
     return at_seam(a, b, ways, stands, pair.touch);
   });
   return passing;
@@ -219,7 +375,7 @@ std::function<bool(const WayOut&)> StepContacts::standing_ways(
     const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const {
   return [this, given = given_way(system, state), &found](const WayOut& way) {
     const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
-    return ways_out_.stands(way, found, placed, given);
+    return ways_out_->stands(way, found, placed, given);
   };
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,7 @@ enum class PairUse {
 [[nodiscard]] std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
                                                       const std::vector<PassingBlocks>& passing);
 
-/// Keeps surfaces and ways out from step to step.
+/// Keeps surfaces from step to step.
 class StepContacts {
  public:
   /// @param system its blocks must stay where they are
@@ -47,6 +48,22 @@ class StepContacts {
   [[nodiscard]] ContactFinder& finder() { return finder_; }
 
  private:
+  /// Contacts of near pairs that need not be found anew, empty where they have to be.
+  [[nodiscard]] std::vector<std::shared_ptr<const KeptContacts>> kept(
+      const BlockSystem& system, const RunState& state, const std::vector<NearPair>& near) const;
+  /// Notes that nothing was found of near pairs that were searched.
+  /// @param found by the search, without what was known
+  void note_apart(const BlockSystem& system, RunState& state, const std::vector<NearPair>& near,
+                  const KnownContacts& known, const std::vector<FoundContacts>& found) const;
+  /// Contacts of seams are left out of those that were found anew.
+  void leave_out_seams_of(const BlockSystem& system, const RunState& state,
+                          std::vector<FoundContacts>& found);
+  /// One pair whose contacts were known.
+  [[nodiscard]] static ContactPair kept_pair(const BlockSystem& system, const RunState& state,
+                                             const FoundContacts& found, JointLaw law);
+  /// Ways out of the step, found when first asked for.
+  const WaysOut& ways_out(const RunState& state, const std::vector<bool>& moving,
+                          const std::vector<FoundContacts>& found);
   /// One pair of a list; none if its contacts have no points.
   [[nodiscard]] std::optional<ContactPair> pair_of(const BlockSystem& system, const RunState& state,
                                                    const FoundContacts& found, JointLaw law, PairUse use,
@@ -58,7 +75,7 @@ class StepContacts {
       const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
 
   ContactFinder finder_;
-  WaysOut ways_out_;  ///< at the last search
+  std::optional<WaysOut> ways_out_;  ///< of the step
 };
 
 }  // namespace ashlar

@@ -77,6 +77,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
     pair.prescribe(system.blocks()[at(pair.a())], problem.bodies[at(pair.a())].prescribed,
                    system.blocks()[at(pair.b())], problem.bodies[at(pair.b())].prescribed);
     if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
+    if (!scheme.from_rest) pair.damp(scheme.step);
   }
   problem.results = solve_islands(problem, scheme, settings, factors);
   SimulationCounts& counts = state.log.counts;

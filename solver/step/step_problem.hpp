@@ -24,7 +24,7 @@ struct StepProblem {
   std::vector<BodyStep> bodies;
   std::vector<IslandResult> results;            ///< by island
   std::map<std::size_t, CarriedBlock> carried;  ///< next steps of incremental blocks
-  std::vector<PairDepth> depths;                ///< at its end
+  Audit audit;                                  ///< of its end
 };
 
 /// Finds islands and bodies of a problem whose pairs are given, and solves it.

@@ -40,4 +40,26 @@ bool ply(std::string_view bytes) {
   return mesh(read_ply, bytes);
 }
 
+bool groups(std::string_view bytes) {
+  try {
+    const PolygonSoup soup = read_obj(bytes);
+    const std::vector<MeshGroup> groups = triangulated_groups(soup);
+    std::size_t triangles = 0;
+    for (const MeshGroup& group : groups) {
+      triangles += group.mesh.triangles.size();
+      require(!group.mesh.triangles.empty(), "a group has triangles");
+      std::vector<bool> used(group.mesh.points.size(), false);
+      for (const auto& triangle : group.mesh.triangles)
+        for (const int corner : triangle) used.at(static_cast<std::size_t>(corner)) = true;
+      // A polygon that is not simple may leave corners out.
+      require(group.mesh.points.size() >= 3 || std::find(used.begin(), used.end(), true) != used.end(),
+              "a group has points");
+    }
+    require(triangles == triangulated(soup).triangles.size(), "every triangle is in one group");
+    return true;
+  } catch (const MeshFileError&) {
+    return false;
+  }
+}
+
 }  // namespace ashlar::fuzz

@@ -1,18 +1,75 @@
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
 #include "apps/results/json_text.hpp"
+#include "apps/results/scratch_folder.hpp"
+#include "apps/scene/formulas.hpp"
+#include "apps/scene/record_file.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "apps/scene/scene_reader.hpp"
 #include "fuzz/targets.hpp"
 
 namespace ashlar::fuzz {
 
-bool scene(std::string_view bytes) {
+namespace {
+
+bool read(std::string_view text, const std::filesystem::path& file) {
   Diagnostics diagnostics;
-  const Scene scene = parse_scene(bytes, "scene.toml", {}, diagnostics);
+  const Scene scene = parse_scene(text, file, {}, diagnostics);
   for (const Diagnostic& fault : diagnostics.sorted())
     require(fault.place.line >= 1 && fault.place.column >= 1, "every fault has a place");
   if (!diagnostics.good()) return false;
   // The scene as used goes into summary.json, which `ashlar view` reads.
   (void)parse_json(json_text(to_json(scene)));
+  return true;
+}
+
+}  // namespace
+
+bool scene(std::string_view bytes) {
+  return read(bytes, "scene.toml");
+}
+
+bool include(std::string_view bytes) {
+  constexpr std::string_view between = "\n# part.toml\n";
+  const std::size_t end = bytes.find(between);
+  if (end == std::string_view::npos) return false;
+  static const ScratchFolder folder;
+  std::ofstream(folder.path() / "part.toml", std::ios::binary) << bytes.substr(end + between.size());
+  return read(bytes.substr(0, end), folder.path() / "scene.toml");
+}
+
+bool formula(std::string_view bytes) {
+  Formulas formulas;
+  formulas.define("h", 0.25);
+  formulas.define("n", 4.0);
+  formulas.leave_out("lost");
+  try {
+    require(std::isfinite(formulas.value("=" + std::string(bytes))), "a formula's value is finite");
+    return true;
+  } catch (const FormulaError& error) {
+    require(error.offset() <= bytes.size() + 1, "faults of formulas are in them");
+    return false;
+  }
+}
+
+bool record(std::string_view bytes) {
+  const SceneRecord record{.file = "r.csv", .time = "t", .values = {"a", "", "b"}, .scale = 2.0};
+  Diagnostics diagnostics;
+  std::istringstream content{std::string(bytes)};
+  const auto rows = parse_record(record, content, "r.csv", diagnostics);
+  require(rows.has_value() == diagnostics.good(), "a record that is refused has a fault");
+  for (const Diagnostic& fault : diagnostics.sorted())
+    require(fault.place.line >= 1 && fault.place.column >= 1, "every fault has a place");
+  if (!rows) return false;
+  double last = -std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& row : *rows) {
+    require(row.size() == 4 && row[0] > last, "rows are whole and later than those before");
+    for (const double value : row) require(std::isfinite(value), "values are finite");
+    last = row[0];
+  }
   return true;
 }
 

@@ -20,10 +20,14 @@ inline void require(bool holds, const char* what) {
 }
 
 bool scene(std::string_view bytes);       ///< the text of a scene, up to the keys
+bool include(std::string_view bytes);     ///< a scene, a line "# part.toml", and a file that it may include
+bool formula(std::string_view bytes);     ///< what follows the "=" of a formula of h, n and lost
+bool record(std::string_view bytes);      ///< a CSV file with columns t, a and b
 bool off(std::string_view bytes);         ///< each of the meshes: points, faces, triangles
 bool obj(std::string_view bytes);         //
 bool stl(std::string_view bytes);         //
 bool ply(std::string_view bytes);         //
+bool groups(std::string_view bytes);      ///< an OBJ file of many stones
 bool checkpoint(std::string_view bytes);  ///< the stored state of a simulation, without header and hash
 bool vtu(std::string_view bytes);         ///< a frame, and its curved cells divided for the page
 bool pvd(std::string_view bytes);         ///< the list of frames
@@ -37,14 +41,18 @@ struct Target {
   bool lasting = true;
 };
 
-inline constexpr std::array<Target, 9> targets = {{{"scene", scene},
-                                                   {"off", off},
-                                                   {"obj", obj},
-                                                   {"stl", stl},
-                                                   {"ply", ply},
-                                                   {"checkpoint", checkpoint, false},
-                                                   {"vtu", vtu},
-                                                   {"pvd", pvd},
-                                                   {"summary", summary}}};
+inline constexpr std::array<Target, 13> targets = {{{"scene", scene},
+                                                    {"include", include},
+                                                    {"formula", formula},
+                                                    {"record", record},
+                                                    {"off", off},
+                                                    {"obj", obj},
+                                                    {"stl", stl},
+                                                    {"ply", ply},
+                                                    {"groups", groups},
+                                                    {"checkpoint", checkpoint, false},
+                                                    {"vtu", vtu},
+                                                    {"pvd", pvd},
+                                                    {"summary", summary}}};
 
 }  // namespace ashlar::fuzz

@@ -13,8 +13,12 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 from vtkmodules.vtkCommonCore import reference, vtkLogger
-from vtkmodules.vtkCommonDataModel import VTK_LAGRANGE_TRIANGLE, VTK_POLYGON, VTK_TRIANGLE, VTK_VERTEX
+from vtkmodules.vtkCommonDataModel import (VTK_LAGRANGE_TETRAHEDRON, VTK_LAGRANGE_TRIANGLE, VTK_POLYGON, VTK_TETRA,
+                                           VTK_TRIANGLE, VTK_VERTEX, vtkPlane)
+from vtkmodules.vtkFiltersCore import vtkCutter, vtkMassProperties, vtkTriangleFilter
+from vtkmodules.vtkFiltersGeneral import vtkClipDataSet
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
+from vtkmodules.vtkFiltersParallel import vtkIntegrateAttributes
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 
@@ -64,6 +68,48 @@ def tessellated(grid, level):
     surface.SetNonlinearSubdivisionLevel(level)
     surface.Update()
     return surface.GetOutput()
+
+
+def plane_across_x(x):
+    plane = vtkPlane()
+    plane.SetOrigin(x, 0, 0)
+    plane.SetNormal(1, 0, 0)
+    return plane
+
+
+def section_area(grid, x):
+    cutter = vtkCutter()
+    cutter.SetInputData(grid)
+    cutter.SetCutFunction(plane_across_x(x))
+    triangles = vtkTriangleFilter()
+    triangles.SetInputConnection(cutter.GetOutputPort())
+    mass = vtkMassProperties()
+    mass.SetInputConnection(triangles.GetOutputPort())
+    return mass.GetSurfaceArea()
+
+
+def volume(grid, below=None):
+    """By VTK's integration of what is below a plane across x, or of all."""
+    integrate = vtkIntegrateAttributes()
+    integrate.SetInputData(grid)
+    if below is not None:
+        clip = vtkClipDataSet()
+        clip.SetInputData(grid)
+        clip.SetClipFunction(plane_across_x(below))
+        clip.InsideOutOn()
+        integrate.SetInputConnection(clip.GetOutputPort())
+    integrate.Update()
+    return integrate.GetOutput().GetCellData().GetArray("Volume").GetTuple1(0)
+
+
+def volume_within(surface):
+    """Of a closed surface of triangles, by the divergence of x / 3."""
+    total = 0
+    for index in range(surface.GetNumberOfCells()):
+        cell = surface.GetCell(index)
+        (a, b, c), (d, e, f), (g, h, i) = (surface.GetPoint(cell.GetPointId(k)) for k in range(3))
+        total += (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6
+    return total
 
 
 def area_of_face(surface, height):
@@ -205,6 +251,49 @@ class Samples(unittest.TestCase):
                 errors = [abs(area_of_face(tessellated(grid, level), 1) - exact) for level in (1, 2, 3)]
                 for coarse, fine in zip(errors, errors[1:]):
                     self.assertAlmostEqual(coarse / fine, 4, delta=0.1)
+
+    def test_solids_are_tetrahedra_that_clip_filled(self):
+        grid = self.grid("solids.vtu")
+        self.assertEqual({grid.GetCellType(k) for k in range(grid.GetNumberOfCells())}, {VTK_TETRA})
+        # A box of 2 m^3, a frame of 8 m^3 from x = 4 to 7 with a hole from 5 to 6, a bar of 2 m^3.
+        self.assertAlmostEqual(volume(grid), 12, delta=1e-12)
+        for x, area in ((0.7, 2), (4.5, 3), (5.5, 2), (6.25, 3)):
+            self.assertAlmostEqual(section_area(grid, x), area, delta=1e-6)
+        for x, below in ((0.5, 1), (4.5, 4 + 1.5), (5.5, 4 + 3 + 1)):
+            self.assertAlmostEqual(volume(grid, x), below, delta=1e-5)
+        self.assertEqual(set(arrays(grid.GetCellData())), {"block", "order"})
+        principal = arrays(grid.GetPointData())["principal_stress"]
+        self.assertEqual(principal.GetNumberOfComponents(), 3)
+
+    def test_curved_solids(self):
+        """The map has the determinant 1, so that the bent bar has the volume of the straight one."""
+        for order in ORDERS:
+            with self.subTest(order=order):
+                grid = self.grid(f"solid_{order}.vtu")
+                self.assertEqual(grid.GetNumberOfCells(), 12)
+                for index in range(12):
+                    self.assertEqual(grid.GetCellType(index), VTK_LAGRANGE_TETRAHEDRON)
+                    self.assertEqual(grid.GetCell(index).GetOrder(), order)
+                errors = [abs(volume_within(tessellated(grid, level)) - 2) for level in (2, 3)]
+                self.assertLess(errors[1], max(errors[0] / 3.5, 1e-6))
+
+    def test_vtk_finds_the_points_inside_curved_solids(self):
+        numbers = random.Random(6)
+        for order in ORDERS:
+            grid = self.grid(f"solid_{order}.vtu")
+            moved = tuples(arrays(grid.GetPointData())["displacement"])
+            undeformed = [[p - u for p, u in zip(*rows)] for rows in zip(tuples(grid.GetPoints().GetData()), moved)]
+            for index in range(12):
+                cell = grid.GetCell(index)
+                corners = [undeformed[cell.GetPointId(k)] for k in range(4)]
+                for _ in range(5):
+                    r, s, t = sorted(numbers.random() for _ in range(3))
+                    shares = (1 - t, r, s - r, t - s)
+                    material = [sum(w * c[k] for w, c in zip(shares, corners)) for k in range(3)]
+                    place = [0.0, 0.0, 0.0]
+                    cell.EvaluateLocation(reference(0), shares[1:], place, [0.0] * cell.GetNumberOfPoints())
+                    with self.subTest(order=order, cell=index):
+                        self.assert_near(place, bent(order, *material))
 
     def assert_near(self, seen, expected):
         for a, b in zip(seen, expected):

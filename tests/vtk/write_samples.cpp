@@ -15,6 +15,7 @@
 #include "apps/results/result_folder.hpp"
 #include "apps/results/vtu_writer.hpp"
 #include "geometry/solid/shapes.hpp"
+#include "support/sample_meshes.hpp"
 
 namespace ashlar {
 namespace {
@@ -83,20 +84,38 @@ Eigen::MatrixX3d coefficients(const BlockModel& block, const Field& field) {
   return block.basis().values(points).colPivHouseholderQr().solve(values);
 }
 
-// A bar 2 x 1 x 1 bent to  (x, y + x z / 4, z + (x / 2)^n / 2 + x^2 / 16), moving with (z^2, 0, x).
-UnstructuredGrid curved_grid(int order) {
+BlockModel make_block(const TriangleMesh& mesh, int order) {
   BlockDefinition definition;
-  definition.solid = std::make_shared<const Polyhedron>(make_box({0, 0, 0}, {2, 1, 1}));
+  definition.solid = std::make_shared<const Polyhedron>(mesh);
   definition.material = {.density = 1000.0, .young_modulus = 1e9, .poisson_ratio = 0.25};
   definition.order = order;
-  const std::vector<BlockModel> blocks = {BlockModel(definition)};
+  return BlockModel(definition);
+}
+
+// A bar 2 x 1 x 1 bent to  (x, y + x z / 4, z + (x / 2)^n / 2 + x^2 / 16), moving with (z^2, 0, x).
+UnstructuredGrid curved_grid(int order, bool solid) {
+  const std::vector<BlockModel> blocks = {make_block(make_box({0, 0, 0}, {2, 1, 1}), order)};
   const Field place = [order](const Vector3& p) {
     const double x = p.x();
     return Vector3(x, p.y() + x * p.z() / 4.0, p.z() + std::pow(x / 2.0, order) / 2.0 + x * x / 16.0);
   };
   const Field velocity = [](const Vector3& p) { return Vector3(p.z() * p.z(), 0.0, p.x()); };
   const BlockState state = {coefficients(blocks[0], place), coefficients(blocks[0], velocity)};
-  return block_frame(blocks, {state}, drawn_surfaces(blocks, true), {});
+  return solid ? solid_frame(blocks, {state}, drawn_solids(blocks, true), {})
+               : block_frame(blocks, {state}, drawn_surfaces(blocks, true), {});
+}
+
+// A box, a frame with a hole of 1 x 1 m beside it, and a bar of order 3, as they were placed.
+UnstructuredGrid solid_grid() {
+  TriangleMesh frame = test_support::make_frame();
+  for (Vector3& point : frame.points) point.x() += 4.0;
+  const std::vector<BlockModel> blocks = {make_block(make_box({0, 0, 0}, {2, 1, 1}), 1), make_block(frame, 1),
+                                          make_block(make_box({0, 5, 0}, {2, 6, 1}), 3)};
+  std::vector<BlockState> states;
+  for (const BlockModel& block : blocks) states.push_back(block.initial_state());
+  SceneOutput::Fields fields;
+  fields.principal_stress = true;
+  return solid_frame(blocks, states, drawn_solids(blocks, false), fields);
 }
 
 void write_samples(const std::filesystem::path& folder) {
@@ -106,7 +125,10 @@ void write_samples(const std::filesystem::path& folder) {
   write_vtu(folder / "frames/points_4096.vtu", many_points(4096));
   write_vtu(folder / "frames/points_4097.vtu", many_points(4097));
   for (const int order : {2, 3, 5, 8, 12})
-    write_vtu(folder / ("frames/curved_" + std::to_string(order) + ".vtu"), curved_grid(order));
+    for (const bool solid : {false, true})
+      write_vtu(folder / ((solid ? "frames/solid_" : "frames/curved_") + std::to_string(order) + ".vtu"),
+                curved_grid(order, solid));
+  write_vtu(folder / "frames/solids.vtu", solid_grid());
   PvdWriter series(folder / "samples.pvd");
   series.add_frame(0.0, "frames/empty.vtu");
   series.add_frame(0.1 + 0.2, "frames/mixed.vtu");

@@ -97,7 +97,7 @@ TEST(SharedLattice, NeighboursShareTheirSide) {
     if (nodes[a][1] == 0) seen_from_second[static_cast<std::size_t>(nodes[a][2])] = lattice.nodes[1][a];
   }
   EXPECT_EQ(seen_from_first, seen_from_second);
-  EXPECT_EQ(lattice.points[static_cast<std::size_t>(seen_from_second[1])].triangle, 0U);
+  EXPECT_EQ(lattice.points[static_cast<std::size_t>(seen_from_second[1])].cell, 0U);
 }
 
 }  // namespace

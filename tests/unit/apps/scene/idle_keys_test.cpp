@@ -60,6 +60,31 @@ TEST(IdleKeys, PenetrationToleranceIsThatOfAugmentedContact) {
   EXPECT_THAT(warnings(given, {"contact.augmented=true"}), IsEmpty());
 }
 
+TEST(IdleKeys, OnlySpringsInMotionAreDamped) {
+  const std::string given = sample_with(5, "friction_angle = 30\ndamping = 0.1");
+  EXPECT_THAT(warnings(given), IsEmpty());
+  EXPECT_THAT(
+      warnings(given, {"analysis.type=static"}),
+      ElementsAre("s.toml:6:1: warning: damping has no effect: a static analysis has no motion in time"));
+  EXPECT_THAT(
+      warnings(given, {"contact.augmented=true"}),
+      ElementsAre(
+          "s.toml:6:1: warning: damping has no effect: multipliers hold joints here, and only springs "
+          "are damped: augmented = false has springs"));
+  // Motion that starts from statics has multipliers unless a stiffness is given.
+  EXPECT_THAT(
+      warnings(given, {"analysis.initial_state=static"}),
+      ElementsAre("s.toml:6:1: warning: damping has no effect: multipliers hold this joint, and only springs "
+                  "are damped: normal_stiffness gives it some"));
+  EXPECT_THAT(warnings(given, {"analysis.initial_state=static", "contact.normal_stiffness=1e9"}), IsEmpty());
+  const std::string of_joint = sample_with(7, "blocks = [\"A\", \"B\"]\ndamping = 0.1");
+  EXPECT_THAT(
+      warnings(of_joint, {"contact.augmented=true"}),
+      ElementsAre(
+          "s.toml:8:1: warning: damping has no effect: multipliers hold joints here, and only springs "
+          "are damped: augmented = false has springs"));
+}
+
 TEST(IdleKeys, FixedBlocksHaveNoOrder) {
   EXPECT_THAT(warnings(sample_with(15, "order = 2\nfixed = true")),
               ElementsAre("s.toml:15:1: warning: order has no effect: a fixed block does not deform"));

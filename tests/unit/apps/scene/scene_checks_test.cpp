@@ -59,6 +59,17 @@ INSTANTIATE_TEST_SUITE_P(
         FaultCase{7, "blocks = [\"A\", \"wall*\"]", "s.toml:7:10: error: joint names no block (\"wall*\")"},
         FaultCase{7, "blocks = [\"A\", \"A\"]",
                   "s.toml:7:10: error: joint between a block and itself (\"A\", \"A\")"},
+        FaultCase{
+            5, "friction_angle = 30\ndilation_angle = 31",
+            "s.toml:6:18: error: dilation_angle is above friction_angle (31 degrees), at most 30 degrees"},
+        FaultCase{
+            7, "blocks = [\"A\", \"B*\"]\ndilation_angle = 20\nfriction_angle_residual = 10",
+            "s.toml:8:18: error: dilation_angle is above friction_angle_residual (20 degrees), at most 10"},
+        FaultCase{
+            5,
+            "friction_angle = 30\ndilation_angle = 10\n[[joint]]\nblocks = [\"A\", \"B\"]\ncohesion = 1\n"
+            "friction_angle = 5",
+            "s.toml:10:18: error: dilation_angle is above friction_angle (10 degrees), at most 5 degrees"},
         FaultCase{15, "",
                   "s.toml:13:1: error: missing key (material), block \"A\" has none, one of \"rock\" is "
                   "needed"},

@@ -38,6 +38,20 @@ TEST(LogLogPlot, AxesEndAtOneTwoOrFiveTimesAPowerOfTen) {
   EXPECT_EQ(wide.find(R"(font-size="11">-13<)"), std::string::npos);
 }
 
+TEST(LogLogPlot, LinearAxesGoFromTickToTick) {
+  // x from 20 to 50 in steps of 5: (35, y) is in the middle. y from -1 to 0.5 in steps of 0.2: from -1 to 0.6.
+  LogLogPlot plot{"t", "x", "y", {{"s", {20, 35, 50}, {-1, 0, 0.5}}}, false};
+  plot.linear = true;
+  const std::string svg = to_svg(plot);
+  EXPECT_NE(svg.find(R"(cx="90.0" cy="530.0")"), std::string::npos);
+  EXPECT_NE(svg.find(R"(cx="365.0" cy="230.0")"), std::string::npos);
+  EXPECT_NE(svg.find(R"(cx="640.0" cy="80.0")"), std::string::npos);
+  for (const char* label : {">20<", ">35<", ">-0.2<", ">0<", ">0.6<"})
+    EXPECT_NE(svg.find(label), std::string::npos) << label;
+  plot.series = {{"one point", {3}, {7}}};
+  EXPECT_EQ(to_svg(plot).find("nan"), std::string::npos);
+}
+
 TEST(LogLogPlot, APlotWithoutPointsIsStillAPicture) {
   const std::string svg = to_svg({"empty", "x", "y", {{"nothing", {}, {}}}});
   EXPECT_TRUE(svg.starts_with("<svg"));

@@ -73,6 +73,27 @@ TEST_F(Sweep, UsualValuesAreTimeAndMeasures) {
   EXPECT_THAT(lines("t.csv").at(1), HasSubstr("completed,0.05,"));
 }
 
+TEST_F(Sweep, DrawsOneValueAgainstTheKeys) {
+  const std::filesystem::path picture = folder_ / "p.svg";
+  ASSERT_EQ(sweep({"--vary", "contact.friction_angle=20,30", "--vary", "analysis.end_time=0.1,0.2", "--value",
+                   "middle.z", "--picture", picture.string()}),
+            exit_status::done)
+      << faults_;
+  // From the left to the right end of the axis, a line for each of the two times. The cube falls g t^2 / 2 in t.
+  const std::string svg = read_text(picture);
+  EXPECT_THAT(svg, AllOf(HasSubstr(">contact.friction_angle<"), HasSubstr(">middle.z<"),
+                         HasSubstr(">end_time = 0.1<"), HasSubstr(">end_time = 0.2<"), HasSubstr(">20<")));
+  std::size_t marks = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1))
+    ++marks;
+  EXPECT_EQ(marks, 4U);
+  EXPECT_EQ(sweep({"--vary", "material.rock.elasticity=linear", "--picture", picture.string()}),
+            exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr("one such key is needed"));
+  EXPECT_EQ(sweep({"--vary", "contact.friction_angle=20", "--picture", "p.jpg"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, HasSubstr(".svg or .png is needed"));
+}
+
 TEST_F(Sweep, IsTheRunOfItsSettings) {
   ASSERT_EQ(sweep({"--vary", "analysis.time_step=2e-2"}), 0);
   ASSERT_EQ(run("alone", {"--set", "analysis.time_step=2e-2"}), 0);

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "apps/results/base64.hpp"
 #include "apps/results/vtu_reader.hpp"
 #include "apps/view/view_file.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/apps/view/packed_reader.hpp"
 
 namespace ashlar {
 namespace {
@@ -67,12 +67,32 @@ struct ViewCommand : ::testing::Test {
     return element(page, "<script id=\"scene\" type=\"application/json\">");
   }
   static std::vector<float> floats(const std::string& base64) {
-    const std::string bytes = from_base64(base64);
+    const std::string bytes = inflated(base64);
     std::vector<float> values(bytes.size() / sizeof(float));
     std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
+  static PackedReader frame_of(const std::string& page, int frame) {
+    std::istringstream lines(element(page, "<script id=\"frames\" type=\"text/plain\">\n"));
+    std::string line;
+    for (int k = 0; k <= frame; ++k) std::getline(lines, line);
+    return PackedReader(inflated(line));
+  }
 };
+
+TEST_F(ViewCommand, OfSolidsThePageHoldsTheSurfaces) {
+  simulate();
+  ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+  const std::string page = read_text(folder / "out/view.html");
+  simulate({"--set", "output.solid=true", "--force"});
+  for (const VtkCellType type : read_vtu(folder / "out/frames/blocks_0000004.vtu").types)
+    EXPECT_EQ(type, VtkCellType::tetrahedron);
+  ASSERT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+  const std::string frames = "<script id=\"frames\" type=\"text/plain\">\n";
+  EXPECT_EQ(element(read_text(folder / "out/view.html"), frames), element(page, frames));
+  simulate({"--force"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/surfaces.pvd"));
+}
 
 TEST_F(ViewCommand, ThePageHoldsTheFrames) {
   simulate();
@@ -83,17 +103,16 @@ TEST_F(ViewCommand, ThePageHoldsTheFrames) {
   EXPECT_EQ(scene["points"], 8);
   EXPECT_EQ(scene["frames"][2]["time"], 0.25);
   EXPECT_EQ(scene["frames"][2]["step"], 2);
-  EXPECT_EQ(scene["summary"]["scene"]["block"][0]["name"], "</script><b>");
+  EXPECT_EQ(scene["blocks"][0]["name"], "</script><b>");
+  EXPECT_EQ(scene["analysis"], "dynamic");
+  EXPECT_FALSE(scene["summary"].contains("scene"));
   EXPECT_EQ(floats(scene["reference"]).size(), 24U);
-  std::istringstream lines(element(page, "<script id=\"frames\" type=\"text/plain\">\n"));
-  std::string line;
-  for (int frame = 0; frame < 3; ++frame) std::getline(lines, line);
-  const std::vector<float> values = floats(line);
-  ASSERT_EQ(values.size(), 8U * (3 + 3 + 6));
-  for (std::size_t point = 0; point < 8; ++point) {
-    EXPECT_FLOAT_EQ(values[3 * point], 0.25F);
-    EXPECT_FLOAT_EQ(values[24 + 3 * point], 1.0F);
-  }
+  PackedReader frame = frame_of(page, 2);
+  for (const auto& displacement : frame.displacements({{0, 8}}, 8)) EXPECT_FLOAT_EQ(displacement[0], 0.25F);
+  const std::vector<float> velocities = frame.reals(8, 3);
+  for (std::size_t point = 0; point < 8; ++point) EXPECT_FLOAT_EQ(velocities[3 * point], 1.0F);
+  for (const float stress : frame.reals(8, 6)) EXPECT_EQ(stress, 0.0F);
+  EXPECT_TRUE(frame.at_end());
 }
 
 TEST_F(ViewCommand, CurvedFramesLookLikeDividedOnes) {
@@ -103,30 +122,29 @@ TEST_F(ViewCommand, CurvedFramesLookLikeDividedOnes) {
     EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
     return read_text(folder / "out" / "view.html");
   };
-  const auto frame_of = [](const std::string& page, int frame) {
-    std::istringstream lines(element(page, "<script id=\"frames\" type=\"text/plain\">\n"));
-    std::string line;
-    for (int k = 0; k <= frame; ++k) std::getline(lines, line);
-    return floats(line);
-  };
   const std::string divided = page_with("false");
   const std::string curved = page_with("true");
   EXPECT_THAT(read_text(folder / "out" / "summary.json"), HasSubstr("\"curved\": true"));
   const auto divided_scene = nlohmann::json::parse(scene_of(divided));
   const auto curved_scene = nlohmann::json::parse(scene_of(curved));
   EXPECT_EQ(divided_scene["cells"], curved_scene["cells"]);
-  const auto expected = frame_of(divided, 3);
-  const auto seen = frame_of(curved, 3);
+  const int points = divided_scene["points"];
+  const auto places = [&](const std::string& page) {
+    return frame_of(page, 3).displacements({{0, points}}, points);
+  };
+  const auto expected = places(divided);
+  const auto seen = places(curved);
   ASSERT_EQ(seen.size(), expected.size());
-  // 12 numbers for each of the points; the last half are stresses, Pa.
-  for (std::size_t i = 0; i < seen.size() / 2; ++i) EXPECT_NEAR(seen[i], expected[i], 1e-6);
+  // A block of 1 m turns by 0.375 rad: displacements of 1/4 m differ by less than 2^-17 m from those that were packed.
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[i][k], expected[i][k], 2e-5);
 }
 
 TEST_F(ViewCommand, ThePageAsksForNothingElse) {
   simulate();
   ASSERT_EQ(run({"view", (folder / "out").string(), "-o", (folder / "p.html").string()}), exit_status::done);
   const std::string page = read_text(folder / "p.html");
-  for (const char* link : {" src=", "<link", "@import", "@THREE@", "@FRAMES@"})
+  for (const char* link : {" src=", "<link", "@import", "@LIBRARIES@", "@SCRIPT@", "@FRAMES@"})
     EXPECT_THAT(page, Not(HasSubstr(link))) << link;
   EXPECT_THAT(scene_of(page), Not(HasSubstr("<b>")));
 }
@@ -139,14 +157,16 @@ TEST_F(ViewCommand, RunWritesItAtTheEnd) {
 TEST_F(ViewCommand, LongRunsAreThinned) {
   simulate();
   const auto bytes_with = [&](std::size_t most) {
-    return write_view_file(folder / "out", folder / "v.html", {.most_bytes = most, .frame = {}});
+    return write_view_file(folder / "out", folder / "v.html",
+                           {.most_bytes = most, .points = ViewPoints::few, .frame = {}});
   };
   const ViewReport all = bytes_with(50'000'000);
   EXPECT_EQ(all.frames_kept, 5U);
   const ViewReport fewer = bytes_with(all.bytes - 1);
   EXPECT_EQ(fewer.frames_kept, 3U);
   EXPECT_LT(fewer.bytes, all.bytes);
-  const ViewReport least = write_view_file(folder / "out", folder / "v.html", {.most_bytes = 0, .frame = 3});
+  const ViewReport least = write_view_file(folder / "out", folder / "v.html",
+                                           {.most_bytes = 0, .points = ViewPoints::few, .frame = 3});
   EXPECT_EQ(least.frames_kept, 3U);
   std::vector<int> indices;
   const auto scene = nlohmann::json::parse(scene_of(read_text(folder / "v.html")));

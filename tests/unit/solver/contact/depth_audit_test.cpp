@@ -13,7 +13,7 @@ namespace {
 using test_support::block_of;
 
 const Material rock{2500.0, 1e10, 0.2};
-const AuditScope all_pairs{[](int, int) { return true; }, std::vector<bool>(8, true), 1e-6, 1};
+const AuditScope all_pairs{[](int, int) { return true; }, std::vector<bool>(8, true), 1e-6};
 
 /// Audits two blocks where they are placed.
 std::vector<PairDepth> audit(const Polyhedron& first, const Polyhedron& second, int order,
@@ -29,7 +29,7 @@ std::vector<PairDepth> audit(const Polyhedron& first, const Polyhedron& second, 
   }
   DepthAudit audit(2);
   (void)audit.run(blocks, states, surfaces, scope);
-  return audit.run(blocks, states, surfaces, scope);  // with what the first one has found clear
+  return audit.run(blocks, states, surfaces, scope).depths;  // with what the first one has found clear
 }
 
 Polyhedron cube(const Vector3& low, double side = 1.0) {
@@ -82,6 +82,46 @@ TEST(DepthAudit, ACornerInTheNotchOfAnLIsOutside) {
   ASSERT_FALSE(depths.empty());
   // Its lower corners are sqrt(0.02) from the reflex edge, its vertical edge as deep between them.
   EXPECT_NEAR(depths[0].depth, std::sqrt(0.02), 1e-6);
+}
+
+TEST(DepthAudit, WhatHasHardlyMovedIsNotAskedAgain) {
+  // A cube 0.1 deep in the one below.
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(block_of("above", cube({0.2, 0.2, 0.9}, 0.5), rock, 1));
+  blocks.emplace_back(block_of("below", cube({0, 0, 0}), rock, 1));
+  std::vector<BlockState> states;
+  std::vector<BlockSurface> surfaces;
+  for (const BlockModel& block : blocks) {
+    states.push_back(block.initial_state());
+    surfaces.emplace_back(block, 0, Eigen::Matrix3d::Identity());
+  }
+  AuditScope scope = all_pairs;
+  scope.unmoved = 1e-3;
+  scope.fine = false;
+  DepthAudit audit(2);
+  KnownDepths known;
+  const Audit first = audit.run(blocks, states, surfaces, scope, known);
+  EXPECT_EQ(first.moved.size(), 2U);
+  ASSERT_FALSE(first.depths.empty());
+  EXPECT_EQ(first.depths[0].blocks, (std::array{0, 1}));
+  EXPECT_NEAR(first.depths[0].depth, 0.1, 1e-12);
+  first.take_over(known);
+  const auto move = [&](double down) {
+    states[0].position += blocks[0].basis().linear_field({0, 0, -down}, Eigen::Matrix3d::Zero());
+  };
+  move(4e-4);
+  // Another audit, that of a run that goes on, knows as much.
+  DepthAudit resumed(2);
+  for (DepthAudit* one : {&audit, &resumed}) {
+    const Audit second = one->run(blocks, states, surfaces, scope, known);
+    EXPECT_TRUE(second.moved.empty());
+    ASSERT_EQ(second.depths.size(), first.depths.size());
+    EXPECT_NEAR(second.depths[0].depth, 0.1 + 4e-4, 1e-12);
+  }
+  move(7e-4);  // 1.1e-3 since it was looked at
+  const Audit third = audit.run(blocks, states, surfaces, scope, known);
+  EXPECT_EQ(third.moved, std::vector{0});
+  EXPECT_NEAR(third.depths[0].depth, 0.1 + 1.1e-3, 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,177 @@
+// The controls, and show(), which brings the picture in line with `current`.
+
+const currentFrame = () => data.frames[current.frame];
+
+function clockText(frame) {
+  const scale = current.scale === 1 ? "" : ", displacements × " + short(current.scale);
+  const when = data.isStatic ? "iteration " + frame.step : "t = " + short(frame.time) + " s, step " + frame.step;
+  return when + scale;
+}
+
+function show() {
+  const frame = currentFrame();
+  const field = blockField();
+  const range = rangeOf(field, frame);
+  moveSurface(frame);
+  colourSurface(field, frame, range);
+  styleSurface();
+  placeJoints(frame);
+  placeForces(frame);
+  placeAllVectors(frame);
+  placeSection(field, range);
+  element("force-note").textContent = forceNote(frame);
+  element("clock").textContent = clockText(frame);
+  showRange(mainField(), rangeOf(mainField(), frame));
+  render();
+  noteAddress();
+}
+
+/// The range in the two fields of the control, in the unit of the legend.
+function showRange(field, range) {
+  const own = current.range === "own";
+  element("own-range").hidden = !range;
+  for (const [id, k] of [["low", 0], ["high", 1]]) {
+    const input = element(id);
+    input.disabled = !own;
+    if (!range || document.activeElement === input) continue;
+    const {name, factor} = unitFor(field.unit, Math.max(Math.abs(range[0]), Math.abs(range[1])));
+    input.value = short(range[k] / factor);
+    input.dataset.factor = factor;
+    element("range-unit").textContent = name;
+  }
+}
+
+function showFrame(index) {
+  if (index !== current.frame && (current.picked.contact || current.picked.joint !== undefined)) current.picked = {};
+  current.frame = index;
+  element("slider").value = index;
+  updatePicked();
+  show();
+  for (const plot of plots) plot.draw();
+}
+
+function play() {
+  if (current.timer) {
+    clearInterval(current.timer);
+    current.timer = null;
+  } else {
+    const pause = Math.min(Math.max(8000 / data.frames.length, 33), 500);
+    current.timer = setInterval(() => showFrame((current.frame + 1) % data.frames.length), pause);
+  }
+  element("play").textContent = current.timer ? "⏸" : "▶";
+}
+
+// ---- ties between controls and `current` --------------------------------------------------------------------
+
+const positive = (input) => Math.max(0, Number(input.value) || 0);
+
+/// [id of the control, member of `current`, how to read it]
+const TIES = [
+  ["field", "field"], ["range", "range"], ["units", "units"], ["joints", "joints"], ["vectors", "vectors"],
+  ["section", "section"], ["theme", "theme"], ["contact-colour", "points"],
+  ["scale", "scale", positive], ["force-scale", "forceScale", positive], ["section-at", "sectionAt", (input) => Number(input.value)],
+  ["edges", "edges", "checked"], ["sub-faces", "subFaces", "checked"], ["see-through", "seeThrough", "checked"],
+  ["open-contacts", "openContacts", "checked"], ["arrows", "arrows", "checked"], ["chain", "chain", "checked"],
+  ["thrust", "thrust", "checked"], ["crosses", "crosses", "checked"], ["marks-shown", "marks", "checked"],
+];
+
+/// Puts the state into the controls.
+function syncControls() {
+  for (const [id, member, read] of TIES) {
+    if (read === "checked") element(id).checked = current[member];
+    else if (id !== "section-at") element(id).value = current[member];
+  }
+  for (const number of [1, 2]) {
+    element("plot-" + number + "-group").value = current["y" + number];
+    element("plot-" + number + "-x").value = current["x" + number];
+  }
+  syncSection();
+}
+
+/// The way of the slider is that of the axis.
+function syncSection() {
+  const [low, high] = sectionWay();
+  const slider = element("section-at");
+  Object.assign(slider, {min: low, max: high, step: (high - low) / 200, disabled: current.section === "none"});
+  slider.value = current.sectionAt;
+  element("section-place").textContent = current.section === "none" ? "" : current.section.slice(-1) + " = "
+    + short(current.sectionAt) + " m";
+}
+
+function afterChange(member) {
+  // Limits are those of what was coloured when they were typed.
+  if (member === "field" || member === "joints") Object.assign(current, {low: null, high: null});
+  if (member === "section") {
+    const [low, high] = sectionWay();
+    current.sectionAt = 0.5 * (low + high);
+  }
+  if (member.startsWith("section")) syncSection();
+  if (member === "theme") setTheme();
+  if (member === "units" || member === "theme") for (const number of [1, 2]) showPlot(number);
+  if (member === "units") showSummary();
+  updatePicked();
+  show();
+}
+
+function tieControls() {
+  const options = (id, entries) => element(id).replaceChildren(...entries.map(([value, label]) => new Option(label, value)));
+  options("field", Object.entries(fields).map(([key, field]) => [key, field.label]));
+  options("joints", [["none", "not shown"], ...Object.entries(JOINT_FIELDS).map(([key, field]) => [key, field.label])]);
+  options("range", Object.entries(RANGE_NAMES));
+  options("vectors", [["none", "none"], ["displacement", "displacement"], ...(data.velocity ? [["velocity", "velocity"]] : [])]);
+  element("joints").disabled = !hasJoints();
+  element("crosses").disabled = !data.stress;
+  for (const [id, member, read] of TIES) {
+    const control = element(id);
+    const change = () => {
+      current[member] = read === "checked" ? control.checked : read ? read(control) : control.value;
+      afterChange(member);
+    };
+    control.addEventListener("change", change);
+    if (control.type === "range") control.addEventListener("input", change);
+  }
+  for (const [id, member] of [["low", "low"], ["high", "high"]]) {
+    element(id).addEventListener("change", ({target}) => {
+      const value = Number(target.value) * Number(target.dataset.factor || 1);
+      current[member] = target.value === "" || !Number.isFinite(value) ? null : value;
+      show();
+    });
+  }
+  syncControls();
+}
+
+function lookAtView(name) {
+  Object.assign(current, {view: name, from: new THREE.Vector3(...VIEWS[name]), at: null, zoom: 1});
+  lookFrom(current.from);
+  render();
+  noteAddress();
+}
+
+function tieStage() {
+  element("slider").max = data.frames.length - 1;
+  element("slider").addEventListener("input", (event) => showFrame(Number(event.target.value)));
+  element("play").addEventListener("click", play);
+  element("home").addEventListener("click", () => lookAtView("start"));
+  for (const button of document.querySelectorAll("[data-view]"))
+    button.addEventListener("click", () => lookAtView(button.dataset.view));
+  document.addEventListener("keydown", (event) => {
+    if (event.target.matches("input, select, button")) return;
+    if (event.code === "Space") play();
+    else if (event.code === "ArrowRight") showFrame(Math.min(current.frame + 1, data.frames.length - 1));
+    else if (event.code === "ArrowLeft") showFrame(Math.max(current.frame - 1, 0));
+    else return;
+    event.preventDefault();
+  });
+  window.addEventListener("resize", resize);
+  window.addEventListener("hashchange", followAddress);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => afterChange("theme"));
+  controls.addEventListener("change", renderTurning);
+  controls.addEventListener("start", beginTurning);
+  controls.addEventListener("end", endTurning);
+  pickOnClick(element("canvas"));
+}
+
+function setTheme() {
+  document.documentElement.dataset.theme = themeName();
+  stage.background = new THREE.Color(theme().background);
+}

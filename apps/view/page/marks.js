@@ -1,0 +1,56 @@
+// What is drawn over the scene: legend, axes, scale bar.
+
+/// The three axes as one sees them, in the lower right corner.
+function drawAxes(context, {width, height}) {
+  const size = 26;
+  const [x, y] = [width - 44, height - frameSize.bottom - 18];
+  const toCamera = new THREE.Quaternion().copy(camera.quaternion).inverse();
+  const axes = [["x", "#c92a2a"], ["y", "#2b8a3e"], ["z", "#1864ab"]].map(([name, colour], k) => {
+    const seen = new THREE.Vector3(...[0, 1, 2].map((c) => (c === k ? 1 : 0))).applyQuaternion(toCamera);
+    return {name, colour, seen};
+  }).sort((a, b) => a.seen.z - b.seen.z);
+  context.font = "bold 12px system-ui, sans-serif";
+  context.textAlign = "center";
+  for (const {name, colour, seen} of axes) {
+    const [toX, toY] = [x + size * seen.x, y - size * seen.y];
+    context.lineWidth = 2.5;
+    context.strokeStyle = colour;
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(toX, toY);
+    context.stroke();
+    if (Math.hypot(seen.x, seen.y) > 0.15) drawText(context, name, x + (size + 9) * seen.x, y - (size + 9) * seen.y + 4);
+  }
+  context.textAlign = "left";
+}
+
+/// A round length, as long as it looks at the middle of the scene: nearer things look larger.
+function drawScaleBar(context, {width, height}) {
+  const distance = camera.position.distanceTo(controls.target);
+  const metresOfPixel = 2 * distance * Math.tan(0.5 * THREE.Math.degToRad(camera.fov)) / height;
+  const length = roundBelow(metresOfPixel * Math.min(140, 0.3 * width));
+  const pixels = length / metresOfPixel;
+  const [x, y] = [width - 84 - pixels, height - frameSize.bottom + 4];
+  context.fillStyle = theme().text;
+  context.fillRect(x, y, pixels, 2);
+  for (const end of [x, x + pixels - 1.5]) context.fillRect(end, y - 4, 1.5, 10);
+  context.font = LEGEND_FONT;
+  context.textAlign = "center";
+  drawText(context, lengthText(length), x + 0.5 * pixels, y - 6);
+  context.textAlign = "left";
+}
+
+/// A length in the unit in which it is a short number: 5 mm, 20 cm, 2 m, 1 km.
+function lengthText(length) {
+  const [name, factor] = current.units === "si" ? ["m", 1]
+    : [["km", 1e3], ["m", 1], ["cm", 1e-2], ["mm", 1e-3], ["µm", 1e-6]].find(([, unit]) => length >= 0.999 * unit)
+      || ["µm", 1e-6];
+  return short(length / factor) + " " + name;
+}
+
+function drawMarks(context) {
+  drawLegend(context, currentFrame(), frameSize.legend);
+  if (!current.marks) return;
+  drawAxes(context, frameSize);
+  drawScaleBar(context, frameSize);
+}

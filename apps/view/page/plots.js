@@ -1,0 +1,218 @@
+// The history: columns of history.csv against time, iteration or any other one; as a picture or a table to take away.
+
+// Okabe and Ito's colours, which tell apart without colour vision, then darker ones.
+const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f", "#7f3c8d",
+  "#8a8a00", "#a02c2c", "#5c5c5c"];
+
+const COLUMN_UNITS = [[/^time$|^dt$/, "s"], [/^energy\./, "J"], [/^momentum\./, "N s"], [/^angular_momentum\./, "N m s"],
+  [/\.(u?[xyz]|opening|slip)$|^penetration\./, "m"], [/\.v[xyz]$/, "m/s"], [/\.s(xx|yy|zz|xy|yz|xz)$/, "Pa"],
+  [/\.r[xyz]$/, "degrees"], [/_force$/, "N"], [/\.area$/, "m²"]];
+
+function unitOfColumn(name) {
+  const known = COLUMN_UNITS.find(([pattern]) => pattern.test(name));
+  return known ? known[1] : "";
+}
+
+/// name of a group: {unit, columns, change: whether differences from the first row are shown}; measures first.
+function plotGroups(columns) {
+  const groups = {};
+  const add = (name, list, more = {}) => {
+    if (list.length > 0) groups[name] = {unit: unitOfColumn(list[0]), columns: list, ...more};
+  };
+  const measures = new Set(columns.filter((name) => /\.(ux|normal_force)$/.test(name))
+    .map((name) => name.replace(/\.(ux|normal_force)$/, "")));
+  for (const measure of measures) {
+    const parts = (list) => list.map((part) => measure + "." + part).filter((name) => columns.includes(name));
+    add(measure + ": displacement", parts(["ux", "uy", "uz"]));
+    add(measure + ": position", parts(["x", "y", "z"]));
+    add(measure + ": velocity", parts(["vx", "vy", "vz"]));
+    add(measure + ": rotation", parts(["rx", "ry", "rz"]));
+    add(measure + ": stress", parts(STRESS_NAMES.map((name) => "s" + name)));
+    add(measure + ": forces", parts(["normal_force", "shear_force"]));
+    add(measure + ": opening and slip", parts(["opening", "slip"]));
+  }
+  const starting = (start) => columns.filter((name) => name.startsWith(start));
+  // Most runs have no damping, many no loads: what does not change only crowds the plot.
+  const changes = (name) => data.history.values[name].some((value, _, all) => value !== all[0]);
+  add("energies", starting("energy.").filter(changes), {change: true});
+  add("contacts", starting("contacts."), {unit: "points"});
+  add("step size", columns.filter((name) => name === "dt"));
+  add("penetration", starting("penetration."));
+  add("open-close iterations", starting("open_close."));
+  add("momentum", starting("momentum."));
+  add("angular momentum", starting("angular_momentum."));
+  for (const column of columns) groups[column] = {unit: unitOfColumn(column), columns: [column], single: true};
+  return groups;
+}
+
+/// Row of the history that is nearest to a frame.
+function rowOfFrame(frame) {
+  const steps = data.history.values.step;
+  let nearest = 0;
+  steps.forEach((step, row) => { if (Math.abs(step - frame.step) < Math.abs(steps[nearest] - frame.step)) nearest = row; });
+  return nearest;
+}
+
+/// The column that curves are drawn against unless the user chooses another one: a static analysis has no time.
+const usualColumn = () => (data.isStatic && data.history.columns.includes("step") ? "step" : "time");
+const columnLabel = (name) => (name === "step" && data.isStatic ? "iteration" : name);
+
+function labelWithUnit(name, unit) {
+  return unit ? name + " (" + unit + ")" : name;
+}
+
+const cursor = {
+  id: "cursor",
+  /// A line at the frame shown.
+  afterDraw(chart) {
+    const {ctx: context, chartArea: area, scales, ashlar} = chart;
+    if (!ashlar || !area) return;
+    const x = scales.x.getPixelForValue(ashlar.xValues[rowOfFrame(currentFrame())]);
+    if (!(x >= area.left - 1 && x <= area.right + 1)) return;
+    context.save();
+    context.strokeStyle = "#e03131";
+    context.beginPath();
+    context.moveTo(x, area.top);
+    context.lineTo(x, area.bottom);
+    context.stroke();
+    context.restore();
+  },
+};
+
+function axis(title) {
+  return {type: "linear", title: {display: title !== "", text: title},
+    ticks: {maxTicksLimit: 6, includeBounds: false, callback: (value) => short(Number(value.toPrecision(12)))}};
+}
+
+/// What a plot shows: [{label, x, y}] with units. @return {curves, xValues, xTitle, yTitle}
+function curvesOf(group, xColumn) {
+  const {values} = data.history;
+  const scaled = (list, unit) => {
+    const largest = list.reduce((most, column) =>
+      column.reduce((size, value) => (Number.isFinite(value) ? Math.max(size, Math.abs(value)) : size), most), 0);
+    const {name, factor} = unitFor(unit, largest);
+    return {name, lists: list.map((column) => column.map((value) => value / factor))};
+  };
+  const x = scaled([values[xColumn]], unitOfColumn(xColumn));
+  const y = scaled(group.columns.map((column) =>
+    (group.change ? values[column].map((value) => value - values[column][0]) : values[column])), group.unit);
+  const shorter = (column) => (group.columns.length > 1 ? column.slice(column.lastIndexOf(".") + 1) : column);
+  const curves = group.columns.map((column, k) => ({label: shorter(column).replaceAll("_", " "), y: y.lists[k]}));
+  const yTitle = group.change ? labelWithUnit("change since the start", y.name) : y.name;
+  return {curves, xValues: x.lists[0], xTitle: labelWithUnit(columnLabel(xColumn), x.name), yTitle};
+}
+
+function colourChart(chart) {
+  const {text} = theme();
+  const grid = themeName() === "dark" ? "#3a404a" : "#e3e5e8";
+  for (const scale of Object.values(chart.options.scales))
+    Object.assign(scale, {grid: {color: grid}, title: {...scale.title, color: text}, ticks: {...scale.ticks, color: text}});
+  chart.options.plugins.legend.labels.color = text;
+}
+
+/// @param number 1 or 2
+function showPlot(number) {
+  const chart = plots[number - 1];
+  const group = plotGroups.all[current["y" + number]] || Object.values(plotGroups.all)[0];
+  const made = curvesOf(group, current["x" + number]);
+  chart.ashlar = {...made, name: current["y" + number]};
+  chart.data.datasets = made.curves.map(({label, y}, k) => {
+    const colour = CURVE_COLOURS[k % CURVE_COLOURS.length];
+    return {label, data: y.map((value, row) => ({x: made.xValues[row], y: value})), borderColor: colour,
+      backgroundColor: colour, borderWidth: 1.8, pointRadius: 0};
+  });
+  Object.assign(chart.options.scales, {x: axis(made.xTitle), y: axis(made.yTitle)});
+  const along = made.xValues.filter(Number.isFinite);
+  Object.assign(chart.options.scales.x, {min: Math.min(...along), max: Math.max(...along)});
+  colourChart(chart);
+  chart.update();
+}
+
+function buildPlot(number) {
+  const chart = new Chart(element("plot-" + number), {type: "line", data: {datasets: []}, plugins: [cursor],
+    options: {animation: false, parsing: false, maintainAspectRatio: false, interaction: {mode: "nearest", axis: "x"},
+      scales: {x: axis(""), y: axis("")},
+      plugins: {legend: {labels: {boxWidth: 10, boxHeight: 2, padding: 6, font: {size: 11}}}},
+      onClick: (event) => showFrame(frameAtX(chart, chart.scales.x.getValueForPixel(event.x)))}});
+  const ySelect = element("plot-" + number + "-group"), xSelect = element("plot-" + number + "-x");
+  const names = Object.keys(plotGroups.all);
+  const section = (label, list) => {
+    const section = document.createElement("optgroup");
+    section.label = label;
+    section.append(...list.map((name) => new Option(columnLabel(name), name)));
+    return section;
+  };
+  const isSingle = (name) => plotGroups.all[name].single;
+  ySelect.replaceChildren(section("groups", names.filter((name) => !isSingle(name))), section("columns", names.filter(isSingle)));
+  xSelect.replaceChildren(...data.history.columns.map((name) => new Option(columnLabel(name), name)));
+  for (const [select, key] of [[ySelect, "y" + number], [xSelect, "x" + number]]) {
+    select.value = current[key];
+    select.addEventListener("change", () => {
+      current[key] = select.value;
+      showPlot(number);
+      noteAddress();
+    });
+  }
+  element("plot-" + number + "-png").addEventListener("click", () => savePlotPicture(chart));
+  element("plot-" + number + "-csv").addEventListener("click", () => savePlotTable(chart));
+  return chart;
+}
+
+function choosePlots() {
+  plotGroups.all = plotGroups(data.history.columns);
+  const names = Object.keys(plotGroups.all);
+  const first = names[0];
+  const second = first !== "energies" && "energies" in plotGroups.all ? "energies" : names[1] || first;
+  Object.assign(current, {x1: usualColumn(), x2: usualColumn(), y1: first, y2: second});
+}
+
+function buildPlots() {
+  plots.push(buildPlot(1), buildPlot(2));
+  for (const number of [1, 2]) showPlot(number);
+}
+
+/// The frame whose row has an abscissa nearest to x.
+function frameAtX(chart, x) {
+  let nearest = 0;
+  const at = (k) => chart.ashlar.xValues[rowOfFrame(data.frames[k])];
+  data.frames.forEach((_, k) => { if (Math.abs(at(k) - x) < Math.abs(at(nearest) - x)) nearest = k; });
+  return nearest;
+}
+
+// ---- to take away -----------------------------------------------------------------------------------------
+
+function save(name, address) {
+  const link = document.createElement("a");
+  Object.assign(link, {href: address, download: name});
+  link.click();
+}
+
+const fileName = (chart, suffix) => (data.name + "_" + chart.ashlar.name).replace(/[^\w.-]+/g, "_") + suffix;
+
+/// The plot on its background, which the canvas itself has not.
+function plotPicture(chart) {
+  const picture = document.createElement("canvas");
+  Object.assign(picture, {width: chart.canvas.width, height: chart.canvas.height});
+  const context = picture.getContext("2d");
+  context.fillStyle = theme().background;
+  context.fillRect(0, 0, picture.width, picture.height);
+  context.drawImage(chart.canvas, 0, 0);
+  return picture.toDataURL("image/png");
+}
+
+/// Rows as they are drawn, in the units of the axes, as CSV.
+function plotTable(chart) {
+  const {curves, xValues, xTitle, yTitle} = chart.ashlar;
+  const quoted = (text) => '"' + text.replaceAll('"', '""') + '"';
+  const unit = (yTitle.match(/\(([^)]*)\)$/) || [null, yTitle])[1];
+  const head = [xTitle, ...curves.map(({label}) => labelWithUnit(label, unit))].map(quoted).join(",");
+  return [head, ...xValues.map((x, row) => [x, ...curves.map(({y}) => y[row])].join(","))].join("\n") + "\n";
+}
+
+const savePlotPicture = (chart) => save(fileName(chart, ".png"), plotPicture(chart));
+
+function savePlotTable(chart) {
+  const address = URL.createObjectURL(new Blob([plotTable(chart)], {type: "text/csv"}));
+  save(fileName(chart, ".csv"), address);
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}

@@ -1,0 +1,70 @@
+// The frames of a result folder as the page of `ashlar view` holds them: what does not change once, what does
+// frame by frame, packed.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/results/pvd_writer.hpp"
+#include "apps/view/block_union.hpp"
+#include "apps/view/curved_cells.hpp"
+
+namespace ashlar {
+
+/// What does not change from frame to frame.
+struct ViewSurface {
+  std::vector<Vector3> reference;   ///< places less displacements, m
+  std::vector<int> block_of_point;  ///< -1: no cell uses it
+  std::vector<std::int32_t> cells;  ///< block, order, face, number of corners, corners; cell after cell
+  bool velocity = false;
+  bool stress = false;
+};
+
+struct ViewFrameData {
+  nlohmann::ordered_json head;  ///< index, step, time (s) and the counts of ViewFrames::read
+  std::string data;             ///< base64 of a zlib stream of PackedNumbers
+};
+
+/// Which contact points a page holds.
+enum class ViewPoints {
+  few,  ///< those of frames with at most most_few_points: more hide the blocks, and are most of a page's bytes
+  all,
+};
+inline constexpr std::size_t most_few_points = 500;
+
+/// The frames of a result folder. Functions throw std::runtime_error with path and reason if a file cannot be read
+/// or is not what a run writes.
+class ViewFrames {
+ public:
+  explicit ViewFrames(const std::filesystem::path& folder, ViewPoints points = ViewPoints::few);
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] const ViewSurface& surface() const { return surface_; }
+
+  /// Packed one after the other, #p points of the surface:
+  ///   displacements; velocities and stresses (xx, yy, zz, xy, yz, xz) if the run has them
+  ///   joints, faces of joints.pvd: numbers of corners, states (3 more: broken), blocks a, blocks b; opening, slip (its
+  ///   length), normal_traction, shear_traction, area; places of the corners, face after face
+  ///   links, joint_resultants: blocks a, b, states; forces; places
+  ///   points, contact points: types, states, blocks a, blocks b; forces, normals, gaps, areas; places
+  /// A part of which there is none (joints, links or points) takes no bytes.
+  /// head: joints (faces), corners (of all of them), links, points (that are here), contacts (points that there are)
+  [[nodiscard]] ViewFrameData read(std::size_t index) const;
+
+ private:
+  std::filesystem::path folder_;
+  ViewPoints points_;
+  std::vector<PvdFrame> blocks_;
+  std::vector<PvdFrame> contacts_;
+  std::vector<PvdFrame> joints_;  ///< none: of a version that wrote no joints.pvd
+  std::size_t count_ = 0;
+  BlockUnion all_blocks_;  ///< empty unless blocks come and go
+  std::unique_ptr<const CurvedCells> curved_;
+  ViewSurface surface_;
+};
+
+}  // namespace ashlar
