@@ -21,7 +21,10 @@ from . import _core
 from ._toml import to_toml as _to_toml
 
 __version__ = _core.version.split()[1] if len(_core.version.split()) > 1 else _core.version
-__all__ = ["Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate", "run", "schema"]
+__all__ = ["Block", "Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate", "run", "schema"]
+
+
+Block = _core.Block
 
 
 class SceneError(ValueError):
