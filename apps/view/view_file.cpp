@@ -42,6 +42,18 @@ Json summary_json(const std::filesystem::path& folder) {
   return naming_the_file(path, [&] { return parse_json(whole_file(path)); });
 }
 
+/// The type of the analysis; of a run in stages "dynamic" if one of them is, else that of the first. Null: not known.
+Json analysis_of(const Json& scene) {
+  const auto type_in = [](const Json& table) -> Json {
+    if (!table.is_object() || !table.contains("analysis") || !table["analysis"].is_object()) return nullptr;
+    return table["analysis"].value("type", Json());
+  };
+  if (!scene.contains("stage") || !scene["stage"].is_array() || scene["stage"].empty()) return type_in(scene);
+  for (const Json& stage : scene["stage"])
+    if (type_in(stage) == "dynamic") return "dynamic";
+  return type_in(scene["stage"].front());
+}
+
 /// What the page needs of the scene: the kind of analysis, names and materials of blocks. The scene itself may
 /// hold long histories. @param summary from which the scene is taken out
 void move_scene(Json& summary, Json& page) {
@@ -51,8 +63,7 @@ void move_scene(Json& summary, Json& page) {
   const Json scene = std::move(summary["scene"]);
   summary.erase("scene");
   if (!scene.is_object()) return;
-  if (scene.contains("analysis") && scene["analysis"].is_object() && scene["analysis"].contains("type"))
-    page["analysis"] = scene["analysis"]["type"];
+  page["analysis"] = analysis_of(scene);
   if (!scene.contains("block") || !scene["block"].is_array()) return;
   for (const Json& block : scene["block"]) {
     Json kept = Json::object();

@@ -319,6 +319,9 @@ class ViewTest(unittest.TestCase):
         self.assertEqual(self.evaluate("scaleOf({unit: 'm'}, [0, 0.9064], 5).unit"), "mm")
         self.assertEqual(self.evaluate("roundTicks(-0.3, 0.31, 6).map(Number)"), [-0.3, -0.2, -0.1, 0, 0.1, 0.2, 0.3])
         self.assertEqual(self.evaluate("quantity(9.1e6, 'Pa')"), "9.1 MPa")
+        texts = self.evaluate("scaleOf({unit: 's'}, [0.036261, 0.036263], 4).ticks.map(tick => tick.text)")
+        self.assertEqual(len(set(texts)), len(texts))
+        self.assertIn("0.0362615", texts)
 
     def test_blocks_are_found_hidden_and_isolated(self):
         self.open("arch", "#color=block&contacts=none")
@@ -391,7 +394,7 @@ class ViewTest(unittest.TestCase):
 
     def test_every_mode_is_drawn_fits_and_is_legible(self):
         modes = {"usual": "", "thrust": "#thrust=yes&color=stone&contacts=none", "opening": "#joints=opening&frame=LAST",
-                 "shear": "#joints=shear&frame=LAST", "state": "#joints=state&frame=LAST", "section": "#section=x,0",
+                 "shear": "#joints=shear&frame=LAST", "state": "#joints=state&frame=LAST", "section": "#section=x,0.1",
                  "vectors": "#vectors=displacement&frame=LAST", "stress": "#color=sigma_3&crosses=yes&frame=LAST",
                  "si": "#units=si&range=percentile&frame=LAST", "dark": "#theme=dark&frame=LAST", "top": "#from=top"}
         keep = os.environ.get("ASHLAR_SCREENSHOTS")

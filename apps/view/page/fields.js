@@ -45,8 +45,8 @@ function fieldsOf(data) {
   if (data.stress) {
     add("von_mises", "von Mises stress", "Pa", (f, p) => vonMises(f.stress, p));
     add("pressure", "pressure", "Pa", (f, p) => pressure(f.stress, p), true);
-    add("sigma_1", "σ₁, largest tension", "Pa", (f, p) => principal(f.stress, p)[0], true);
-    add("sigma_3", "σ₃, largest compression −", "Pa", (f, p) => principal(f.stress, p)[2], true);
+    add("sigma_1", "σ₁, largest principal stress", "Pa", (f, p) => principal(f.stress, p)[0], true);
+    add("sigma_3", "σ₃, least principal stress", "Pa", (f, p) => principal(f.stress, p)[2], true);
     STRESS_NAMES.forEach((name, k) => add("stress_" + name, "stress " + name, "Pa", (f, p) => f.stress[6 * p + k], true));
   }
   fields.block = {label: "block", category: (block) => block, name: (block) => data.blocks[block].name};

@@ -46,9 +46,8 @@ function gradientOf(context, field, from, to) {
 function scaleOf(field, range, about) {
   const unit = unitFor(field.unit, Math.max(Math.abs(range[0]), Math.abs(range[1])));
   const [low, high] = range.map((value) => value / unit.factor);
-  const ticks = roundTicks(low, high, about).map((tick) =>
-    ({share: (tick - low) / (high - low), text: short(Number(tick.toPrecision(12)))}));
-  return {unit: unit.name, ticks};
+  const ticks = roundTicks(low, high, about);
+  return {unit: unit.name, ticks: ticks.map((tick) => ({share: (tick - low) / (high - low), text: tickText(tick, ticks)}))};
 }
 
 const scaleTitle = (field, range) => field.label + (field.unit ? " (" + scaleOf(field, range, 5).unit + ")" : "");

@@ -44,6 +44,14 @@ function roundTicks(low, high, about = 5) {
   return ticks;
 }
 
+/// A tick with as many digits as tell it from the next one.
+function tickText(tick, ticks) {
+  if (tick === 0 || ticks.length < 2) return short(tick);
+  const largest = Math.max(...ticks.map(Math.abs));
+  const digits = Math.ceil(Math.log10(largest / Math.abs(ticks[1] - ticks[0]))) + 1;
+  return digits <= 4 ? short(tick) : String(Number(tick.toPrecision(Math.min(digits, 12))));
+}
+
 /// The round number, 1, 2 or 5 times a power of ten, next below a size.
 function roundBelow(size) {
   const power = 10 ** Math.floor(Math.log10(size));

@@ -234,6 +234,20 @@ TEST_F(ViewCommand, ArraysOfAnotherShapeNameFileAndArray) {
                 HasSubstr(contacts + ": array '" + name + "' has 3 components"));
 }
 
+TEST_F(ViewCommand, ARunInStagesHasTimesIfOneOfThemMoves) {
+  simulate();
+  const auto analysis_with = [&](const std::string& stages) {
+    write_text(folder / "out/summary.json",
+               R"({"scene": {"analysis": {"type": "static"}, "stage": [)" + stages + "]}}");
+    EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
+    return nlohmann::json::parse(scene_of(read_text(folder / "out" / "view.html")))["analysis"];
+  };
+  const std::string rest = R"({"analysis": {"type": "static"}})";
+  EXPECT_EQ(analysis_with(""), "static");
+  EXPECT_EQ(analysis_with(rest), "static");
+  EXPECT_EQ(analysis_with(rest + R"(, {"analysis": {"type": "dynamic"}})"), "dynamic");
+}
+
 TEST_F(ViewCommand, ASummaryThatIsNoneIsNamed) {
   simulate();
   const auto view_with = [&](const std::string& text) {
