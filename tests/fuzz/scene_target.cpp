@@ -56,7 +56,8 @@ bool formula(std::string_view bytes) {
 }
 
 bool record(std::string_view bytes) {
-  const SceneRecord record{.file = "r.csv", .time = "t", .values = {"a", "", "b"}, .scale = 2.0};
+  const SceneRecord record{
+      .file = "r.csv", .time = "t", .values = {"a", "", "b"}, .scale = 2.0, .sha256 = {}};
   Diagnostics diagnostics;
   std::istringstream content{std::string(bytes)};
   const auto rows = parse_record(record, content, "r.csv", diagnostics);

@@ -256,7 +256,7 @@ class Samples(unittest.TestCase):
         grid = self.grid("solids.vtu")
         self.assertEqual({grid.GetCellType(k) for k in range(grid.GetNumberOfCells())}, {VTK_TETRA})
         # A box of 2 m^3, a frame of 8 m^3 from x = 4 to 7 with a hole from 5 to 6, a bar of 2 m^3.
-        self.assertAlmostEqual(volume(grid), 12, delta=1e-12)
+        self.assertAlmostEqual(volume(grid) / 12, 1, delta=1e-12)
         for x, area in ((0.7, 2), (4.5, 3), (5.5, 2), (6.25, 3)):
             self.assertAlmostEqual(section_area(grid, x), area, delta=1e-6)
         for x, below in ((0.5, 1), (4.5, 4 + 1.5), (5.5, 4 + 3 + 1)):

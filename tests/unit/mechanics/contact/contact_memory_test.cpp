@@ -42,6 +42,23 @@ TEST(ContactMemory, SlipGoesWithAVertexOverAnEdgeThatIsNotSharpAndABondDoesNot) 
   EXPECT_FALSE(next.intact);
 }
 
+TEST(ContactMemory, DilationGoesWithSlip) {
+  PointMemory low = slipped({1e-6, 0, 0}), high = low;
+  low.dilation = 2e-3;
+  high.dilation = 4e-3;
+  high.level_dilation = 1e-3;
+  ContactMemory memory;
+  memory.store(
+      {point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1}), point_at({0.2, 0, 1}, {0.2, 0, 0}, 7, {0, 0, 1})},
+      {low, high}, 0.0, {});
+  EXPECT_EQ(memory.most_dilation(), 4e-3);
+  const PointMemory between = memory.recall({point_at({0.1, 0, 1}, {0.1, 0, 0}, 7, {0, 0, 1})}, never)[0];
+  EXPECT_NEAR(between.dilation, 3e-3, 1e-15);
+  EXPECT_NEAR(between.level_dilation, 0.5e-3, 1e-15);
+  memory.start_level();
+  EXPECT_EQ(memory.recall({point_at({0.2, 0, 1}, {0.2, 0, 0}, 7, {0, 0, 1})}, never)[0].level_dilation, 4e-3);
+}
+
 TEST(ContactMemory, ASharpEdgeIsAnotherContact) {
   ContactMemory memory;
   memory.store({point_at({0, 0, 1}, {0.99, 0, 0}, 7, {0, 0, 1})}, {slipped({3e-6, 4e-6, 0})}, 0.0, {});

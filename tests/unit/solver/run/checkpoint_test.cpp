@@ -153,7 +153,7 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
                       Vector3(0, 0, 1),
                       0.5,
                       {Vector3(6, 7, 8), ContactState::sliding, true, 20.0, Vector3(21, 22, 23), 27.0, 26.0,
-                       Vector3(36, 37, 38), true}}},
+                       Vector3(36, 37, 38), true, 43.0, 44.0}}},
                     {{28, 29, true, Vector3(30, 31, 32), Vector3(33, 34, 35)}}, 9, {24.0, 25.0}, 27);
   pair.work = 10.0;
   pair.taken = 39.0;
@@ -197,6 +197,9 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.compression, 26.0);
   EXPECT_EQ(entry.memory.level_slip, Vector3(36, 37, 38));
   EXPECT_TRUE(entry.memory.in_level);
+  EXPECT_EQ(entry.memory.dilation, 43.0);
+  EXPECT_EQ(entry.memory.level_dilation, 44.0);
+  EXPECT_EQ(memory.most_dilation(), 43.0);
   ASSERT_EQ(memory.cuts().size(), 1U);
   EXPECT_EQ(memory.cuts()[0].cell_b, 29);
   EXPECT_TRUE(memory.cuts()[0].of_a);
