@@ -257,7 +257,7 @@ TEST(ContactPair, WithoutPointsThereAreNoForces) {
   const BlockState state_a = setting.a.initial_state();
   const BlockState state_b = setting.b.initial_state();
   ContactPair pair({0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}},
-                   JointLaw{2e9, 1e9, 0.1, 0.0, 0.0, true}, {}, {});
+                   JointLaw{2e9, 1e9, 0.1, 0.0, 0.0, true}, std::vector<ContactPoint>(), {});
   pair.hold_at_most({});
   const Eigen::VectorXd ya = Eigen::VectorXd::Ones(setting.a.unknowns());
   const Eigen::VectorXd yb = Eigen::VectorXd::Ones(setting.b.unknowns());

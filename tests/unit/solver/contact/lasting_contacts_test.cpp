@@ -124,7 +124,7 @@ Neighbours neighbours() {
       {{0, 0, 0}, {4, 1, 1}}, {{0, 0, 1}, {1, 1, 2}}, {{1, 0, 1}, {2, 1, 2}}, {{3, 0, 1}, {4, 1, 2}}};
   for (const auto& [low, high] : boxes) {
     scene.blocks.emplace_back(
-        block_of("b" + std::to_string(scene.blocks.size()), Polyhedron(make_box(low, high)), rock, 1));
+        block_of(std::string(scene.blocks.size() + 1, 'b'), Polyhedron(make_box(low, high)), rock, 1));
     scene.states.push_back(scene.blocks.back().initial_state());
   }
   return scene;
@@ -157,8 +157,8 @@ Simulation column(double share, bool augmented, int threads = 1) {
   blocks.emplace_back(test_support::fixed_box({-2, -2, -1}, {2, 2, 0}));
   for (int k = 0; k < 3; ++k) {
     const Vector3 low(k == 2 ? 0.3 : 0.0, 0.0, 0.5 * k);
-    blocks.emplace_back(
-        block_of("b" + std::to_string(k), Polyhedron(make_box(low, low + Vector3(1.0, 0.5, 0.5))), rock, 1));
+    blocks.emplace_back(block_of(std::string(static_cast<std::size_t>(k) + 1, 'b'),
+                                 Polyhedron(make_box(low, low + Vector3(1.0, 0.5, 0.5))), rock, 1));
   }
   SimulationSettings settings;
   settings.time_step = 1.0 / 240.0;
