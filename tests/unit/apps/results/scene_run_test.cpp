@@ -134,7 +134,7 @@ load = [{ blocks = ["pier"], plane = { point = [0, 0, 2], normal = [0, 0, 1] }, 
 }
 
 TEST(SceneRun, WritesAndRecordsTheSameHistory) {
-  const test_support::TemporaryFolder folder;
+  const TemporaryFolder folder;
   SceneRun run(loaded(pushed_cube("end_time = 0.02, time_step = 1e-3, gravity = [0, 0, 0]")));
   run.record(folder / "recorded");
   while (run.step()) {

@@ -41,7 +41,7 @@ void take_steps(Simulation& simulation, int count) {
 
 TEST(Checkpoint, FactorsOfLoadsGoAlong) {
   BlockDefinition cube =
-      test_support::block_of("cube", make_box({0, 0, 0}, {1, 1, 1}), {2000.0, 1e9, 0.0}, 1);
+      test_support::block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2000.0, 1e9, 0.0}, 1);
   cube.loads.push_back({Vector3(0.5, 0.5, 0.5), false, Vector3(2000.0, 0.0, 0.0), {}});
   const auto make = [&] {
     SimulationSettings settings;
