@@ -109,12 +109,16 @@ void pack_links(PackedNumbers& numbers, const UnstructuredGrid& contacts, Json& 
 }
 
 void pack_points(PackedNumbers& numbers, const UnstructuredGrid& contacts) {
-  if (contacts.points.empty()) return;
   const auto& data = contacts.point_data;
+  const auto& force = required_values<double>(data, "force", 3);
+  const auto& normal = required_values<double>(data, "normal", 3);
+  const auto& gap = required_values<double>(data, "gap", 1);
+  const auto& area = required_values<double>(data, "area", 1);
+  if (contacts.points.empty()) return;
   for (const char* name : {"type", "state", "block_a", "block_b"})
     numbers.add_integers(required_values<std::int32_t>(data, name, 1));
-  for (const char* name : {"force", "normal"}) numbers.add_reals(required_values<double>(data, name, 3), 3);
-  for (const char* name : {"gap", "area"}) numbers.add_reals(required_values<double>(data, name, 1), 1);
+  for (const auto* values : {&force, &normal}) numbers.add_reals(*values, 3);
+  for (const auto* values : {&gap, &area}) numbers.add_reals(*values, 1);
   numbers.add_points(contacts.points);
 }
 
