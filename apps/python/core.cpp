@@ -231,14 +231,7 @@ py::tuple run_scene(const std::filesystem::path& scene, const std::filesystem::p
   return py::make_tuple(status, err.str());
 }
 
-}  // namespace
-}  // namespace ashlar
-
-PYBIND11_MODULE(_core, module) {
-  using namespace ashlar;
-  PYBIND11_NUMPY_DTYPE(ContactRow, a, b, place, normal, force, gap, area, type, state);
-  module.attr("version") = version_text();
-
+void bind_scene(py::module_& module) {
   py::class_<CoreScene>(module, "Scene")
       .def_property_readonly("good", [](const CoreScene& scene) { return scene.loaded != nullptr; })
       .def("faults", &faults_of)
@@ -248,7 +241,9 @@ PYBIND11_MODULE(_core, module) {
         return json_text(report_json(BlockReport(*scene.loaded), nullptr));
       });
   module.def("load", &load_core, py::arg("text"), py::arg("file"), py::arg("overrides"));
+}
 
+void bind_simulation(py::module_& module) {
   py::class_<CoreSimulation, std::shared_ptr<CoreSimulation>>(module, "Simulation")
       .def(py::init<const CoreScene&, int>(), py::arg("scene"), py::arg("threads"),
            py::call_guard<py::gil_scoped_release>())
@@ -282,7 +277,9 @@ PYBIND11_MODULE(_core, module) {
       .def("block", [](const std::shared_ptr<CoreSimulation>& s, const std::string& name) {
         return CoreBlock{s, s->index_of(name)};
       });
+}
 
+void bind_block(py::module_& module) {
   py::class_<CoreBlock>(module, "Block", "A block of a simulation, at the simulation's present time.")
       .def_property_readonly("name", [](const CoreBlock& b) { return b.model().name(); })
       .def_property_readonly("order",
@@ -318,7 +315,9 @@ PYBIND11_MODULE(_core, module) {
           py::arg("points"), "Velocities of such points: (n, 3) -> (n, 3), m/s.")
       .def("stress", &CoreBlock::stress, py::arg("points"),
            "Cauchy stress at such points, tension positive: (n, 3) -> (n, 3, 3), Pa.");
+}
 
+void bind_commands(py::module_& module) {
   module.def("run", &run_scene);
   module.def("schema", [] { return json_text(scene_schema()); });
   module.def("contacts", [](const std::string& a, const std::string& b) {
@@ -331,4 +330,17 @@ PYBIND11_MODULE(_core, module) {
   module.def("integrate", [](const std::string& mesh, int degree) {
     return printed(integrate_command, IntegrateOptions{mesh, degree, true});
   });
+}
+
+}  // namespace
+}  // namespace ashlar
+
+PYBIND11_MODULE(_core, module) {
+  using namespace ashlar;
+  PYBIND11_NUMPY_DTYPE(ContactRow, a, b, place, normal, force, gap, area, type, state);
+  module.attr("version") = version_text();
+  bind_scene(module);
+  bind_simulation(module);
+  bind_block(module);
+  bind_commands(module);
 }

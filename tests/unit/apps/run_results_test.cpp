@@ -184,7 +184,7 @@ TEST_F(RunResults, ATableThatCannotGrowEndsTheRunWithStateAndSummary) {
   const std::uintmax_t whole = std::filesystem::file_size(folder_ / "straight/history.csv");
   {
     // More than reserve and checkpoint need, less than the table.
-    const FileSizeLimit limit(whole * 3 / 4);
+    const FileSizeLimit limit(whole * 9 / 10);
     ASSERT_EQ(run("out", {"--set", "analysis.end_time=2"}), exit_status::failed);
   }
   EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: results of step "), HasSubstr("history.csv"),

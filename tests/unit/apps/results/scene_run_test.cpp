@@ -102,7 +102,9 @@ TEST(SceneRun, AStaticAnalysisGoesOnUnderANewLoad) {
 }
 
 TEST(SceneRun, WhatIsTooMuchMoves) {
-  SceneRun run(loaded(pier + "[[block.load]]\npoint = [0, 0.5, 0]\nforce = [1, 0, 0]\n"));
+  std::string pushed = pier;
+  pushed.insert(pushed.rfind(']'), ", { point = [0, 0.5, 0], force = [1, 0, 0] }");
+  SceneRun run(loaded(pushed));
   while (run.step()) {
   }
   EXPECT_EQ(run.status(), RunStatus::equilibrium);

@@ -26,7 +26,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
     "contact": {"springs": "area", "surface": "curved", "normal_stiffness": "auto", "shear_stiffness": "auto",
                 "friction_angle": 30.0, "cohesion": 0.0, "tensile_strength": 0.0, "distance": "auto",
                 "angle": "auto", "chord_tolerance": "auto", "augmented": false, "penetration_tolerance": "auto",
-                "fit": 0.0, "allowed_depth": "auto"},
+                "fit": 0.0, "allowed_depth": "auto", "dilation_angle": 0.0, "damping": 0.0},
     "joint": [{"blocks": ["A", "B*"]}],
     "material": [{"name": "rock", "density": 2500.0, "young_modulus": 1e9, "poisson_ratio": 0.25,
                   "elasticity": "linear"}],
@@ -38,7 +38,8 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
        "fix": [{"plane": {"point": [0.0, 0.0, 0.0], "normal": [-1.0, 0.0, 0.0]}, "components": ["x", "y", "z"]}],
        "load": [{"plane": {"point": [4.0, 0.0, 0.0], "normal": [1.0, 0.0, 0.0]}, "traction": [0.0, 0.0, -1e5]}]}],
     "measure": [{"name": "tip", "block": "B", "point": [4.0, 0.5, 0.5]}],
-    "output": {"every": 5, "history_every": 1, "fields": ["displacement", "velocity", "stress"], "curved": false}
+    "output": {"every": 5, "history_every": 1, "fields": ["displacement", "velocity", "stress"], "curved": false,
+               "solid": false}
   })"));
 }
 
@@ -57,7 +58,8 @@ TEST(SceneJson, HoldsWhatIsNotDefault) {
   EXPECT_EQ(json["joint"][0],
             nlohmann::json::parse(R"({"blocks": ["A", "B*"], "shear_stiffness": "auto", "tied": true})"));
   EXPECT_EQ(json["output"],
-            nlohmann::json::parse(R"({"interval": 0.5, "history_every": 1, "fields": [], "curved": true})"));
+            nlohmann::json::parse(
+                R"({"interval": 0.5, "history_every": 1, "fields": [], "curved": true, "solid": false})"));
   EXPECT_EQ(json["block"][0]["sphere"],
             nlohmann::json::parse(R"({"center": [0.0, 0.0, 0.0], "radius": 1.0, "subdivisions": 3})"));
   EXPECT_EQ(json["block"][0]["rotate"],
