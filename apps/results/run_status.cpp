@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <array>
 
 #include "apps/scene/initial_state.hpp"
@@ -44,13 +46,17 @@ std::string to_string(RunStatus status) {
 std::string describe_motion(const Simulation& simulation) {
   std::string text = "no equilibrium:";
   const char* separator = " ";
-  for (const MovingBlock& moving : simulation.moving_blocks()) {
+  constexpr std::size_t most_shown = 5;
+  const std::vector<MovingBlock> blocks = simulation.moving_blocks();
+  for (std::size_t k = 0; k < std::min(blocks.size(), most_shown); ++k) {
+    const MovingBlock& moving = blocks[k];
     const auto& [x, y, z] =
         std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
     text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
                         simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
     separator = "; ";
   }
+  if (blocks.size() > most_shown) text += fmt::format("; {} more blocks move", blocks.size() - most_shown);
   return text;
 }
 

@@ -28,7 +28,7 @@ struct DisplacedBlock {
 /// out: what they rest in is not what was built.
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
-/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2"
+/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2", of the first five; "3 more blocks move"
 [[nodiscard]] std::string describe_motion(const Simulation& simulation);
 
 /// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
