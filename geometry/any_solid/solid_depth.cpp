@@ -29,6 +29,14 @@ int face_with(const Polyhedron& solid, const ContactFeature& feature) {
   return -1;
 }
 
+/// What is known of a place inside. The nearest point is rounded: where it is the place itself, the way out is the
+/// normal of its face.
+SolidDepth depth_of(const Polyhedron& solid, const Vector3& x, double depth, const ClosestPoint& nearest) {
+  const Vector3 way = nearest.point - x;
+  const int face = face_with(solid, nearest.feature);
+  return {depth, x, way.squaredNorm() > 0.0 ? way.normalized() : solid.faces()[at(face)].normal, face};
+}
+
 }  // namespace
 
 /// A part of a segment that may have deeper points than are known.
@@ -118,8 +126,7 @@ std::optional<SolidDepth> SolidDepthFinder::of_point(const Vector3& x) const {
   if (nearest.place != PointPlace::inside) return std::nullopt;
   const double depth = std::sqrt(nearest.squared_distance);
   if (!(depth > 0.0)) return std::nullopt;
-  return SolidDepth{depth, x, (nearest.point - x).normalized(),
-                    face_with(closest_->solid(), nearest.feature)};
+  return depth_of(closest_->solid(), x, depth, nearest);
 }
 
 double SolidDepthFinder::clear_radius(const Vector3& x) const {
@@ -173,8 +180,7 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     const double distance = std::sqrt(nearest.squared_distance);
     const bool inside = nearest.place == PointPlace::inside;
     if (inside && distance > (deepest ? deepest->depth : known)) {
-      deepest = SolidDepth{distance, middle, (nearest.point - middle).normalized(),
-                           face_with(closest_->solid(), nearest.feature)};
+      deepest = depth_of(closest_->solid(), middle, distance, nearest);
     }
     const double deeper = (deepest ? deepest->depth : known) + resolution;
     // Outside, a part goes in only beyond its nearest surface; inside, its ends are at most `half` deeper.

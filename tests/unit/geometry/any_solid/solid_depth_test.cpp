@@ -7,6 +7,7 @@
 
 #include "geometry/boxes/box.hpp"
 #include "geometry/solid/shapes.hpp"
+#include "support/sample_meshes.hpp"
 #include "support/sample_solids.hpp"
 
 namespace ashlar {
@@ -52,6 +53,22 @@ TEST(SolidDepth, BelowAReflexEdgeTheEdgeIsNearest) {
   ASSERT_TRUE(depth);
   EXPECT_NEAR(depth->depth, std::sqrt(0.02), 1e-15);
   EXPECT_NEAR((depth->way_out - Vector3(1, 1, 0).normalized()).norm(), 0.0, 1e-14);
+}
+
+TEST(SolidDepth, TheWayOutOfWhatRoundingPutsOnAFaceIsItsNormal) {
+  // Below y = x / 3 at x = 1: 1/3 as a double is lower by 2^-54 / 3, and its nearest point on the face differs from it in
+  // no coordinate.
+  const SolidDepthFinder finder(Polyhedron(test_support::make_prism(
+      {{0, -1}, {1, -1}, {1.5, -0.5}, {2, -1}, {3, -1}, {3, 1}, {0, 0}},
+      {{2, 3, 4}, {2, 4, 5}, {2, 5, 6}, {2, 6, 0}, {2, 0, 1}}, {{0, 1, 2, 3, 4, 5, 6}}, 1.0)));
+  ASSERT_FALSE(finder.convex());
+  const Vector3 x(1.0, 1.0 / 3.0, 0.5);
+  const Vector3 along(0.0, 0.0, 0.25);
+  for (const auto& depth : {finder.of_point(x), finder.of_segment(x - along, x + along, resolution)}) {
+    ASSERT_TRUE(depth);
+    EXPECT_NEAR(depth->depth, 0x1p-54 / std::sqrt(10.0), 1e-30);
+    EXPECT_NEAR((depth->way_out - Vector3(-1, 3, 0).normalized()).norm(), 0.0, 1e-15);
+  }
 }
 
 TEST(SolidDepth, ASegmentThroughAnEdgeOfABoxIsDeepestWhereBothFacesAreAsNear) {
