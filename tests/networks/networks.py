@@ -139,7 +139,8 @@ def try_network(options, name, text):
     if options.run:
         folder = os.path.join(options.out, name + ".out")
         shutil.rmtree(folder, ignore_errors=True)
-        status, _, said, result["run"] = run([options.program, "run", scene, "--out", folder, "--quiet"])
+        status, _, said, result["run"] = run([options.program, "run", scene, "--out", folder, "--quiet",
+                                              "--set", "analysis.memory_limit=2e10"])
         if status != 0:
             result["faults"].append(f"run: exit status {status}: {said.strip()[:500]}")
         shutil.rmtree(folder, ignore_errors=True)
