@@ -20,7 +20,7 @@ namespace {
 
 BuiltSimulation built(const LoadedScene& stage, int threads, bool first) {
   Diagnostics diagnostics;
-  std::optional<BuiltSimulation> result = build_simulation(stage, std::max(threads, 1), diagnostics);
+  std::optional<BuiltSimulation> result = build_simulation(stage, threads, diagnostics);
   if (result && first && is_static(stage.scene.analysis))
     refuse_loose_blocks(stage.scene, result->simulation, diagnostics);
   for (const Diagnostic& fault : diagnostics.sorted())
@@ -28,10 +28,22 @@ BuiltSimulation built(const LoadedScene& stage, int threads, bool first) {
   return std::move(*result);
 }
 
+/// @throws std::invalid_argument
+std::shared_ptr<const LoadedScene> checked(std::shared_ptr<const LoadedScene> scene, int threads) {
+  const SceneAnalysis::Type type = scene->scene.analysis.type;
+  if (type == SceneAnalysis::Type::safety || type == SceneAnalysis::Type::capacity)
+    throw std::invalid_argument(
+        "a search for a factor is many analyses (analysis.type), `ashlar run` or ashlar.run() does it; "
+        "static or dynamic "
+        "is needed here");
+  if (threads < 1) throw std::invalid_argument(fmt::format("threads is {}, at least 1 is needed", threads));
+  return scene;
+}
+
 }  // namespace
 
 SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads)
-    : scene_(std::move(scene)),
+    : scene_(checked(std::move(scene), threads)),
       present_(std::make_shared<const LoadedScene>(stage_of(*scene_, 0))),
       threads_(threads),
       built_(built(*present_, threads, true)),
@@ -167,7 +179,11 @@ PointMotion SceneRun::motion(const std::string& name, const Vector3& point) cons
 }
 
 void SceneRun::set_load_factor(const std::string& name, int load, double factor) {
-  built_.simulation.set_load_factor(block(name), load, factor);
+  const int index = block(name);
+  const std::size_t loads = simulation().blocks()[at(index)].loads().size();
+  if (load < 0 || at(load) >= loads)
+    throw std::out_of_range(fmt::format("block {} has {} loads, there is no load {}", name, loads, load));
+  built_.simulation.set_load_factor(index, load, factor);
   if (!is_static(present_->scene.analysis) || status_ == RunStatus::failed) return;
   status_.reset();
   stage_has_ended_ = false;
@@ -178,6 +194,9 @@ std::vector<std::string> SceneRun::columns() const {
 }
 
 void SceneRun::record(const std::filesystem::path& folder, ClaimPurpose purpose) {
+  if (results_) throw std::logic_error("the run is recorded already, into " + results_->path().string());
+  if (status_)
+    throw std::logic_error("the run has ended, nothing is left to record: write() writes what it has");
   auto claim = std::make_unique<FolderClaim>(folder, purpose);
   results_ = std::make_unique<ResultFolder>(folder, scene_->scene, simulation(), place_);
   claim_ = std::move(claim);

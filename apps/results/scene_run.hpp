@@ -28,11 +28,11 @@ namespace ashlar {
 
 class SceneRun {
  public:
-  /// Builds the blocks and finds the initial equilibrium where the scene asks for it. Of a scene that searches for a
-  /// factor this is the analysis at factor 1.
-  /// @param scene not null. @param threads >= 1
+  /// Builds the blocks and finds the initial equilibrium where the scene asks for it.
+  /// @param scene not null; not one that searches for a factor, which is many analyses. @param threads >= 1
   /// @throws std::invalid_argument "FILE:LINE:COLUMN: error: ..." if blocks cannot be built, or nothing holds those of
-  /// a static analysis; std::runtime_error if initial_state = "static" finds no answer
+  /// a static analysis, and if an argument is not as above; std::runtime_error if initial_state = "static" finds no
+  /// answer
   explicit SceneRun(std::shared_ptr<const LoadedScene> scene, int threads = 1);
   explicit SceneRun(LoadedScene scene, int threads = 1)
       : SceneRun(std::make_shared<const LoadedScene>(std::move(scene)), threads) {}
@@ -68,7 +68,8 @@ class SceneRun {
   [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
 
   /// Writes each step from the present one on into a result folder, as `ashlar run` does: frames where they are due,
-  /// at the end the summary. @throws ClaimRefused, std::runtime_error
+  /// at the end the summary. @throws ClaimRefused, std::runtime_error; std::logic_error if it is recorded already, or has
+  /// ended
   void record(const std::filesystem::path& folder, ClaimPurpose purpose = ClaimPurpose::new_run);
   /// Writes the summary of a recorded run now: of a run that has not ended its status is interrupted.
   void write_summary() const;

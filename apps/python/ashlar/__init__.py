@@ -76,7 +76,10 @@ class Scene:
         return _json.loads(self._core.json())
 
     def simulation(self, threads=1):
-        """A simulation at its start. Of a scene in stages it goes through them one after the other."""
+        """A simulation at its start. Of a scene in stages it goes through them one after the other.
+
+        Raises ValueError for a search for a factor (analysis.type), which is many analyses: `run` does that.
+        """
         return Simulation(self, threads)
 
     def __getstate__(self):

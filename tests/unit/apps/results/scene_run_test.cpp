@@ -149,7 +149,29 @@ TEST(SceneRun, WritesAndRecordsTheSameHistory) {
   EXPECT_EQ(written.rows, run.rows());
   EXPECT_TRUE(std::filesystem::exists(folder / "recorded" / "summary.json"));
   EXPECT_TRUE(std::filesystem::exists(folder / "recorded" / "frames" / "blocks_0000020.vtu"));
-  EXPECT_THROW(run.record(folder / "written"), ClaimRefused);
+  SceneRun another(loaded(pushed_cube("end_time = 0.02, time_step = 1e-3, gravity = [0, 0, 0]")));
+  EXPECT_THROW(another.record(folder / "written"), ClaimRefused);
+  // One recording at a time, and none of what is over.
+  another.record(folder / "other");
+  EXPECT_THROW(another.record(folder / "third"), std::logic_error);
+  EXPECT_THROW(run.record(folder / "third"), std::logic_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "third"));
+}
+
+TEST(SceneRun, ASearchForAFactorIsNoRun) {
+  for (const char* type : {"factor-of-safety", "capacity"}) {
+    std::string search = pier;
+    const std::string kind = "\"static\"";
+    search.replace(search.find(kind), kind.size(), std::string(1, '"').append(type) + '"');
+    EXPECT_THROW(SceneRun(loaded(search)), std::invalid_argument) << type;
+  }
+}
+
+TEST(SceneRun, ThreadsAndLoadsHaveNumbers) {
+  EXPECT_THROW(SceneRun(loaded(pier), 0), std::invalid_argument);
+  SceneRun run(loaded(pier));
+  for (const int load : {-1, 1})
+    EXPECT_THROW(run.set_load_factor("pier", load, 2.0), std::out_of_range) << load;
 }
 
 TEST(SceneRun, ABlockThatNothingHoldsIsNoStaticAnalysis) {
