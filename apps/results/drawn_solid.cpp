@@ -90,6 +90,7 @@ DrawnSolid divided(const TetrahedronMesh& mesh, int pieces, VtkCellType type) {
 std::vector<DrawnSolid> drawn_solids(const std::vector<BlockModel>& blocks, bool lagrange) {
   TetrahedraLibrary library;
   std::vector<TetrahedronMesh> meshes;
+  meshes.reserve(blocks.size());
   for (const BlockModel& block : blocks) meshes.push_back(library.find(block));
   const std::vector<int> pieces = pieces_of_solids(blocks, meshes);
   std::vector<DrawnSolid> solids;
