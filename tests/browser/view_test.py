@@ -445,7 +445,7 @@ class ViewTest(unittest.TestCase):
             done, picture = self.picture(*view, *more)
             self.assertEqual(done.returncode, 0, done.stderr)
             drawn.append(sum(pixel != (255, 255, 255) for pixel in picture.pixels(60, 62, 230, 105)))  # without legend, axes
-        self.assertGreater(drawn[1], 1.5 * drawn[0])
+        self.assertGreater(drawn[1], 2 * drawn[0])
         self.assertEqual(drawn[2], 0)
 
     def test_picture_with_and_without_contacts(self):
