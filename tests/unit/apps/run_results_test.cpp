@@ -185,7 +185,7 @@ TEST_F(RunResults, ATableThatCannotGrowEndsTheRunWithStateAndSummary) {
   {
     // More than reserve and checkpoint need, less than the table. The reserve is as large as the last checkpoint asks
     // for: without one on the way that does not depend on how fast the run is.
-    const FileSizeLimit limit(whole * 9 / 10);
+    const FileSizeLimit limit(whole * 3 / 4);
     ASSERT_EQ(run("out", {"--checkpoint", "1000", "--set", "analysis.end_time=2"}), exit_status::failed);
   }
   EXPECT_THAT(faults_, AllOf(StartsWith("ashlar: error: results of step "), HasSubstr("history.csv"),

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -129,15 +132,34 @@ TEST_F(ViewCommand, CurvedFramesLookLikeDividedOnes) {
   const auto curved_scene = nlohmann::json::parse(scene_of(curved));
   EXPECT_EQ(divided_scene["cells"], curved_scene["cells"]);
   const int points = divided_scene["points"];
-  const auto places = [&](const std::string& page) {
-    return frame_of(page, 3).displacements({{0, points}}, points);
-  };
-  const auto expected = places(divided);
-  const auto seen = places(curved);
+  PackedReader divided_frame = frame_of(divided, 3), curved_frame = frame_of(curved, 3);
+  const auto expected = divided_frame.displacements({{0, points}}, points);
+  const auto seen = curved_frame.displacements({{0, points}}, points);
   ASSERT_EQ(seen.size(), expected.size());
-  // A block of 1 m turns by 0.375 rad: displacements of 1/4 m differ by less than 2^-17 m from those that were packed.
+  // Both are rounded to whole numbers, of which 32767 stand for the power of two above the spread: one of them apart at most.
+  std::array<double, 3> mean{};
+  for (const auto& place : expected)
+    for (std::size_t k = 0; k < 3; ++k) mean[k] += place[k] / points;
+  double spread = 0.0;
+  for (const auto& place : expected)
+    for (std::size_t k = 0; k < 3; ++k) spread = std::max(spread, std::abs(place[k] - mean[k]));
+  EXPECT_GT(spread, 0.1) << "a block of 1 m turns by 0.375 rad";
+  const double word = std::exp2(std::ceil(std::log2(spread))) / 32767.0;
   for (std::size_t i = 0; i < seen.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[i][k], expected[i][k], 2e-5);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[i][k], expected[i][k], 1.001 * word);
+  // sign(q) m (q / 32767)^2: neighbours are 2 sqrt(|v| m) / 32767 + m / 32767^2 apart.
+  const std::vector<float> expected_velocity = divided_frame.reals(points, 3);
+  const std::vector<float> seen_velocity = curved_frame.reals(points, 3);
+  ASSERT_EQ(seen_velocity.size(), expected_velocity.size());
+  double largest = 0.0;
+  for (const float value : expected_velocity)
+    largest = std::max(largest, std::abs(static_cast<double>(value)));
+  EXPECT_GT(largest, 1.0) << "it falls at 1 m/s and turns";
+  for (std::size_t i = 0; i < seen_velocity.size(); ++i) {
+    const double value = expected_velocity[i];
+    const double apart = 2.0 * std::sqrt(std::abs(value) * largest) / 32767.0 + largest / (32767.0 * 32767.0);
+    EXPECT_NEAR(seen_velocity[i], value, 1.001 * apart);
+  }
 }
 
 TEST_F(ViewCommand, ThePageAsksForNothingElse) {
