@@ -7,8 +7,6 @@
 #include <string>
 #include <system_error>
 
-#include "apps/results/output_file.hpp"
-
 namespace ashlar {
 namespace {
 
@@ -44,6 +42,11 @@ void sync_folder(const std::filesystem::path& folder) {
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability durability) {
+  write_file_atomically(path, durability, [content](OutputFile& file) { file.write(content); });
+}
+
+void write_file_atomically(const std::filesystem::path& path, Durability durability,
+                           const std::function<void(OutputFile&)>& write) {
   if (path.empty()) {
     throw std::system_error(std::make_error_code(std::errc::invalid_argument),
                             "cannot write a file without a name (\"\")");
@@ -57,7 +60,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   temporary += ".tmp";
   OutputFile file = temporary_file(temporary);
   try {
-    file.write(content);
+    write(file);
     if (durability == Durability::power) file.sync();
     file.close();
     std::filesystem::rename(temporary, path);

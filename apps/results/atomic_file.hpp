@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
+
+#include "apps/results/output_file.hpp"
 
 namespace ashlar {
 
@@ -19,5 +22,9 @@ enum class Durability {
 /// a folder, a device or a pipe
 void write_file_atomically(const std::filesystem::path& path, std::string_view content,
                            Durability durability);
+
+/// The same for content that is not in memory as a whole. @param write is given the open file once
+void write_file_atomically(const std::filesystem::path& path, Durability durability,
+                           const std::function<void(OutputFile&)>& write);
 
 }  // namespace ashlar

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/scene/scene_json.hpp"
-#include "solver/run/byte_archive.hpp"
 
 namespace ashlar {
 
@@ -47,13 +47,12 @@ static void visit_members(Archive& archive, RunSeconds& seconds) {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 17;
+constexpr std::uint32_t layout_version = 18;
 
-/// What follows the magic line; the payload follows it.
+/// What follows the magic line; then comes the payload, and its hash.
 struct Header {
   std::uint32_t version = layout_version;
   std::uint64_t scene = 0;
-  std::uint64_t payload_hash = 0;
 };
 
 }  // namespace
@@ -96,14 +95,25 @@ std::uint64_t scene_hash(const LoadedScene& loaded) {
 
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
                                 const RunCheckpoint& checkpoint) {
-  ByteWriter payload;
-  payload(to_bytes(checkpoint.simulation), checkpoint.stages, checkpoint.folder, checkpoint.seconds);
-  const std::string bytes = payload.take();
-  ByteWriter header;
-  header(layout_version, hash, hash_bytes(bytes));
-  const std::string content = std::string(magic) + header.take() + bytes;
-  write_file_atomically(path, content, Durability::power);
-  return content.size();
+  std::uintmax_t size = 0;
+  write_file_atomically(path, Durability::power, [&](OutputFile& file) {
+    ByteWriter header;
+    header(layout_version, hash);
+    file.write(std::string(magic) + header.take());
+    std::uint64_t payload_hash = hash_bytes({});
+    ByteWriter payload([&](std::string_view bytes) {
+      payload_hash = hash_bytes(bytes, payload_hash);
+      file.write(bytes);
+    });
+    write_snapshot(payload, checkpoint.simulation);
+    payload(checkpoint.stages, checkpoint.folder, checkpoint.seconds);
+    payload.flush();
+    ByteWriter end;
+    end(payload_hash);
+    file.write(end.take());
+    size = file.size();
+  });
+  return size;
 }
 
 RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash) {
@@ -112,30 +122,33 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
   if (std::filesystem::is_directory(path)) throw CheckpointError("not a checkpoint but a folder");
   const std::string bytes{std::istreambuf_iterator<char>(input), {}};
   if (!bytes.starts_with(magic)) throw CheckpointError("not a checkpoint of this program");
-  ByteReader reader(std::string_view(bytes).substr(magic.size()));
+  std::string_view left = std::string_view(bytes).substr(magic.size());
   try {
     Header header;
-    reader(header.version, header.scene, header.payload_hash);
+    ByteReader head(left);
+    head(header.version, header.scene);
     if (header.version != layout_version) {
       throw CheckpointError(fmt::format(
           "checkpoint of another version of the program (layout {}), layout {} is needed: run with "
           "--force to start anew",
           header.version, layout_version));
     }
-    const std::size_t start =
-        magic.size() + sizeof header.version + sizeof header.scene + sizeof header.payload_hash;
-    if (hash_bytes(std::string_view(bytes).substr(start)) != header.payload_hash) {
+    left.remove_prefix(sizeof header.version + sizeof header.scene);
+    std::uint64_t payload_hash = 0;
+    const std::size_t size = left.size() - std::min(left.size(), sizeof payload_hash);
+    ByteReader tail(left.substr(size));
+    tail(payload_hash);
+    if (hash_bytes(left.substr(0, size)) != payload_hash)
       throw CheckpointError("checkpoint is damaged, run with --force to start anew");
-    }
     if (header.scene != hash) {
       throw OtherSceneError(
           "checkpoint of another scene, the scene, mesh files and --set options the run was started with are "
           "needed; only analysis.end_time may differ");
     }
+    ByteReader reader(left.substr(0, size));
     RunCheckpoint checkpoint;
-    std::string snapshot;
-    reader(snapshot, checkpoint.stages, checkpoint.folder, checkpoint.seconds);
-    checkpoint.simulation = snapshot_from_bytes(snapshot);
+    checkpoint.simulation = read_snapshot(reader);
+    reader(checkpoint.stages, checkpoint.folder, checkpoint.seconds);
     return checkpoint;
   } catch (const CheckpointError&) {
     throw;

@@ -317,6 +317,7 @@ ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const P
   }
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
+  result.points.shrink_to_fit();  // they may last
   return result;
 }
 

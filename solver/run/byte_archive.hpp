@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,14 +29,25 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are littl
 template <class T>
 concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Appends values to a string of bytes.
+/// Values as bytes, in a string or, as they come, in the hands of a sink: what is stored need not be in memory twice.
 class ByteWriter {
  public:
+  using Sink = std::function<void(std::string_view)>;
+
+  ByteWriter() = default;
+  /// @param sink is given all bytes by and by, the last ones by flush()
+  explicit ByteWriter(Sink sink) : sink_(std::move(sink)) {}
+
   template <class... Values>
   void operator()(const Values&... values) {
     (write(values), ...);
   }
+  /// Without a sink: all that was written.
   [[nodiscard]] std::string take() { return std::move(bytes_); }
+  void flush() {
+    if (sink_ && !bytes_.empty()) sink_(bytes_);
+    bytes_.clear();
+  }
 
  private:
   template <PlainNumber T>
@@ -44,7 +56,7 @@ class ByteWriter {
   }
   void write(const std::string& text) {
     write_size(text.size());
-    bytes_ += text;
+    append(text.data(), text.size());
   }
   template <class T, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
   void write(const Eigen::Matrix<T, Rows, Columns, Options, MaxRows, MaxColumns>& matrix) {
@@ -83,9 +95,14 @@ class ByteWriter {
     visit_members(*this, const_cast<T&>(value));
   }
   void write_size(std::size_t size) { write(static_cast<std::uint64_t>(size)); }
-  void append(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  void append(const void* data, std::size_t size) {
+    constexpr std::size_t many = 1U << 16U;
+    bytes_.append(static_cast<const char*>(data), size);
+    if (sink_ && bytes_.size() >= many) flush();
+  }
 
-  std::string bytes_;
+  Sink sink_;
+  std::string bytes_;  ///< that the sink has not been given
 };
 
 /// Takes the values back in the order in which they were written.

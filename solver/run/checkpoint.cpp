@@ -3,8 +3,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/run/byte_archive.hpp"
-
 namespace ashlar {
 
 template <class Archive>
@@ -306,6 +304,16 @@ static void visit_members(Archive& archive, SimulationSnapshot& snapshot) {
   archive(snapshot.run, snapshot.carried, snapshot.finder, snapshot.factors, snapshot.load_factors);
 }
 
+void write_snapshot(ByteWriter& writer, const SimulationSnapshot& snapshot) {
+  writer(snapshot);
+}
+
+SimulationSnapshot read_snapshot(ByteReader& reader) {
+  SimulationSnapshot snapshot;
+  reader(snapshot);
+  return snapshot;
+}
+
 std::string to_bytes(const SimulationSnapshot& snapshot) {
   ByteWriter writer;
   writer(snapshot);
@@ -313,9 +321,8 @@ std::string to_bytes(const SimulationSnapshot& snapshot) {
 }
 
 SimulationSnapshot snapshot_from_bytes(std::string_view bytes) {
-  SimulationSnapshot snapshot;
   ByteReader reader(bytes);
-  reader(snapshot);
+  SimulationSnapshot snapshot = read_snapshot(reader);
   if (!reader.at_end()) throw std::runtime_error("more is stored than a snapshot has");
   return snapshot;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "solver/run/byte_archive.hpp"
 #include "solver/step/snapshot.hpp"
 
 namespace ashlar {
@@ -12,5 +13,10 @@ namespace ashlar {
 
 /// @throws std::runtime_error if the bytes are not those of a snapshot.
 [[nodiscard]] SimulationSnapshot snapshot_from_bytes(std::string_view bytes);
+
+/// As a part of what is stored together with other values.
+void write_snapshot(ByteWriter& writer, const SimulationSnapshot& snapshot);
+/// @throws std::runtime_error if the next bytes are not those of a snapshot.
+[[nodiscard]] SimulationSnapshot read_snapshot(ByteReader& reader);
 
 }  // namespace ashlar

@@ -67,6 +67,23 @@ TEST_P(AtomicFile, DoesNotFollowLinks) {
   EXPECT_THROW(write_file_atomically("", "x", GetParam()), std::runtime_error);
 }
 
+TEST_P(AtomicFile, TakesContentInPiecesAndNothingOfWhatFails) {
+  const TemporaryFolder folder;
+  write_file_atomically(folder / "a", GetParam(), [](OutputFile& file) {
+    file.write("one, ");
+    file.write("two");
+  });
+  EXPECT_EQ(read_text(folder / "a"), "one, two");
+  const auto fails = [](OutputFile& file) {
+    file.write("three");
+    throw std::runtime_error("no more");
+  };
+  EXPECT_THAT([&] { write_file_atomically(folder / "a", GetParam(), fails); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("no more")));
+  EXPECT_EQ(read_text(folder / "a"), "one, two");
+  EXPECT_EQ(folder.entry_count(), 1U);
+}
+
 TEST_P(AtomicFile, FailsWithoutATrace) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "taken");

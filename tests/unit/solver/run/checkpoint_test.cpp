@@ -39,6 +39,34 @@ void take_steps(Simulation& simulation, int count) {
   for (int k = 0; k < count; ++k) ASSERT_EQ(simulation.step(end_time), StepStatus::accepted);
 }
 
+// More than a sink is given at once, after something else and before it.
+TEST(Checkpoint, ASinkIsGivenTheSameBytesInPieces) {
+  Simulation simulation = make_simulation();
+  take_steps(simulation, 2);
+  const SimulationSnapshot snapshot = simulation.snapshot();
+  std::string bytes;
+  int pieces = 0;
+  ByteWriter writer([&](std::string_view piece) {
+    bytes += piece;
+    ++pieces;
+  });
+  const std::vector<double> large(20'000, 0.5);
+  writer(large);
+  write_snapshot(writer, snapshot);
+  writer(7);
+  EXPECT_GT(pieces, 1);
+  writer.flush();
+  ByteReader reader(bytes);
+  std::vector<double> first;
+  reader(first);
+  EXPECT_EQ(first, large);
+  EXPECT_EQ(to_bytes(read_snapshot(reader)), to_bytes(snapshot));
+  int last = 0;
+  reader(last);
+  EXPECT_EQ(last, 7);
+  EXPECT_TRUE(reader.at_end());
+}
+
 TEST(Checkpoint, FactorsOfLoadsGoAlong) {
   BlockDefinition cube =
       test_support::block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2000.0, 1e9, 0.0}, 1);
