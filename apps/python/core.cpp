@@ -162,9 +162,10 @@ struct CoreBlock {
   template <class Pick>
   [[nodiscard]] py::array_t<double> vectors(const Points& points, Pick pick) const {
     const std::vector<Vector3> places = points_of(points);
+    const std::vector<PointMotion> motions = model().motions_of(state(), places);
     Eigen::MatrixX3d result(static_cast<Eigen::Index>(places.size()), 3);
     for (std::size_t k = 0; k < places.size(); ++k)
-      result.row(static_cast<Eigen::Index>(k)) = pick(model().motion_of(state(), places[k])).transpose();
+      result.row(static_cast<Eigen::Index>(k)) = pick(motions[k]).transpose();
     return array_of(result);
   }
 
@@ -172,8 +173,9 @@ struct CoreBlock {
     const std::vector<Vector3> places = points_of(points);
     py::array_t<double> array({static_cast<py::ssize_t>(places.size()), py::ssize_t{3}, py::ssize_t{3}});
     auto values = array.mutable_unchecked<3>();
+    const std::vector<PointMotion> motions = model().motions_of(state(), places);
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const Eigen::Matrix3d stress = model().motion_of(state(), places[k]).stress;
+      const Eigen::Matrix3d& stress = motions[k].stress;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) values(static_cast<py::ssize_t>(k), i, j) = stress(i, j);
     }

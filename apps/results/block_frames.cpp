@@ -23,8 +23,9 @@ class FrameOfBlocks {
   /// @return the number of the block's first point
   int add_points(int b, const BlockModel& block, const BlockState& state, const Drawn& drawn) {
     const int first = static_cast<int>(grid_.points.size());
-    for (std::size_t k = 0; k < drawn.points.size(); ++k) {
-      const PointMotion motion = block.motion_of(state, drawn.points[k]);
+    const std::vector<PointMotion> motions = block.motions_of(state, drawn.points);
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const PointMotion& motion = motions[k];
       grid_.points.push_back(motion.place);
       append(displacement_,
              origin_.empty() ? motion.displacement : Vector3(motion.displacement - origin_[at(b)][k]));

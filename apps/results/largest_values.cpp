@@ -18,9 +18,10 @@ LargestValues largest_values(const Simulation& simulation, const std::vector<Dra
     const auto index = static_cast<std::size_t>(b);
     const BlockModel& block = simulation.blocks()[index];
     if (block.fixed() || !simulation.system().present(b)) continue;
-    const std::vector<Vector3>& points = surfaces[index].points;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const PointMotion motion = block.motion_of(simulation.states()[index], points[k]);
+    const std::vector<PointMotion> motions =
+        block.motions_of(simulation.states()[index], surfaces[index].points);
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      const PointMotion& motion = motions[k];
       const Vector3 displacement =
           origin.empty() ? motion.displacement : Vector3(motion.displacement - origin[index][k]);
       take(largest.displacement, displacement.norm(), b, motion.place);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "geometry/index.hpp"
 #include "mechanics/basis/legendre_seeds.hpp"
@@ -56,55 +57,102 @@ PolynomialBasis::PolynomialBasis(std::shared_ptr<const Parts> parts, const Vecto
 }
 
 /// What is rounded into Parts.
+template <class Real>
 struct PolynomialBasis::ExactParts {
-  RealPoints points;  // from the first point, m; then in the coordinates xi of the box along the axes
+  RealPoints<Real>
+      points;  // from the first point, m; after scale() in the coordinates xi of the box along the axes
   Real volume;
-  RealMatrix axes;     // (3, 3)
-  RealMatrix lower;    // L, seed = L phi
-  RealMatrix inverse;  // of L
+  RealMatrix<Real> axes;     // (3, 3)
+  RealMatrix<Real> lower;    // L, seed = L phi
+  RealMatrix<Real> inverse;  // of L
   std::vector<std::array<int, 3>> exponents;
 };
 
+namespace {
+
+/// Of the functions' products' integrals: an eighth of the last place.
+constexpr double allowed_error = 0x1p-56;
+/// Of volume and second moment, relative: small entries of a thin block's second moment keep their digits too.
+constexpr double allowed_error_of_measure = 0x1p-80;
+
+template <class Real>
+constexpr bool is_last_resort = std::is_same_v<Real, FiftyDigits>;
+
+/// Bounds the relative error of the terms of moments, see moment_sizes().
+template <class Real>
+double moment_error(int degree, double error_of_coordinates) {
+  return (3.0 * degree + 12.0) * (unit_roundoff<Real> + error_of_coordinates);
+}
+
+}  // namespace
+
 PolynomialBasis::Parts::Parts(const Polyhedron& solid, int the_order) : order(the_order) {
   if (order < 0 || order > max_order) throw std::invalid_argument("order of a basis must be 0 to 12");
-  ExactParts exact;
+  if (!make<DoubleDouble, DoubleDouble>(solid) && !make<FiftyDigits, DoubleDouble>(solid))
+    (void)make<FiftyDigits, FiftyDigits>(solid);
+}
+
+template <class MomentReal, class Real>
+bool PolynomialBasis::Parts::make(const Polyhedron& solid) {
+  const TriangleMesh& mesh = solid.mesh();
+  ExactParts<MomentReal> of_moments;
+  if (!measure(mesh, of_moments)) return false;
+  choose_box(mesh);
+  scale(of_moments);
+  double error = 0.0;
+  const std::vector<MomentReal> moments = seed_moments(mesh, of_moments, error);
+  ExactParts<Real> exact;
   exact.exponents = monomial_exponents(order);
-  measure(solid.mesh(), exact);
-  choose_box(solid.mesh(), exact);
-  orthonormalise(solid, exact);
+  exact.volume = converted<Real>(of_moments.volume);
+  exact.axes = of_moments.axes.unaryExpr([](const MomentReal& value) { return converted<Real>(value); });
+  for (const auto& [x, y, z] : of_moments.points)
+    exact.points.push_back({converted<Real>(x), converted<Real>(y), converted<Real>(z)});
+  std::vector<Real> rounded_moments;
+  for (const MomentReal& moment : moments) rounded_moments.push_back(converted<Real>(moment));
+  if (!orthonormalise(solid, rounded_moments, error, exact)) return false;
   make_recurrences(exact);
   make_derivatives(exact);
   make_identity_map(exact);
-  measure_loss(solid.mesh(), exact);
+  measure_loss(mesh, exact);
+  return true;
 }
 
-void PolynomialBasis::Parts::measure(const TriangleMesh& mesh, ExactParts& exact) {
+template <class Real>
+bool PolynomialBasis::Parts::measure(const TriangleMesh& mesh, ExactParts<Real>& exact) {
   const Vector3& anchor = mesh.points.front();
+  std::vector<Vector3> near;
   for (const Vector3& point : mesh.points) {
     std::array<Real, 3> from_anchor;
     for (int axis = 0; axis < 3; ++axis) from_anchor[at(axis)] = Real(point[axis]) - Real(anchor[axis]);
     exact.points.push_back(from_anchor);
+    near.emplace_back(point - anchor);
   }
   const std::vector<Real> second = monomial_moments(exact.points, mesh, 2);
   exact.volume = second[0];
-  volume = static_cast<double>(exact.volume);
+  volume = rounded(exact.volume);
   std::array<Real, 3> mean;
   for (int axis = 0; axis < 3; ++axis) {
     mean[at(axis)] = second[at(1 + axis)] / exact.volume;
-    centroid[axis] = static_cast<double>(mean[at(axis)]);
+    centroid[axis] = rounded(mean[at(axis)]);
   }
+  double largest = 0.0;
+  const std::vector<double> sizes = moment_sizes(near, mesh, 2);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       std::array<int, 3> e = {0, 0, 0};
       ++e[at(i)];
       ++e[at(j)];
-      second_moment(i, j) = static_cast<double>(second[at(monomial_index(e[0], e[1], e[2]))] -
-                                                mean[at(i)] * mean[at(j)] * exact.volume);
+      const int place = monomial_index(e[0], e[1], e[2]);
+      second_moment(i, j) = rounded(Real(second[at(place)] - mean[at(i)] * mean[at(j)] * exact.volume));
+      largest = std::max(largest, sizes[at(place)]);
     }
   }
+  const double error = moment_error<Real>(2, unit_roundoff<Real>);
+  return is_last_resort<Real> || (error * sizes[0] <= allowed_error_of_measure * volume &&
+                                  error * largest <= allowed_error_of_measure * second_moment.trace());
 }
 
-void PolynomialBasis::Parts::choose_box(const TriangleMesh& mesh, ExactParts& exact) {
+void PolynomialBasis::Parts::choose_box(const TriangleMesh& mesh) {
   axes = principal_axes(second_moment);
   Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 most = -least;
@@ -115,6 +163,10 @@ void PolynomialBasis::Parts::choose_box(const TriangleMesh& mesh, ExactParts& ex
   }
   middle = 0.5 * (least + most);
   half_size = 0.5 * (most - least);
+}
+
+template <class Real>
+void PolynomialBasis::Parts::scale(ExactParts<Real>& exact) const {
   exact.axes.resize(3, 3);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) exact.axes(i, j) = Real(axes(i, j));
@@ -129,28 +181,67 @@ void PolynomialBasis::Parts::choose_box(const TriangleMesh& mesh, ExactParts& ex
   }
 }
 
-void PolynomialBasis::Parts::orthonormalise(const Polyhedron& solid, ExactParts& exact) {
-  std::vector<Real> scaled = monomial_moments(exact.points, solid.mesh(), std::max(2 * order, 2));
+template <class Real>
+std::vector<Real> PolynomialBasis::Parts::seed_moments(const TriangleMesh& mesh,
+                                                       const ExactParts<Real>& exact, double& error) const {
+  const int degree = std::max(2 * order, 2);
+  std::vector<Real> monomial = monomial_moments(exact.points, mesh, degree);
   // The axes are orthonormal but for rounding, so that the determinant of the map is not exactly that of h.
-  const Real scale = exact.volume / scaled[0];
-  for (Real& moment : scaled) moment *= scale;
+  const Real scale = exact.volume / monomial[0];
+  for (Real& moment : monomial) moment *= scale;
+  // Rounding moves coordinates by parts of what cancels in them, which is taken relative to at least `small`.
+  constexpr double small = 0x1p-10;
+  double cancelled = 0.0;
+  std::vector<Vector3> xi;
+  for (std::size_t n = 0; n < mesh.points.size(); ++n) {
+    const Vector3 terms = axes.cwiseAbs().transpose() * (mesh.points[n] - mesh.points.front()).cwiseAbs();
+    cancelled = std::max(cancelled, (terms + middle.cwiseAbs()).cwiseQuotient(half_size).maxCoeff());
+    const auto& [x, y, z] = exact.points[n];
+    xi.push_back(Vector3(rounded(x), rounded(y), rounded(z)).cwiseAbs().cwiseMax(small));
+  }
+  constexpr double operations = 8.0;
+  const double of_coordinates = operations * unit_roundoff<Real> * cancelled / small;
+  error = moment_error<Real>(degree, of_coordinates) * std::abs(rounded(scale)) *
+          legendre_size(moment_sizes(xi, mesh, degree), degree);
+  return legendre_moments(monomial, degree);
+}
+
+template <class Real>
+bool PolynomialBasis::Parts::orthonormalise(const Polyhedron& solid, const std::vector<Real>& moments,
+                                            double error, ExactParts<Real>& exact) const {
+  const RealMatrix<Real> gram = gram_matrix(moments, order);
+  const auto p = static_cast<double>(gram.rows());
+  double trace = 0.0;
+  for (Eigen::Index i = 0; i < gram.rows(); ++i) trace += rounded(gram(i, i));
+  // G + E is factorised, so that integrals of phi phi' are off by inverse(L) E inverse(L)': |E| is at most p times the error
+  // of the moments, and what factorising rounds. |inverse(L)|^2, of size trace(inverse(G)), is at least p^2 / trace(G).
+  const double off = p * (error + 4.0 * unit_roundoff<Real> * trace);
+  if (!is_last_resort<Real> && !(off * p * p / trace <= allowed_error)) return false;
   Eigen::Index failed = -1;
-  exact.lower = cholesky_factor(gram_matrix(scaled, order), failed);
+  exact.lower = cholesky_factor(gram, failed);
   if (failed >= 0) {
+    if (!is_last_resort<Real>) return false;
     const std::array<int, 3>& e = exact.exponents[static_cast<std::size_t>(failed)];
     int highest = e[0] + e[1] + e[2] - 1;
     try {
       if (highest > 0) (void)Parts(solid, highest);
-    } catch (const OrderTooHigh& error) {
-      highest = error.highest_safe_order;
+    } catch (const OrderTooHigh& too_high) {
+      highest = too_high.highest_safe_order;
     }
     throw OrderTooHigh(order, highest);
   }
   exact.inverse = inverse_of_lower(exact.lower);
+  if (is_last_resort<Real>) return true;
+  double inverse = 0.0;
+  for (Eigen::Index i = 0; i < gram.rows(); ++i)
+    for (Eigen::Index j = 0; j <= i; ++j)
+      inverse += rounded(exact.inverse(i, j)) * rounded(exact.inverse(i, j));
+  return off * inverse <= allowed_error;
 }
 
-void PolynomialBasis::Parts::make_recurrences(const ExactParts& exact) {
-  constant = static_cast<double>(exact.inverse(0, 0));
+template <class Real>
+void PolynomialBasis::Parts::make_recurrences(const ExactParts<Real>& exact) {
+  constant = rounded(exact.inverse(0, 0));
   for (int k = 1; k < polynomial_count(order); ++k) {
     auto e = exact.exponents[at(k)];
     const auto axis = static_cast<int>(std::max_element(e.begin(), e.end()) - e.begin());
@@ -159,14 +250,14 @@ void PolynomialBasis::Parts::make_recurrences(const ExactParts& exact) {
     const int parent = monomial_index(e[0], e[1], e[2]);
     const std::vector<Real> weights =
         multiplied(exact.lower, exact.inverse, exact.exponents, {axis, parent, first, k});
-    Recurrence recurrence{axis, parent, first, Eigen::VectorXd(k - first),
-                          static_cast<double>(weights.back())};
-    for (int j = 0; j < k - first; ++j) recurrence.weights[j] = static_cast<double>(weights[at(j)]);
+    Recurrence recurrence{axis, parent, first, Eigen::VectorXd(k - first), rounded(weights.back())};
+    for (int j = 0; j < k - first; ++j) recurrence.weights[j] = rounded(weights[at(j)]);
     recurrences.push_back(std::move(recurrence));
   }
 }
 
-void PolynomialBasis::Parts::make_derivatives(const ExactParts& exact) {
+template <class Real>
+void PolynomialBasis::Parts::make_derivatives(const ExactParts<Real>& exact) {
   std::array<Eigen::MatrixXd, 3> local;
   for (int j = 0; j < 3; ++j)
     local[at(j)] = derivative_matrix(exact.lower, exact.inverse, order, j) / half_size[j];
@@ -174,15 +265,16 @@ void PolynomialBasis::Parts::make_derivatives(const ExactParts& exact) {
     derivatives[at(i)] = axes(i, 0) * local[0] + axes(i, 1) * local[1] + axes(i, 2) * local[2];
 }
 
-void PolynomialBasis::Parts::make_identity_map(const ExactParts& exact) {
+template <class Real>
+void PolynomialBasis::Parts::make_identity_map(const ExactParts<Real>& exact) {
   // seed = L phi: the coefficients of a seed are a row of L. X - c = inverse(A') (m + h xi), xi = seeds 1
   // to 3.
-  const RealMatrix back = exact.axes.transpose().inverse();
-  const RealMatrix& lower = exact.lower;
+  const RealMatrix<Real> back = exact.axes.transpose().inverse();
+  const RealMatrix<Real>& lower = exact.lower;
   identity_map = Eigen::MatrixX3d::Zero(polynomial_count(order), 3);
   for (int i = 0; i < 3; ++i) {
     if (order == 0) {
-      identity_map(0, i) = centroid[i] * static_cast<double>(lower(0, 0));
+      identity_map(0, i) = centroid[i] * rounded(lower(0, 0));
       continue;
     }
     Real offset = 0;
@@ -192,24 +284,25 @@ void PolynomialBasis::Parts::make_identity_map(const ExactParts& exact) {
       for (int k = 0; k <= 1 + j; ++k)
         coefficients[at(k)] += back(i, j) * Real(half_size[j]) * lower(1 + j, k);
     }
-    for (int k = 0; k < 4; ++k) identity_map(k, i) = static_cast<double>(coefficients[at(k)]);
+    for (int k = 0; k < 4; ++k) identity_map(k, i) = rounded(coefficients[at(k)]);
   }
 }
 
-void PolynomialBasis::Parts::measure_loss(const TriangleMesh& mesh, const ExactParts& exact) {
+template <class Real>
+void PolynomialBasis::Parts::measure_loss(const TriangleMesh& mesh, const ExactParts<Real>& exact) {
   int worst_degree = order + 1;
-  // Points of the mesh are known exactly, in 50 digits and in double.
+  // Points of the mesh are known exactly, in many digits and in double.
   constexpr std::size_t most_points = 16;
   const std::size_t stride = (exact.points.size() + most_points - 1) / most_points;
   for (std::size_t n = 0; n < exact.points.size(); n += stride) {
     const std::vector<Real> seeds = seed_values(exact.points[n], order);
     const Vector3 xi =
         (axes.transpose() * (mesh.points[n] - mesh.points.front()) - middle).cwiseQuotient(half_size);
-    const Eigen::VectorXd rounded = values(xi);
+    const Eigen::VectorXd in_double = values(xi);
     for (int k = 0; k < polynomial_count(order); ++k) {
       Real value = 0;
       for (int j = 0; j <= k; ++j) value += exact.inverse(k, j) * seeds[at(j)];
-      const double lost = std::abs(static_cast<double>(Real(rounded[k]) - value)) * std::sqrt(volume);
+      const double lost = std::abs(rounded(Real(Real(in_double[k]) - value))) * std::sqrt(volume);
       loss = std::max(loss, lost);
       const auto& e = exact.exponents[at(k)];
       if (!(lost <= allowed_loss)) worst_degree = std::min(worst_degree, e[0] + e[1] + e[2]);

@@ -1,6 +1,7 @@
 #include "mechanics/basis/legendre_seeds.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "geometry/index.hpp"
@@ -11,6 +12,7 @@ namespace ashlar {
 namespace {
 
 /// Monomial coefficients of the Legendre polynomials L_0 to L_last. @return [k][power]
+template <class Real>
 std::vector<std::vector<Real>> legendre_coefficients(int last) {
   std::vector<std::vector<Real>> table(at(last) + 1, std::vector<Real>(at(last) + 1, Real(0)));
   table[0][0] = 1;
@@ -28,6 +30,7 @@ std::vector<std::vector<Real>> legendre_coefficients(int last) {
 
 /// Coefficients of L_i L_j = sum_k product[k] L_k for i, j <= order, from k L_(k) recurrences: multiplying by
 /// x maps L_k to ((k+1) L_(k+1) + k L_(k-1)) / (2k+1), and L_(i+1) = ((2i+1) x L_i - i L_(i-1)) / (i+1).
+template <class Real>
 std::vector<std::vector<std::vector<Real>>> legendre_products(int order) {
   const int last = 2 * order;
   std::vector<std::vector<std::vector<Real>>> table(
@@ -49,18 +52,28 @@ std::vector<std::vector<std::vector<Real>>> legendre_products(int order) {
   return table;
 }
 
-/// Integrals over the block of L_a(xi) L_b(eta) L_c(zeta) dV / (half sizes' product), a + b + c <= degree.
+/// a! b! c!/(a+b+c+3)! of simplex_moments.hpp.
+template <class Real>
+void multiply_by_factorials(std::vector<Real>& sums, int degree) {
+  const auto factorial = factorials<Real>(degree + 3);
+  for (const auto& [a, b, c] : monomial_exponents(degree))
+    sums[at(monomial_index(a, b, c))] *=
+        factorial[at(a)] * factorial[at(b)] * factorial[at(c)] / factorial[at(a + b + c + 3)];
+}
+
+}  // namespace
+
+template <class Real>
 std::vector<Real> legendre_moments(const std::vector<Real>& monomial_moments, int degree) {
-  const auto coefficient = legendre_coefficients(degree);
+  const auto coefficient = legendre_coefficients<Real>(degree);
   std::vector<Real> result;
   for (const auto& [a, b, c] : monomial_exponents(degree)) {
     Real sum = 0;
     for (int i = a % 2; i <= a; i += 2) {
       for (int j = b % 2; j <= b; j += 2) {
         const Real outer = coefficient[at(a)][at(i)] * coefficient[at(b)][at(j)];
-        for (int k = c % 2; k <= c; k += 2) {
+        for (int k = c % 2; k <= c; k += 2)
           sum += outer * coefficient[at(c)][at(k)] * monomial_moments[at(monomial_index(i, j, k))];
-        }
       }
     }
     result.push_back(sum);
@@ -68,14 +81,29 @@ std::vector<Real> legendre_moments(const std::vector<Real>& monomial_moments, in
   return result;
 }
 
-}  // namespace
+double legendre_size(const std::vector<double>& moment_sizes, int degree) {
+  auto coefficient = legendre_coefficients<double>(degree);
+  for (auto& row : coefficient)
+    for (double& value : row) value = std::abs(value);
+  double largest = 0.0;
+  for (const auto& [a, b, c] : monomial_exponents(degree)) {
+    double sum = 0.0;
+    for (int i = a % 2; i <= a; i += 2)
+      for (int j = b % 2; j <= b; j += 2)
+        for (int k = c % 2; k <= c; k += 2)
+          sum += coefficient[at(a)][at(i)] * coefficient[at(b)][at(j)] * coefficient[at(c)][at(k)] *
+                 moment_sizes[at(monomial_index(i, j, k))];
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
 
-RealMatrix gram_matrix(const std::vector<Real>& moments, int order) {
-  const std::vector<Real> legendre_moment = legendre_moments(moments, std::max(2 * order, 2));
-  const auto product = legendre_products(order);
+template <class Real>
+RealMatrix<Real> gram_matrix(const std::vector<Real>& legendre_moments, int order) {
+  const auto product = legendre_products<Real>(order);
   const auto exponents = monomial_exponents(order);
   const int p = polynomial_count(order);
-  RealMatrix gram = RealMatrix::Zero(p, p);
+  RealMatrix<Real> gram = RealMatrix<Real>::Zero(p, p);
   for (int row = 0; row < p; ++row) {
     const auto& r = exponents[at(row)];
     for (int column = 0; column <= row; ++column) {
@@ -85,7 +113,7 @@ RealMatrix gram_matrix(const std::vector<Real>& moments, int order) {
         for (int b = std::abs(r[1] - s[1]); b <= r[1] + s[1]; b += 2) {
           const Real outer = product[at(r[0])][at(s[0])][at(a)] * product[at(r[1])][at(s[1])][at(b)];
           for (int c = std::abs(r[2] - s[2]); c <= r[2] + s[2]; c += 2) {
-            sum += outer * product[at(r[2])][at(s[2])][at(c)] * legendre_moment[at(monomial_index(a, b, c))];
+            sum += outer * product[at(r[2])][at(s[2])][at(c)] * legendre_moments[at(monomial_index(a, b, c))];
           }
         }
       }
@@ -95,7 +123,8 @@ RealMatrix gram_matrix(const std::vector<Real>& moments, int order) {
   return gram;
 }
 
-RealMatrix cholesky_factor(RealMatrix matrix, Eigen::Index& failed) {
+template <class Real>
+RealMatrix<Real> cholesky_factor(RealMatrix<Real> matrix, Eigen::Index& failed) {
   failed = -1;
   const Eigen::Index p = matrix.rows();
   for (Eigen::Index j = 0; j < p; ++j) {
@@ -109,30 +138,34 @@ RealMatrix cholesky_factor(RealMatrix matrix, Eigen::Index& failed) {
     }
     const Real root = sqrt(matrix(j, j));
     for (Eigen::Index i = j; i < p; ++i) matrix(i, j) /= root;
-    for (Eigen::Index i = 0; i < j; ++i) matrix(i, j) = 0;
+    for (Eigen::Index i = 0; i < j; ++i) matrix(i, j) = Real(0);
   }
   return matrix;
 }
 
-RealMatrix inverse_of_lower(const RealMatrix& lower) {
+template <class Real>
+RealMatrix<Real> inverse_of_lower(const RealMatrix<Real>& lower) {
   const Eigen::Index p = lower.rows();
-  RealMatrix inverse = RealMatrix::Zero(p, p);
+  RealMatrix<Real> inverse = RealMatrix<Real>::Zero(p, p);
   for (Eigen::Index j = 0; j < p; ++j) {
-    inverse(j, j) = Real(1) / lower(j, j);
-    for (Eigen::Index i = j + 1; i < p; ++i) {
-      Real sum = 0;
-      for (Eigen::Index k = j; k < i; ++k) sum += lower(i, k) * inverse(k, j);
-      inverse(i, j) = -sum / lower(i, i);
+    inverse(j, j) = Real(1);
+    // By columns, as they lie in memory.
+    for (Eigen::Index k = j; k < p; ++k) {
+      inverse(k, j) /= lower(k, k);
+      const Real factor = inverse(k, j);
+      for (Eigen::Index i = k + 1; i < p; ++i) inverse(i, j) -= lower(i, k) * factor;
     }
   }
   return inverse;
 }
 
 // S: L_k' = sum of (2m+1) L_m, m = k-1, k-3, ...
-Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inverse, int order, int axis) {
+template <class Real>
+Eigen::MatrixXd derivative_matrix(const RealMatrix<Real>& lower, const RealMatrix<Real>& inverse, int order,
+                                  int axis) {
   const auto exponents = monomial_exponents(order);
   const Eigen::Index p = lower.rows();
-  RealMatrix derived = RealMatrix::Zero(p, p);  // S L
+  RealMatrix<Real> derived = RealMatrix<Real>::Zero(p, p);  // S L
   for (Eigen::Index row = 0; row < p; ++row) {
     auto e = exponents[static_cast<std::size_t>(row)];
     auto& k = e[at(axis)];
@@ -152,23 +185,21 @@ Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inv
       for (Eigen::Index k = column; k <= row; ++k) {
         if (derived(k, column) != 0) sum += inverse(row, k) * derived(k, column);
       }
-      result(row, column) = static_cast<double>(sum);
+      result(row, column) = rounded(sum);
     }
   }
   return result;
 }
 
-std::vector<Real> monomial_moments(const RealPoints& points, const TriangleMesh& mesh, int degree) {
+template <class Real>
+std::vector<Real> monomial_moments(const RealPoints<Real>& points, const TriangleMesh& mesh, int degree) {
   std::vector<Real> result = moment_sums(points, mesh.triangles, degree);
-  const auto factorial = factorials<Real>(degree + 3);
-  for (const auto& [a, b, c] : monomial_exponents(degree)) {
-    result[at(monomial_index(a, b, c))] *=
-        factorial[at(a)] * factorial[at(b)] * factorial[at(c)] / factorial[at(a + b + c + 3)];
-  }
+  multiply_by_factorials(result, degree);
   return result;
 }
 
-std::vector<Real> multiplied(const RealMatrix& lower, const RealMatrix& inverse,
+template <class Real>
+std::vector<Real> multiplied(const RealMatrix<Real>& lower, const RealMatrix<Real>& inverse,
                              const std::vector<std::array<int, 3>>& exponents, const SeedProduct& product) {
   const auto& [axis, parent, first, k] = product;
   std::vector<Real> of_seeds(at(k) + 1, Real(0));
@@ -191,6 +222,7 @@ std::vector<Real> multiplied(const RealMatrix& lower, const RealMatrix& inverse,
   return result;
 }
 
+template <class Real>
 std::vector<Real> seed_values(const std::array<Real, 3>& xi, int order) {
   std::array<std::vector<Real>, 3> legendre;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -205,5 +237,36 @@ std::vector<Real> seed_values(const std::array<Real, 3>& xi, int order) {
     seeds.push_back(legendre[0][at(a)] * legendre[1][at(b)] * legendre[2][at(c)]);
   return seeds;
 }
+
+std::vector<double> moment_sizes(const std::vector<Vector3>& points, const TriangleMesh& mesh, int degree) {
+  std::vector<double> sizes(at(polynomial_count(degree)), 0.0);
+  std::vector<double> series;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int axis = 0; axis < 3; ++axis) corners[k][at(axis)] = std::abs(points[at(triangle[k])][axis]);
+    const auto& [a, b, c] = corners;
+    const double determinant = a[0] * (b[1] * c[2] + b[2] * c[1]) + a[1] * (b[2] * c[0] + b[0] * c[2]) +
+                               a[2] * (b[0] * c[1] + b[1] * c[0]);
+    corner_series(corners, degree, series);
+    for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] += determinant * series[k];
+  }
+  multiply_by_factorials(sizes, degree);
+  return sizes;
+}
+
+#define ASHLAR_INSTANTIATE(Real)                                                                          \
+  template std::vector<Real> monomial_moments(const RealPoints<Real>&, const TriangleMesh&, int);         \
+  template std::vector<Real> legendre_moments(const std::vector<Real>&, int);                             \
+  template RealMatrix<Real> gram_matrix(const std::vector<Real>&, int);                                   \
+  template RealMatrix<Real> cholesky_factor(RealMatrix<Real>, Eigen::Index&);                             \
+  template RealMatrix<Real> inverse_of_lower(const RealMatrix<Real>&);                                    \
+  template Eigen::MatrixXd derivative_matrix(const RealMatrix<Real>&, const RealMatrix<Real>&, int, int); \
+  template std::vector<Real> multiplied(const RealMatrix<Real>&, const RealMatrix<Real>&,                 \
+                                        const std::vector<std::array<int, 3>>&, const SeedProduct&);      \
+  template std::vector<Real> seed_values(const std::array<Real, 3>&, int);
+ASHLAR_INSTANTIATE(DoubleDouble)
+ASHLAR_INSTANTIATE(FiftyDigits)
+#undef ASHLAR_INSTANTIATE
 
 }  // namespace ashlar

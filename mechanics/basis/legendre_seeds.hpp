@@ -1,8 +1,8 @@
-// Products of Legendre polynomials over a solid, in 50 digits: what a basis is made from. Only sources of this
-// folder include this file.
+// Products of Legendre polynomials over a solid: what a basis is made from, in 32 digits (double_double.hpp) where these
+// are shown to be enough, else in 50. Only sources of this folder include this file.
 //
 // The seeds are L_a(xi) L_b(eta) L_c(zeta), by monomial_index(a, b, c); phi = inverse(L) seed, L L' the Gram
-// matrix of the seeds over the solid.
+// matrix of the seeds over the solid. Real is DoubleDouble or FiftyDigits.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,30 +10,50 @@
 #include <boost/multiprecision/eigen.hpp>
 #include <vector>
 
-#include "geometry/exact/fifty_digits.hpp"
 #include "geometry/triangle_mesh.hpp"
+#include "mechanics/basis/double_double.hpp"
 
 namespace ashlar {
 
-using Real = FiftyDigits;
+template <class Real>
 using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+template <class Real>
 using RealPoints = std::vector<std::array<Real, 3>>;
 
 /// Integrals of the monomials of the given coordinates over the solid they bound, a + b + c <= degree.
-[[nodiscard]] std::vector<Real> monomial_moments(const RealPoints& points, const TriangleMesh& mesh,
+template <class Real>
+[[nodiscard]] std::vector<Real> monomial_moments(const RealPoints<Real>& points, const TriangleMesh& mesh,
                                                  int degree);
 
-/// Lower triangle of the Gram matrix of the seeds. @param moments of monomials up to degree 2 order
+/// What the monomial moments would be if nothing cancelled: all products and sums of monomial_moments() with their
+/// absolute values. Coordinates that are right to a relative error e give moments that are right to
+/// (3 degree + 12) (e + unit roundoff) of these. @param points rounded
+[[nodiscard]] std::vector<double> moment_sizes(const std::vector<Vector3>& points, const TriangleMesh& mesh,
+                                               int degree);
+
+/// Integrals of the seeds, of all degrees that the monomial moments have.
+template <class Real>
+[[nodiscard]] std::vector<Real> legendre_moments(const std::vector<Real>& monomial_moments, int degree);
+
+/// The largest of the same with the absolute values of all terms.
+[[nodiscard]] double legendre_size(const std::vector<double>& moment_sizes, int degree);
+
+/// Lower triangle of the Gram matrix of the seeds: products of seeds are sums of seeds whose weights are positive and
+/// sum to 1, so that no entry is off by more than the moments are. @param legendre_moments up to degree 2 order
 /// @return (p, p)
-[[nodiscard]] RealMatrix gram_matrix(const std::vector<Real>& moments, int order);
+template <class Real>
+[[nodiscard]] RealMatrix<Real> gram_matrix(const std::vector<Real>& legendre_moments, int order);
 
 /// @param failed set to the first row that is no longer positive; -1: none
-[[nodiscard]] RealMatrix cholesky_factor(RealMatrix matrix, Eigen::Index& failed);
-[[nodiscard]] RealMatrix inverse_of_lower(const RealMatrix& lower);
+template <class Real>
+[[nodiscard]] RealMatrix<Real> cholesky_factor(RealMatrix<Real> matrix, Eigen::Index& failed);
+template <class Real>
+[[nodiscard]] RealMatrix<Real> inverse_of_lower(const RealMatrix<Real>& lower);
 
 /// inverse(L) S L with S the derivative of the seeds by one xi. @return (p, p), rounded
-[[nodiscard]] Eigen::MatrixXd derivative_matrix(const RealMatrix& lower, const RealMatrix& inverse, int order,
-                                                int axis);
+template <class Real>
+[[nodiscard]] Eigen::MatrixXd derivative_matrix(const RealMatrix<Real>& lower,
+                                                const RealMatrix<Real>& inverse, int order, int axis);
 
 /// Which function is multiplied, and which weights of the product are asked for.
 struct SeedProduct {
@@ -45,11 +65,13 @@ struct SeedProduct {
 
 /// The weights of xi_axis phi_parent in the basis, from the first to the last asked for. @param exponents of the seeds
 /// @return (last - first + 1)
-[[nodiscard]] std::vector<Real> multiplied(const RealMatrix& lower, const RealMatrix& inverse,
+template <class Real>
+[[nodiscard]] std::vector<Real> multiplied(const RealMatrix<Real>& lower, const RealMatrix<Real>& inverse,
                                            const std::vector<std::array<int, 3>>& exponents,
                                            const SeedProduct& product);
 
 /// Seeds at a point. @return (p)
+template <class Real>
 [[nodiscard]] std::vector<Real> seed_values(const std::array<Real, 3>& xi, int order);
 
 }  // namespace ashlar

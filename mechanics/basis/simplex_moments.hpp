@@ -73,8 +73,7 @@ std::vector<Number> moment_sums(const std::vector<std::array<Number, 3>>& points
 template <class Number>
 std::vector<Number> factorials(int last) {
   std::vector<Number> values(static_cast<std::size_t>(last) + 1, Number(1));
-  for (std::size_t k = 1; k < values.size(); ++k)
-    values[k] = values[k - 1] * Number(static_cast<unsigned>(k));
+  for (std::size_t k = 1; k < values.size(); ++k) values[k] = values[k - 1] * Number(static_cast<int>(k));
   return values;
 }
 

@@ -190,27 +190,64 @@ double BlockModel::gravity_energy(const BlockState& state, const Vector3& gravit
   return -material().density * std::sqrt(basis_.volume()) * state.position.row(0).dot(gravity);
 }
 
-Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point) const {
-  if (fixed() || rigid()) return Eigen::Matrix3d::Zero();
+std::vector<Eigen::Matrix3d> BlockModel::stresses(const BlockState& state, const Eigen::MatrixXd& phi) const {
+  std::vector<Eigen::Matrix3d> result(static_cast<std::size_t>(phi.rows()), Eigen::Matrix3d::Zero());
+  if (fixed() || rigid()) return result;
   if (form_) {
     const Eigen::MatrixX3d change = state.position - basis_.identity_map();
-    return incremental_stress(basis_, carried_.stress + added_stress(basis_, material(), change), point);
+    const Eigen::MatrixXd stress = carried_.stress + added_stress(basis_, material(), change);
+    for (std::size_t k = 0; k < result.size(); ++k)
+      result[k] = incremental_stress(stress, phi.row(static_cast<Eigen::Index>(k)));
+    return result;
   }
-  if (parts_->large)
-    return st_venant_kirchhoff_stress(material(), state.position.transpose() * basis_.gradients(point));
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   if (corotational())
     rotation = polar_decomposition(state.position.transpose() * parts_->mean_gradients).rotation;
-  const Eigen::MatrixX3d deformation = state.position * rotation - basis_.identity_map();
-  return linear_stress(material(), deformation.transpose() * basis_.gradients(point), rotation);
+  // d phi / dX_i = D_i phi: the derivative of a field of coefficients c is one of coefficients D_i' c.
+  Eigen::MatrixX3d field = state.position;
+  if (!parts_->large) field = state.position * rotation - basis_.identity_map();
+  std::array<Eigen::MatrixX3d, 3> derivatives;  // (#points, 3), by axes of X
+  for (int axis = 0; axis < 3; ++axis)
+    derivatives[static_cast<std::size_t>(axis)] =
+        phi * (basis_.derivative(axis).triangularView<Eigen::Lower>().transpose() * field);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    Eigen::Matrix3d gradient;
+    for (int axis = 0; axis < 3; ++axis)
+      gradient.col(axis) =
+          derivatives[static_cast<std::size_t>(axis)].row(static_cast<Eigen::Index>(k)).transpose();
+    result[k] = parts_->large ? st_venant_kirchhoff_stress(material(), gradient)
+                              : linear_stress(material(), gradient, rotation);
+  }
+  return result;
+}
+
+Eigen::Matrix3d BlockModel::stress(const BlockState& state, const Vector3& point) const {
+  return stresses(state, basis_.values(std::vector<Vector3>{point})).front();
 }
 
 PointMotion BlockModel::motion_of(const BlockState& state, const Vector3& reference) const {
-  const Vector3& start = form_ ? form_->place(carried_, reference) : reference;
-  const Eigen::VectorXd phi = basis_.values(start);
-  const Vector3 moved = (state.position - basis_.identity_map()).transpose() * phi;
-  return {form_ ? Vector3(start + moved) : Vector3(state.position.transpose() * phi),
-          moved + (start - reference), state.velocity.transpose() * phi, stress(state, start)};
+  return motions_of(state, {reference}).front();
+}
+
+std::vector<PointMotion> BlockModel::motions_of(const BlockState& state,
+                                                const std::vector<Vector3>& references) const {
+  std::vector<Vector3> starts = references;
+  if (form_)
+    for (Vector3& start : starts) start = form_->place(carried_, start);
+  const Eigen::MatrixXd phi = basis_.values(starts);
+  const Eigen::MatrixX3d moved = phi * (state.position - basis_.identity_map());
+  const Eigen::MatrixX3d places = phi * state.position;
+  const Eigen::MatrixX3d velocities = phi * state.velocity;
+  const std::vector<Eigen::Matrix3d> stress = stresses(state, phi);
+  std::vector<PointMotion> result;
+  result.reserve(references.size());
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const Vector3 move = moved.row(row).transpose();
+    result.push_back({form_ ? Vector3(starts[k] + move) : Vector3(places.row(row).transpose()),
+                      move + (starts[k] - references[k]), velocities.row(row).transpose(), stress[k]});
+  }
+  return result;
 }
 
 }  // namespace ashlar

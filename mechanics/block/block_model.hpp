@@ -145,8 +145,14 @@ class BlockModel {
   /// What a point of the placed, undeformed block does. @param reference m; of an incremental block one of
   /// those that IncrementalForm::place knows
   [[nodiscard]] PointMotion motion_of(const BlockState& state, const Vector3& reference) const;
+  /// Many points at once: a point costs as many products as there are functions, not their square.
+  [[nodiscard]] std::vector<PointMotion> motions_of(const BlockState& state,
+                                                    const std::vector<Vector3>& references) const;
 
  private:
+  /// Cauchy stresses where the functions have these values. @param phi (#points, p)
+  [[nodiscard]] std::vector<Eigen::Matrix3d> stresses(const BlockState& state,
+                                                      const Eigen::MatrixXd& phi) const;
   BlockModel(BlockDefinition definition, std::shared_ptr<const IncrementalForm> form, CarriedShape carried,
              const BlockPartsLibrary::Found& found);
 

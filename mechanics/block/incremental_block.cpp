@@ -125,13 +125,12 @@ ElasticResponse incremental_response(const PolynomialBasis& basis, const Materia
   return response;
 }
 
-Eigen::Matrix3d incremental_stress(const PolynomialBasis& basis, const Eigen::MatrixXd& stress,
-                                   const Vector3& point) {
-  const Eigen::VectorXd values = stress.transpose() * basis.values(point);
+Eigen::Matrix3d incremental_stress(const Eigen::MatrixXd& stress, const Eigen::VectorXd& values) {
+  const Eigen::VectorXd there = stress.transpose() * values;
   Eigen::Matrix3d result;
   for (Eigen::Index k = 0; k < 6; ++k) {
     const auto& [i, j] = components[static_cast<std::size_t>(k)];
-    result(i, j) = result(j, i) = values[k];
+    result(i, j) = result(j, i) = there[k];
   }
   return result;
 }

@@ -72,9 +72,10 @@ class IncrementalForm {
                                                    const Eigen::MatrixXd& stress,
                                                    const Eigen::MatrixX3d& change);
 
-/// Stress at a point. @param stress (p, 6). @return (3, 3), Pa, tension positive
-[[nodiscard]] Eigen::Matrix3d incremental_stress(const PolynomialBasis& basis, const Eigen::MatrixXd& stress,
-                                                 const Vector3& point);
+/// Stress where the functions have these values. @param stress (p, 6). @param values (p). @return (3, 3), Pa, tension
+/// positive
+[[nodiscard]] Eigen::Matrix3d incremental_stress(const Eigen::MatrixXd& stress,
+                                                 const Eigen::VectorXd& values);
 
 /// T with  sum_b psi_b(x) (T c)_b = sum_a phi_a(x - shift) c_a  for all c: polynomials moved along, in the
 /// basis of the moved block. @param from phi, @param to psi, of the same order. @return (p, p)
