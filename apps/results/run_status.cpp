@@ -12,14 +12,13 @@
 namespace ashlar {
 
 std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
-  constexpr double far = 0.1;  // of a block's size
   std::vector<DisplacedBlock> result;
   for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
     const BlockModel& block = simulation.blocks()[k];
     if (block.fixed() || block.driven()) continue;
     const double distance =
         mean_motion(block, simulation.states()[k].position - block.initial_state().position);
-    if (distance > far * block_size(block)) result.push_back({static_cast<int>(k), distance});
+    if (distance > displaced_share * block_size(block)) result.push_back({static_cast<int>(k), distance});
   }
   return result;
 }

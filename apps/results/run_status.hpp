@@ -24,7 +24,9 @@ struct DisplacedBlock {
   int block;
   double distance;  ///< root mean square over the block from where it was placed, m
 };
-/// Blocks farther than a tenth of their size from where they were placed, those on supports that move left
+/// Of a block's size: how far a block is from its place that is no more where it was built.
+inline constexpr double displaced_share = 0.1;
+/// Blocks farther than that share of their size from where they were placed, those on supports that move left
 /// out: what they rest in is not what was built.
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 

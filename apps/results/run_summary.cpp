@@ -150,6 +150,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
   if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
     summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
+  if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
+    summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
   summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},
                                {"lost", simulation.ledger().refound_lost}};
   summary["energy_residual"] = simulation.ledger().residual;

@@ -79,7 +79,7 @@ TrialFactors trial_factors(const SceneAnalysis& analysis, double factor) {
 }
 
 StaticStatus trial_step(Simulation& simulation, double end_time) {
-  const StaticStatus status = simulation.static_step(end_time);
+  const StaticStatus status = simulation.static_step(end_time, displaced_share);
   return status == StaticStatus::balancing && !displaced_blocks(simulation).empty() ? StaticStatus::moving
                                                                                     : status;
 }

@@ -187,6 +187,7 @@ void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem
   if (!quiet) tell_answers(run.simulation(), run.largest(), err);
   warn_of_depth(run.simulation(), err);
   warn_of_friction(run.simulation(), err);
+  warn_of_hops(run.simulation(), err);
 }
 
 }  // namespace

@@ -87,6 +87,17 @@ void warn_of_friction(const Simulation& simulation, std::ostream& err) {
       1.0 + excess);
 }
 
+void warn_of_hops(const Simulation& simulation, std::ostream& err) {
+  constexpr double ordinary = 0.02;
+  const double share = simulation.dilating_slip().flown_share();
+  if (!(share > ordinary)) return;
+  err << fmt::format(
+      "ashlar: warning: {:.3g} of the slip of joints that dilate took place in flight, where nothing "
+      "dilates: blocks that "
+      "slide so fast hop; a smaller time_step or [[joint]] damping keeps them on their joints\n",
+      share);
+}
+
 void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   const auto& [status, message, unsaved] = end;
   if (!unsaved.empty()) {

@@ -37,4 +37,7 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err);
 /// stay together: warns where sliding blocks had another friction than Coulomb's.
 void warn_of_friction(const Simulation& simulation, std::ostream& err);
 
+/// Warns where joints that dilate slid without touching, and so without dilation.
+void warn_of_hops(const Simulation& simulation, std::ostream& err);
+
 }  // namespace ashlar

@@ -59,6 +59,8 @@ class ContactPair {
   [[nodiscard]] bool tied() const { return kind_.tied; }
   /// Whether its springs only stand for what does not give way.
   [[nodiscard]] bool rigid() const { return kind_.rigid; }
+  /// Whether sliding raises it.
+  [[nodiscard]] bool dilates() const { return kind_.dilation > 0.0; }
   /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
   [[nodiscard]] double force_rounding(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                       const std::vector<PointLaw>& laws) const;

@@ -155,7 +155,7 @@ static void visit_members(Archive& archive, PairRecord& record) {
 
 template <class Archive>
 static void visit_members(Archive& archive, StaticProgress& progress) {
-  archive(progress.milestones, progress.forces, progress.travels);
+  archive(progress.milestones, progress.forces, progress.travels, progress.lacking);
 }
 
 template <class Archive>
@@ -194,6 +194,11 @@ static void visit_members(Archive& archive, Ledger& ledger) {
 template <class Archive>
 static void visit_members(Archive& archive, FrictionTally& tally) {
   archive(tally.due, tally.acted);
+}
+
+template <class Archive>
+static void visit_members(Archive& archive, DilatingSlip& slip) {
+  archive(slip.all, slip.in_flight);
 }
 
 template <class Archive>
@@ -279,7 +284,7 @@ static void visit_members(Archive& archive, PairHistory& pair) {
 
 template <class Archive>
 static void visit_members(Archive& archive, ContactExtremes& extremes) {
-  archive(extremes.penetration, extremes.deepest, extremes.sliding_friction);
+  archive(extremes.penetration, extremes.deepest, extremes.sliding_friction, extremes.dilating_slip);
 }
 
 template <class Archive>

@@ -83,8 +83,12 @@ StepStatus Simulation::step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time) {
+  return static_step(end_time, system_.settings().statics.travel);
+}
+
+StaticStatus Simulation::static_step(double end_time, double far) {
   wake_all(context());
-  return ashlar::static_step(context(), end_time);
+  return ashlar::static_step(context(), end_time, far);
 }
 
 void Simulation::wake() {

@@ -64,6 +64,8 @@ class Simulation {
   /// are dropped. @throws std::logic_error if a block is incremental. time() is that of the loads; a report's
   /// step is the length of the dda step that the iteration is.
   [[nodiscard]] StaticStatus static_step(double end_time);
+  /// The same, which ends as moving as soon as a block is sure to go so far. @param far in block sizes, > 0
+  [[nodiscard]] StaticStatus static_step(double end_time, double far);
   /// Blocks that a static analysis found to be moving, and others that move with them.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
   /// Wakes blocks that sleep (step/sleeping_islands.hpp). To be called where joint laws have changed.
@@ -110,6 +112,8 @@ class Simulation {
   [[nodiscard]] const DeepestPoint& deepest() const { return state_.extremes.deepest; }
   /// 0 where contact is springs, whose friction is Coulomb's at each point and time.
   [[nodiscard]] const FrictionTally& sliding_friction() const { return state_.extremes.sliding_friction; }
+  /// Of all steps. 0 where no joint dilates.
+  [[nodiscard]] const DilatingSlip& dilating_slip() const { return state_.extremes.dilating_slip; }
   /// Measures how deep blocks are in each other now. @return the pair that is too deep by most
   std::optional<StateFault> audit();
   /// What was wrong with the end of the last rejected step, if that was why.

@@ -100,6 +100,14 @@ struct FrictionTally {
   [[nodiscard]] double excess() const { return due > 0.0 ? acted / due - 1.0 : 0.0; }
 };
 
+/// Slip of joints that dilate, area times way, m^3, in steps: what is in flight does not dilate.
+struct DilatingSlip {
+  double all = 0.0;
+  double in_flight = 0.0;  ///< where no point of a pair that has dilated touches
+
+  [[nodiscard]] double flown_share() const { return all > 0.0 ? in_flight / all : 0.0; }
+};
+
 /// Wall time of the parts of a step, s.
 struct PhaseSeconds {
   double contact_search = 0.0;
@@ -122,6 +130,7 @@ struct ContactExtremes {
   DeepestPoint deepest;      ///< of any corner or edge, whatever its contacts say (depth_audit.hpp)
   /// 0 where contact is springs, whose friction is Coulomb's at each point and time
   FrictionTally sliding_friction;
+  DilatingSlip dilating_slip;
 };
 
 /// Vectors are by block.

@@ -17,6 +17,8 @@ struct StaticProgress {
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> forces;
   std::vector<double> travels;  ///< from there, in parts of the block's size
+  /// What it lacked in the last iteration, (p, 3), N m^-3/2; no blocks before the first
+  std::vector<Eigen::MatrixX3d> lacking;
 };
 
 /// How blocks set off that no equilibrium holds, since the last iteration in which nothing was lacking or a joint

@@ -16,7 +16,8 @@
 // every block and no contact has changed its state or no block has moved, twice in a row, as the first time
 // soft motions may still be on their way; multipliers have to repeat themselves too. Moving: a block has
 // travelled settings.statics.travel of its size and what it lacks was not halved on the way, or a tenth of
-// that when no iterations or cuts are left; listed as moving is what has then gone a thousandth of it. m D is
+// that when no iterations or cuts are left, or it lacks the same forces in iteration after iteration and would meet
+// nothing before it has gone so far (straight_way.hpp); listed as moving is what has then gone a thousandth of it. m D is
 // the acceleration of the blocks from rest, whatever m, but for what contacts and blocks give way by, which
 // is taken out where no joint is asked to (rigid_onset.cpp). What is reported is that of the iteration, since
 // the last one in which nothing was lacking or a joint lost its strength, in which all blocks together lacked

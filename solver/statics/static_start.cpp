@@ -9,7 +9,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   const SimulationSnapshot as_placed = snapshot_of(run);
   for (const std::vector<int>& blocks : loose_blocks(run)) run.system.hold(blocks);
   StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing && goes_on()) status = static_step(run, run.state.time());
+  while (status == StaticStatus::balancing && goes_on())
+    status = static_step(run, run.state.time(), run.settings().statics.travel);
   run.system.let_go();
   if (status != StaticStatus::equilibrium) {
     restore(run, as_placed);
@@ -30,8 +31,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   state.remembers_statics = true;
   state.ledger.clear(in_springs);
   state.ledger.start(run.system, state.states);
-  state.extremes =
-      ContactExtremes{.penetration = state.report.penetration, .deepest = {}, .sliding_friction = {}};
+  state.extremes = ContactExtremes{
+      .penetration = state.report.penetration, .deepest = {}, .sliding_friction = {}, .dilating_slip = {}};
   return status;
 }
 

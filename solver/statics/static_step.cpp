@@ -10,6 +10,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/statics/static_verdict.hpp"
+#include "solver/statics/straight_way.hpp"
 #include "solver/step/accepted_step.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/step_problem.hpp"
@@ -91,9 +92,10 @@ void let_bonds_go(const RunContext& run) {
 /// One iteration: tries with more inertia until one is accepted.
 class StaticIteration {
  public:
-  StaticIteration(const RunContext& run, double end_time)
+  StaticIteration(const RunContext& run, double end_time, double far)
       : run_(run),
         end_time_(end_time),
+        far_(far),
         least_(least_inertia(run.system)),
         found_(run.contacts.detect(run.system, run.state, 0.0)) {
     pair_up();
@@ -140,6 +142,7 @@ class StaticIteration {
       raise = std::clamp(1.1 * motion / run_.settings().statics.motion, 2.0, 1e4);
       return std::nullopt;
     }
+    way_on_ = straight_way(run_, scheme, problem_, found_, far_);
     const std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
     if (const auto passing = run_.contacts.check_motion(run_.system, run_.state, after, found_);
         !passing.empty()) {
@@ -175,12 +178,14 @@ class StaticIteration {
     StaticState& statics = run_.state.statics;
     const std::array<int, 3> before = contact_states(run_.state.report);
     const bool balanced = note_balance(run_, scheme, problem_);
+    note_way_on(run_, way_on_);
     if (balanced) {
       forget_accelerations(run_);
     } else {
       note_accelerations(run_, scheme, problem_);
     }
     const bool repeat = multipliers_repeat(run_, problem_);
+    note_lacking(run_, scheme, problem_);
     accept(run_, scheme, problem_);
     run_.state.report.step = step_of(scheme);
     if (statics.holds_bonds && (balanced || has_set_off(run_))) let_bonds_go(run_);
@@ -206,16 +211,18 @@ class StaticIteration {
 
   const RunContext& run_;
   double end_time_;
+  double far_;    ///< in block sizes
   double least_;  ///< inertia, 1/s^2
   std::vector<FoundContacts> found_;
   StepProblem problem_;
+  StraightWay way_on_;
   bool cut_ = false;
   bool cut_to_touch_ = false;
 };
 
 }  // namespace
 
-StaticStatus static_step(const RunContext& run, double end_time) {
+StaticStatus static_step(const RunContext& run, double end_time, double far) {
   if (run.system.any_incremental()) throw std::logic_error("incremental blocks have no static analysis");
   StaticState& statics = run.state.statics;
   if (statics.moving) return StaticStatus::moving;
@@ -224,7 +231,7 @@ StaticStatus static_step(const RunContext& run, double end_time) {
   if (statics.inertia == 0.0 || statics.balanced) start_load_level(run, end_time);
   if (statics.iterations >= run.settings().statics.iterations) return give_up(run);
   ++statics.iterations;
-  return StaticIteration(run, end_time).run();
+  return StaticIteration(run, end_time, far).run();
 }
 
 std::vector<std::vector<int>> loose_blocks(const RunContext& run) {

@@ -9,8 +9,9 @@
 namespace ashlar {
 
 /// Takes one iteration towards equilibrium under the loads of `end_time`, or takes up a load level.
+/// @param far in block sizes, > 0: blocks that are sure to go so far are moving (straight_way.hpp)
 /// @throws std::logic_error if a block is incremental
-[[nodiscard]] StaticStatus static_step(const RunContext& run, double end_time);
+[[nodiscard]] StaticStatus static_step(const RunContext& run, double end_time, double far);
 
 /// Sets of blocks in contact with each other that no fixed block, contact or support keeps from moving. A block
 /// alone is one of them if its supports leave any rigid motion.

@@ -186,6 +186,23 @@ void tally_friction(const std::vector<PointResponse>& acted, const std::vector<P
   }
 }
 
+/// Adds what a pair that dilates slid in a step.
+void tally_slip(const ContactPair& pair, const PairResponse& response, const Eigen::VectorXd& ya,
+                const Eigen::VectorXd& yb, DilatingSlip& tally) {
+  const Eigen::Matrix3Xd moved = pair.motion(ya, yb);
+  double slip = 0.0;
+  bool touches = false;
+  bool has_dilated = false;
+  for (std::size_t k = 0; k < response.points.size(); ++k) {
+    slip += pair.points()[k].area * moved.col(static_cast<Eigen::Index>(k)).tail<2>().norm();
+    touches = touches || response.points[k].state != ContactState::open;
+    has_dilated = has_dilated || pair.dilation_before(k) > 0.0;
+  }
+  if (!touches && !has_dilated) return;
+  tally.all += slip;
+  if (!touches) tally.in_flight += slip;
+}
+
 void count_states(const std::vector<PointResponse>& points, StepReport& report) {
   for (const PointResponse& point : points) {
     ++(point.state == ContactState::open     ? report.open
@@ -254,6 +271,8 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   }
   if (settings.augmented && !scheme.from_rest)
     tally_friction(acted, laws, scheme.step, run.state.extremes.sliding_friction);
+  if (pair.dilates() && !scheme.from_rest)
+    tally_slip(pair, response, ya, yb, run.state.extremes.dilating_slip);
 
   history.work += work + stopped.work;
   run.state.records.push_back(

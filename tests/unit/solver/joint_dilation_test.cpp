@@ -205,5 +205,43 @@ TEST(JointDilation, WhatHasRisenStaysUp) {
   EXPECT_NEAR(place_of(simulation, 1, {0, 0, 0}).z(), risen, 1e-6);
 }
 
+/// A cube on a plate.
+Simulation cube(double dilation, const Vector3& velocity, double step) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-2, -2, -1}, {4, 2, 0}));
+  blocks.emplace_back(
+      block_of("cube", Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2500, 1e9, 0.2}, 1));
+  SimulationSettings settings;
+  settings.time_step = step;
+  return {std::move(blocks), {{}, {velocity, Vector3::Zero()}}, same_law(dilating(0.5, dilation)), settings};
+}
+
+TEST(DilatingSlip, WhatHopsSlidesInFlight) {
+  // It starts along the plate and not up its dilation, which throws it up. What dilates is what is left of the slip.
+  Simulation hops = cube(0.15, {2, 0, 0}, 1e-3);
+  ASSERT_TRUE(run_until(hops, 0.2));
+  const double slip = place_of(hops, 1, {0, 0, 0.5}).x();
+  const DilatingSlip& slid = hops.dilating_slip();
+  EXPECT_LT(slid.all, 1.01 * slip);  // its base has an area of 1 m^2; what is far off its joint is not on it
+  EXPECT_GT(slid.flown_share(), 0.5);
+  double risen = 0.0;
+  for (const auto& [blocks, pair] : hops.histories()) risen = std::max(risen, pair.memory.most_dilation());
+  EXPECT_LT(risen, 0.1 * slip * 0.15);
+}
+
+TEST(DilatingSlip, WhatSlidesOnItsJointDoesNot) {
+  constexpr double speed = 1.5;
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  Simulation slab = sliding_slab(dilating(0.5, 0.15), settings, 1, speed);
+  ASSERT_TRUE(run_until(slab, 0.1));
+  EXPECT_GT(slab.dilating_slip().all, 0.05);
+  EXPECT_LT(slab.dilating_slip().flown_share(), 0.02);
+  // Where nothing dilates nothing is counted.
+  Simulation plain = cube(0.0, {2, 0, 0}, 1e-3);
+  ASSERT_TRUE(run_until(plain, 0.02));
+  EXPECT_EQ(plain.dilating_slip().all, 0.0);
+}
+
 }  // namespace
 }  // namespace ashlar

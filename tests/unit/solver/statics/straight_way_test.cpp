@@ -1,0 +1,103 @@
+// Motion that a static analysis need not follow, and motion that it must.
+#include "solver/statics/straight_way.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::place_of;
+using test_support::same_law;
+using test_support::tilted_box;
+
+const Material rock{2700.0, 1e10, 0.2};
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double incline = 30.0;
+
+BlockDefinition fixed_block(Polyhedron solid) {
+  BlockDefinition block = block_of("base", std::move(solid), rock, 1);
+  block.fixed = true;
+  return block;
+}
+
+/// A cube of 1 m without friction on a slope down to -x, and a fixed block that it meets when it has gone a way. The
+/// springs of 1e10 N/m give way by micrometres. @param ways of the stop, m; none: there is none
+Simulation on_slope(const std::vector<double>& ways) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1));
+  blocks.emplace_back(fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, incline)));
+  for (const double way : ways)
+    blocks.emplace_back(fixed_block(tilted_box({-1.5 - way, -2, 0.25}, {-0.5 - way, 2, 0.75}, incline)));
+  const std::vector<InitialMotion> at_rest(blocks.size());
+  return Simulation(std::move(blocks), at_rest, same_law({1e10, 1e10, 0.0, 0.0, 0.0, true}), {});
+}
+
+StaticStatus run_static(Simulation& simulation, double far) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(1.0, far);
+  return status;
+}
+
+double way_of(const Simulation& simulation) {
+  return (simulation.states()[0].position - simulation.blocks()[0].initial_state().position).norm();
+}
+
+TEST(StraightWay, WhatNothingStopsIsNotFollowed) {
+  // An iteration goes 0.05 of the block's size at most, so that 20 would be needed to follow it by all of it.
+  Simulation simulation = on_slope({});
+  ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
+  EXPECT_LT(simulation.steps(), 12);
+  EXPECT_LT(way_of(simulation), 0.2);
+  ASSERT_EQ(simulation.moving_blocks().size(), 1U);
+  EXPECT_NEAR(simulation.moving_blocks()[0].acceleration.norm(), 9.81 * std::sin(incline * degree), 1e-3);
+}
+
+TEST(StraightWay, AStopAheadIsSeen) {
+  // 0.3 m: no contact is known of it. 5e-4 m: half the contact distance, there is one, that does not touch.
+  for (const double way : {0.3, 5e-4}) {
+    Simulation simulation = on_slope({way});
+    const Vector3 start = place_of(simulation, 0, {0, 0, 0});
+    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << way;
+    EXPECT_NEAR((place_of(simulation, 0, {0, 0, 0}) - start).norm(), way, 1e-5);
+  }
+}
+
+TEST(StraightWay, AStopFartherAheadThanAskedForIsNot) {
+  Simulation simulation = on_slope({0.3});
+  EXPECT_EQ(run_static(simulation, 0.1), StaticStatus::moving);
+  EXPECT_LT(way_of(simulation), 0.1);
+}
+
+TEST(StraightWay, WhatIsBehindABlockThatIsStoppedIsStoppedToo) {
+  // Two cubes, one after the other, both without friction: the lower one has 5e-4 m to go.
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1));
+  blocks.emplace_back(block_of("B", tilted_box({0.5, -0.5, 0}, {1.5, 0.5, 1}, incline), rock, 1));
+  blocks.emplace_back(fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, incline)));
+  blocks.emplace_back(fixed_block(tilted_box({-1.5, -2, 0.25}, {-0.5 - 5e-4, 2, 0.75}, incline)));
+  Simulation simulation(std::move(blocks), {{}, {}, {}, {}}, same_law({1e10, 1e10, 0.0, 0.0, 0.0, true}), {});
+  EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+}
+
+TEST(StraightWay, WhatGivesWayIsNoMotion) {
+  // Springs of 1e6 N/m carry the weight of 26.5 kN with 26 mm: far from where it was placed, and yet balance.
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1));
+  blocks.emplace_back(fixed_block(Polyhedron(make_box({-1, -1, -1}, {2, 2, 0}))));
+  JointLaw law{1e6, 1e6, 0.5, 0.0, 0.0, true};
+  SimulationSettings settings;
+  settings.depth.allowed_depth = 0.2;
+  Simulation simulation(std::move(blocks), {{}, {}}, same_law(law), settings);
+  ASSERT_EQ(run_static(simulation, 0.1), StaticStatus::equilibrium);
+  EXPECT_NEAR(place_of(simulation, 0, {0.5, 0.5, 0.5}).z(), 0.5 - 2700.0 * 9.81 / 1e6, 1e-4);
+}
+
+}  // namespace
+}  // namespace ashlar
