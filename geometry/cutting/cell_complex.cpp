@@ -2,8 +2,31 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
+
+#include "geometry/cutting/plane_regions.hpp"
 
 namespace ashlar {
+
+std::vector<std::span<const int>> loops_of(const FaceOutline& outline) {
+  std::vector<std::span<const int>> loops;
+  const std::span<const int> points(outline.points);
+  std::size_t start = 0;
+  for (const int hole : outline.holes) {
+    loops.push_back(points.subspan(start, static_cast<std::size_t>(hole) - start));
+    start = static_cast<std::size_t>(hole);
+  }
+  loops.push_back(points.subspan(start));
+  return loops;
+}
+
+std::vector<OutlineSide> sides_of(const FaceOutline& outline) {
+  std::vector<OutlineSide> sides;
+  for (const std::span<const int> loop : loops_of(outline))
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      sides.push_back({loop[k], loop[(k + 1) % loop.size()], outline.edges[sides.size()]});
+  return sides;
+}
 
 int CellComplex::add_plane(const ExactPlane& plane) {
   planes_.push_back(plane);
@@ -32,12 +55,14 @@ int CellComplex::add_cell(const ConvexShape& shape) {
   for (int f = 0; f < shape.facet_count(); ++f) {
     const auto loop = shape.facet(f);
     const int plane = add_plane(ExactPlane::through(corners[loop[0]], corners[loop[1]], corners[loop[2]]));
-    ComplexFace face{plane, {}, {}, {cell, -1}, -1};
+    ComplexFace face;
+    face.plane = plane;
+    face.cells = {cell, -1};
     for (const int corner : loop) {
       face.points.push_back(first_point + corner);
       points_[first_point + corner].planes.push_back(plane);
     }
-    cells_[cell].push_back(static_cast<int>(faces_.size()));
+    cells_[cell].faces.push_back(static_cast<int>(faces_.size()));
     faces_.push_back(std::move(face));
   }
   const int first_edge = static_cast<int>(edges_.size());
@@ -77,9 +102,12 @@ int CellComplex::add_cell(const std::vector<CellFace>& faces, CellSeams& seams) 
     std::vector<int> sorted = points;
     std::sort(sorted.begin(), sorted.end());
     const auto [found, is_new] = seams.faces.emplace(std::move(sorted), static_cast<int>(faces_.size()));
-    cells_[cell].push_back(found->second);
+    cells_[cell].faces.push_back(found->second);
     if (is_new) {
-      ComplexFace face{of.plane, points, {}, {-1, -1}, of.mark};
+      ComplexFace face;
+      face.points = points;
+      face.plane = of.plane;
+      face.mark = of.mark;
       for (std::size_t k = 0; k < points.size(); ++k) {
         face.edges.push_back(seam_edge(points[k], points[(k + 1) % points.size()], of.plane, seams));
         edges_[face.edges.back()].faces.push_back(found->second);
@@ -93,7 +121,7 @@ int CellComplex::add_cell(const std::vector<CellFace>& faces, CellSeams& seams) 
 
 std::vector<int> CellComplex::points_of(int cell) const {
   std::vector<int> points;
-  for (const int face : cells_[cell])
+  for (const int face : cells_[cell].faces)
     points.insert(points.end(), faces_[face].points.begin(), faces_[face].points.end());
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -111,7 +139,7 @@ int CellComplex::side(int plane, int point) const {
 
 int CellComplex::side_of_cell(int plane, int cell) const {
   int found = 0;
-  for (const int face : cells_[cell]) {
+  for (const int face : cells_[cell].faces) {
     for (const int point : faces_[face].points) {
       const int of_point = side(plane, point);
       if (of_point * found < 0) return 0;
@@ -133,15 +161,19 @@ void CellComplex::divide_edge(int edge, int plane) {
   edges_[rest].faces = edges_[edge].faces;
   for (const int index : edges_[rest].faces) {
     ComplexFace& face = faces_[index];
-    const auto k = std::find(face.edges.begin(), face.edges.end(), edge) - face.edges.begin();
-    const bool forward = face.points[static_cast<std::size_t>(k)] == from;
-    face.points.insert(face.points.begin() + k + 1, middle);
-    face.edges.insert(face.edges.begin() + (forward ? k + 1 : k), rest);
+    for (auto k = static_cast<int>(face.edges.size()) - 1; k >= 0; --k) {
+      if (face.edges[k] != edge) continue;
+      const bool forward = face.points[k] == from;
+      face.points.insert(face.points.begin() + k + 1, middle);
+      face.edges.insert(face.edges.begin() + (forward ? k + 1 : k), rest);
+      for (int& hole : face.holes)
+        if (hole > k) ++hole;
+    }
   }
 }
 
 // The face keeps what is below.
-void CellComplex::divide_face(int index, int plane) {
+void CellComplex::divide_convex_face(int index, int plane) {
   const std::vector<int> edges = faces_[index].edges;
   for (const int edge : edges)
     if (side(plane, edges_[edge].points[0]) * side(plane, edges_[edge].points[1]) < 0)
@@ -173,12 +205,12 @@ void CellComplex::divide_face(int index, int plane) {
     if (edge != line) std::replace(edges_[edge].faces.begin(), edges_[edge].faces.end(), index, above);
   edges_[line].faces = {index, above};
   for (const int cell : part.cells)
-    if (cell >= 0) cells_[cell].push_back(above);
+    if (cell >= 0) cells_[cell].faces.push_back(above);
   faces_.push_back(std::move(part));
 }
 
 int CellComplex::part(int cell, int plane, int mark) {
-  const std::vector<int> faces = cells_[cell];
+  const std::vector<int> faces = cells_[cell].faces;
   for (const int face : faces) {
     bool above = false, below = false;
     for (const int point : faces_[face].points) {
@@ -186,21 +218,21 @@ int CellComplex::part(int cell, int plane, int mark) {
       above = above || of_point > 0;
       below = below || of_point < 0;
     }
-    if (above && below) divide_face(face, plane);
+    if (above && below) divide_convex_face(face, plane);
   }
   const int upper = cell_count();
   cells_.emplace_back();
   std::vector<int> kept;
-  for (const int face : cells_[cell]) {
+  for (const int face : cells_[cell].faces) {
     const std::vector<int>& points = faces_[face].points;
     if (std::any_of(points.begin(), points.end(), [&](int point) { return side(plane, point) > 0; })) {
-      cells_[upper].push_back(face);
+      cells_[upper].faces.push_back(face);
       exchange_cell(face, cell, upper);
     } else {
       kept.push_back(face);
     }
   }
-  cells_[cell] = std::move(kept);
+  cells_[cell].faces = std::move(kept);
   add_section(cell, upper, plane, mark);
   return upper;
 }
@@ -214,7 +246,7 @@ void CellComplex::exchange_cell(int face, int old_cell, int new_cell) {
 // outside, go around the section counter-clockwise as seen from above.
 void CellComplex::add_section(int below, int above, int plane, int mark) {
   std::map<int, std::array<int, 2>> next;  // by point: the next point and the edge to it
-  for (const int index : cells_[above]) {
+  for (const int index : cells_[above].faces) {
     const ComplexFace& face = faces_[index];
     const std::size_t count = face.points.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -224,7 +256,10 @@ void CellComplex::add_section(int below, int above, int plane, int mark) {
       next[from] = {to, face.edges[k]};
     }
   }
-  ComplexFace section{plane, {}, {}, {below, above}, mark};
+  ComplexFace section;
+  section.plane = plane;
+  section.cells = {below, above};
+  section.mark = mark;
   const int index = static_cast<int>(faces_.size());
   int point = next.begin()->first;
   do {
@@ -236,20 +271,67 @@ void CellComplex::add_section(int below, int above, int plane, int mark) {
   } while (section.points.size() <= next.size() && point != section.points.front());
   if (section.points.size() != next.size()) throw std::logic_error("the section of a cell is one loop");
   faces_.push_back(std::move(section));
-  cells_[below].push_back(index);
-  cells_[above].push_back(index);
+  cells_[below].faces.push_back(index);
+  cells_[above].faces.push_back(index);
+}
+
+int CellComplex::add_cell(bool convex) {
+  cells_.push_back({{}, convex});
+  return cell_count() - 1;
+}
+
+int CellComplex::add_face(int plane, FaceOutline outline, int mark) {
+  ComplexFace face;
+  face.plane = plane;
+  face.mark = mark;
+  faces_.push_back(std::move(face));
+  const int index = static_cast<int>(faces_.size()) - 1;
+  set_outline(index, std::move(outline));
+  return index;
+}
+
+void CellComplex::set_outline(int index, FaceOutline outline) {
+  ComplexFace& face = faces_[index];
+  face.convex = is_convex(*this, planes_[face.plane], outline);
+  static_cast<FaceOutline&>(face) = std::move(outline);
+  for (const int edge : face.edges) {
+    std::vector<int>& around = edges_[edge].faces;
+    if (std::find(around.begin(), around.end(), index) == around.end()) around.push_back(index);
+  }
+}
+
+void CellComplex::forget_face(int index) {
+  for (const int edge : faces_[index].edges) std::erase(edges_[edge].faces, index);
+  static_cast<FaceOutline&>(faces_[index]) = {};
+}
+
+void CellComplex::divide_face(int index, std::vector<FaceOutline> outlines) {
+  forget_face(index);
+  const auto [plane, cells, mark] = std::tuple(faces_[index].plane, faces_[index].cells, faces_[index].mark);
+  set_outline(index, std::move(outlines.front()));
+  for (std::size_t k = 1; k < outlines.size(); ++k) {
+    const int face = add_face(plane, std::move(outlines[k]), mark);
+    faces_[face].cells = cells;
+    for (const int cell : cells)
+      if (cell >= 0) cells_[cell].faces.push_back(face);
+  }
+}
+
+void CellComplex::set_faces(int cell, const std::vector<std::pair<int, bool>>& faces) {
+  cells_[cell].faces.clear();
+  for (const auto& [face, below] : faces) {
+    cells_[cell].faces.push_back(face);
+    faces_[face].cells[below ? 0 : 1] = cell;
+  }
 }
 
 void CellComplex::remove(int cell) {
-  for (const int index : cells_[cell]) {
+  for (const int index : cells_[cell].faces) {
     ComplexFace& face = faces_[index];
     std::replace(face.cells.begin(), face.cells.end(), cell, -1);
-    if (face.cells[0] >= 0 || face.cells[1] >= 0) continue;
-    for (const int edge : face.edges) std::erase(edges_[edge].faces, index);
-    face.points.clear();
-    face.edges.clear();
+    if (face.cells[0] < 0 && face.cells[1] < 0) forget_face(index);
   }
-  cells_[cell].clear();
+  cells_[cell].faces.clear();
 }
 
 }  // namespace ashlar

@@ -1,16 +1,18 @@
-// A solid as convex cells that fit together: any two of them meet in common faces, edges and points, and a
+// A solid as cells that fit together: any two of them meet in common faces, edges and points, and a
 // face between two cells is one object, not two that are equal. So what a plane does to a face, it does to
 // both cells, and neither gaps nor overlaps can come about. Only sources of this layer include this file.
 //
 // Every point is the common point of three planes that were given, never of what was computed before, so its
 // integers do not grow with the number of cuts. A plane that parts a cell needs no more than the side of each
-// of the cell's points. Where only one of two neighbours is parted, the face between them is divided all the
+// of the cell's points, and at faces that are not convex the order of points along a line. Where only one of two neighbours is parted, the face between them is divided all the
 // same: then faces of one cell may be coplanar, and points of a face's loop may lie in straight sides.
 #pragma once
 
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "geometry/convex/convex_shape.hpp"
@@ -26,15 +28,38 @@ struct ComplexPoint {
 struct ComplexEdge {
   std::array<int, 2> points;
   std::array<int, 2> planes;  ///< two planes whose common line carries it
-  std::vector<int> faces;     ///< around it
+  std::vector<int> faces;     ///< around it, each once
 };
 
-struct ComplexFace {
+/// The outline of a connected part of a plane: its outer loop counter-clockwise as seen from above the plane, then
+/// those of holes. It may touch itself in points, and have an edge there and back.
+struct FaceOutline {
+  std::vector<int> points;  ///< loop by loop
+  std::vector<int> edges;   ///< edge k joins point k and the next one of its loop
+  std::vector<int> holes;   ///< where the loops after the first start, increasing
+};
+
+struct ComplexFace : FaceOutline {
   int plane = -1;
-  std::vector<int> points;        ///< convex loop, counter-clockwise as seen from above the plane
-  std::vector<int> edges;         ///< edge k joins points k and k + 1
-  std::array<int, 2> cells = {};  ///< the one below the plane and the one above; -1: none
-  int mark = -1;                  ///< of the cut that made it; -1: of the solid's surface
+  std::array<int, 2> cells = {-1, -1};  ///< the one below the plane and the one above; -1: none
+  int mark = -1;                        ///< of the cut that made it; -1: of the solid's surface
+  bool convex = true;                   ///< one loop without a reflex corner
+};
+
+/// A side of an outline, which has the face on its left as seen from above the plane.
+struct OutlineSide {
+  int from, to;  ///< points
+  int edge;
+};
+
+[[nodiscard]] std::vector<OutlineSide> sides_of(const FaceOutline& outline);
+/// The points of each loop.
+[[nodiscard]] std::vector<std::span<const int>> loops_of(const FaceOutline& outline);
+
+/// A connected solid whose surface is one shell, as parting by planes leaves it.
+struct ComplexCell {
+  std::vector<int> faces;
+  bool convex = true;  ///< all faces, too
 };
 
 /// A face of a cell that is put together with others.
@@ -60,14 +85,19 @@ class CellComplex {
   int add_plane(const ExactPlane& plane);
   /// A convex solid as a cell of its own. @pre not flat
   int add_cell(const ConvexShape& shape);
+  /// A solid as a cell of its own. Triangles in one plane that are connected over edges make a face.
+  /// @param surface closed, outward, without self-intersections, of a connected solid; it may touch itself
+  int add_cell(const TriangleMesh& surface);
   /// A convex cell beside others that it fits to: common points, edges and faces are those that are there.
   int add_cell(const std::vector<CellFace>& faces, CellSeams& seams);
 
   [[nodiscard]] const ExactPlane& plane(int index) const { return planes_[index]; }
   [[nodiscard]] const ComplexPoint& point(int index) const { return points_[index]; }
+  [[nodiscard]] const ComplexEdge& edge(int index) const { return edges_[index]; }
   [[nodiscard]] const ComplexFace& face(int index) const { return faces_[index]; }
   /// Of a cell.
-  [[nodiscard]] const std::vector<int>& faces(int cell) const { return cells_[cell]; }
+  [[nodiscard]] const std::vector<int>& faces(int cell) const { return cells_[cell].faces; }
+  [[nodiscard]] bool convex(int cell) const { return cells_[cell].convex; }
   [[nodiscard]] int cell_count() const { return static_cast<int>(cells_.size()); }
   [[nodiscard]] std::size_t point_count() const { return points_.size(); }
   /// Each once, increasing.
@@ -77,20 +107,36 @@ class CellComplex {
   [[nodiscard]] int side(int plane, int point) const;
   /// 1 or -1 if all of the cell is above or below, points on the plane left aside; 0 if the plane parts it.
   [[nodiscard]] int side_of_cell(int plane, int cell) const;
-  /// Parts a cell: it keeps what is below. @pre the plane parts it. @param mark of the face between the two
-  /// @return the cell above
+  /// Parts a convex cell: it keeps what is below. @pre the plane parts it. @param mark of the face between the
+  /// two @return the cell above
   int part(int cell, int plane, int mark);
   void set_mark(int face, int mark) { faces_[face].mark = mark; }
   /// Takes a cell away; it keeps its number and has no faces.
   void remove(int cell);
 
+  // What parting of any cell is made of (cell_parting.hpp).
+  int add_edge(int from, int to, std::array<int, 2> planes);
+  /// A face around which there is no cell yet.
+  int add_face(int plane, FaceOutline outline, int mark);
+  /// A cell without faces.
+  int add_cell(bool convex);
+  /// Puts faces on the surface of a cell in place of those that it has. @param faces and whether the cell is below them
+  void set_faces(int cell, const std::vector<std::pair<int, bool>>& faces);
+  /// @pre it is, and so are its faces
+  void set_convex(int cell) { cells_[cell].convex = true; }
+  /// Gives an edge a point where it meets the plane. @pre its ends are on different sides
+  void divide_edge(int edge, int plane);
+  /// Parts a convex face: it keeps what is below the plane. @pre the plane parts it
+  void divide_convex_face(int face, int plane);
+  /// Divides a face into others. @param outlines what it is made of, at least one; the face keeps the first
+  void divide_face(int face, std::vector<FaceOutline> outlines);
+
  private:
   int add_point(ComplexPoint point);
-  int add_edge(int from, int to, std::array<int, 2> planes);
+  void set_outline(int face, FaceOutline outline);
+  void forget_face(int face);
   int seam_point(const ExactPoint& place, int plane, CellSeams& seams);
   int seam_edge(int from, int to, int plane, CellSeams& seams);
-  void divide_edge(int edge, int plane);
-  void divide_face(int face, int plane);
   void add_section(int below, int above, int plane, int mark);
   void exchange_cell(int face, int old_cell, int new_cell);
 
@@ -98,7 +144,7 @@ class CellComplex {
   mutable std::vector<ComplexPoint> points_;  ///< their planes grow as they are found
   std::vector<ComplexEdge> edges_;
   std::vector<ComplexFace> faces_;
-  std::vector<std::vector<int>> cells_;
+  std::vector<ComplexCell> cells_;
 };
 
 }  // namespace ashlar

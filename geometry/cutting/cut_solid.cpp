@@ -8,6 +8,8 @@
 #include <tuple>
 
 #include "geometry/boxes/box.hpp"
+#include "geometry/cutting/cell_parting.hpp"
+#include "geometry/cutting/convex_parts.hpp"
 #include "geometry/cutting/joint_pyramid.hpp"
 #include "geometry/cutting/piece_measures.hpp"
 #include "geometry/cutting/piece_mesh.hpp"
@@ -39,11 +41,8 @@ struct CutSolid::State {
 
   [[gnu::noinline]] void start(const Polyhedron& solid) {
     Piece whole;
-    if (solid.convex()) {
-      whole.cells = {complex.add_cell(ConvexShape::from_polyhedron(solid))};
-    } else {
-      whole.cells = cells_of_solid(complex, solid, most_surface_cells);
-    }
+    whole.cells = {solid.convex() ? complex.add_cell(ConvexShape::from_polyhedron(solid))
+                                  : complex.add_cell(solid.mesh())};
     pieces.push_back(std::move(whole));
     settle(0);
   }
@@ -90,9 +89,13 @@ struct CutSolid::State {
       std::vector<std::pair<int, int>> sorted;  // class and cell
       const std::vector<int> cells = pieces[index].cells;
       for (const int cell : cells) {
-        const int side = complex.side_of_cell(plane, cell);
-        sorted.emplace_back(side > 0 ? 1 : 0, cell);
-        if (side == 0) sorted.emplace_back(1, complex.part(cell, plane, mark));
+        if (const int side = complex.side_of_cell(plane, cell)) {
+          sorted.emplace_back(side > 0 ? 1 : 0, cell);
+          continue;
+        }
+        const CellParts parts = part_cell(complex, cell, plane, mark);
+        for (const int part : parts.below) sorted.emplace_back(0, part);
+        for (const int part : parts.above) sorted.emplace_back(1, part);
       }
       divide(index, sorted, mark);
     }
@@ -102,7 +105,9 @@ struct CutSolid::State {
     const Box box = box_of(surface.mesh().points);
     for (const int index : order()) {
       if (!pieces[index].box.meets(box) || !chosen(index)) continue;
-      const std::vector<int> cells = pieces[index].cells;
+      std::vector<int> cells;
+      for (const int cell : pieces[index].cells)
+        for (const int part : convex_parts(complex, cell, mark, most_surface_cells)) cells.push_back(part);
       std::vector<std::pair<int, int>> sorted;
       for (const CellSide& leaf :
            partition_by_surface(complex, cells, surface.mesh(), mark, most_surface_cells))
@@ -114,7 +119,7 @@ struct CutSolid::State {
   }
 
   [[gnu::noinline]] void cut_into_cells(const std::vector<Vector3>& points, int mark) {
-    if (pieces.size() != 1 || pieces[0].cells.size() != 1)
+    if (pieces.size() != 1 || pieces[0].cells.size() != 1 || !complex.convex(pieces[0].cells[0]))
       throw CutError("cells around points need a block that is convex and was not cut before");
     complex = voronoi_complex(complex, points, mark);
     measures.reset();

@@ -1,8 +1,8 @@
 // A solid that planes and surfaces cut into pieces which fit together exactly; notes/cutting.md says why.
 //
 // Every corner is the common point of three given planes, decided exactly and rounded once, so that
-// neighbours have the same corners to the last bit. Pieces are made of convex cells: those of a convex solid
-// of one, until some are glued.
+// neighbours have the same corners to the last bit. Pieces are made of cells: one each, until some are glued or a
+// surface has cut them.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace ashlar {
 
-/// Most cells that the surface of a solid, or of one that is not convex itself, may divide a solid into.
+/// Most cells that cuts along the surface of a solid, or the convex parts of one, may come to.
 inline constexpr int most_surface_cells = 200000;
 
 /// A part of a piece's surface: all that is in one plane, on one side of it and next to one neighbour.
@@ -26,7 +26,7 @@ struct PieceFace {
   bool below;              ///< the piece is below it
   int neighbour;           ///< piece on the other side, -1: outside of the solid
   int mark;                ///< of the cut that made it, -1: of the solid's own surface
-  std::vector<int> parts;  ///< convex parts, by numbers that the neighbour's face has too
+  std::vector<int> parts;  ///< flat parts, by numbers that the neighbour's face has too
 };
 
 /// A face that holds a piece in its place.
@@ -42,8 +42,7 @@ class CutSolid {
   /// Whether a piece that is met is to be cut.
   using Choice = std::function<bool(int piece)>;
 
-  /// A convex solid is the convex hull of its corners; any other is cut along its own faces, exactly as its
-  /// triangles are. @throws CutError if that takes too many cells
+  /// A convex solid is the convex hull of its corners; any other has the faces that its triangles are, exactly.
   explicit CutSolid(const Polyhedron& solid);
   ~CutSolid();
   CutSolid(CutSolid&&) noexcept;

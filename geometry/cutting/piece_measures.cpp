@@ -38,14 +38,15 @@ Number six_volumes(const CellComplex& complex, const std::vector<std::pair<int, 
   const Triple<Number> origin = place(complex.face(faces.front().first).points.front());
   Number sum = 0;
   for (const auto& [index, below] : faces) {
-    const std::vector<int>& loop = complex.face(index).points;
-    const Triple<Number> apex = minus(place(loop[0]), origin);
-    Triple<Number> last = minus(place(loop[1]), origin);
     Number of_face = 0;
-    for (std::size_t k = 2; k < loop.size(); ++k) {
-      Triple<Number> next = minus(place(loop[k]), origin);
-      of_face += dot(apex, cross(last, next));
-      last = std::move(next);
+    for (const std::span<const int> loop : loops_of(complex.face(index))) {
+      const Triple<Number> apex = minus(place(loop[0]), origin);
+      Triple<Number> last = minus(place(loop[1]), origin);
+      for (std::size_t k = 2; k < loop.size(); ++k) {
+        Triple<Number> next = minus(place(loop[k]), origin);
+        of_face += dot(apex, cross(last, next));
+        last = std::move(next);
+      }
     }
     if (below)
       sum += of_face;
@@ -60,12 +61,13 @@ template <class Number, class Place>
 Triple<Number> two_areas(const CellComplex& complex, const std::vector<int>& faces, Place place) {
   Triple<Number> sum = {0, 0, 0};
   for (const int index : faces) {
-    const std::vector<int>& loop = complex.face(index).points;
-    const Triple<Number> apex = place(loop[0]);
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-      const auto part =
-          cross(minus(Triple<Number>(place(loop[k])), apex), minus(Triple<Number>(place(loop[k + 1])), apex));
-      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += part[axis];
+    for (const std::span<const int> loop : loops_of(complex.face(index))) {
+      const Triple<Number> apex = place(loop[0]);
+      for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
+        const auto part = cross(minus(Triple<Number>(place(loop[k])), apex),
+                                minus(Triple<Number>(place(loop[k + 1])), apex));
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += part[axis];
+      }
     }
   }
   return sum;

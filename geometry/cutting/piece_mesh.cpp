@@ -9,7 +9,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "geometry/mesh/polygon_triangulation.hpp"
+#include "geometry/cutting/flat_view.hpp"
+#include "geometry/cutting/loop_triangulation.hpp"
+#include "geometry/cutting/plane_regions.hpp"
+#include "geometry/solid/solid_location.hpp"
 #include "geometry/union_find.hpp"
 
 namespace ashlar {
@@ -32,71 +35,26 @@ Vector3 crossing(const ExactPlane& plane, const Vector3& from, const Vector3& to
   return from + std::clamp(low / (low - high), 0.0, 1.0) * (to - from);
 }
 
-/// A face's loop seen along the axis nearest to its normal, turned so that it is counter-clockwise.
-class FlatLoop {
- public:
-  FlatLoop(const CellComplex& complex, const ComplexFace& face) : complex_(complex), face_(face) {
-    const auto& [a, b, c, d] = complex.plane(face.plane).coefficients();
-    const std::array<const Integer*, 3> normal = {&a, &b, &c};
-    for (std::size_t k = 1; k < 3; ++k)
-      if (mpz_cmpabs(normal[k]->get_mpz_t(), normal[axis_]->get_mpz_t()) > 0) axis_ = k;
-    way_ = sgn(*normal[axis_]);
-  }
-
-  /// 1 if the loop's points i, j, k make a left turn, 0 if they are in one line.
-  [[nodiscard]] int turn(int i, int j, int k) const {
-    const std::array<const ExactPoint*, 3> p = {&at(i), &at(j), &at(k)};
-    if (const int quick = quick_turn(p[0]->rounded, p[1]->rounded, p[2]->rounded)) return quick;
-    const auto minor = [&](std::size_t m, std::size_t n) {
-      return Integer(first(*p[m]) * second(*p[n]) - second(*p[m]) * first(*p[n]));
-    };
-    const Integer determinant = p[0]->w * minor(1, 2) - p[1]->w * minor(0, 2) + p[2]->w * minor(0, 1);
-    return way_ * sgn(determinant);
-  }
-
- private:
-  [[nodiscard]] const ExactPoint& at(int k) const {
-    return complex_.point(face_.points[static_cast<std::size_t>(k)]).place;
-  }
-  [[nodiscard]] const Integer& first(const ExactPoint& p) const {
-    return axis_ == 0 ? p.y : axis_ == 1 ? p.z : p.x;
-  }
-  [[nodiscard]] const Integer& second(const ExactPoint& p) const {
-    return axis_ == 0 ? p.z : axis_ == 1 ? p.x : p.y;
-  }
-  /// Each coordinate is off by u, each difference by u more, products and their difference by two more: less
-  /// than 12 u times the largest coordinate times the sum of the differences. 0: it does not tell.
-  [[nodiscard]] int quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) const {
-    const auto u = static_cast<Eigen::Index>((axis_ + 1) % 3), v = static_cast<Eigen::Index>((axis_ + 2) % 3);
-    const double p = b[u] - a[u], q = b[v] - a[v], r = c[u] - a[u], s = c[v] - a[v];
-    const double value = p * s - q * r;
-    const double largest =
-        std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
-    const double bound =
-        12.0 * 0x1p-53 * largest * (std::abs(p) + std::abs(q) + std::abs(r) + std::abs(s)) + 0x1p-1000;
-    return value > bound ? way_ : value < -bound ? -way_ : 0;
-  }
-
-  const CellComplex& complex_;
-  const ComplexFace& face_;
-  std::size_t axis_ = 0;
-  int way_ = 1;
-};
-
 /// Triangles of a convex loop that may have points in its straight sides. A corner is cut off where that
 /// leaves some area and takes some, decided on the exact points: else a point in the side of two faces could
 /// get a sliver of a triangle in both, one upon the other.
 std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const ComplexFace& face) {
-  const FlatLoop flat(complex, face);
+  const FlatView view(complex.plane(face.plane));
+  const auto turn = [&](int i, int j, int k) {
+    const auto at = [&](int n) -> const ExactPoint& {
+      return complex.point(face.points[static_cast<std::size_t>(n)]).place;
+    };
+    return view.turn(at(i), at(j), at(k));
+  };
   std::vector<int> loop(face.points.size());
   std::iota(loop.begin(), loop.end(), 0);
   std::vector<std::array<int, 3>> triangles;
   const auto is_ear = [&](std::size_t k) {
     const std::size_t count = loop.size();
     const int before = loop[(k + count - 1) % count], here = loop[k], after = loop[(k + 1) % count];
-    if (flat.turn(before, here, after) == 0) return false;
+    if (turn(before, here, after) == 0) return false;
     return std::any_of(loop.begin(), loop.end(), [&](int other) {
-      return other != before && other != here && other != after && flat.turn(before, after, other) != 0;
+      return other != before && other != here && other != after && turn(before, after, other) != 0;
     });
   };
   // Ears next to the first point make a fan around it, where all corners are strict.
@@ -117,11 +75,12 @@ std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const C
   return triangles;
 }
 
-/// Faces of a surface that lie in one plane on one side, and their outline.
+/// Faces of a surface that lie in one plane on one side, and the outlines of what is connected of them, as seen from
+/// outside.
 struct FlatGroup {
   std::array<Integer, 4> plane;  ///< outward
   std::vector<std::pair<int, bool>> faces;
-  std::vector<int> outline;  ///< counter-clockwise from outside
+  std::vector<std::vector<std::vector<int>>> regions;  ///< loops, the outer one first
 };
 
 std::vector<FlatGroup> groups_of(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces) {
@@ -138,58 +97,84 @@ std::vector<FlatGroup> groups_of(const CellComplex& complex, const std::vector<s
   return groups;
 }
 
-/// @return false if a group has more than one outline, or one that touches itself
-bool trace_outline(const CellComplex& complex, FlatGroup& group) {
+/// What is left of the sides of faces where those between two of them are taken away.
+std::vector<OutlineSide> outer_sides(const CellComplex& complex, const FlatGroup& group) {
   std::set<std::pair<int, int>> sides;
   for (const auto& [index, below] : group.faces) {
-    const std::vector<int>& points = complex.face(index).points;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      std::pair<int, int> side(points[k], points[(k + 1) % points.size()]);
-      if (!below) std::swap(side.first, side.second);
+    for (const OutlineSide& of : sides_of(complex.face(index))) {
+      const std::pair<int, int> side = below ? std::pair(of.from, of.to) : std::pair(of.to, of.from);
       if (sides.erase({side.second, side.first}) == 0) sides.insert(side);
     }
   }
-  std::map<int, int> next;
-  for (const auto& [from, to] : sides)
-    if (!next.emplace(from, to).second) return false;
-  int point = next.begin()->first;
-  do {
-    group.outline.push_back(point);
-    point = next.at(point);
-  } while (point != group.outline.front());
-  return group.outline.size() == next.size();
+  std::vector<OutlineSide> result;
+  for (const auto& [from, to] : sides) result.push_back({from, to, -1});
+  return result;
 }
 
-/// Leaves the corners: points in which three groups meet. @return false if an outline has fewer than three
+void trace_outlines(const CellComplex& complex, FlatGroup& group) {
+  const auto& [a, b, c, d] = group.plane;
+  const ExactPlane plane({Rational(a), Rational(b), Rational(c)}, Rational(d));
+  for (const FaceOutline& outline : plane_regions(complex, plane, outer_sides(complex, group))) {
+    std::vector<std::vector<int>> loops;
+    for (const std::span<const int> loop : loops_of(outline)) loops.emplace_back(loop.begin(), loop.end());
+    group.regions.push_back(std::move(loops));
+  }
+}
+
+/// Leaves the corners: points in which three groups meet, or a group meets itself. @return false if a loop has fewer
+/// than three
 bool drop_straight_points(std::vector<FlatGroup>& groups) {
   std::map<int, int> group_counts;
-  for (const FlatGroup& group : groups)
-    for (const int point : group.outline) ++group_counts[point];
+  std::set<int> met;
+  const auto for_each_loop = [&](auto visit) {
+    for (FlatGroup& group : groups)
+      for (auto& region : group.regions) std::for_each(region.begin(), region.end(), visit);
+  };
   for (FlatGroup& group : groups) {
-    std::erase_if(group.outline, [&](int point) { return group_counts.at(point) < 3; });
-    if (group.outline.size() < 3) return false;
+    std::set<int> points;
+    for (const auto& region : group.regions)
+      for (const auto& loop : region)
+        for (const int point : loop)
+          if (!points.insert(point).second) met.insert(point);
+    for (const int point : points) ++group_counts[point];
   }
-  return true;
+  bool good = true;
+  for_each_loop([&](std::vector<int>& loop) {
+    std::erase_if(loop, [&](int point) { return group_counts.at(point) < 3 && !met.contains(point); });
+    good = good && loop.size() >= 3;
+  });
+  return good;
 }
 
-/// Points by their rounded places, and triangles of them.
+/// Triangles of points of a complex, as a mesh of its own.
 class MeshBuilder {
  public:
-  int add(int point, const Vector3& place) {
-    const auto [found, is_new] = places_.emplace(point, static_cast<int>(mesh_.points.size()));
-    if (is_new) mesh_.points.push_back(place);
-    return found->second;
-  }
-  void add(const std::array<int, 3>& triangle) {
-    const auto& [a, b, c] = triangle;
-    if (a != b && b != c && c != a) mesh_.triangles.push_back(triangle);
+  explicit MeshBuilder(const CellComplex& complex) : complex_(complex) {}
+  void add(const std::vector<std::array<int, 3>>& triangles) {
+    for (auto triangle : triangles) {
+      for (int& corner : triangle) corner = place_of(corner);
+      const auto& [a, b, c] = triangle;
+      if (a != b && b != c && c != a) mesh_.triangles.push_back(triangle);
+    }
   }
   [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
 
  private:
+  int place_of(int point) {
+    const auto [found, is_new] = places_.emplace(point, static_cast<int>(mesh_.points.size()));
+    if (is_new) mesh_.points.push_back(complex_.point(point).place.rounded);
+    return found->second;
+  }
+
+  const CellComplex& complex_;
   TriangleMesh mesh_;
   std::map<int, int> places_;  ///< by point of the complex
 };
+
+Vector3 outward_normal(const CellComplex& complex, const std::pair<int, bool>& face) {
+  const Vector3 normal = complex.plane(complex.face(face.first).plane).unit_normal();
+  return face.second ? normal : Vector3(Vector3::Zero() - normal);
+}
 
 /// Without points that merge with the one before, and without ways there and back.
 std::vector<int> merged_outline(const std::vector<int>& outline, const std::vector<int>& merged) {
@@ -207,43 +192,72 @@ std::vector<int> merged_outline(const std::vector<int>& outline, const std::vect
   return loop;
 }
 
+using Triangles = std::vector<std::array<int, 3>>;
+
+/// @return triangles of points of the complex. @param normal that the loops are counter-clockwise around
+Triangles triangles_of_loops(const CellComplex& complex, const std::vector<std::vector<int>>& loops,
+                             const Vector3& normal) {
+  std::vector<Vector3> corners;
+  std::vector<int> points;
+  std::vector<std::vector<int>> numbered;
+  for (const std::vector<int>& loop : loops) {
+    numbered.emplace_back();
+    for (const int point : loop) {
+      numbered.back().push_back(static_cast<int>(points.size()));
+      points.push_back(point);
+      corners.push_back(complex.point(point).place.rounded);
+    }
+  }
+  Triangles triangles = triangulate_loops(corners, numbered, normal);
+  for (auto& triangle : triangles)
+    for (int& corner : triangle) corner = points[static_cast<std::size_t>(corner)];
+  return triangles;
+}
+
 TriangleMesh mesh_of_outlines(const CellComplex& complex, const std::vector<FlatGroup>& groups,
                               const std::vector<int>& merged) {
-  MeshBuilder builder;
+  MeshBuilder builder(complex);
   for (const FlatGroup& group : groups) {
-    const std::vector<int> outline = merged_outline(group.outline, merged);
-    if (outline.size() < 3) continue;
-    std::vector<Vector3> corners;
-    for (const int point : outline) corners.push_back(complex.point(point).place.rounded);
-    std::vector<int> loop(corners.size());
-    std::iota(loop.begin(), loop.end(), 0);
-    std::vector<std::array<int, 3>> triangles;
-    std::size_t tests_left = std::numeric_limits<std::size_t>::max();
-    triangulate_polygon(corners, loop, triangles, tests_left);
-    for (auto& triangle : triangles) {
-      for (int& corner : triangle) {
-        const auto k = static_cast<std::size_t>(corner);
-        corner = builder.add(outline[k], corners[k]);
+    const Vector3 normal = outward_normal(complex, group.faces.front());
+    for (const auto& region : group.regions) {
+      std::vector<std::vector<int>> loops;
+      for (const std::vector<int>& outline : region) {
+        std::vector<int> loop = merged_outline(outline, merged);
+        if (loop.size() >= 3)
+          loops.push_back(std::move(loop));
+        else if (loops.empty())
+          break;
       }
-      builder.add(triangle);
+      if (!loops.empty()) builder.add(triangles_of_loops(complex, loops, normal));
     }
   }
   return builder.take();
 }
 
+/// Triangles of points of the complex, counter-clockwise as seen from above.
+Triangles triangles_of_any(const CellComplex& complex, int index) {
+  const ComplexFace& face = complex.face(index);
+  if (!face.convex) {
+    std::vector<std::vector<int>> loops;
+    for (const std::span<const int> loop : loops_of(face)) loops.emplace_back(loop.begin(), loop.end());
+    return triangles_of_loops(complex, loops, complex.plane(face.plane).unit_normal());
+  }
+  Triangles triangles = triangles_of(complex, face);
+  for (auto& triangle : triangles)
+    for (int& corner : triangle) corner = face.points[static_cast<std::size_t>(corner)];
+  return triangles;
+}
+
 TriangleMesh mesh_of_loops(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces,
                            const std::vector<int>& merged) {
-  MeshBuilder builder;
+  MeshBuilder builder(complex);
   for (const auto& [index, below] : faces) {
-    const ComplexFace& face = complex.face(index);
-    for (auto triangle : triangles_of(complex, face)) {
-      for (int& corner : triangle) {
-        const int point = merged[static_cast<std::size_t>(face.points[static_cast<std::size_t>(corner)])];
-        corner = builder.add(point, complex.point(point).place.rounded);
-      }
+    Triangles triangles = triangles_of_any(complex, index);
+    for (auto& triangle : triangles) {
+      for (int& corner : triangle) corner = merged[static_cast<std::size_t>(corner)];
       if (!below) std::swap(triangle[1], triangle[2]);
-      builder.add(triangle);
     }
+    builder.add(triangles);
   }
   return builder.take();
 }
@@ -291,34 +305,38 @@ std::vector<int> merge_points(const CellComplex& complex, double resolution) {
 TriangleMesh mesh_of_faces(const CellComplex& complex, const std::vector<std::pair<int, bool>>& faces,
                            const std::vector<int>& merged) {
   std::vector<FlatGroup> groups = groups_of(complex, faces);
-  const bool simple = std::all_of(groups.begin(), groups.end(),
-                                  [&](FlatGroup& group) { return trace_outline(complex, group); });
-  if (simple && drop_straight_points(groups)) return mesh_of_outlines(complex, groups, merged);
+  for (FlatGroup& group : groups) trace_outlines(complex, group);
+  if (drop_straight_points(groups)) return mesh_of_outlines(complex, groups, merged);
   return mesh_of_loops(complex, faces, merged);
 }
 
 double distance_from_section(const CellComplex& complex, int cell, const ExactPlane& plane,
                              const ExactPoint& from) {
   double nearest = std::numeric_limits<double>::infinity();
-  bool above = false, below = false, inside = true;
+  bool above = false, below = false;
+  MeshBuilder surface(complex);
   for (const int index : complex.faces(cell)) {
-    const ComplexFace& face = complex.face(index);
-    inside = inside && complex.plane(face.plane).side(from) * (face.cells[0] == cell ? 1 : -1) <= 0;
-    std::vector<Vector3> ends;
-    for (std::size_t k = 0; k < face.points.size(); ++k) {
-      const ExactPoint& a = complex.point(face.points[k]).place;
-      const ExactPoint& b = complex.point(face.points[(k + 1) % face.points.size()]).place;
-      const int of_a = plane.side(a), of_b = plane.side(b);
-      above = above || of_a > 0;
-      below = below || of_a < 0;
-      if (of_a == 0) ends.push_back(a.rounded);
-      if (of_a * of_b < 0) ends.push_back(crossing(plane, a.rounded, b.rounded));
+    Triangles triangles = triangles_of_any(complex, index);
+    for (const auto& corners : triangles) {
+      std::vector<Vector3> ends;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const ExactPoint& a = complex.point(corners[k]).place;
+        const ExactPoint& b = complex.point(corners[(k + 1) % 3]).place;
+        const int of_a = plane.side(a), of_b = plane.side(b);
+        above = above || of_a > 0;
+        below = below || of_a < 0;
+        if (of_a == 0) ends.push_back(a.rounded);
+        if (of_a * of_b < 0) ends.push_back(crossing(plane, a.rounded, b.rounded));
+      }
+      for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+        nearest = std::min(nearest, distance_from_segment(from.rounded, ends[k], ends[k + 1]));
     }
-    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-      nearest = std::min(nearest, distance_from_segment(from.rounded, ends[k], ends[k + 1]));
+    if (complex.face(index).cells[0] != cell)
+      for (auto& triangle : triangles) std::swap(triangle[1], triangle[2]);
+    surface.add(triangles);
   }
   if (!above || !below) return std::numeric_limits<double>::infinity();
-  return inside ? 0.0 : nearest;
+  return nearest == 0.0 || is_inside(surface.take(), from.rounded) ? 0.0 : nearest;
 }
 
 }  // namespace ashlar

@@ -158,7 +158,8 @@ class SurfacePartition {
     Vector3 sum = Vector3::Zero();
     for (const int point : points) sum += complex_.point(point).place.rounded;
     const Vector3 middle = sum / static_cast<double>(points.size());
-    return is_inner(cell, ExactPoint::of(middle)) ? is_inside(surface_, middle) : is_inside_exactly(points);
+    return is_inner(cell, ExactPoint::of(middle)) ? is_inside(surface_, middle)
+                                                  : is_inside_exactly(cell, points);
   }
 
   [[nodiscard]] bool is_inner(int cell, const ExactPoint& place) const {
@@ -169,12 +170,31 @@ class SurfacePartition {
     });
   }
 
-  /// Of a cell too thin for a rounded inner point: the parity of crossings with a ray from the mean of its
-  /// points, which takes another direction until it meets no edge.
-  [[nodiscard]] bool is_inside_exactly(const std::vector<int>& points) const {
-    RationalVector mean{0, 0, 0};
-    for (const int point : points) mean = sum(mean, complex_.point(point).place.rational());
-    mean = multiple(mean, Rational(1, static_cast<unsigned long>(points.size())));
+  /// The mean of points whose coordinates are cut off to multiples of a power of two.
+  [[nodiscard]] ExactPoint mean_of(const std::vector<int>& points, unsigned long bits) const {
+    std::array<Integer, 3> sum = {0, 0, 0};
+    for (const int point : points) {
+      const ExactPoint& place = complex_.point(point).place;
+      const std::array<const Integer*, 3> x = {&place.x, &place.y, &place.z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Integer cut_off = *x[axis] << bits;
+        mpz_fdiv_q(cut_off.get_mpz_t(), cut_off.get_mpz_t(), place.w.get_mpz_t());
+        sum[axis] += cut_off;
+      }
+    }
+    ExactPoint mean{sum[0], sum[1], sum[2], Integer(points.size()) << bits, {}};
+    mean.rounded = round_to_nearest(mean.rational());
+    return mean;
+  }
+
+  /// Of a cell too thin for a rounded inner point: as many bits as an inner point takes, and the parity of crossings
+  /// with a ray from it, which takes another direction until it meets no edge. The exact mean has a denominator that
+  /// is the product of those of all points.
+  [[nodiscard]] bool is_inside_exactly(int cell, const std::vector<int>& points) const {
+    unsigned long bits = 128;
+    ExactPoint inner = mean_of(points, bits);
+    while (!is_inner(cell, inner)) inner = mean_of(points, bits *= 2);
+    const RationalVector mean = inner.rational();
     for (long turn = 1;; ++turn) {
       const RationalVector ray{Rational(1), Rational(turn, 7), Rational(3, turn + 10)};
       const std::optional<bool> odd = parity_along(mean, ray);
@@ -225,18 +245,6 @@ int add_box_around(CellComplex& complex, const TriangleMesh& surface) {
   const Box box = box_of(surface.points);
   const Box around = box.grown((box.high - box.low).maxCoeff());
   return complex.add_cell(ConvexShape::from_mesh(make_box(around.low, around.high)));
-}
-
-std::vector<int> cells_of_solid(CellComplex& complex, const Polyhedron& solid, int most_cells) {
-  const int first = add_box_around(complex, solid.mesh());
-  std::vector<int> cells;
-  for (const CellSide& leaf : partition_by_surface(complex, {first}, solid.mesh(), -1, most_cells)) {
-    if (leaf.inside)
-      cells.push_back(leaf.cell);
-    else
-      complex.remove(leaf.cell);
-  }
-  return cells;
 }
 
 }  // namespace ashlar

@@ -16,7 +16,7 @@ struct CellSide {
   bool inside;
 };
 
-/// @param cells of the complex. @param surface bounds a solid. @param mark of the faces that come about.
+/// @param cells of the complex, convex. @param surface bounds a solid. @param mark of the faces that come about.
 /// @param most_cells that the complex may have
 /// @return the given cells and what was parted off them, those that come from one next to each other
 /// @throws CutError if there were more cells
@@ -26,9 +26,5 @@ struct CellSide {
 
 /// A cell well around a surface, in a complex. @return the cell
 int add_box_around(CellComplex& complex, const TriangleMesh& surface);
-
-/// Puts a solid that is not convex into an empty complex, parted along its own triangles. @return its cells
-/// @throws CutError if the complex had more than most_cells
-[[nodiscard]] std::vector<int> cells_of_solid(CellComplex& complex, const Polyhedron& solid, int most_cells);
 
 }  // namespace ashlar

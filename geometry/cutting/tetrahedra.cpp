@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "geometry/boxes/box.hpp"
+#include "geometry/cutting/convex_parts.hpp"
 #include "geometry/cutting/cut_solid.hpp"
 #include "geometry/cutting/piece_mesh.hpp"
 #include "geometry/cutting/surface_partition.hpp"
@@ -113,7 +114,7 @@ void keep_thick(TetrahedronMesh& mesh, double resolution) {
 class CellStars {
  public:
   CellStars(const Polyhedron& solid, double resolution)
-      : cells_(cells_of_solid(complex_, solid, most_surface_cells)),
+      : cells_(convex_parts(complex_, complex_.add_cell(solid.mesh()), -1, most_surface_cells)),
         merged_(merge_points(complex_, resolution)),
         resolution_(resolution) {}
 

@@ -1,0 +1,34 @@
+// Points of a plane seen along the axis nearest to its normal, so that what is counter-clockwise from above the
+// plane is so in the view. All answers are exact. Only sources of this layer include this file.
+#pragma once
+
+#include "geometry/cutting/exact_plane.hpp"
+
+namespace ashlar {
+
+class FlatView {
+ public:
+  explicit FlatView(const ExactPlane& plane);
+
+  /// 1 if a, b, c make a left turn, -1 for a right one, 0 if they are in one line.
+  [[nodiscard]] int turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) const;
+  /// -1, 0, 1: by the first coordinate of the view, then by the second. Along a line this is one way.
+  [[nodiscard]] int compare(const ExactPoint& a, const ExactPoint& b) const;
+  /// The same by the second coordinate alone.
+  [[nodiscard]] int compare_heights(const ExactPoint& a, const ExactPoint& b) const;
+  /// Whether a ray from a point, towards greater first coordinates, meets a segment that the point is not on.
+  /// Of two segments that meet at the ray's height, it meets each or one as their other ends say.
+  [[nodiscard]] bool ray_meets(const ExactPoint& from, const ExactPoint& a, const ExactPoint& b) const;
+  /// Coordinates in the view, whose axes go counter-clockwise.
+  [[nodiscard]] std::array<Rational, 2> seen(const ExactPoint& point) const;
+  /// Twice the signed area of a triangle, in the view.
+  [[nodiscard]] Rational doubled_area(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) const;
+
+ private:
+  [[nodiscard]] int quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) const;
+
+  int axis_ = 0;  ///< that is looked along
+  int way_ = 1;   ///< of the normal along it
+};
+
+}  // namespace ashlar
