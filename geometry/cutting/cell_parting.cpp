@@ -90,6 +90,7 @@ class CellParting {
     for (std::size_t k = 0; k < surface.size(); ++k)
       of_root[united.find(static_cast<int>(k))].push_back(surface[k]);
     std::vector<Surface> result;
+    result.reserve(of_root.size());
     for (auto& [root, faces] : of_root) result.push_back(std::move(faces));
     return result;
   }

@@ -107,6 +107,7 @@ std::vector<OutlineSide> outer_sides(const CellComplex& complex, const FlatGroup
     }
   }
   std::vector<OutlineSide> result;
+  result.reserve(sides.size());
   for (const auto& [from, to] : sides) result.push_back({from, to, -1});
   return result;
 }
@@ -179,6 +180,7 @@ Vector3 outward_normal(const CellComplex& complex, const std::pair<int, bool>& f
 /// Without points that merge with the one before, and without ways there and back.
 std::vector<int> merged_outline(const std::vector<int>& outline, const std::vector<int>& merged) {
   std::vector<int> loop;
+  loop.reserve(outline.size());
   for (const int point : outline) loop.push_back(merged[static_cast<std::size_t>(point)]);
   for (std::size_t k = 0; k < loop.size() && loop.size() >= 3;) {
     const std::size_t next = (k + 1) % loop.size(), after = (k + 2) % loop.size();

@@ -21,6 +21,7 @@ class RegionTracer {
     std::vector<const Loop*> outer, holes;
     for (const Loop& loop : loops) (sgn(doubled_area(loop)) > 0 ? outer : holes).push_back(&loop);
     std::vector<std::vector<const Loop*>> grouped;
+    grouped.reserve(outer.size());
     for (const Loop* loop : outer) grouped.push_back({loop});
     if (outer.size() == 1) {
       grouped.front().insert(grouped.front().end(), holes.begin(), holes.end());
@@ -28,6 +29,7 @@ class RegionTracer {
       for (const Loop* hole : holes) grouped[owner_of(*hole, outer)].push_back(hole);
     }
     std::vector<FaceOutline> regions;
+    regions.reserve(grouped.size());
     for (const auto& group : grouped) regions.push_back(region_of(group));
     return regions;
   }

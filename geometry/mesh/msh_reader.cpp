@@ -1,11 +1,12 @@
 // MSH files of Gmsh as text, of versions 2.2 and 4.1. Of both the sections MeshFormat, PhysicalNames, Nodes and
-// Elements are read, of 4.1 also Entities, which gives the physical groups of its volumes.
+// Elements are read, of 4.1 also Entities, which gives the physical groups of its surfaces and volumes.
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "geometry/index.hpp"
 #include "geometry/mesh/text_scanner.hpp"
@@ -16,9 +17,13 @@ namespace ashlar {
 namespace {
 
 constexpr long long most = std::numeric_limits<int>::max();
+constexpr long long surface_dimension = 2;
 constexpr long long volume_dimension = 3;
+constexpr long long triangle_of_3_nodes = 2;
 constexpr long long tetrahedron_of_4_nodes = 4;
 
+// Types of elements of 2 dimensions that Gmsh documents, beside the triangle of 3 nodes.
+constexpr std::array<long long, 10> other_surfaces = {3, 9, 10, 16, 20, 21, 22, 23, 24, 25};
 // Types of elements of 3 dimensions that Gmsh documents, beside the tetrahedron of 4 nodes.
 constexpr std::array<long long, 18> other_volumes = {5,  6,  7,  11, 12, 13, 14, 17, 18,
                                                      19, 29, 30, 31, 71, 79, 92, 90, 118};
@@ -32,22 +37,48 @@ class MshReader {
     while (scan_.next_line()) {
       const std::string section(scan_.word());
       if (section.empty() || section.front() != '$') scan_.fail("section", "a line $NAME is needed");
-      if (section == "$PhysicalNames")
-        read_names();
-      else if (section == "$Entities" && blocks_)
-        read_entities();
-      else if (section == "$Nodes")
-        read_nodes();
-      else if (section == "$Elements")
-        read_elements();
-      else
-        skip_to_end_of(section);
+      read_section(section);
     }
-    if (mesh_.tetrahedra.empty()) throw MeshFileError("file has no tetrahedra", scan_.line(), 0);
+    if (mesh_.tetrahedra.empty()) take_surfaces();
     return std::move(mesh_);
   }
 
  private:
+  void read_section(const std::string& section) {
+    const bool of_groups = section == "$PhysicalNames" || (section == "$Entities" && blocks_);
+    if (of_groups && elements_read_) scan_.fail("section", "must come before $Elements");
+    if (section == "$PhysicalNames")
+      read_names();
+    else if (section == "$Entities" && blocks_)
+      read_entities();
+    else if (section == "$Nodes")
+      read_nodes();
+    else if (section == "$Elements")
+      read_elements();
+    else
+      skip_to_end_of(section);
+  }
+
+  /// Of a file without tetrahedra: bodies are what its triangles bound.
+  void take_surfaces() {
+    if (surfaces_.triangles.empty())
+      throw MeshFileError("file has no tetrahedra, and no triangles that bound bodies", scan_.line(), 0);
+    if (doubtful_line_ > 0)
+      throw MeshFileError("file has no tetrahedra, and " + doubt_ +
+                              ", surfaces in one group each, of triangles with 3 nodes, are needed",
+                          doubtful_line_, 0);
+    mesh_.triangles = std::move(surfaces_.triangles);
+    mesh_.groups = std::move(surfaces_.groups);
+    mesh_.group_of = std::move(surfaces_.group_of);
+  }
+
+  /// What matters only where triangles are all there is.
+  void doubt(const char* what) {
+    if (doubtful_line_ > 0) return;
+    doubtful_line_ = scan_.line();
+    doubt_ = what;
+  }
+
   void read_format() {
     scan_.require_line("the section $MeshFormat");
     scan_.expect({"$MeshFormat"});
@@ -91,7 +122,7 @@ class MshReader {
       scan_.require_line("name of a physical group");
       const long long dimension = scan_.integer("dimension", 0, 3);
       const long long tag = scan_.integer("number of a physical group", -most, most);
-      if (dimension == volume_dimension) names_[tag] = quoted_name();
+      if (dimension >= surface_dimension) names_[{dimension, tag}] = quoted_name();
     }
     end_section("$PhysicalNames");
   }
@@ -104,18 +135,23 @@ class MshReader {
     for (std::size_t dimension = 0; dimension < numbers.size(); ++dimension) {
       for (int k = 0; k < numbers[dimension]; ++k) {
         scan_.require_line("entity");
-        if (dimension == volume_dimension) read_volume();
+        if (dimension >= surface_dimension) read_entity(static_cast<long long>(dimension));
       }
     }
+    entities_read_ = true;
     end_section("$Entities");
   }
 
-  void read_volume() {
-    const long long tag = scan_.integer("number of a volume", -most, most);
-    for (int k = 0; k < 6; ++k) (void)scan_.number("bound of a volume");
+  void read_entity(long long dimension) {
+    const bool volume = dimension == volume_dimension;
+    const long long tag = scan_.integer(volume ? "number of a volume" : "number of a surface", -most, most);
+    for (int k = 0; k < 6; ++k) (void)scan_.number(volume ? "bound of a volume" : "bound of a surface");
     const int groups = count("number of physical groups");
-    if (groups > 1) scan_.fail("physical groups of a volume", "at most one is read");
-    if (groups == 1) group_of_volume_[tag] = scan_.integer("physical group", -most, most);
+    if (volume && groups > 1) scan_.fail("physical groups of a volume", "at most one is read");
+    Entity entity{groups, 0};
+    if (groups > 0) entity.group = scan_.integer("physical group", -most, most);
+    if (!entities_.emplace(std::pair(dimension, tag), entity).second)
+      scan_.fail(volume ? "volume" : "surface", "$Entities lists it twice");
   }
 
   void read_nodes() {
@@ -127,10 +163,21 @@ class MshReader {
         add_node(scan_.integer("number of a node", 1, most));
       }
     } else {
-      const int blocks = count("number of blocks of nodes");
+      const int blocks = count("number of blocks of nodes"), nodes = count("number of nodes");
+      const int line = scan_.line();
+      const std::size_t before = mesh_.points.size();
       for (int k = 0; k < blocks; ++k) read_node_block();
+      check_count("$Nodes", line, nodes, mesh_.points.size() - before);
     }
     end_section("$Nodes");
+  }
+
+  /// Of all blocks together, as the first line of a section says it.
+  static void check_count(const std::string& section, int line, int said, std::size_t found) {
+    if (static_cast<std::size_t>(said) != found)
+      throw MeshFileError(section + " says that it has " + std::to_string(said) + ", its blocks have " +
+                              std::to_string(found) + ", the same number is needed",
+                          line, 0);
   }
 
   void read_node_block() {
@@ -165,9 +212,13 @@ class MshReader {
       const int elements = count("number of elements");
       for (int k = 0; k < elements; ++k) read_element();
     } else {
-      const int blocks = count("number of blocks of elements");
-      for (int k = 0; k < blocks; ++k) read_element_block();
+      const int blocks = count("number of blocks of elements"), elements = count("number of elements");
+      const int line = scan_.line();
+      std::size_t found = 0;
+      for (int k = 0; k < blocks; ++k) found += read_element_block();
+      check_count("$Elements", line, elements, found);
     }
+    elements_read_ = true;
     end_section("$Elements");
   }
 
@@ -183,43 +234,73 @@ class MshReader {
       if (k == 0) group = tag;
     }
     if (type == tetrahedron_of_4_nodes) add_tetrahedron(group);
+    if (type == triangle_of_3_nodes) add_triangle(group);
   }
 
   // 4.1: dimension and number of the entity, type, number of elements; then number and nodes of each.
-  void read_element_block() {
+  std::size_t read_element_block() {
     scan_.require_line("block of elements");
-    (void)scan_.integer("dimension", 0, 3);
-    const long long entity = scan_.integer("number of an entity", -most, most);
+    const long long dimension = scan_.integer("dimension", 0, 3);
+    const long long tag = scan_.integer("number of an entity", -most, most);
+    const auto listed = entities_.find({dimension, tag});
+    if (listed == entities_.end() && entities_read_ && dimension >= surface_dimension)
+      scan_.fail(dimension == volume_dimension ? "number of a volume" : "number of a surface",
+                 "$Entities does not list it");
+    const Entity entity = listed == entities_.end() ? Entity{} : listed->second;
     const long long type = type_of_element();
+    const bool volume = type == tetrahedron_of_4_nodes, surface = type == triangle_of_3_nodes;
+    if ((volume && dimension != volume_dimension) || (surface && dimension != surface_dimension))
+      scan_.fail("type of an element", "it is not of the dimension of its block");
+    if (surface && entity.groups > 1) doubt("a surface in several physical groups");
     const int elements = count("number of elements");
-    const auto group = group_of_volume_.find(entity);
     for (int k = 0; k < elements; ++k) {
       scan_.require_line("element");
       (void)scan_.integer("number of an element", 0, most);
-      if (type == tetrahedron_of_4_nodes)
-        add_tetrahedron(group == group_of_volume_.end() ? 0 : group->second);
+      if (volume) add_tetrahedron(entity.group);
+      if (surface) add_triangle(entity.group);
     }
+    return static_cast<std::size_t>(elements);
   }
 
   long long type_of_element() {
     const long long type = scan_.integer("type of an element", 1, most);
     if (std::find(other_volumes.begin(), other_volumes.end(), type) != other_volumes.end())
       scan_.fail("type of an element of the volume", "must be 4: tetrahedra with 4 nodes");
+    if (std::find(other_surfaces.begin(), other_surfaces.end(), type) != other_surfaces.end())
+      doubt("elements of surfaces that are no triangles with 3 nodes");
     return type;
   }
 
-  void add_tetrahedron(long long group) {
-    std::array<int, 4> corners{};
+  template <std::size_t size>
+  std::array<int, size> corners_of_element() {
+    std::array<int, size> corners{};
     for (int& corner : corners) {
       const auto found = index_of_.find(scan_.integer("number of a node", 1, most));
       if (found == index_of_.end()) scan_.fail("number of a node", "no node of $Nodes has it");
       corner = found->second;
     }
+    return corners;
+  }
+
+  void add_triangle(long long group) {
+    surfaces_.triangles.push_back(corners_of_element<3>());
+    surfaces_.group_of.push_back(index_of_group(surface_dimension, group, surfaces_));
+  }
+
+  void add_tetrahedron(long long group) {
+    std::array<int, 4> corners = corners_of_element<4>();
+    std::array<int, 4> sorted = corners;
+    std::sort(sorted.begin(), sorted.end());
+    const auto [first, is_new] = line_of_.emplace(sorted, scan_.line());
+    if (!is_new)
+      scan_.fail("tetrahedron that ends here",
+                 "the one of line " + std::to_string(first->second) +
+                     " has the same nodes; each is given once, in one physical group");
     const double volume = volume_of(corners);
     if (volume == 0.0 || volume != volume) scan_.fail("tetrahedron that ends here", "it has no volume");
     if (volume < 0.0) std::swap(corners[2], corners[3]);
     mesh_.tetrahedra.push_back(corners);
-    mesh_.group_of.push_back(index_of_group(group));
+    mesh_.group_of.push_back(index_of_group(volume_dimension, group, mesh_));
   }
 
   [[nodiscard]] double volume_of(const std::array<int, 4>& corners) const {
@@ -229,24 +310,37 @@ class MshReader {
     return signed_volume(tetrahedron);
   }
 
-  int index_of_group(long long group) {
-    const auto [found, is_new] = index_of_group_.emplace(group, static_cast<int>(mesh_.groups.size()));
+  int index_of_group(long long dimension, long long group, VolumeMesh& mesh) {
+    const auto [found, is_new] =
+        index_of_group_.emplace(std::pair(dimension, group), static_cast<int>(mesh.groups.size()));
     if (is_new) {
-      const auto name = names_.find(group);
-      mesh_.groups.push_back(name != names_.end() ? name->second
-                             : group == 0         ? "default"
-                                                  : std::to_string(group));
+      const auto name = names_.find({dimension, group});
+      mesh.groups.push_back(name != names_.end() ? name->second
+                            : group == 0         ? "default"
+                                                 : std::to_string(group));
     }
     return found->second;
   }
 
+  struct Entity {
+    int groups = 0;       ///< how many physical groups it is in
+    long long group = 0;  ///< the first
+  };
+  using Tag = std::pair<long long, long long>;  ///< dimension and number
+
   TextScanner scan_;
   VolumeMesh mesh_;
-  bool blocks_ = false;  ///< version 4.1
-  std::map<long long, std::string> names_;
-  std::map<long long, long long> group_of_volume_;
-  std::map<long long, int> index_of_group_;
+  VolumeMesh surfaces_;         ///< triangles
+  bool blocks_ = false;         ///< version 4.1
+  bool entities_read_ = false;  ///< there is a list of them
+  bool elements_read_ = false;
+  std::map<Tag, std::string> names_;
+  std::map<Tag, Entity> entities_;
+  std::map<Tag, int> index_of_group_;
   std::unordered_map<long long, int> index_of_;  ///< of nodes
+  std::map<std::array<int, 4>, int> line_of_;    ///< of tetrahedra, by their nodes
+  int doubtful_line_ = 0;                        ///< where triangles do not bound bodies clearly, 0: nowhere
+  std::string doubt_;
 };
 
 }  // namespace

@@ -38,6 +38,16 @@ TriangleMesh with_own_points(const std::vector<Vector3>& points, std::vector<std
   return mesh;
 }
 
+std::vector<MeshGroup> triangles_of_groups(const VolumeMesh& mesh) {
+  std::vector<std::vector<std::array<int, 3>>> members(mesh.groups.size());
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    members[at(mesh.group_of[k])].push_back(mesh.triangles[k]);
+  std::vector<MeshGroup> bodies;
+  for (std::size_t g = 0; g < members.size(); ++g)
+    bodies.push_back({mesh.groups[g], with_own_points(mesh.points, std::move(members[g]))});
+  return bodies;
+}
+
 }  // namespace
 
 VolumeMesh read_volume_mesh(const std::filesystem::path& path) {
@@ -61,7 +71,9 @@ VolumeMesh only_group(const VolumeMesh& mesh, const std::string& group) {
   only.groups = {group};
   for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k)
     if (mesh.group_of[k] == index) only.tetrahedra.push_back(mesh.tetrahedra[k]);
-  only.group_of.assign(only.tetrahedra.size(), 0);
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    if (mesh.group_of[k] == index) only.triangles.push_back(mesh.triangles[k]);
+  only.group_of.assign(only.tetrahedra.size() + only.triangles.size(), 0);
   return only;
 }
 
@@ -84,12 +96,14 @@ TriangleMesh surface_of(const VolumeMesh& mesh, const std::vector<int>& chosen) 
 }
 
 TriangleMesh surface_of(const VolumeMesh& mesh) {
+  if (mesh.tetrahedra.empty()) return with_own_points(mesh.points, mesh.triangles);
   std::vector<int> all(mesh.tetrahedra.size());
   std::iota(all.begin(), all.end(), 0);
   return surface_of(mesh, all);
 }
 
 std::vector<MeshGroup> surfaces_of_groups(const VolumeMesh& mesh) {
+  if (mesh.tetrahedra.empty()) return triangles_of_groups(mesh);
   std::vector<std::vector<int>> members(mesh.groups.size());
   for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k)
     members[at(mesh.group_of[k])].push_back(static_cast<int>(k));
@@ -100,6 +114,9 @@ std::vector<MeshGroup> surfaces_of_groups(const VolumeMesh& mesh) {
 }
 
 std::vector<MeshGroup> surfaces_of_tetrahedra(const VolumeMesh& mesh) {
+  if (mesh.tetrahedra.empty())
+    throw MeshFileError(
+        "file has no tetrahedra, split = \"groups\" makes bodies of the triangles of its groups", 0, 0);
   std::vector<MeshGroup> bodies;
   for (int k = 0; k < static_cast<int>(mesh.tetrahedra.size()); ++k)
     bodies.push_back({std::to_string(k + 1), surface_of(mesh, {k})});

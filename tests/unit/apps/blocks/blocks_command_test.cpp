@@ -115,6 +115,11 @@ TEST_F(BlocksCommand, WritesItsFiles) {
   // 8 corners and 12 triangles each.
   EXPECT_THAT(msh, HasSubstr("$Nodes\n24\n"));
   EXPECT_THAT(msh, HasSubstr("$Elements\n36\n1 2 2 1 1 "));
+  const std::vector<MeshGroup> back = read_mesh_groups(folder_ / "out" / "blocks.msh");
+  ASSERT_EQ(back.size(), 3U);
+  EXPECT_EQ(back[1].name, "bar.1");
+  EXPECT_EQ(rounded_volume(back[0].mesh), 12.0);
+  EXPECT_EQ(rounded_volume(back[2].mesh), 1.0);
   EXPECT_THAT(read_text(folder_ / "out" / "sizes.svg"), HasSubstr("</svg>"));
 }
 

@@ -167,7 +167,86 @@ INSTANTIATE_TEST_SUITE_P(
                             "(11), must be 4: tetrahedra with 4 nodes"},
                       Fault{"7 4 2 3 1 6 1 2 8\n", "", "number of an element ($EndElements)"},
                       Fault{"$EndElements", "", "file ends before $EndElements"},
-                      Fault{"$Elements\n7", "$Elements\n1", "$EndElements"}));
+                      Fault{"$Elements\n7", "$Elements\n1", "$EndElements"},
+                      Fault{"$Nodes\n8", "$Nodes\n7", "19: "}, Fault{"$Nodes\n8", "$Nodes\n9", "20: "},
+                      Fault{"6 4 2 2 1 1 5 6 8", "6 4 2 2 1 8 1 2 4",
+                            "28: tetrahedron that ends here (4), the one of line 24 has the same nodes"},
+                      Fault{"$EndElements\n", "$EndElements\n$PhysicalNames\n0\n$EndPhysicalNames\n",
+                            "31: section ($PhysicalNames), must come before $Elements"}));
+
+class BadMsh4 : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(BadMsh4, IsRefusedAtItsPlace) {
+  std::string text = version_4;
+  const std::size_t place = text.find(GetParam().from);
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, GetParam().from.size(), GetParam().to);
+  try {
+    (void)read_msh(text);
+    FAIL() << "read";
+  } catch (const MeshFileError& error) {
+    EXPECT_THAT(std::to_string(error.line()) + ": " + error.what(), HasSubstr(GetParam().says));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    VolumeMesh, BadMsh4,
+    ::testing::Values(
+        Fault{"3 2 4 1\n", "3 4 4 1\n", "38: number of a volume (4), $Entities does not list it"},
+        Fault{"2 0 0 0 1 1 1 0 0", "1 0 0 0 1 1 1 0 0", "15: volume (0), $Entities lists it twice"},
+        Fault{"2 5 1 9", "2 6 1 9", "18: $Nodes says that it has 6, its blocks have 5"},
+        Fault{"3 3 1 3", "3 2 1 3", "33: $Elements says that it has 2, its blocks have 3"},
+        Fault{"3 2 4 1\n3 2 3 5 9", "3 2 4 1\n3 5 3 2 1",
+              "39: tetrahedron that ends here (1), the one of line 37 has the same nodes"},
+        Fault{"3 2 4 1\n", "2 2 4 1\n", "38: "}));
+
+/// Two tetrahedra as surfaces, each a group, and a group that is not needed.
+const std::string surfaces = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 1 "rock.1"
+2 2 "rock.2"
+$EndPhysicalNames
+$Nodes
+)" + nodes + R"($EndNodes
+$Elements
+8
+1 2 2 1 1 1 3 2
+2 2 2 1 1 1 2 5
+3 2 2 1 1 2 3 5
+4 2 2 1 1 1 5 3
+5 2 2 2 2 8 7 6
+6 2 2 2 2 8 6 4
+7 2 2 2 2 8 4 7
+8 2 2 2 2 6 7 4
+$EndElements
+)";
+
+// As `ashlar blocks` writes them.
+TEST(VolumeMesh, SurfacesOfAFileWithoutTetrahedraAreBodies) {
+  const VolumeMesh mesh = read_msh(surfaces);
+  EXPECT_TRUE(mesh.tetrahedra.empty());
+  EXPECT_THAT(mesh.groups, ElementsAre("rock.1", "rock.2"));
+  const std::vector<MeshGroup> bodies = surfaces_of_groups(mesh);
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].name, "rock.1");
+  EXPECT_EQ(volume_of(bodies[0].mesh), 1.0 / 6.0);
+  EXPECT_EQ(volume_of(bodies[1].mesh), 1.0 / 6.0);
+  EXPECT_EQ(surface_of(mesh).triangles.size(), 8U);
+  EXPECT_EQ(volume_of(surface_of(only_group(mesh, "rock.2"))), 1.0 / 6.0);
+  EXPECT_THROW((void)surfaces_of_tetrahedra(mesh), MeshFileError);
+  std::string quads = surfaces;
+  quads.replace(quads.find("8 2 2 2 2 6 7 4"), 15, "8 3 2 2 2 6 4 7 8");
+  try {
+    (void)read_msh(quads);
+    FAIL();
+  } catch (const MeshFileError& error) {
+    EXPECT_EQ(error.line(), 29);
+    EXPECT_THAT(error.what(), HasSubstr("no triangles with 3 nodes"));
+  }
+}
 
 TEST(VolumeMesh, AFileWithoutTetrahedraIsRefused) {
   EXPECT_THROW((void)read_msh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"), MeshFileError);
@@ -177,8 +256,7 @@ TEST(VolumeMesh, AFileWithoutTetrahedraIsRefused) {
 TEST(VolumeMesh, AFacetOfThreeTetrahedraIsRefused) {
   std::string text = version_2;
   const std::string last = "7 4 2 3 1 6 1 2 8\n";
-  text.replace(text.find(last), last.size(), "7 4 2 3 1 1 2 4 8\n");
-  text.replace(text.find("6 4 2 2 1 1 5 6 8\n"), 18, "6 4 2 2 1 1 2 4 8\n");
+  text.replace(text.find(last), last.size(), "7 4 2 3 1 1 4 8 6\n");
   EXPECT_THROW((void)surface_of(read_msh(text)), MeshFileError);
 }
 
