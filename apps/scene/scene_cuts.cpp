@@ -74,6 +74,33 @@ Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, dou
   return pieces;
 }
 
+/// What rounding leaves of the contacts of slivers is more than their weight: a run takes hundreds of iterations for each
+/// step (solver/notes/rounding_and_states.md).
+void warn_of_slivers(const Scene& scene, const CutRock& rock, std::size_t block, const Pieces& pieces,
+                     Diagnostics& diagnostics) {
+  constexpr double share = 1e-6;  // of the mean volume
+  double sum = 0.0;
+  for (const auto& piece : pieces) sum += piece->volume();
+  const double limit = share * sum / static_cast<double>(pieces.size());
+  std::size_t slivers = 0, least = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    slivers += pieces[k]->volume() < limit ? 1 : 0;
+    if (pieces[k]->volume() < pieces[least]->volume()) least = k;
+  }
+  if (slivers == 0) return;
+  const CutSolid& solid = *rock.solids[block];
+  const std::size_t cut = last_cut_of(rock, solid, solid.pieces()[least]);
+  diagnostics.warning(scene.places.key(fmt::format("cut.{}", cut)),
+                      fmt::format("cuts leave {} sliver{} among {} pieces of block \"{}\" (the least, "
+                                  "\"{}\", has {:.3g} m^3, a piece has "
+                                  "{:.3g} m^3 in the mean): rounding pushes them about by more than they "
+                                  "weigh, which takes most of the "
+                                  "time of a run; min_volume = {:.0e} glues {}",
+                                  slivers, slivers == 1 ? "" : "s", pieces.size(), scene.block[block].name,
+                                  piece_names(scene.block[block].name, solid)[least], pieces[least]->volume(),
+                                  limit / share, 10.0 * limit, slivers == 1 ? "it" : "them"));
+}
+
 // Where keys of blocks are recorded once pieces have their numbers.
 const std::string uncut_blocks = "uncut block";
 
@@ -105,6 +132,7 @@ void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional
     }
     const Pieces pieces = solids_of(scene, rock, k, resolution_of(solids[k]->mesh().points), diagnostics);
     if (!diagnostics.good()) continue;
+    warn_of_slivers(scene, rock, k, pieces, diagnostics);
     const std::vector<std::string> names = piece_names(scene.block[k].name, *rock.solids[k]);
     std::vector<PieceBlock> made = make_piece_blocks(scene, k, pieces, names, diagnostics);
     const std::vector<int> numbers = rock.solids[k]->pieces();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
 namespace ashlar {
 namespace {
@@ -20,6 +21,7 @@ class RegionTracer {
     if (loops.size() == 1) return {region_of({&loops.front()})};
     std::vector<const Loop*> outer, holes;
     for (const Loop& loop : loops) (sgn(doubled_area(loop)) > 0 ? outer : holes).push_back(&loop);
+    if (outer.empty()) throw std::logic_error("regions have outer loops");
     std::vector<std::vector<const Loop*>> grouped;
     grouped.reserve(outer.size());
     for (const Loop* loop : outer) grouped.push_back({loop});

@@ -82,11 +82,11 @@ def random_network(numbers, sets, blocks):
     return network, high
 
 
-def scene_of(network, spacing, order=0):
+def scene_of(network, spacing, order=0, min_volume=0.0):
     text = HEAD.format(side=SIDE, order=order)
     for k, (dip, direction, point) in enumerate(network):
         text += (f'[[cut]]\nname = "set {k + 1}"\nblocks = ["rock"]\ndip = {dip!r}\ndip_direction = {direction!r}\n'
-                 f"point = {point}\nspacing = {spacing!r}\n")
+                 f"point = {point}\nspacing = {spacing!r}\nmin_volume = {min_volume!r}\n")
     return text
 
 
@@ -153,7 +153,8 @@ def random_networks(options):
         numbers = random.Random(f"{options.seed} {index}")
         sets = 3 + index % 4
         network, spacing = random_network(numbers, sets, options.blocks)
-        result = try_network(options, f"network_{options.seed}_{index:02d}", scene_of(network, spacing, options.order))
+        result = try_network(options, f"network_{options.seed}_{index:02d}", scene_of(
+            network, spacing, options.order, options.min_volume * SIDE ** 3 / options.blocks))
         ran = f", run {result['run']:.1f} s" if "run" in result else ""
         print(f"{index:3d}: {sets} sets, {result['blocks']} blocks, {result['seconds']:.2f} s{ran}: "
               f"{'; '.join(result['faults']) or 'ok'}", flush=True)
@@ -235,6 +236,8 @@ def main():
     parser.add_argument("--count", type=int, default=20, help="networks")
     parser.add_argument("--blocks", type=int, default=10000, help="in each, about")
     parser.add_argument("--order", type=int, default=0, help="of the blocks of the run")
+    parser.add_argument("--min-volume", type=float, default=0.0,
+                        help="smaller pieces are glued, of the mean volume; 1e-3 takes most of the time off a run")
     parser.add_argument("--run", action="store_true", help="take one step with each, too: minutes")
     parser.add_argument("--growth", action="store_true")
     parser.add_argument("--special", action="store_true")

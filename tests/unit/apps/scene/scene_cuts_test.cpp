@@ -211,6 +211,20 @@ TEST(SceneCuts, RefusesTooManyBlocksBeforeItMakesThem) {
             "100000 are allowed\n");
 }
 
+// A slab of 1e-7 x 2 x 2 m of a cube of 8 m^3: a ten millionth of the mean of two pieces.
+TEST(SceneCuts, WarnsOfSlivers) {
+  const Outcome outcome = load(along_x + "point = [1e-7, 0, 0]\n");
+  ASSERT_TRUE(outcome.loaded) << outcome.text;
+  EXPECT_THAT(outcome.text,
+              HasSubstr("s.toml:17:1: warning: cuts leave 1 sliver among 2 pieces of block \"rock\" (the "
+                        "least, \"rock.1\", has 4e-07 m^3, a piece has 4 m^3 in the mean)"));
+  EXPECT_THAT(outcome.text, HasSubstr("min_volume = 4e-05 glues it\n"));
+  const Outcome glued = load(along_x + "point = [1e-7, 0, 0]\nmin_volume = 4e-5\n");
+  ASSERT_TRUE(glued.loaded) << glued.text;
+  EXPECT_EQ(glued.text, "");
+  EXPECT_EQ(load(along_x + "point = [1e-5, 0, 0]\n").text, "");
+}
+
 TEST(SceneCuts, NamesThePlanesOfWhatIsLostInRounding) {
   // 1e-15 m is four units in the last place at 1 m: no solid is that thin there.
   const Outcome outcome = load(along_x + "point = [1, 0, 0]\nspacing = 1e-15\nnumber = 1\n");
