@@ -4,8 +4,9 @@
 //
 // Every point is the common point of three planes that were given, never of what was computed before, so its
 // integers do not grow with the number of cuts. A plane that parts a cell needs no more than the side of each
-// of the cell's points, and at faces that are not convex the order of points along a line. Where only one of two neighbours is parted, the face between them is divided all the
-// same: then faces of one cell may be coplanar, and points of a face's loop may lie in straight sides.
+// of the cell's points, and at faces that are not convex the order of points along a line. Where only
+// one of two neighbours is parted, the face between them is divided all the same: then faces of one cell may be
+// coplanar, and points of a face's loop may lie in straight sides.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // Flat polygons, with or without holes, as triangles of good shape: corners in sides that are straight to rounding only
-// are joined to far ones, not to each other, so that no triangle on them lies along the face beside. Only sources of this layer include this file.
+// are joined to far ones, not to each other, so that no triangle on them lies along the face beside. Only
+// sources of this layer include this file.
 #pragma once
 
 #include <array>

@@ -3,8 +3,9 @@
 // A solid that can be seen as a whole from some point inside it, as every convex one can, is a star: that
 // point joined to every triangle of its surface. Of a convex solid the point is the centroid, which is at least a
 // quarter of the solid's width away from every face (in three dimensions), so that no tetrahedron is flatter than
-// the solid; of others it is the centroid of all points that see the whole. A solid that no point sees as a whole, as a ring, is cut along the planes of its faces into convex cells, which share their faces, and each cell is
-// a star. Whether a point sees a triangle is decided exactly, on the given doubles.
+// the solid; of others it is the centroid of all points that see the whole. A solid that no point sees as a whole, as a
+// ring, is cut through its reflex edges into convex cells, which share their faces, and each cell is a star. Whether a
+// point sees a triangle is decided exactly, on the given doubles.
 #pragma once
 
 #include <array>
