@@ -6,6 +6,7 @@
 #include "geometry/triangle_mesh.hpp"
 #include "mechanics/contact/contact_points.hpp"
 #include "mechanics/supports/gravity_history.hpp"
+#include "solver/linear/linear_solver.hpp"
 
 namespace ashlar {
 
@@ -170,6 +171,8 @@ struct SimulationSettings {
   [[nodiscard]] double largest_gravity() const {
     return gravity_history.empty() ? gravity.norm() : gravity_history.largest();
   }
+
+  LinearMethod linear_method = LinearMethod::cholesky;
 
   bool area_springs = true;
   bool curved_surface = true;

@@ -45,7 +45,8 @@ nlohmann::ordered_json counts_of(const BuiltSimulation& built) {
           {"symbolic_factorizations", counts.factors.analyses},
           {"numeric_factorizations", counts.factors.factorizations},
           {"numeric_factorizations_reused", counts.factors.factorizations_reused},
-          {"linear_solves", counts.factors.solves}};
+          {"linear_solves", counts.factors.solves},
+          {"conjugate_gradient_iterations", counts.factors.gradient_iterations}};
 }
 
 nlohmann::ordered_json rejections_of(const Simulation& simulation) {

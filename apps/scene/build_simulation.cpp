@@ -89,6 +89,8 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   const AutomaticRatios ratios;
   SimulationSettings settings;
   settings.integrator = integrator_of(scene.analysis.integrator);
+  if (scene.analysis.solver == SceneAnalysis::Solver::cg)
+    settings.linear_method = LinearMethod::conjugate_gradients;
   settings.spectral_radius = scene.analysis.spectral_radius;
   settings.mass_damping = scene.analysis.mass_damping;
   settings.stiffness_damping = scene.analysis.stiffness_damping;

@@ -56,7 +56,7 @@ struct SceneAnalysis {
     equilibrium,  ///< "equilibrium": each supported block first settles under gravity, contacts off
     statics,      ///< "static": a static analysis of all blocks comes first, contacts on
   };
-  enum class Solver { automatic, cholmod, cg, dual };
+  enum class Solver { automatic, cholmod, cg };
   /// safety = { joints, tolerance, lower, upper }, capacity = { blocks, tolerance, lower, upper }
   struct FactorSearch {
     /// Names or globs: of cuts, and of blocks on either side, whose joints lose strength; of blocks whose

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/scene/available_features.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/doubtful_keys.hpp"
 #include "apps/scene/idle_keys.hpp"
@@ -60,10 +59,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   std::vector<const Scene*> stages;
   for (const Scene& stage : made) stages.push_back(&stage);
   if (stages.empty()) stages.push_back(&loaded.scene);
-  for (const Scene* stage : stages) {
-    check_references(*stage, diagnostics);
-    check_availability(*stage, diagnostics);
-  }
+  for (const Scene* stage : stages) check_references(*stage, diagnostics);
   // Nothing of a scene that is too large is built.
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
     return std::nullopt;

@@ -30,11 +30,10 @@ inline constexpr ChoiceNames<SceneAnalysis::InitialState, 3> initial_state_names
      {"equilibrium", SceneAnalysis::InitialState::equilibrium},
      {"static", SceneAnalysis::InitialState::statics}}};
 
-inline constexpr ChoiceNames<SceneAnalysis::Solver, 4> solver_names = {
+inline constexpr ChoiceNames<SceneAnalysis::Solver, 3> solver_names = {
     {{"auto", SceneAnalysis::Solver::automatic},
      {"cholmod", SceneAnalysis::Solver::cholmod},
-     {"cg", SceneAnalysis::Solver::cg},
-     {"dual", SceneAnalysis::Solver::dual}}};
+     {"cg", SceneAnalysis::Solver::cg}}};
 
 inline constexpr ChoiceNames<SceneContact::Springs, 2> springs_names = {
     {{"area", SceneContact::Springs::area}, {"point", SceneContact::Springs::point}}};

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/linear/sparse_cholesky.hpp"
+#include "solver/linear/linear_solver.hpp"
 
 namespace ashlar {
 

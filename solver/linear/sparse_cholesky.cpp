@@ -13,28 +13,12 @@ extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
 
 namespace ashlar {
 
-Eigen::VectorXd times(const SymmetricMatrix& matrix, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
-  for (int column = 0; column < matrix.size; ++column) {
-    const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
-    const auto last = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column) + 1]);
-    const double here = x[column];
-    double sum = 0.0;  // of the row that mirrors the column
-    for (std::size_t k = first; k < last; ++k) {
-      const int row = matrix.rows[k];
-      y[row] += matrix.values[k] * here;
-      sum += row == column ? 0.0 : matrix.values[k] * x[row];
-    }
-    y[column] += sum;
-  }
-  return y;
-}
-
 struct SparseCholesky::Implementation {
   cholmod_common common;
   cholmod_factor* factor = nullptr;
   SymmetricMatrix matrix;
   bool factored = false;
+  double operations = 0.0;
   double cost_in_solves = 0.0;
   FactorCounts counts;
 
@@ -109,6 +93,7 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
     cholmod_free_factor(&self.factor, &self.common);
     self.factor = cholmod_analyze(&view, &self.common);
     if (self.factor == nullptr) return FactorStatus::out_of_memory;
+    self.operations = self.common.fl;
     self.cost_in_solves = self.common.fl / (4.0 * self.common.lnz);
     ++self.counts.analyses;
   }
@@ -132,6 +117,10 @@ Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side, bool re
 
 const FactorCounts& SparseCholesky::counts() const {
   return implementation_->counts;
+}
+
+double SparseCholesky::operations() const {
+  return implementation_->operations;
 }
 
 double SparseCholesky::cost_in_solves() const {

@@ -261,7 +261,8 @@ static void visit_members(Archive& archive, FinderState& state) {
 
 template <class Archive>
 static void visit_members(Archive& archive, FactorCounts& counts) {
-  archive(counts.analyses, counts.factorizations, counts.factorizations_reused, counts.solves);
+  archive(counts.analyses, counts.factorizations, counts.factorizations_reused, counts.solves,
+          counts.gradient_iterations);
 }
 
 template <class Archive>

@@ -21,6 +21,7 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
                        std::vector<bool> absent)
     : system_(std::move(blocks), std::move(law), settings, ties, std::move(absent)),
       contacts_(system_),
+      factors_(settings.linear_method),
       audit_(system_.blocks().size()) {
   state_.next_step = settings.time_step;
   for (std::size_t k = 0; k < system_.blocks().size(); ++k) {

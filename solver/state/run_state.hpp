@@ -10,7 +10,7 @@
 #include "solver/contact/contact_pair.hpp"
 #include "solver/contact/depth_audit.hpp"
 #include "solver/contact/pair_history.hpp"
-#include "solver/linear/sparse_cholesky.hpp"
+#include "solver/linear/linear_solver.hpp"
 #include "solver/state/ledger_keeper.hpp"
 #include "solver/state/sleep.hpp"
 #include "solver/state/static_state.hpp"

@@ -51,7 +51,7 @@ void replace_model(const RunContext& run, int block, BlockModel model) {
   run.audit.forget(at(block));
   // Systems are as large as their blocks' unknowns.
   run.state.log.counts.factors += run.factors.islands.counts();
-  run.factors.islands = IslandSolvers();
+  run.factors.islands = IslandSolvers(run.settings().linear_method);
 }
 
 DroppedByOrder change_order(const RunContext& run, int block, int order) {

@@ -7,6 +7,8 @@
 namespace ashlar {
 
 struct FactorCache {
+  explicit FactorCache(LinearMethod method = LinearMethod::cholesky) : islands(method) {}
+
   IslandSolvers islands;
   LoneBodyFactors lone;
 

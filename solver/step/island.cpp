@@ -14,12 +14,15 @@ IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std
   auto found = entries_.find(key);
   // Of a snapshot of other blocks.
   if (found != entries_.end() && (found->second.sizes != sizes || found->second.pairs != pairs)) {
-    dropped_ += found->second.factor.counts();
+    dropped_ += found->second.factor->counts();
     entries_.erase(found);
     found = entries_.end();
   }
   if (found == entries_.end())
-    found = entries_.emplace(key, Entry{sizes, pairs, BlockMatrix(sizes, pairs), SparseCholesky()}).first;
+    found =
+        entries_
+            .emplace(key, Entry{sizes, pairs, BlockMatrix(sizes, pairs), make_linear_solver(method_, sizes)})
+            .first;
   found->second.used = true;
   return found->second;
 }
@@ -31,14 +34,14 @@ void IslandSolvers::drop_unused() {
       ++entry;
       continue;
     }
-    dropped_ += entry->second.factor.counts();
+    dropped_ += entry->second.factor->counts();
     entry = entries_.erase(entry);
   }
 }
 
 FactorCounts IslandSolvers::counts() const {
   FactorCounts sum = dropped_;
-  for (const auto& [key, entry] : entries_) sum += entry.factor.counts();
+  for (const auto& [key, entry] : entries_) sum += entry.factor->counts();
   return sum;
 }
 
@@ -46,13 +49,13 @@ std::vector<KeptFactor> IslandSolvers::kept() const {
   std::vector<KeptFactor> result;
   for (const auto& [key, entry] : entries_) {
     if (entry.inertia > 0.0)
-      result.push_back({key, entry.sizes, entry.pairs, entry.factor.matrix().values, entry.inertia});
+      result.push_back({key, entry.sizes, entry.pairs, entry.factor->matrix().values, entry.inertia});
   }
   return result;
 }
 
 void IslandSolvers::restore(const std::vector<KeptFactor>& kept) {
-  *this = IslandSolvers();
+  *this = IslandSolvers(method_);
   for (const KeptFactor& factor : kept) {
     const int bodies = static_cast<int>(factor.sizes.size());
     const auto is_pair = [bodies](const std::array<int, 2>& pair) {
@@ -65,9 +68,9 @@ void IslandSolvers::restore(const std::vector<KeptFactor>& kept) {
     SymmetricMatrix matrix = entry.matrix.matrix();
     const bool fits = matrix.values.size() == factor.values.size();
     matrix.values = factor.values;
-    if (!fits || entry.factor.factorize(matrix) != FactorStatus::success)
+    if (!fits || entry.factor->factorize(matrix) != FactorStatus::success)
       throw std::invalid_argument("a factor does not fit its island");
-    entry.factor.drop_counts();
+    entry.factor->drop_counts();
     entry.inertia = factor.inertia;
     entry.used = false;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -83,10 +84,12 @@ class IslandSolvers {
     std::vector<int> sizes;
     std::vector<std::array<int, 2>> pairs;
     BlockMatrix matrix;
-    SparseCholesky factor;
+    std::unique_ptr<LinearSolver> factor;
     bool used = true;
     double inertia = 0.0;  ///< TimeScheme::inertia of the factor; 0: it is of no use in another step
   };
+  explicit IslandSolvers(LinearMethod method = LinearMethod::cholesky) : method_(method) {}
+
   /// The solver of an island. @param key role, block indices, then pairs
   [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,
                             const std::vector<std::array<int, 2>>& pairs);
@@ -100,6 +103,7 @@ class IslandSolvers {
   void restore(const std::vector<KeptFactor>& kept);
 
  private:
+  LinearMethod method_;
   std::map<std::vector<int>, Entry> entries_;
   FactorCounts dropped_;
 };

@@ -205,13 +205,13 @@ void IslandProblem::assemble(bool positive) {
 FactorStatus IslandProblem::factorize_assembled(bool kept) {
   factor_is_old_ = false;
   solver_.inertia = 0.0;
-  FactorStatus status = solver_.factor.factorize(solver_.matrix.matrix());
+  FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
   if (status == FactorStatus::not_positive_definite) {
     // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
     assemble(true);
-    status = solver_.factor.factorize(solver_.matrix.matrix());
+    status = solver_.factor->factorize(solver_.matrix.matrix());
   }
-  const bool is_dear = solver_.factor.cost_in_solves() > settings_.iteration.old_factor_gain;
+  const bool is_dear = solver_.factor->cost_in_solves() > settings_.iteration.old_factor_gain;
   if (kept && is_dear && status == FactorStatus::success) solver_.inertia = scheme_.inertia;
   return status;
 }
@@ -262,20 +262,20 @@ Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool cou
         [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
           Eigen::VectorXd force = times(solver_.matrix.matrix(), x);
           add_couplings(couplings, x, force);
-          return solver_.factor.solve(force, false);
+          return solver_.factor->solve(force, false);
         },
-        solver_.factor.solve(right_side, false), settings.krylov_tolerance, settings.old_factor_iterations);
+        solver_.factor->solve(right_side, false), settings.krylov_tolerance, settings.old_factor_iterations);
     if (found.converged && right_side.dot(found.x) > 0.0) return found.x;
     if (factorize_assembled(true) != FactorStatus::success)
       return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  if (couplings.empty()) return solver_.factor.solve(right_side);
+  if (couplings.empty()) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
     add_couplings(couplings, x, force);
-    return x + solver_.factor.solve(force, false);
+    return x + solver_.factor->solve(force, false);
   };
-  return gmres(with_couplings, solver_.factor.solve(right_side), settings.krylov_tolerance,
+  return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
                settings.krylov_iterations)
       .x;
 }

@@ -65,7 +65,7 @@ spectral_radius = 0.5
 formulation = "incremental"
 initial_state = "equilibrium"
 gravity = [1, 2, 3]
-solver = "dual"
+solver = "cg"
 mass_damping = 4
 [contact]
 springs = "point"
@@ -130,7 +130,7 @@ curved = true
   EXPECT_EQ(scene.analysis.formulation, SceneAnalysis::Formulation::incremental);
   EXPECT_EQ(scene.analysis.initial_state, SceneAnalysis::InitialState::equilibrium);
   EXPECT_EQ(scene.analysis.gravity, Vector3(1, 2, 3));
-  EXPECT_EQ(scene.analysis.solver, SceneAnalysis::Solver::dual);
+  EXPECT_EQ(scene.analysis.solver, SceneAnalysis::Solver::cg);
   EXPECT_EQ(scene.analysis.mass_damping, 4.0);
   EXPECT_EQ(scene.contact.springs, SceneContact::Springs::point);
   EXPECT_EQ(scene.contact.surface, SceneContact::Surface::flat);

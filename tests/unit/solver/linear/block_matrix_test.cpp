@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/linear/conjugate_gradients.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -52,22 +54,71 @@ TEST(BlockMatrix, PlacesEveryBlock) {
   EXPECT_EQ(example.matrix.offset(2), 5);
 }
 
-TEST(SparseCholesky, SolvesAndSkipsWhatStands) {
+class LinearMethods : public testing::TestWithParam<LinearMethod> {};
+
+TEST_P(LinearMethods, SolveAndSkipWhatStands) {
   Example example;
-  SparseCholesky factor;
-  ASSERT_EQ(factor.factorize(example.matrix.matrix()), FactorStatus::success);
+  const auto solver = make_linear_solver(GetParam(), {2, 3, 1});
   const Eigen::VectorXd right_side = Eigen::VectorXd::LinSpaced(6, 1, 2);
-  EXPECT_LT((example.expected * factor.solve(right_side) - right_side).norm(), 1e-14);
-  ASSERT_EQ(factor.factorize(example.matrix.matrix()), FactorStatus::success);
-  EXPECT_EQ(factor.counts().factorizations, 1U);
-  EXPECT_EQ(factor.counts().factorizations_reused, 1U);
+  EXPECT_THROW((void)solver->solve(right_side), std::logic_error);
+  ASSERT_EQ(solver->factorize(example.matrix.matrix()), FactorStatus::success);
+  EXPECT_LT((example.expected * solver->solve(right_side) - right_side).norm(), 1e-11);
+  EXPECT_LT((example.expected * solver->solve(right_side, false) - right_side).norm(), 1e-5);
+  ASSERT_EQ(solver->factorize(example.matrix.matrix()), FactorStatus::success);
+  EXPECT_EQ(solver->counts().factorizations_reused, 1U);
+  EXPECT_EQ(solver->counts().solves, 2U);
+  // Six unknowns: as many iterations at most, but for rounding.
+  const bool gradients = GetParam() == LinearMethod::conjugate_gradients;
+  EXPECT_EQ(solver->counts().gradient_iterations > 0, gradients);
+  EXPECT_LE(solver->counts().gradient_iterations, 14U);
+  EXPECT_EQ(solver->counts().factorizations, gradients ? 0U : 1U);
   example.matrix.add_to_diagonal(0, 1.0);
-  ASSERT_EQ(factor.factorize(example.matrix.matrix()), FactorStatus::success);
-  EXPECT_EQ(factor.counts().analyses, 1U);
-  EXPECT_EQ(factor.counts().factorizations, 2U);
+  example.expected.topLeftCorner(2, 2).diagonal().array() += 1.0;
+  ASSERT_EQ(solver->factorize(example.matrix.matrix()), FactorStatus::success);
+  EXPECT_LT((example.expected * solver->solve(right_side) - right_side).norm(), 1e-11);
+  EXPECT_EQ(solver->counts().analyses, gradients ? 0U : 1U);
   example.matrix.add_to_diagonal(1, -100.0);
-  EXPECT_EQ(factor.factorize(example.matrix.matrix()), FactorStatus::not_positive_definite);
-  EXPECT_THROW((void)factor.solve(right_side), std::logic_error);
+  EXPECT_EQ(solver->factorize(example.matrix.matrix()), FactorStatus::not_positive_definite);
+  EXPECT_THROW((void)solver->solve(right_side), std::logic_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LinearMethods,
+                         testing::Values(LinearMethod::cholesky, LinearMethod::conjugate_gradients));
+
+/// Two bodies of one unknown each: |1, c; c, 1|, positive definite for |c| < 1.
+BlockMatrix coupled(double c) {
+  BlockMatrix matrix({1, 1}, {{0, 1}});
+  matrix.set_zero();
+  matrix.add_to_diagonal(0, 1.0);
+  matrix.add_to_diagonal(1, 1.0);
+  matrix.add_pair(0, 1, Eigen::MatrixXd::Constant(1, 1, c));
+  return matrix;
+}
+
+TEST(ConjugateGradients, WhatIsNotPositiveDefiniteStillGivesADirectionOfDescent) {
+  ConjugateGradients solver({1, 1});
+  ASSERT_EQ(solver.factorize(coupled(2.0).matrix()), FactorStatus::success) << "its diagonal blocks are";
+  const Eigen::Vector2d right_side(1.0, -1.0);  // its form is -1 along this
+  const Eigen::VectorXd solution = solver.solve(right_side);
+  EXPECT_GT(solution.dot(right_side), 0.0);
+}
+
+// 1/(k + l + 1): conjugate gradients need more iterations than rounding leaves them.
+TEST(ConjugateGradients, WhatDoesNotConvergeIsFactorised) {
+  constexpr int size = 9;
+  const std::vector<int> sizes(size, 1);
+  std::vector<std::array<int, 2>> pairs;
+  for (int k = 0; k < size; ++k)
+    for (int l = k + 1; l < size; ++l) pairs.push_back({k, l});
+  BlockMatrix matrix(sizes, pairs);
+  matrix.set_zero();
+  for (int k = 0; k < size; ++k) matrix.add_to_diagonal(k, 1.0 / (2 * k + 1));
+  for (const auto& [k, l] : pairs) matrix.add_pair(k, l, Eigen::MatrixXd::Constant(1, 1, 1.0 / (k + l + 1)));
+  ConjugateGradients solver(sizes);
+  ASSERT_EQ(solver.factorize(matrix.matrix()), FactorStatus::success);
+  const Eigen::VectorXd right_side = dense(matrix.matrix()) * Eigen::VectorXd::Ones(size);
+  const Eigen::VectorXd solution = solver.solve(right_side);
+  EXPECT_LT((dense(matrix.matrix()) * solution - right_side).norm(), 1e-11 * right_side.norm());
 }
 
 }  // namespace

@@ -90,5 +90,39 @@ TEST(IslandSolvers, KeepAFactorAsLongAsItComesUp) {
   EXPECT_NE(&solvers.find({1, 3, 4}, {12, 12}, {{0, 1}}), first) << "another role has its own";
 }
 
+// A pile that falls, meets with friction and a turn, and comes to lie; the orders of its blocks differ.
+TEST(IslandSolvers, ConjugateGradientsGiveWhatAFactorGives) {
+  const auto run = [](LinearMethod method) {
+    SimulationSettings settings;
+    settings.time_step = 1.0 / 240.0;
+    settings.linear_method = method;
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(test_support::fixed_box({-3, -3, -1}, {3, 3, 0}));
+    for (const int order : {0, 1, 2}) {
+      const Vector3 low(0.3 * order, 0.1 * order, 0.01 + 1.01 * order);
+      blocks.emplace_back(test_support::block_of("stone", Polyhedron(make_box(low, low + Vector3::Ones())),
+                                                 {2500, 1e8, 0.2}, order));
+    }
+    Simulation simulation(std::move(blocks), {{}, {}, {Vector3::Zero(), Vector3(0, 0, 0.5)}, {}},
+                          test_support::same_law({1e9, 1e9, 0.3, 0.0, 0.0, true}), settings);
+    EXPECT_TRUE(test_support::run_until(simulation, 0.2));
+    return simulation;
+  };
+  const Simulation factored = run(LinearMethod::cholesky);
+  const Simulation iterated = run(LinearMethod::conjugate_gradients);
+  EXPECT_EQ(factored.counts().factors.gradient_iterations, 0U);
+  EXPECT_GT(iterated.counts().factors.gradient_iterations, 0U);
+  // Blocks on their own have factors.
+  EXPECT_LT(10 * iterated.counts().factors.factorizations, factored.counts().factors.factorizations);
+  for (int block = 1; block <= 3; ++block) {
+    const Vector3 corner = factored.blocks()[static_cast<std::size_t>(block)].solid().mesh().points.front();
+    EXPECT_LT(
+        (test_support::place_of(factored, block, corner) - test_support::place_of(iterated, block, corner))
+            .norm(),
+        1e-9)
+        << block;
+  }
+}
+
 }  // namespace
 }  // namespace ashlar

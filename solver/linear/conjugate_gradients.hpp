@@ -1,0 +1,40 @@
+// Conjugate gradients with the diagonal blocks of the bodies as preconditioner (Eigen): no factor, so that memory is that of
+// the matrix and time grows little faster than it. For many blocks that pile up in three dimensions.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/linear/linear_solver.hpp"
+
+namespace ashlar {
+
+/// A system that does not converge within `most_iterations` is solved by a factor, and so are all with its matrix.
+class ConjugateGradients final : public LinearSolver {
+ public:
+  static constexpr int most_iterations = 3000;
+  /// Of what is left to the right side, of refined solutions and of others.
+  static constexpr double refined_tolerance = 1e-12;
+  static constexpr double tolerance = 1e-6;
+
+  /// @param sizes unknowns of each body, in order
+  explicit ConjugateGradients(const std::vector<int>& sizes);
+  ~ConjugateGradients() override;
+  ConjugateGradients(const ConjugateGradients&) = delete;
+  ConjugateGradients& operator=(const ConjugateGradients&) = delete;
+
+  /// @return not_positive_definite: a diagonal block is not, or, known only after solve(), the matrix is not. That solve()
+  /// gives the solution with the diagonal blocks alone, along which a positive definite form falls
+  [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override;
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined = true) override;
+  [[nodiscard]] const FactorCounts& counts() const override;
+  void drop_counts() override;
+  [[nodiscard]] double cost_in_solves() const override { return 0.0; }
+  [[nodiscard]] const SymmetricMatrix& matrix() const override;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace ashlar
