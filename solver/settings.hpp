@@ -130,9 +130,9 @@ struct StaticSettings {
   /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
   /// smaller follows contacts better
   double motion = 0.05;
-  /// in block sizes: blocks that move less in an iteration stand still, whatever points at the limit of
-  /// friction do
-  double stillness = 1e-12;
+  /// in block sizes: blocks in balance that move less in an iteration stand still, whatever points at the limit of
+  /// friction do (notes/when_statics_end.md)
+  double stillness = 1e-8;
   /// by how much multipliers may change in an iteration that is in balance, as a share of the largest force
   /// of a point: what they do not hold yet, blocks are strained by
   double multiplier_tolerance = 1e-6;
