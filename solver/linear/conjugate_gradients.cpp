@@ -32,12 +32,13 @@ class BlockJacobi {
   template <class Matrix>
   BlockJacobi& factorize(const Matrix& matrix) {
     info_ = Eigen::Success;
-    factors_.clear();
+    inverses_.clear();
     Eigen::Index start = 0;
     for (const int size : sizes_) {
       // The lower triangle is all that the matrix has.
-      factors_.emplace_back(Eigen::MatrixXd(matrix.block(start, start, size, size)));
-      if (factors_.back().info() != Eigen::Success) info_ = Eigen::NumericalIssue;
+      const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(matrix.block(start, start, size, size)));
+      if (factor.info() != Eigen::Success) info_ = Eigen::NumericalIssue;
+      inverses_.emplace_back(factor.solve(Eigen::MatrixXd::Identity(size, size)));
       start += size;
     }
     return *this;
@@ -47,12 +48,11 @@ class BlockJacobi {
     return factorize(matrix);
   }
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side) const {
-    Eigen::VectorXd result = right_side;
+    Eigen::VectorXd result(right_side.size());
     Eigen::Index start = 0;
-    for (const auto& factor : factors_) {
-      auto part = result.segment(start, factor.rows());
-      factor.solveInPlace(part);
-      start += factor.rows();
+    for (const Eigen::MatrixXd& inverse : inverses_) {
+      result.segment(start, inverse.rows()) = inverse * right_side.segment(start, inverse.rows());
+      start += inverse.rows();
     }
     return result;
   }
@@ -61,7 +61,7 @@ class BlockJacobi {
  private:
   std::vector<int> sizes_;
   Eigen::Index size_ = 0;
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
+  std::vector<Eigen::MatrixXd> inverses_;
   Eigen::ComputationInfo info_ = Eigen::Success;
 };
 
