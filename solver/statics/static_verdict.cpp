@@ -139,7 +139,8 @@ void note_accelerations(const RunContext& run, const TimeScheme& scheme, const S
   if (fail) forget_accelerations(run);
   const bool settled = sliding == run.state.statics.onset.sliding;
   run.state.statics.onset.sliding = std::move(sliding);
-  if (!run.state.statics.onset.unbalanced.empty() && !settled) return;
+  // Until joints slide twice alike the last iteration knows best: in the first ones inertia bears most of the weight.
+  if (!settled && std::isfinite(run.state.statics.onset.least_lacking)) return;
   bool near_start = true;
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     near_start = near_start && !(run.system.moving()[k] &&
