@@ -6,6 +6,7 @@
 #include <qd/dd_real.h>
 
 #include <Eigen/Core>
+#include <type_traits>
 
 #include "geometry/exact/fifty_digits.hpp"
 
@@ -30,27 +31,15 @@ inline constexpr double unit_roundoff<FiftyDigits> = 1e-50;
   return static_cast<double>(value);
 }
 
-/// To as many digits as the type has.
-template <class Real>
-[[nodiscard]] Real converted(const FiftyDigits& value);
-template <>
-[[nodiscard]] inline FiftyDigits converted<FiftyDigits>(const FiftyDigits& value) {
-  return value;
-}
-template <>
-[[nodiscard]] inline DoubleDouble converted<DoubleDouble>(const FiftyDigits& value) {
-  const auto high = static_cast<double>(value);
-  return {high, static_cast<double>(FiftyDigits(value - high))};
-}
-template <class Real>
-[[nodiscard]] Real converted(const DoubleDouble& value);
-template <>
-[[nodiscard]] inline DoubleDouble converted<DoubleDouble>(const DoubleDouble& value) {
-  return value;
-}
-template <>
-[[nodiscard]] inline FiftyDigits converted<FiftyDigits>(const DoubleDouble& value) {
-  return FiftyDigits(value.x[0]) + FiftyDigits(value.x[1]);
+/// To as many digits as the type has, fewer than before or the same.
+template <class Real, class From>
+[[nodiscard]] Real converted(const From& value) {
+  if constexpr (std::is_same_v<Real, From>) {
+    return value;
+  } else {
+    const double high = rounded(value);
+    return {high, rounded(From(value - high))};
+  }
 }
 
 }  // namespace ashlar

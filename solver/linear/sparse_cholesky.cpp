@@ -18,7 +18,6 @@ struct SparseCholesky::Implementation {
   cholmod_factor* factor = nullptr;
   SymmetricMatrix matrix;
   bool factored = false;
-  double operations = 0.0;
   double cost_in_solves = 0.0;
   FactorCounts counts;
 
@@ -93,7 +92,6 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
     cholmod_free_factor(&self.factor, &self.common);
     self.factor = cholmod_analyze(&view, &self.common);
     if (self.factor == nullptr) return FactorStatus::out_of_memory;
-    self.operations = self.common.fl;
     self.cost_in_solves = self.common.fl / (4.0 * self.common.lnz);
     ++self.counts.analyses;
   }
@@ -117,10 +115,6 @@ Eigen::VectorXd SparseCholesky::solve(const Eigen::VectorXd& right_side, bool re
 
 const FactorCounts& SparseCholesky::counts() const {
   return implementation_->counts;
-}
-
-double SparseCholesky::operations() const {
-  return implementation_->operations;
 }
 
 double SparseCholesky::cost_in_solves() const {

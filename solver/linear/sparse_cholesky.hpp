@@ -25,8 +25,6 @@ class SparseCholesky final : public LinearSolver {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined = true) override;
 
   [[nodiscard]] const FactorCounts& counts() const override;
-  /// Floating-point operations of a factorisation, by the pattern that was analysed last; 0 before the first.
-  [[nodiscard]] double operations() const;
   [[nodiscard]] double cost_in_solves() const override;
   void drop_counts() override;
   [[nodiscard]] const SymmetricMatrix& matrix() const override;
