@@ -142,8 +142,8 @@ TEST(PolynomialBasis, OrdersThatAShapeDoesNotBearAreRefusedWithTheHighestThatItD
   }
 }
 
-// Of D_x D_y - D_y D_x = 0 each product is rounded in the last place only, if the matrices themselves are: what is made with
-// too few digits for its shape loses as many as its factor is large.
+// D = inverse(L) S L, and S commute. In too few digits D would lose as many as inverse(L) and L are large; as it is, each
+// product is rounded in its last place only.
 TEST(PolynomialBasis, DerivativesCommuteForAllShapesThatAreAccepted) {
   int accepted = 0;
   for (const double thickness : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
