@@ -168,6 +168,16 @@ Eigen::MatrixXd BlockModel::tangent(const Eigen::Matrix3d& rotation) const {
                         : parts_->reduced_stiffness;
 }
 
+Eigen::VectorXd BlockModel::tangent_times(const Eigen::Matrix3d& rotation, const Eigen::VectorXd& y) const {
+  if (rigid()) return Eigen::VectorXd::Zero(unknowns());
+  if (!corotational()) return parts_->reduced_stiffness * y;
+  const Eigen::MatrixX3d turned_back = space().expand(y) * rotation;
+  Eigen::MatrixX3d force(turned_back.rows(), 3);
+  Eigen::Map<Eigen::VectorXd>(force.data(), force.size()).noalias() =
+      parts_->stiffness * Eigen::Map<const Eigen::VectorXd>(turned_back.data(), turned_back.size());
+  return space().restrict(Eigen::MatrixX3d(force * rotation.transpose()));
+}
+
 Eigen::MatrixXd BlockModel::tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
                                     bool positive) const {
   return parts_->large ? space().restrict(parts_->large->tangent(position, positive))

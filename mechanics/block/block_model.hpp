@@ -130,6 +130,11 @@ class BlockModel {
   /// @param positive leave out what may make it indefinite. @return (unknowns, unknowns), symmetric
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
                                         bool positive = false) const;
+  /// Whether the tangent depends on the rotation only: not of St.-Venant-Kirchhoff blocks.
+  [[nodiscard]] bool tangent_turns() const { return !parts_->large; }
+  /// tangent(rotation) times a change, without the matrix. @param y (unknowns). @return (unknowns)
+  [[nodiscard]] Eigen::VectorXd tangent_times(const Eigen::Matrix3d& rotation,
+                                              const Eigen::VectorXd& y) const;
   /// Size of the rounding errors of the internal force of a block at rest, in the norm of the unknowns.
   [[nodiscard]] double force_rounding() const;
 

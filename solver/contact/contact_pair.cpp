@@ -298,17 +298,6 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   return response;
 }
 
-PairCoupling ContactPair::sliding_couplings(const PairResponse& response) {
-  const auto count = static_cast<Eigen::Index>(response.means.size());
-  PairCoupling result{Eigen::Matrix3Xd(3, count), Eigen::Matrix3Xd(3, count)};
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Coupling& coupling = response.means[static_cast<std::size_t>(k)].coupling;
-    result.force.col(k) = coupling.force;
-    result.by.col(k) = coupling.by;
-  }
-  return result;
-}
-
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   const Eigen::Matrix3Xd place = relative(ya, yb);
   std::vector<double> result;

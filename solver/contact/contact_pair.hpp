@@ -150,8 +150,6 @@ class ContactPair {
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const { return rows_.tangent(response); }
 
-  /// MeanResponse::coupling of every point.
-  [[nodiscard]] static PairCoupling sliding_couplings(const PairResponse& response);
   [[nodiscard]] const PairRows& rows() const { return rows_; }
 
   // pair_impulses.cpp

@@ -201,18 +201,46 @@ void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd&
   response.shift_on_b = (-0.5 * deformation_b_.levers(yb) * moment).reshaped();
 }
 
+PointStiffnesses PairRows::stiffnesses(const PairResponse& response) const {
+  PointStiffnesses result(9, count_);
+  for (Eigen::Index k = 0; k < count_; ++k) {
+    const Eigen::Matrix3d along_axes =
+        frame(k) * response.means[static_cast<std::size_t>(k)].tangent * frame(k).transpose();
+    result.col(k) = along_axes.reshaped();
+  }
+  return result;
+}
+
+PointStiffnesses PairRows::couplings(const PairResponse& response) const {
+  const auto coupled = [](const MeanResponse& mean) { return !mean.coupling.force.isZero(0.0); };
+  if (std::none_of(response.means.begin(), response.means.end(), coupled)) return {};
+  PointStiffnesses result(9, count_);
+  for (Eigen::Index k = 0; k < count_; ++k) {
+    const Coupling& coupling = response.means[static_cast<std::size_t>(k)].coupling;
+    const Eigen::Matrix3d along_axes = frame(k) * coupling.force * (frame(k) * coupling.by).transpose();
+    result.col(k) = along_axes.reshaped();
+  }
+  return result;
+}
+
+std::pair<Eigen::VectorXd, Eigen::VectorXd> PairRows::product(const PointStiffnesses& stiffnesses,
+                                                              const Eigen::VectorXd& da,
+                                                              const Eigen::VectorXd& db) const {
+  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count_);
+  if (da.size() > 0) values_->a.add_motion(da, 1.0, moved);
+  if (db.size() > 0) values_->b.add_motion(db, -1.0, moved);
+  for (Eigen::Index k = 0; k < count_; ++k)
+    moved.col(k) = (stiffnesses.col(k).reshaped(3, 3) * moved.col(k)).eval();
+  return {da.size() > 0 ? values_->a.force(moved) : Eigen::VectorXd(),
+          db.size() > 0 ? Eigen::VectorXd(-values_->b.force(moved)) : Eigen::VectorXd()};
+}
+
 PairTangent PairRows::tangent(const PairResponse& response) const {
   std::vector<Eigen::Index> active;
   for (std::size_t k = 0; k < response.means.size(); ++k) {
     if (!response.means[k].tangent.isZero(0.0)) active.push_back(static_cast<Eigen::Index>(k));
   }
-  PointStiffnesses stiffnesses(9, static_cast<Eigen::Index>(active.size()));
-  for (std::size_t n = 0; n < active.size(); ++n) {
-    const auto of_point = frame(active[n]);
-    const Eigen::Matrix3d along_axes =
-        of_point * response.means[static_cast<std::size_t>(active[n])].tangent * of_point.transpose();
-    stiffnesses.col(static_cast<Eigen::Index>(n)) = along_axes.reshaped();
-  }
+  const PointStiffnesses stiffnesses = this->stiffnesses(response)(Eigen::all, active);
   const bool all = static_cast<Eigen::Index>(active.size()) == count_;
   const BlockRows some_a = all || values_->a.fixed() ? BlockRows() : values_->a.at_points(active);
   const BlockRows some_b = all || values_->b.fixed() ? BlockRows() : values_->b.at_points(active);
@@ -223,20 +251,6 @@ PairTangent PairRows::tangent(const PairResponse& response) const {
   if (!values_->b.fixed()) tangent.bb = of_b.tangent(stiffnesses, of_b);
   if (!values_->a.fixed() && !values_->b.fixed()) tangent.ab = -of_a.tangent(stiffnesses, of_b);
   return tangent;
-}
-
-void PairRows::add_coupling(const PairCoupling& coupling, const Eigen::VectorXd& da,
-                            const Eigen::VectorXd& db, Eigen::Ref<Eigen::VectorXd> to_a,
-                            Eigen::Ref<Eigen::VectorXd> to_b) const {
-  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count_);
-  if (da.size() > 0) values_->a.add_motion(da, 1.0, moved);
-  if (db.size() > 0) values_->b.add_motion(db, -1.0, moved);
-  for (Eigen::Index k = 0; k < count_; ++k) {
-    const double by = (frame(k) * coupling.by.col(k)).dot(moved.col(k));
-    moved.col(k) = by * (frame(k) * coupling.force.col(k));
-  }
-  if (da.size() > 0) to_a += values_->a.force(moved);
-  if (db.size() > 0) to_b -= values_->b.force(moved);
 }
 
 double PairRows::mobility(Eigen::Index first, Eigen::Index count, double inertia_a, double inertia_b) const {

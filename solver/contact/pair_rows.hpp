@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
@@ -46,12 +47,6 @@ struct BlockInStep {
   Eigen::MatrixX3d middle;      ///< position, (p, 3)
   Eigen::MatrixX3d end;         ///< position, (p, 3)
   Eigen::MatrixX3d prescribed;  ///< change of the position by supports that move; empty: none
-};
-
-/// Coupling of all points, columns in their frames.
-struct PairCoupling {
-  Eigen::Matrix3Xd force;  ///< (3, #points), N/m
-  Eigen::Matrix3Xd by;     ///< (3, #points)
 };
 
 /// Tangents -d force / d unknowns of the points that are not open; `ba` is the block (b, a) transposed, (na, nb).
@@ -118,10 +113,16 @@ class PairRows {
                   const Eigen::VectorXd& forces, PairResponse& response) const;
 
   [[nodiscard]] PairTangent tangent(const PairResponse& response) const;
-  /// Adds to the forces of a and b what couplings make of changes of the unknowns: the part of the Jacobian of -force
-  /// that is not symmetric. Empty vectors stand for fixed blocks.
-  void add_coupling(const PairCoupling& coupling, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
-                    Eigen::Ref<Eigen::VectorXd> to_a, Eigen::Ref<Eigen::VectorXd> to_b) const;
+  /// MeanResponse::tangent of each point, along x, y, z: symmetric.
+  [[nodiscard]] PointStiffnesses stiffnesses(const PairResponse& response) const;
+  /// MeanResponse::coupling of each point, along x, y, z: the part of the Jacobian of -force that is not symmetric.
+  /// Without columns where no point has any
+  [[nodiscard]] PointStiffnesses couplings(const PairResponse& response) const;
+  /// What stiffnesses of the points make of changes of the unknowns. @param da,db (unknowns), of fixed blocks empty
+  /// @return forces on the unknowns of a and b, N, with the sign of the tangent; of fixed blocks empty
+  [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> product(const PointStiffnesses& stiffnesses,
+                                                                    const Eigen::VectorXd& da,
+                                                                    const Eigen::VectorXd& db) const;
 
   /// Norm of the longest row of each block; 0: fixed.
   [[nodiscard]] double longest_of_a() const { return values_->longest_a; }

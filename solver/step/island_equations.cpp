@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/index.hpp"
-#include "solver/linear/gmres.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -51,7 +49,6 @@ void IslandProblem::predict(FirstGuess guess) {
   follow_rigid_bodies();
 }
 
-/// Where the elastic force of a body is taken.
 Eigen::MatrixX3d IslandProblem::taken_at(const BodyStep& body) const {
   return body.state->position + scheme_.end_share * body.motion();
 }
@@ -144,23 +141,6 @@ void IslandProblem::recall(const Balance& balance) {
     bodies_[at(island_.bodies[k])].largest_force = balance.scales[k];
 }
 
-namespace {
-
-/// A tangent on the unknowns of two blocks as one on their equations.
-PairTangent in_equations(PairTangent tangent, const BodyStep& a, const BodyStep& b) {
-  if (a.model->rigid()) {
-    if (tangent.aa.size() > 0) tangent.aa = a.fields.transpose() * tangent.aa * a.fields;
-    if (tangent.ab.size() > 0) tangent.ab = a.fields.transpose() * tangent.ab;
-  }
-  if (b.model->rigid()) {
-    if (tangent.bb.size() > 0) tangent.bb = b.fields.transpose() * tangent.bb * b.fields;
-    if (tangent.ab.size() > 0) tangent.ab = tangent.ab * b.fields;
-  }
-  return tangent;
-}
-
-}  // namespace
-
 Eigen::VectorXd IslandProblem::contact_forces() const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
   const auto add = [&](int block, const Eigen::VectorXd& force) {
@@ -175,113 +155,12 @@ Eigen::VectorXd IslandProblem::contact_forces() const {
   return sum;
 }
 
-void IslandProblem::assemble(bool positive) {
-  BlockMatrix& matrix = solver_.matrix;
-  matrix.set_zero();
-  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
-    const BodyStep& body = bodies_[at(island_.bodies[k])];
-    if (scheme_.force_weight > 0.0 && !body.model->rigid()) {
-      matrix.add_diagonal(static_cast<int>(k),
-                          scheme_.force_weight * scheme_.end_share * (1.0 + scheme_.stiffness_share) *
-                              body.model->tangent(taken_at(body), body.elastic, positive));
-    }
-    matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme_.inertia);
-  }
-  std::vector<PairTangent> tangents(pairs());
-  parallel_for(threads(), pairs(), [&](std::size_t k) {
-    tangents[k] =
-        in_equations(pair(k).tangent(responses_[k]), bodies_[at(pair(k).a())], bodies_[at(pair(k).b())]);
-  });
-  for (std::size_t k = 0; k < pairs(); ++k) {
-    const PairTangent& tangent = tangents[k];
-    const int a = place(pair(k).a());
-    const int b = place(pair(k).b());
-    if (a >= 0) matrix.add_diagonal(a, tangent.aa);
-    if (b >= 0) matrix.add_diagonal(b, tangent.bb);
-    if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
-  }
-}
-
-FactorStatus IslandProblem::factorize_assembled(bool kept) {
-  factor_is_old_ = false;
-  solver_.inertia = 0.0;
-  FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
-  if (status == FactorStatus::not_positive_definite) {
-    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
-    assemble(true);
-    status = solver_.factor->factorize(solver_.matrix.matrix());
-  }
-  const bool is_dear = solver_.factor->cost_in_solves() > settings_.iteration.old_factor_gain;
-  if (kept && is_dear && status == FactorStatus::success) solver_.inertia = scheme_.inertia;
-  return status;
-}
-
-FactorStatus IslandProblem::factorize() {
-  assemble(false);
-  return factorize_assembled(false);
-}
-
-FactorStatus IslandProblem::update_factor() {
-  assemble(false);
-  factor_is_old_ = !scheme_.from_rest && solver_.inertia == scheme_.inertia;
-  return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme_.from_rest);
-}
-
-Eigen::VectorXd IslandProblem::part(const Eigen::VectorXd& of_island, int block) const {
-  const int place_of_block = place(block);
-  if (place_of_block < 0) return {};
-  const BodyStep& body = bodies_[at(block)];
-  return body.of_unknowns(of_island.segment(solver_.matrix.offset(place_of_block), body.model->freedom()));
-}
-
-void IslandProblem::add_couplings(const std::vector<std::pair<std::size_t, PairCoupling>>& couplings,
-                                  const Eigen::VectorXd& x, Eigen::VectorXd& force) {
-  for (const auto& [k, coupling] : couplings) {
-    const Eigen::VectorXd of_a = part(x, pair(k).a());
-    const Eigen::VectorXd of_b = part(x, pair(k).b());
-    Eigen::VectorXd to_a = Eigen::VectorXd::Zero(of_a.size());
-    Eigen::VectorXd to_b = Eigen::VectorXd::Zero(of_b.size());
-    pair(k).rows().add_coupling(coupling, of_a, of_b, to_a, to_b);
-    for (const auto& [block, added] : {std::pair(pair(k).a(), &to_a), std::pair(pair(k).b(), &to_b)}) {
-      if (place(block) < 0) continue;
-      const BodyStep& body = bodies_[at(block)];
-      force.segment(solver_.matrix.offset(place(block)), body.model->freedom()) += body.in_equations(*added);
-    }
-  }
-}
-
-Eigen::VectorXd IslandProblem::solve(const Eigen::VectorXd& right_side, bool coupled) {
-  std::vector<std::pair<std::size_t, PairCoupling>> couplings;
-  for (std::size_t k = 0; coupled && k < pairs(); ++k) {
-    PairCoupling found = ContactPair::sliding_couplings(responses_[k]);
-    if (!found.force.isZero(0.0)) couplings.emplace_back(k, std::move(found));
-  }
-  const IterationSettings& settings = settings_.iteration;
-  if (factor_is_old_) {
-    const KrylovSolution found = gmres(
-        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-          Eigen::VectorXd force = times(solver_.matrix.matrix(), x);
-          add_couplings(couplings, x, force);
-          return solver_.factor->solve(force, false);
-        },
-        solver_.factor->solve(right_side, false), settings.krylov_tolerance, settings.old_factor_iterations);
-    if (found.converged && right_side.dot(found.x) > 0.0) return found.x;
-    if (factorize_assembled(true) != FactorStatus::success)
-      return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
-  }
-  if (couplings.empty()) return solver_.factor->solve(right_side);
-  const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
-    add_couplings(couplings, x, force);
-    return x + solver_.factor->solve(force, false);
-  };
-  return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
-               settings.krylov_iterations)
-      .x;
-}
-
 void IslandProblem::apply(const Eigen::VectorXd& change, double share) {
-  for (const int index : island_.bodies) bodies_[at(index)].change += share * part(change, index);
+  for (std::size_t k = 0; k < bodies(); ++k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    const int offset = solver_.matrix.offset(static_cast<int>(k));
+    body.change += share * body.of_unknowns(change.segment(offset, body.model->freedom()));
+  }
   follow_rigid_bodies();
 }
 

@@ -1,10 +1,11 @@
-// The equations of one island within a step at a guess of the changes (time_scheme.hpp), and what an
-// open-close iteration does with them: evaluate, assemble, solve, move on.
+// The equations of one island within a step at a guess of the changes (time_scheme.hpp): evaluate them, ask what is
+// left, move on. island_tangent.hpp linearises and solves them.
 #pragma once
 
 #include <map>
 #include <vector>
 
+#include "geometry/index.hpp"
 #include "solver/step/island.hpp"
 
 namespace ashlar {
@@ -56,14 +57,6 @@ class IslandProblem {
   void recall(const Balance& balance);
   /// Forces of the last responses alone, N, in the island's equations.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
-  /// Assembles and factorises the symmetric part of the tangent at the last responses.
-  [[nodiscard]] FactorStatus factorize();
-  /// Assembles it, and leaves the factor that an earlier step may have left: solve() takes that for a preconditioner,
-  /// and makes a new one where it is none.
-  [[nodiscard]] FactorStatus update_factor();
-  /// Change of the guess that the linearised equations ask for.
-  /// @param coupled with the dependence of friction on normal forces; without, the tangent is symmetric
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool coupled);
   void apply(const Eigen::VectorXd& change, double share);
 
   [[nodiscard]] std::vector<Eigen::VectorXd> guess() const;
@@ -75,6 +68,18 @@ class IslandProblem {
   /// States of all points at the last responses, in a fixed order.
   [[nodiscard]] std::vector<ContactState> states() const;
 
+  [[nodiscard]] std::size_t bodies() const { return island_.bodies.size(); }
+  [[nodiscard]] const BodyStep& body(std::size_t place) const { return bodies_[at(island_.bodies[place])]; }
+  /// A block of the step, moving or not.
+  [[nodiscard]] const BodyStep& block(int index) const { return bodies_[at(index)]; }
+  /// Of a block among the island's bodies; -1: it does not move.
+  [[nodiscard]] int place(int block) const;
+  /// Where the elastic force of a body is taken. @return position, (p, 3)
+  [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
+  [[nodiscard]] IslandSolvers::Entry& solver() const { return solver_; }
+  /// That work over pairs is shared out to; what is found does not depend on it.
+  [[nodiscard]] int threads() const;
+
   [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
   /// Takes a pair for one of the island's.
@@ -85,6 +90,7 @@ class IslandProblem {
   [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
+  [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   /// Takes rows to the middle and gaps to the end of the step at the present guess (ContactPair::follow), of
   /// pairs where that makes a difference. @param tolerance of gaps, m. @return whether there are any
   [[nodiscard]] bool follow_contacts(double tolerance);
@@ -94,10 +100,6 @@ class IslandProblem {
   void hand_over(IslandResult& result);
 
  private:
-  /// That work over pairs is shared out to; what is found does not depend on it.
-  [[nodiscard]] int threads() const;
-  [[nodiscard]] int place(int block) const;
-  [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   /// Adds forces of pairs to a balance. @param errors by body: what rounding leaves of them, and what is in doubt, N
   void add_contacts(Balance& balance, std::vector<ForceErrors>& errors) const;
   /// Adds the force on a body's unknowns to a balance.
@@ -106,16 +108,9 @@ class IslandProblem {
   void judge(Balance& balance, const std::vector<ForceErrors>& errors) const;
   /// After each change of the guess.
   void follow_rigid_bodies();
-  void assemble(bool positive);
-  /// Factorises what has been assembled. @param kept for later steps
-  [[nodiscard]] FactorStatus factorize_assembled(bool kept);
-  /// Adds what the couplings of sliding points make of changes of the unknowns to forces on them.
-  void add_couplings(const std::vector<std::pair<std::size_t, PairCoupling>>& couplings,
-                     const Eigen::VectorXd& x, Eigen::VectorXd& force);
   [[nodiscard]] BlockInStep placed(const BodyStep& body) const;
   /// What rows that are not taken anew leave out of the gaps of a pair's closed points, m.
   [[nodiscard]] double left_out(std::size_t pair) const;
-  [[nodiscard]] Eigen::VectorXd part(const Eigen::VectorXd& of_island, int block) const;
 
   const Island& island_;
   std::vector<BodyStep>& bodies_;
@@ -130,7 +125,6 @@ class IslandProblem {
     Eigen::Matrix3Xd motion;  ///< of its points then
   };
 
-  bool factor_is_old_ = false;  ///< of another matrix than the one that is assembled
   std::map<int, int> place_;
   std::map<std::size_t, ContactPair> replaced_;
   std::map<std::size_t, Followed> followed_;

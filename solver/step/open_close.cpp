@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/step/first_guess.hpp"
+#include "solver/step/island_tangent.hpp"
 
 namespace ashlar {
 namespace {
@@ -21,7 +22,7 @@ enum class Outcome {
 class OpenClose {
  public:
   OpenClose(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result)
-      : problem_(problem), settings_(settings), result_(result) {}
+      : problem_(problem), tangent_(problem), settings_(settings), result_(result) {}
 
   Outcome run() {
     bond();
@@ -51,7 +52,7 @@ class OpenClose {
   /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
   /// nothing damps make more of it. The last factor takes most of it away.
   void polish() {
-    const Eigen::VectorXd change = problem_.solve(next_balance().left, true);
+    const Eigen::VectorXd change = tangent_.solve(next_balance().left, true);
     Evaluation settled = problem_.set_aside();
     problem_.apply(change, 1.0);
     respond();
@@ -252,8 +253,8 @@ class OpenClose {
                           (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
       last_factor = nearly;
       factorized_ = true;
-      if (!nearly && problem_.update_factor() != FactorStatus::success) return Outcome::singular;
-      const Eigen::VectorXd change = problem_.solve(balance.left, true);
+      if (!nearly && tangent_.update_factor() != FactorStatus::success) return Outcome::singular;
+      const Eigen::VectorXd change = tangent_.solve(balance.left, true);
       if (closing) {
         problem_.apply(change, 1.0);
         respond();
@@ -330,8 +331,8 @@ class OpenClose {
       const Balance balance = next_balance();
       if (balance.worst <= target) return Outcome::settled;
       if (!std::isfinite(balance.worst)) return Outcome::stalled;
-      if (problem_.factorize() != FactorStatus::success) return Outcome::singular;
-      const Eigen::VectorXd change = problem_.solve(balance.left, false);
+      if (tangent_.factorize() != FactorStatus::success) return Outcome::singular;
+      const Eigen::VectorXd change = tangent_.solve(balance.left, false);
       search(change, balance.left.dot(change), settings_.iteration.line_search_tolerance, 16.0);
     }
     return Outcome::stalled;
@@ -375,6 +376,7 @@ class OpenClose {
   }
 
   IslandProblem& problem_;
+  IslandTangent tangent_;
   const SimulationSettings& settings_;
   IslandResult& result_;
   std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N

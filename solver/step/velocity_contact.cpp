@@ -7,6 +7,7 @@
 #include "solver/contact/contact_accounts.hpp"
 #include "solver/step/angular_momentum.hpp"
 #include "solver/step/island_equations.hpp"
+#include "solver/step/island_tangent.hpp"
 #include "solver/stopwatch.hpp"
 
 namespace ashlar {
@@ -88,8 +89,9 @@ class IslandStop {
       velocities_ = start;
       for (const int k : island_.bodies) bodies_[at(k)].change.setZero();
       problem_.set_responses(impulses());
-      if (problem_.factorize() != FactorStatus::success) return false;
-      problem_.apply(problem_.solve(problem_.contact_forces(), false), 1.0);
+      IslandTangent tangent(problem_);
+      if (tangent.factorize() != FactorStatus::success) return false;
+      problem_.apply(tangent.solve(problem_.contact_forces(), false), 1.0);
       for (const int k : island_.bodies) velocities_[at(k)] += bodies_[at(k)].change;
       found_ = impulses();
     } while (let_go_of_pulls(island_, pairs_, result_, found_, let_go_));

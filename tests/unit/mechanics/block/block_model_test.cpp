@@ -149,6 +149,24 @@ TEST(BlockModel, ElasticForceIsTheGradientOfTheEnergy) {
   }
 }
 
+TEST(BlockModel, ProductsWithTheTangentAreThoseOfItsMatrix) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.3, Vector3(1, -2, 0.5).normalized()).toRotationMatrix();
+  std::vector<BlockModel> blocks;
+  for (const int order : {1, 4})  // free
+    blocks.emplace_back(block_of("A", test_support::l_shaped_prism(), {2000.0, 1e8, 0.25}, order));
+  blocks.emplace_back(cantilever(3, 0.2));  // cannot turn
+  BlockDefinition hinged = cantilever(3, 0.2);
+  hinged.supports[0].components = {true, false, false};
+  blocks.emplace_back(hinged);  // turns about the normal of its support
+  for (const BlockModel& block : blocks) {
+    ASSERT_TRUE(block.tangent_turns());
+    Eigen::VectorXd y(block.unknowns());
+    for (Eigen::Index k = 0; k < y.size(); ++k) y[k] = std::sin(1.0 + 3.0 * static_cast<double>(k));
+    const Eigen::VectorXd expected = block.tangent(turn) * y;
+    EXPECT_LT((block.tangent_times(turn, y) - expected).norm(), 1e-13 * expected.norm());
+  }
+}
+
 TEST(BlockModel, RefusesAClampOnNoFace) {
   BlockDefinition definition = cantilever(2, 0.2);
   definition.supports.push_back({Plane{{4, 0, 0}, {1, 0, 0}}});

@@ -1,0 +1,202 @@
+#include "solver/step/island_tangent.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "solver/linear/gmres.hpp"
+#include "solver/parallel_for.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A tangent on the unknowns of two blocks as one on their equations.
+PairTangent in_equations(PairTangent tangent, const BodyStep& a, const BodyStep& b) {
+  if (a.model->rigid()) {
+    if (tangent.aa.size() > 0) tangent.aa = a.fields.transpose() * tangent.aa * a.fields;
+    if (tangent.ab.size() > 0) tangent.ab = a.fields.transpose() * tangent.ab;
+  }
+  if (b.model->rigid()) {
+    if (tangent.bb.size() > 0) tangent.bb = b.fields.transpose() * tangent.bb * b.fields;
+    if (tangent.ab.size() > 0) tangent.ab = tangent.ab * b.fields;
+  }
+  return tangent;
+}
+
+/// @param x,y (9, #points) or without columns: nothing
+PointStiffnesses sum(PointStiffnesses x, const PointStiffnesses& y) {
+  if (x.cols() == 0) return y;
+  if (y.cols() > 0) x += y;
+  return x;
+}
+
+}  // namespace
+
+double IslandTangent::weight_of_blocks() const {
+  const TimeScheme& scheme = problem_.scheme();
+  return scheme.force_weight * scheme.end_share * (1.0 + scheme.stiffness_share);
+}
+
+void IslandTangent::assemble(bool positive) {
+  const TimeScheme& scheme = problem_.scheme();
+  BlockMatrix& matrix = solver_.matrix;
+  matrix.set_zero();
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BodyStep& body = problem_.body(k);
+    if (scheme.force_weight > 0.0 && !body.model->rigid()) {
+      matrix.add_diagonal(
+          static_cast<int>(k),
+          weight_of_blocks() * body.model->tangent(problem_.taken_at(body), body.elastic, positive));
+    }
+    matrix.add_to_diagonal(static_cast<int>(k), body.model->material().density * scheme.inertia);
+  }
+  std::vector<PairTangent> tangents(problem_.pairs());
+  parallel_for(problem_.threads(), problem_.pairs(), [&](std::size_t k) {
+    const ContactPair& pair = problem_.pair(k);
+    tangents[k] = in_equations(pair.tangent(problem_.responses()[k]), problem_.block(pair.a()),
+                               problem_.block(pair.b()));
+  });
+  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+    const PairTangent& tangent = tangents[k];
+    const int a = problem_.place(problem_.pair(k).a());
+    const int b = problem_.place(problem_.pair(k).b());
+    if (a >= 0) matrix.add_diagonal(a, tangent.aa);
+    if (b >= 0) matrix.add_diagonal(b, tangent.bb);
+    if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
+  }
+  assembled_ = true;
+}
+
+FactorStatus IslandTangent::factorize_assembled(bool kept) {
+  factor_is_old_ = false;
+  solver_.inertia = 0.0;
+  FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
+  if (status == FactorStatus::not_positive_definite) {
+    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
+    assemble(true);
+    status = solver_.factor->factorize(solver_.matrix.matrix());
+  }
+  const bool is_dear = solver_.factor->cost_in_solves() > problem_.settings().iteration.old_factor_gain;
+  if (kept && is_dear && status == FactorStatus::success) solver_.inertia = problem_.scheme().inertia;
+  return status;
+}
+
+FactorStatus IslandTangent::factorize() {
+  assemble(false);
+  return factorize_assembled(false);
+}
+
+FactorStatus IslandTangent::update_factor() {
+  const TimeScheme& scheme = problem_.scheme();
+  factor_is_old_ = !scheme.from_rest && solver_.inertia == scheme.inertia;
+  assembled_ = false;
+  if (factor_is_old_ && products_pay()) return FactorStatus::success;
+  assemble(false);
+  return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme.from_rest);
+}
+
+bool IslandTangent::products_pay() const {
+  double to_assemble = 0.0;  // multiplications
+  double product = 0.0;
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BlockModel& model = *problem_.body(k).model;
+    if (!model.tangent_turns()) return false;
+    const auto n = static_cast<double>(model.unknowns());
+    to_assemble += 6.0 * n * n;  // two halves of R K R'
+    product += n * n;
+  }
+  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+    const auto unknowns = [&](int block) {
+      return problem_.place(block) < 0 ? 0.0 : static_cast<double>(problem_.block(block).model->unknowns());
+    };
+    const double a = unknowns(problem_.pair(k).a());
+    const double b = unknowns(problem_.pair(k).b());
+    const auto points = static_cast<double>(problem_.responses()[k].means.size());
+    to_assemble += points * 2.0 / 3.0 * (a * a + a * b + b * b);
+    product += points * 2.0 * (a + b);
+  }
+  return to_assemble > problem_.settings().iteration.old_factor_iterations * product;
+}
+
+Eigen::VectorXd IslandTangent::part(const Eigen::VectorXd& of_island, int block) const {
+  const int place = problem_.place(block);
+  if (place < 0) return {};
+  const BodyStep& body = problem_.block(block);
+  return body.of_unknowns(of_island.segment(solver_.matrix.offset(place), body.model->freedom()));
+}
+
+void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const {
+  const TimeScheme& scheme = problem_.scheme();
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BodyStep& body = problem_.body(k);
+    const int offset = solver_.matrix.offset(static_cast<int>(k));
+    const Eigen::VectorXd of_body = x.segment(offset, body.model->freedom());
+    force.segment(offset, of_body.size()) += body.model->material().density * scheme.inertia * of_body;
+    if (scheme.force_weight > 0.0 && !body.model->rigid()) {
+      force.segment(offset, of_body.size()) +=
+          weight_of_blocks() * body.model->tangent_times(body.elastic.rotation, of_body);
+    }
+  }
+}
+
+void IslandTangent::add_pairs(const std::vector<PairStiffnesses>& stiffnesses, const Eigen::VectorXd& x,
+                              Eigen::VectorXd& force) const {
+  for (const auto& [k, points] : stiffnesses) {
+    const ContactPair& pair = problem_.pair(k);
+    const auto [on_a, on_b] = pair.rows().product(points, part(x, pair.a()), part(x, pair.b()));
+    for (const auto& [block, added] : {std::pair(pair.a(), &on_a), std::pair(pair.b(), &on_b)}) {
+      const int place = problem_.place(block);
+      if (place < 0) continue;
+      const BodyStep& body = problem_.block(block);
+      force.segment(solver_.matrix.offset(place), body.model->freedom()) += body.in_equations(*added);
+    }
+  }
+}
+
+Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const {
+  const IterationSettings& settings = problem_.settings().iteration;
+  std::vector<PairStiffnesses> stiffnesses;
+  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+    const PairResponse& response = problem_.responses()[k];
+    const PairRows& rows = problem_.pair(k).rows();
+    PointStiffnesses points;
+    if (!assembled_) points = rows.stiffnesses(response);
+    if (coupled) points = sum(std::move(points), rows.couplings(response));
+    if (points.cols() > 0) stiffnesses.push_back({k, std::move(points)});
+  }
+  const auto preconditioned = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd force = assembled_ ? times(solver_.matrix.matrix(), x) : Eigen::VectorXd::Zero(x.size());
+    if (!assembled_) add_blocks(x, force);
+    add_pairs(stiffnesses, x, force);
+    return solver_.factor->solve(force, false);
+  };
+  const KrylovSolution found = gmres(preconditioned, solver_.factor->solve(right_side, false),
+                                     settings.krylov_tolerance, settings.old_factor_iterations);
+  return found.converged && right_side.dot(found.x) > 0.0 ? found.x : Eigen::VectorXd();
+}
+
+Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool coupled) {
+  if (factor_is_old_) {
+    Eigen::VectorXd found = solve_with_old(right_side, coupled);
+    if (found.size() > 0 || right_side.size() == 0) return found;
+    if (!assembled_) assemble(false);
+    if (factorize_assembled(true) != FactorStatus::success)
+      return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  std::vector<PairStiffnesses> couplings;
+  for (std::size_t k = 0; coupled && k < problem_.pairs(); ++k) {
+    PointStiffnesses points = problem_.pair(k).rows().couplings(problem_.responses()[k]);
+    if (points.cols() > 0) couplings.push_back({k, std::move(points)});
+  }
+  if (couplings.empty()) return solver_.factor->solve(right_side);
+  const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
+    add_pairs(couplings, x, force);
+    return x + solver_.factor->solve(force, false);
+  };
+  const IterationSettings& settings = problem_.settings().iteration;
+  return gmres(with_couplings, solver_.factor->solve(right_side), settings.krylov_tolerance,
+               settings.krylov_iterations)
+      .x;
+}
+
+}  // namespace ashlar
