@@ -14,14 +14,6 @@
 
 namespace ashlar {
 
-/// A stage of a run that has come to its end.
-struct FinishedStage {
-  std::string status;   ///< as in summary.json
-  std::string message;  ///< empty: nothing to tell
-  int steps;            ///< of the run, at its end
-  double time;          ///< s, at its end
-};
-
 /// A run between two steps.
 struct RunCheckpoint {
   SimulationSnapshot simulation;      ///< of the present stage

@@ -101,6 +101,19 @@ nlohmann::ordered_json json_of(const std::optional<PlacedValue>& largest, const 
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
 }
 
+nlohmann::ordered_json json_of(const std::vector<FinishedStage>& stages, const Scene& scene) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const auto& [status, message, steps, time] = stages[k];
+    nlohmann::ordered_json stage = {{"name", scene.stage[k].name}, {"status", status}};
+    if (!message.empty()) stage["message"] = message;
+    stage["steps"] = steps;
+    stage["time"] = time;
+    list.push_back(std::move(stage));
+  }
+  return list;
+}
+
 }  // namespace
 
 BrokenJoints broken_joints(const Simulation& simulation) {
@@ -115,7 +128,7 @@ BrokenJoints broken_joints(const Simulation& simulation) {
 
 nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
                                    const RunOutcome& outcome) {
-  const auto& [status, message, seconds, frames, largest] = outcome;
+  const auto& [status, message, seconds, frames, largest, stages] = outcome;
   const Simulation& simulation = built.simulation;
   nlohmann::ordered_json summary;
   summary["status"] = to_string(status);
@@ -171,6 +184,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   for (const auto& [name, version] : tool_versions()) versions[name] = version;
   summary["versions"] = versions;
   summary["scene"] = to_json(scene);
+  if (!stages.empty()) summary["stages"] = json_of(stages, scene);
   return summary;
 }
 

@@ -2,29 +2,11 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string>
 
-#include "apps/results/largest_values.hpp"
-#include "apps/results/run_status.hpp"
+#include "apps/results/run_outcome.hpp"
 #include "apps/scene/build_simulation.hpp"
 
 namespace ashlar {
-
-/// Wall time of the parts of a run, s; of a resumed one with what came before.
-struct RunSeconds {
-  double total = 0.0;
-  double setup = 0.0;
-  double output = 0.0;
-};
-
-/// What only the run itself knows of its end.
-struct RunOutcome {
-  RunStatus status;
-  std::string message;  ///< what has to be told of how it ended; empty: nothing
-  RunSeconds seconds;
-  int frames;
-  LargestValues largest;
-};
 
 /// @param scene of the whole run
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,

@@ -42,12 +42,13 @@ std::shared_ptr<const LoadedScene> checked(std::shared_ptr<const LoadedScene> sc
 
 }  // namespace
 
-SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads)
+SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads, double setup_start)
     : scene_(checked(std::move(scene), threads)),
       present_(std::make_shared<const LoadedScene>(stage_of(*scene_, 0))),
       threads_(threads),
       built_(built(*present_, threads, true)),
-      measures_(measures_of(scene_->scene, built_.simulation.blocks())) {
+      measures_(measures_of(scene_->scene, built_.simulation.blocks())),
+      points_(std::make_unique<const BlockPoints>()) {
   if (starts_from_statics(present_->scene)) {
     const StaticStart start = start_in_statics(built_.simulation, [] { return true; });
     if (start.end == StaticStart::End::failed) throw std::runtime_error(start.message);
@@ -55,10 +56,13 @@ SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads)
   }
   if (stage() > 0 && scene_->scene.stage.front().reset_displacement) reset_displacement();
   add_row();
+  clock_.note_setup(setup_start);
 }
 
 bool SceneRun::step() {
+  if (status_ == RunStatus::failed) throw std::runtime_error(message_);
   if (status_) return false;
+  const RunClock::Span span(clock_);
   if (stage_has_ended_) begin_next_stage();
   if (is_static(present_->scene.analysis)) {
     take_static_step();
@@ -144,6 +148,7 @@ void SceneRun::end(RunStatus status, std::string message) {
   if (results_) results_->add_end(built_.simulation);
   const bool goes_on = status == RunStatus::completed || status == RunStatus::equilibrium;
   if (goes_on && static_cast<std::size_t>(place_.stage) < stage_count(scene_->scene)) {
+    finished_.push_back(finished(status));
     stage_has_ended_ = true;
     return;
   }
@@ -162,7 +167,9 @@ void SceneRun::add_row() {
   rows_.push_back({static_cast<double>(built_.simulation.steps())});
   const std::vector<double> values = history_row(built_.simulation, measures_, place_.origin, stage());
   rows_.back().insert(rows_.back().end(), values.begin(), values.end());
-  if (results_) results_->add_step(built_.simulation);
+  if (!results_) return;
+  const RunClock::Span span(clock_, RunClock::Span::Part::output);
+  results_->add_step(built_.simulation);
 }
 
 int SceneRun::block(const std::string& name) const {
@@ -173,9 +180,23 @@ int SceneRun::block(const std::string& name) const {
   return static_cast<int>(found - blocks.begin());
 }
 
-PointMotion SceneRun::motion(const std::string& name, const Vector3& point) const {
-  const int index = block(name);
-  return simulation().blocks()[at(index)].motion_of(simulation().states()[at(index)], point);
+void SceneRun::require_present(int index) const {
+  if (present(index)) return;
+  throw std::logic_error(fmt::format("block {} is not there in stage {} ({})",
+                                     simulation().blocks()[at(index)].name(), place_.stage,
+                                     scene_->scene.stage[at(place_.stage - 1)].name));
+}
+
+std::vector<PointMotion> SceneRun::motions(int index, const std::vector<Vector3>& points,
+                                           OutsidePoints outside) const {
+  require_present(index);
+  const BlockModel& model = simulation().blocks()[at(index)];
+  if (outside == OutsidePoints::refused) points_->require(index, model, points);
+  return model.motions_of(simulation().states()[at(index)], points);
+}
+
+PointMotion SceneRun::motion(const std::string& name, const Vector3& point, OutsidePoints outside) const {
+  return motions(block(name), {point}, outside).front();
 }
 
 void SceneRun::set_load_factor(const std::string& name, int load, double factor) {
@@ -186,6 +207,7 @@ void SceneRun::set_load_factor(const std::string& name, int load, double factor)
   built_.simulation.set_load_factor(index, load, factor);
   if (!is_static(present_->scene.analysis) || status_ == RunStatus::failed) return;
   status_.reset();
+  if (stage_has_ended_) finished_.pop_back();
   stage_has_ended_ = false;
 }
 
@@ -206,13 +228,22 @@ void SceneRun::write_summary() const {
   if (results_) write_summary(*results_);
 }
 
+FinishedStage SceneRun::finished(RunStatus status) const {
+  return {to_string(status), message_, simulation().steps(), simulation().time()};
+}
+
+std::vector<FinishedStage> SceneRun::begun_stages(RunStatus status) const {
+  if (stage() == 0) return {};
+  std::vector<FinishedStage> begun = finished_;
+  if (!stage_has_ended_) begun.push_back(finished(status));
+  return begun;
+}
+
 void SceneRun::write_summary(const ResultFolder& results) const {
+  const RunStatus status = status_.value_or(RunStatus::interrupted);
   const auto summary = run_summary(scene_->scene, built_,
-                                   {status_.value_or(RunStatus::interrupted),
-                                    message_,
-                                    {},
-                                    results.frames(),
-                                    results.largest(simulation())});
+                                   {status, message_, clock_.seconds(), results.frames(),
+                                    results.largest(simulation()), begun_stages(status)});
   write_file_atomically(results.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);
 }
 

@@ -17,9 +17,12 @@
 #include <utility>
 #include <vector>
 
+#include "apps/results/block_points.hpp"
 #include "apps/results/folder_claim.hpp"
 #include "apps/results/measure.hpp"
 #include "apps/results/result_folder.hpp"
+#include "apps/results/run_clock.hpp"
+#include "apps/results/run_outcome.hpp"
 #include "apps/results/run_status.hpp"
 #include "apps/scene/build_simulation.hpp"
 #include "apps/scene/scene_loading.hpp"
@@ -33,14 +36,16 @@ class SceneRun {
   /// @throws std::invalid_argument "FILE:LINE:COLUMN: error: ..." if blocks cannot be built, or nothing holds those of
   /// a static analysis, and if an argument is not as above; std::runtime_error if initial_state = "static" finds no
   /// answer
-  explicit SceneRun(std::shared_ptr<const LoadedScene> scene, int threads = 1);
+  explicit SceneRun(std::shared_ptr<const LoadedScene> scene, int threads = 1)
+      : SceneRun(std::move(scene), threads, RunClock::now()) {}
   explicit SceneRun(LoadedScene scene, int threads = 1)
       : SceneRun(std::make_shared<const LoadedScene>(std::move(scene)), threads) {}
 
   /// Takes a step, or an iteration of a static analysis. Where a stage has ended, the next call begins the next one.
   /// @return whether there is more to do
   /// @throws std::runtime_error with the reason if the step cannot be taken, or the run ends with blocks too deep in
-  /// each other; the state is then the last good one and status() is failed; or if results cannot be written
+  /// each other; the state is then the last good one and status() is failed, and each further call throws the same
+  /// again; or if results cannot be written
   bool step();
 
   /// Empty as long as there is more to do.
@@ -54,9 +59,18 @@ class SceneRun {
 
   /// Index of a block in simulation().blocks(). @throws std::out_of_range if there is none of that name
   [[nodiscard]] int block(const std::string& name) const;
-  /// What a point of a block does now: place (m), displacement (m), velocity (m/s), Cauchy stress (Pa, tension
-  /// positive). @param point m, in the placed, undeformed block. @throws std::out_of_range
-  [[nodiscard]] PointMotion motion(const std::string& name, const Vector3& point) const;
+  /// Whether a block is there in the present stage: stages remove blocks, and add others later.
+  /// @param index in simulation().blocks()
+  [[nodiscard]] bool present(int index) const { return simulation().system().present(index); }
+  /// @throws std::logic_error with its name and that of the stage if it is not there: its state means nothing
+  void require_present(int index) const;
+  /// What points of a block do now: place (m), displacement (m), velocity (m/s), Cauchy stress (Pa, tension positive).
+  /// @param points m, of the placed, undeformed block as BlockPoints has it
+  /// @throws std::out_of_range; std::logic_error as require_present; std::domain_error if a point is refused
+  [[nodiscard]] std::vector<PointMotion> motions(int index, const std::vector<Vector3>& points,
+                                                 OutsidePoints outside = OutsidePoints::refused) const;
+  [[nodiscard]] PointMotion motion(const std::string& name, const Vector3& point,
+                                   OutsidePoints outside = OutsidePoints::refused) const;
   /// Multiplies a load of a block by a factor, from the next step on (Simulation::set_load_factor). A static analysis
   /// that has ended goes on under the new load.
   /// @param load its number among the block's loads, from 0. @throws std::out_of_range, std::invalid_argument
@@ -78,6 +92,8 @@ class SceneRun {
   void write(const std::filesystem::path& folder) const;
 
  private:
+  /// @param setup_start of the building of the simulation, RunClock::now()
+  SceneRun(std::shared_ptr<const LoadedScene> scene, int threads, double setup_start);
   void begin_next_stage();
   void reset_displacement();
   void take_step();
@@ -86,6 +102,8 @@ class SceneRun {
   void fail(const std::string& message);
   void add_row();
   void write_summary(const ResultFolder& results) const;
+  [[nodiscard]] FinishedStage finished(RunStatus status) const;
+  [[nodiscard]] std::vector<FinishedStage> begun_stages(RunStatus status) const;
 
   std::shared_ptr<const LoadedScene> scene_;    ///< of all stages
   std::shared_ptr<const LoadedScene> present_;  ///< the present stage
@@ -93,10 +111,13 @@ class SceneRun {
   BuiltSimulation built_;
   std::vector<Measure> measures_;
   StagePlace place_;
+  std::vector<FinishedStage> finished_;  ///< stages that have ended well; the last one may be the present one
   bool stage_has_ended_ = false;
   std::vector<std::vector<double>> rows_;
   std::optional<RunStatus> status_;
   std::string message_;
+  RunClock clock_;
+  std::unique_ptr<const BlockPoints> points_;
   std::unique_ptr<FolderClaim> claim_;     ///< of the folder that is recorded to; null: none
   std::unique_ptr<ResultFolder> results_;  ///< in claim_
 };

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -178,10 +180,8 @@ class GridReader {
 
   void read_array(std::string_view tag) {
     const auto offset = number<std::size_t>(required_attribute(tag, "offset"));
-    // Else many arrays could be made of the same bytes.
-    if (offset < next_offset_) fail("arrays overlap");
     CompressedArray array(appended_, offset);
-    next_offset_ = array.end();
+    take_bytes(offset, array.end());
     switch (section_) {
       case Section::point_data:
         grid_.point_data.push_back(data_array(tag, array, points_));
@@ -199,6 +199,14 @@ class GridReader {
       case Section::none:
         fail("an array outside of all sections");
     }
+  }
+
+  /// Else many arrays could be made of the same bytes.
+  void take_bytes(std::size_t start, std::size_t end) {
+    const auto [place, is_new] = taken_.try_emplace(start, end);
+    const bool overlaps = !is_new || (std::next(place) != taken_.end() && std::next(place)->first < end) ||
+                          (place != taken_.begin() && std::prev(place)->second > start);
+    if (overlaps) fail("arrays overlap");
   }
 
   static std::vector<Vector3> points_of(const std::vector<double>& values) {
@@ -254,7 +262,7 @@ class GridReader {
 
   std::string_view appended_;
   Allowance allowance_;
-  std::size_t next_offset_ = 0;
+  std::map<std::size_t, std::size_t> taken_;  ///< start and end of the arrays read, in the appended data
   Section section_ = Section::none;
   bool in_field_data_ = false;
   bool has_piece_ = false;

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/xml_text.hpp"
@@ -51,16 +52,22 @@ void append_compressed(std::string& bytes, std::span<const std::byte> data) {
   bytes += blocks;
 }
 
-// The two halves of the file, filled array by array: the XML elements name places in the appended bytes.
-struct VtuText {
-  std::string elements;
-  std::string appended;
+// An array of the file: what stands before its place in the XML, and its bytes.
+struct PlacedArray {
+  std::string element;
+  std::span<const std::byte> values;
+};
+
+// The XML elements, with the arrays whose places in the appended bytes they name.
+class VtuText {
+ public:
+  void add(std::string_view text) { pending_ += text; }
 
   template <class T>
   void add_array(std::string_view type, std::string_view attributes, std::span<const T> values) {
-    elements += fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
-                            attributes, appended.size());
-    append_compressed(appended, std::as_bytes(values));
+    pending_ +=
+        fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"", type, attributes);
+    arrays_.push_back({std::exchange(pending_, "\"/>\n"), std::as_bytes(values)});
   }
 
   void add_array(const DataArray& array) {
@@ -75,6 +82,25 @@ struct VtuText {
       add_array<std::int32_t>("Int32", attributes, std::get<std::vector<std::int32_t>>(array.values));
     }
   }
+
+  // The last array's bytes come first. meshio moves every array in turn, in the order of the bytes, and looks the
+  // next one up by its offset, first element first: in the order of the elements it may find one that it has moved
+  // to that very offset (meshio 5.0 to 5.3, _parse_raw_binary).
+  [[nodiscard]] std::pair<std::string, std::string> elements_and_bytes() const {
+    std::string elements, appended;
+    std::vector<std::size_t> offsets(arrays_.size());
+    for (std::size_t k = arrays_.size(); k-- > 0;) {
+      offsets[k] = appended.size();
+      append_compressed(appended, arrays_[k].values);
+    }
+    for (std::size_t k = 0; k < arrays_.size(); ++k)
+      elements += arrays_[k].element + fmt::to_string(offsets[k]);
+    return {elements + pending_, std::move(appended)};
+  }
+
+ private:
+  std::vector<PlacedArray> arrays_;
+  std::string pending_;  // text after the last array
 };
 
 void check_arrays(const std::vector<DataArray>& arrays, std::size_t tuples, std::string_view where) {
@@ -120,9 +146,9 @@ void check_cells(const UnstructuredGrid& grid) {
 }
 
 void add_data(VtuText& text, std::string_view tag, const std::vector<DataArray>& arrays) {
-  text.elements += fmt::format("      <{}>\n", tag);
+  text.add(fmt::format("      <{}>\n", tag));
   for (const DataArray& array : arrays) text.add_array(array);
-  text.elements += fmt::format("      </{}>\n", tag);
+  text.add(fmt::format("      </{}>\n", tag));
 }
 
 /// What belongs to the file as a whole. Strings are numbers of their bytes, each with a zero at its end.
@@ -167,15 +193,16 @@ std::string to_vtu(const UnstructuredGrid& grid) {
   VtuText text;
   add_data(text, "PointData", grid.point_data);
   add_data(text, "CellData", grid.cell_data);
-  text.elements += "      <Points>\n";
+  text.add("      <Points>\n");
   const double* coordinates = grid.points.empty() ? nullptr : grid.points.front().data();
   text.add_array<double>("Float64", "Name=\"Points\" NumberOfComponents=\"3\"",
                          {coordinates, 3 * grid.points.size()});
-  text.elements += "      </Points>\n      <Cells>\n";
+  text.add("      </Points>\n      <Cells>\n");
   text.add_array<int>("Int32", "Name=\"connectivity\"", grid.connectivity);
   text.add_array<int>("Int32", "Name=\"offsets\"", grid.offsets);
   text.add_array<VtkCellType>("UInt8", "Name=\"types\"", grid.types);
-  text.elements += "      </Cells>\n";
+  text.add("      </Cells>\n");
+  const auto [elements, appended] = text.elements_and_bytes();
 
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
@@ -191,7 +218,7 @@ std::string to_vtu(const UnstructuredGrid& grid) {
       "_{}\n"
       "  </AppendedData>\n"
       "</VTKFile>\n",
-      field_data(grid), grid.points.size(), grid.types.size(), text.elements, text.appended);
+      field_data(grid), grid.points.size(), grid.types.size(), elements, appended);
 }
 
 void write_vtu(const std::filesystem::path& path, const UnstructuredGrid& grid) {

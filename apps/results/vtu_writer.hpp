@@ -1,5 +1,6 @@
 // Frames for ParaView: an unstructured grid with data on its points and cells as a VTK XML file (.vtu),
-// little-endian, zlib-compressed, binary data appended raw as ParaView itself writes it.
+// little-endian, zlib-compressed, binary data appended raw as ParaView itself writes it, in an order of bytes that meshio
+// reads too (it refuses the names of blocks).
 #pragma once
 
 #include <cstdint>
@@ -47,7 +48,7 @@ struct UnstructuredGrid {
   std::vector<DataArray> point_data;
   std::vector<DataArray> cell_data;
   std::optional<double> time;            ///< s, VTK's TimeValue
-  std::vector<std::string> block_names;  ///< by the numbers of a field `block`; none: not written
+  std::vector<std::string> block_names;  ///< UTF-8, by the numbers of a field `block`; none: not written
 
   void add_cell(VtkCellType type, std::span<const int> cell_points);
 };

@@ -225,26 +225,16 @@ RunStatus FolderRun::summarised(RunStatus status) {
 }
 
 nlohmann::ordered_json FolderRun::summary_of(RunStatus status) const {
-  auto summary = run_summary(loaded_.scene, built_,
-                             {status, message_, files_.seconds(), files_.tables().frames(), largest()});
-  if (!loaded_.scene.stage.empty()) summary["stages"] = stages_summary(status);
+  std::vector<FinishedStage> begun;
+  if (!loaded_.scene.stage.empty()) {
+    begun = stages_;
+    begun.push_back(finished(status));
+  }
+  auto summary = run_summary(
+      loaded_.scene, built_,
+      {status, message_, files_.seconds(), files_.tables().frames(), largest(), std::move(begun)});
   if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
   return summary;
-}
-
-/// Stages that have begun.
-nlohmann::ordered_json FolderRun::stages_summary(RunStatus status) const {
-  std::vector<FinishedStage> begun = stages_;
-  begun.push_back(finished(status));
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::size_t k = 0; k < begun.size(); ++k) {
-    nlohmann::ordered_json stage = {{"name", loaded_.scene.stage[k].name}, {"status", begun[k].status}};
-    if (!begun[k].message.empty()) stage["message"] = begun[k].message;
-    stage["steps"] = begun[k].steps;
-    stage["time"] = begun[k].time;
-    list.push_back(std::move(stage));
-  }
-  return list;
 }
 
 }  // namespace ashlar

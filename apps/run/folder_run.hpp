@@ -58,7 +58,6 @@ class FolderRun {
   RunStatus saved_after(const std::exception& error);
   RunStatus summarised(RunStatus status);
   [[nodiscard]] nlohmann::ordered_json summary_of(RunStatus status) const;
-  [[nodiscard]] nlohmann::ordered_json stages_summary(RunStatus status) const;
 
   const LoadedScene& loaded_;
   RunManner manner_;

@@ -1,4 +1,6 @@
 """Scenes and simulations from Python, against values derived by hand."""
+import decimal
+import json
 import pickle
 import threading
 
@@ -131,6 +133,107 @@ def test_arrays_stand_for_lists():
     made = ashlar.Scene.from_dict(dict(CUBE, block=[CUBE["block"][0], block]))
     assert made.to_dict()["block"][1]["box"]["max"] == [1, 1, 2]
     assert made.simulation().blocks["cube"].order == 2
+
+
+def test_natural_values_stand_for_those_of_a_scene(tmp_path):
+    stone = dict(CUBE["material"][0], density=decimal.Decimal("2000"), young_modulus=np.float32(2**30))
+    floor = dict(CUBE["block"][0], fixed=np.bool_(True))
+    cube = dict(CUBE["block"][1], box={"min": (0, 0, 0), "max": np.array([1, 1, 1], dtype=np.int8)}, order=np.uint8(2))
+    made = ashlar.Scene.from_dict(dict(CUBE, material=(stone,), block=[floor, cube])).to_dict()
+    assert made["material"][0]["density"] == 2000 and made["material"][0]["young_modulus"] == 2**30
+    assert made["block"][0]["fixed"] is True and made["block"][1]["order"] == 2
+    mesh = tmp_path / "cube.obj"
+    mesh.write_text("\n".join(["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1", "f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4"]))
+    stones = [CUBE["block"][0], {"name": "cube", "material": "stone", "mesh": {"file": mesh}}]
+    assert ashlar.Scene.from_dict(dict(CUBE, block=stones)).simulation().blocks["cube"].volume == pytest.approx(1 / 6)
+
+
+@pytest.mark.parametrize("key, value, fault, said", [
+    ("density", None, TypeError, "material.0.density: None has no place"),
+    ("density", 1j, TypeError, "material.0.density: a value of type complex"),
+    ("density", b"2000", TypeError, "material.0.density: a value of type bytes"),
+    ("density", np.datetime64("2026-01-01"), TypeError, "material.0.density: a value of type datetime.date"),
+    ("density", 2**63, ValueError, "material.0.density: 9223372036854775808 is out of the range"),
+    ("name", "\udc80", ValueError, "material.0.name: .* is no text in UTF-8"),
+    (1, 2.0, TypeError, "material.0: a key is a text, not 1"),
+    ("density", True, ashlar.SceneError, "density"),
+    ("density", "heavy", ashlar.SceneError, "density"),
+    ("density", [2000], ashlar.SceneError, "density"),
+])
+def test_other_values_are_refused_by_their_key(key, value, fault, said):
+    with pytest.raises(fault, match=said):
+        ashlar.Scene.from_dict(dict(CUBE, material=[{**CUBE["material"][0], key: value}]))
+
+
+def test_a_scene_is_a_dictionary():
+    for nothing in (None, [CUBE], "analysis"):
+        with pytest.raises(TypeError, match="a scene is a dictionary"):
+            ashlar.Scene.from_dict(nothing)
+    with pytest.raises(TypeError, match="not one text"):
+        ashlar.Scene("", "s.toml", "analysis.time_step=1")
+
+
+def test_points_outside_a_block_are_refused_unless_asked_for():
+    cube = scene().simulation().blocks["cube"]
+    corners = [[0, 0, 0], [1, 1, 1], [1, 0.5, 0.5], [0.5, 0.5, 0.5]]
+    assert np.array_equal(cube.positions(corners), corners)
+    with pytest.raises(ValueError, match=r"point \(1.25, 0.5, 0.5\) is not of block cube: it is 0.25 m outside"):
+        cube.displacements([[0.5, 0.5, 0.5], [1.25, 0.5, 0.5]])
+    with pytest.raises(ValueError, match="finite coordinates"):
+        cube.stress([[0.5, 0.5, np.nan]])
+    # At rest in its place the map is the identity, outside too.
+    assert cube.positions([[1.25, 0.5, 0.5]], extrapolate=True)[0] == pytest.approx([1.25, 0.5, 0.5], abs=1e-12)
+
+
+def staged():
+    blocks = [CUBE["block"][0], CUBE["block"][1], dict(CUBE["block"][1], name="upper", translate=[0, 0, 1])]
+    return ashlar.Scene.from_dict(dict(CUBE, block=blocks, stage=[
+        {"name": "settle", "analysis": {"end_time": 0.01}},
+        {"name": "excavate", "remove": ["upper"], "analysis": {"end_time": 0.01}},
+    ]))
+
+
+def test_removed_blocks_do_not_answer():
+    sim = staged().simulation()
+    upper, cube = sim.blocks["upper"], sim.blocks["cube"]
+    assert upper.present and upper.positions([[0.5, 0.5, 1.5]]).shape == (1, 3)
+    sim.run()
+    assert sim.stage == 2 and cube.present and not upper.present
+    assert upper.volume == pytest.approx(1)
+    for answer in (lambda: upper.positions([[0.5, 0.5, 1.5]]), lambda: upper.stress([[0.5, 0.5, 1.5]]),
+                   lambda: upper.coefficients):
+        with pytest.raises(RuntimeError, match=r"block upper is not there in stage 2 \(excavate\)"):
+            answer()
+
+
+def test_the_summary_tells_the_stages(tmp_path):
+    sim = staged().simulation()
+    sim.run()
+    sim.write(tmp_path / "python")
+    summaries = [json.loads((tmp_path / "python" / "summary.json").read_text()),
+                 ashlar.run(staged(), tmp_path / "program")]
+    for summary in summaries:
+        assert [stage["name"] for stage in summary["stages"]] == ["settle", "excavate"]
+        assert [stage["status"] for stage in summary["stages"]] == ["completed", "completed"]
+        assert [stage["steps"] for stage in summary["stages"]] == [10, 20]
+    assert summaries[0]["stages"] == summaries[1]["stages"]
+
+
+def test_a_simulation_that_has_failed_says_so_again(tmp_path):
+    # 2000 kg at 200 m/s press springs of 20 E / size by 200 sqrt(2000 / 2e10) = 0.06 m, where 1e-3 m are allowed.
+    blocks = [CUBE["block"][0], dict(CUBE["block"][1], translate=[0, 0, 0.1], velocity=[0, 0, -200])]
+    contact = {"friction_angle": 30, "allowed_depth": 1e-3}
+    sim = ashlar.Scene.from_dict(dict(CUBE, block=blocks, contact=contact)).simulation()
+    with pytest.raises(RuntimeError) as first:
+        sim.run()
+    assert sim.status == "failed" and sim.message == str(first.value)
+    for again in (sim.step, sim.run):
+        with pytest.raises(RuntimeError) as caught:
+            again()
+        assert str(caught.value) == str(first.value)
+    assert np.isfinite(sim.blocks["cube"].positions([[0.5, 0.5, 0.6]])).all()
+    sim.write(tmp_path / "out")
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "failed"
 
 
 def test_other_threads_run_while_it_computes():

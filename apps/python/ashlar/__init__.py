@@ -43,6 +43,8 @@ class Scene:
     """A checked scene. Made by Scene.load or Scene.from_dict; can be pickled."""
 
     def __init__(self, text, file, overrides=()):
+        if isinstance(overrides, str):
+            raise TypeError('overrides are a list of texts "key.path=value", not one text')
         self._text, self._file, self._overrides = text, str(file), list(overrides)
         self._core = _core.load(text, self._file, self._overrides)
         if not self._core.good:
@@ -55,9 +57,11 @@ class Scene:
 
     @classmethod
     def from_dict(cls, values, folder="."):
-        """A scene from a dictionary with the keys of a scene file; numpy arrays may stand for lists.
+        """A scene from a dictionary with the keys of a scene file. Numpy's arrays and tuples may stand for lists, its
+        numbers for Python's, paths for texts.
 
-        folder: that relative paths of the scene start from. Raises SceneError, whose lines are those of `text`.
+        folder: that relative paths of the scene start from. Raises SceneError, whose lines are those of `text`; TypeError
+        or ValueError, with the key ("block.0.box.min"), for what is no value of a scene file, as None.
         """
         return cls(_to_toml(values), _os.path.join(str(folder), "scene.toml"))
 
@@ -124,13 +128,16 @@ class Simulation:
     def step(self):
         """Takes one step, or one iteration of a static analysis. Returns whether there is more to do.
 
-        Raises RuntimeError if the step cannot be taken: the state is then that before it.
+        Raises RuntimeError if the step cannot be taken: the state is then that before it and can be read and written, the
+        status is failed, and each further call raises the same again.
         """
         return self._core.step()
 
     def run(self, until=None, callback=None):
         """Steps until a time (s), or to the end. callback(simulation) is called after each step; if it returns False
-        the run stops there. Returns the status."""
+        the run stops there. Returns the status. Raises RuntimeError as step does."""
+        if self.status == "failed":
+            self._core.step()
         while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
             self._core.step()
             goes_on = callback(self) if callback is not None else None
@@ -161,7 +168,7 @@ class Simulation:
 
     @property
     def blocks(self):
-        """Blocks by name: simulation.blocks["name"]."""
+        """Blocks by name: simulation.blocks["name"]; of a scene in stages those of all stages (Block.present)."""
         return _Blocks(self._core)
 
     @property

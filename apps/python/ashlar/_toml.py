@@ -1,21 +1,53 @@
 """Python values as TOML, for scenes that are made by programs."""
 
+import collections.abc
+import decimal
 import json
 import math
+import numbers
+import os
+
+import numpy
 
 
-def to_toml(value):
-    """A dictionary as the text of a TOML file: every key of the top on a line of its own."""
-    return "".join(f"{_key(key)} = {_value(item)}\n" for key, item in value.items())
+def to_toml(values):
+    """A dictionary as the text of a TOML file: every key of the top on a line of its own.
+
+    Texts, paths, booleans, numbers, sequences and mappings are taken, and numpy's numbers and arrays for Python's.
+    Raises TypeError or ValueError, which name the key, for anything else.
+    """
+    if not isinstance(values, collections.abc.Mapping):
+        raise TypeError(f"a scene is a dictionary, not {_kind(values)}")
+    return "".join(f"{_key(key, '')} = {_value(item, str(key))}\n" for key, item in values.items())
 
 
-def _key(key):
+def _kind(value):
+    return "None" if value is None else f"a value of type {type(value).__module__}.{type(value).__qualname__}".replace(
+        "builtins.", "")
+
+
+def _text(text, path):
+    """JSON's escapes are TOML's, but that TOML has no surrogate pairs."""
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError as fault:
+        raise ValueError(f"{path}: {text!r} is no text in UTF-8") from fault
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _key(key, path):
     if not isinstance(key, str):
-        raise TypeError(f"a key of a scene is a text, not {key!r}")
-    return json.dumps(key)
+        raise TypeError(f"{path or 'the scene'}: a key is a text, not {key!r} ({_kind(key)})")
+    return _text(key, f"{path}.{key}" if path else key)
 
 
-def _number(value):
+def _integer(value, path):
+    if not -2**63 <= value < 2**63:
+        raise ValueError(f"{path}: {value} is out of the range of 64-bit integers")
+    return str(value)
+
+
+def _real(value):
     if math.isnan(value):
         return "nan"
     if math.isinf(value):
@@ -23,19 +55,30 @@ def _number(value):
     return repr(float(value))
 
 
-def _value(value):
-    # numpy's arrays and numbers.
-    if hasattr(value, "tolist"):
+def _table(value, path):
+    return "{" + ", ".join(f"{_key(key, path)} = {_value(item, f'{path}.{key}')}" for key, item in value.items()) + "}"
+
+
+def _value(value, path):
+    if isinstance(value, numpy.ma.MaskedArray) and numpy.ma.is_masked(value):
+        raise TypeError(f"{path}: masked values have no place in a scene")
+    # Arrays and numbers of numpy, and of all who have learned from it.
+    if hasattr(value, "tolist") and not isinstance(value, memoryview):
         value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
-        return _number(value)
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{_key(key)} = {_value(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_value(item) for item in value) + "]"
-    # Texts and paths. JSON's escapes are TOML's, but that TOML has no surrogate pairs.
-    return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, numbers.Integral):
+        return _integer(int(value), path)
+    if isinstance(value, (numbers.Real, decimal.Decimal)):
+        return _real(float(value))
+    if isinstance(value, str):
+        return _text(value, path)
+    if isinstance(value, os.PathLike):
+        return _text(os.fsdecode(value), path)
+    if isinstance(value, collections.abc.Mapping):
+        return _table(value, path)
+    if isinstance(value, collections.abc.Sequence) and not isinstance(value, (bytes, bytearray, memoryview)):
+        return "[" + ", ".join(_value(item, f"{path}.{number}") for number, item in enumerate(value)) + "]"
+    hint = ": leave the key out" if value is None else ""
+    raise TypeError(f"{path}: {_kind(value)} has no place in a scene, a text, number, boolean, list or dictionary is needed"
+                    f"{hint}")

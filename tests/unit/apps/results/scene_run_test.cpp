@@ -135,6 +135,14 @@ load = [{ blocks = ["pier"], plane = { point = [0, 0, 2], normal = [0, 0, 1] }, 
   EXPECT_EQ(run.rows().back().back(), 2.0);
 }
 
+TEST(SceneRun, PointsThatAreNotOfABlockAreRefused) {
+  const SceneRun run(loaded(pier));
+  EXPECT_EQ(run.motion("pier", {1.0, 1.0, 2.0}).place, Vector3(1.0, 1.0, 2.0)) << "a corner is of the block";
+  EXPECT_THROW((void)run.motion("pier", {0.5, 0.5, 2.5}), std::domain_error);
+  EXPECT_NO_THROW((void)run.motion("pier", {0.5, 0.5, 2.5}, OutsidePoints::extrapolated));
+  EXPECT_THROW((void)run.motion("pillar", {0.5, 0.5, 1.0}), std::out_of_range);
+}
+
 TEST(SceneRun, WritesAndRecordsTheSameHistory) {
   const TemporaryFolder folder;
   SceneRun run(loaded(pushed_cube("end_time = 0.02, time_step = 1e-3, gravity = [0, 0, 0]")));
