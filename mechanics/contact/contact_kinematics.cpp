@@ -1,6 +1,8 @@
 #include "mechanics/contact/contact_kinematics.hpp"
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "geometry/index.hpp"
 #include "geometry/subfaces/view_frame.hpp"
@@ -20,6 +22,16 @@ double rounding_of(const BlockModel& model) {
   return 1e-14 * std::cbrt(model.basis().volume());
 }
 
+/// d x / d X where the functions have these values.
+Eigen::Matrix3d gradient_of(const PlacedBlock& block, const Eigen::VectorXd& phi) {
+  if (block.gradient != nullptr) return block.gradient->at(phi);
+  Eigen::Matrix3d result;
+  for (int axis = 0; axis < 3; ++axis)
+    result.col(axis) = block.position->transpose() *
+                       (block.model->basis().derivative(axis).triangularView<Eigen::Lower>() * phi);
+  return result;
+}
+
 struct Foot {
   Vector3 material;
   Vector3 place;
@@ -29,16 +41,15 @@ struct Foot {
 /// Closest point of a face's polynomial surface to a point, by Gauss-Newton in the face's plane from a start
 /// on it.
 Foot closest_point(const PlacedBlock& block, int face, const Vector3& start, const Vector3& target) {
-  const PolynomialBasis& basis = block.model->basis();
   const ViewFrame plane(start, block.model->solid().faces()[at(face)].normal);
   Eigen::Matrix<double, 3, 2> directions;
   directions << plane.e1, plane.e2;
   Foot foot{start, Vector3::Zero(), Vector3::Zero()};
   const int corrections = corrections_of(*block.model);
   for (int step = 0; step <= corrections; ++step) {
-    foot.place = place_of(block, foot.material);
-    const Eigen::Matrix<double, 3, 2> tangents =
-        block.position->transpose() * (basis.gradients(foot.material) * directions);
+    const Eigen::VectorXd phi = block.model->basis().values(foot.material);
+    foot.place = block.position->transpose() * phi;
+    const Eigen::Matrix<double, 3, 2> tangents = gradient_of(block, phi) * directions;
     foot.normal = tangents.col(0).cross(tangents.col(1)).normalized();
     const Eigen::Matrix2d metric = tangents.transpose() * tangents;
     const Eigen::Vector2d change = metric.inverse() * (tangents.transpose() * (target - foot.place));
@@ -50,7 +61,7 @@ Foot closest_point(const PlacedBlock& block, int face, const Vector3& start, con
 
 /// An edge as a line at the place of its contact point. @param edge reference coordinates, m
 Vector3 line_of(const PlacedBlock& block, const Vector3& material, const Vector3& edge) {
-  return block.position->transpose() * (block.model->basis().gradients(material) * edge);
+  return gradient_of(block, block.model->basis().values(material)) * edge;
 }
 
 /// Puts the material points where the two edges are nearest. @return false if an edge ends long before that
@@ -79,6 +90,18 @@ bool set_crossing(ContactPoint& point, const PlacedBlock& a, const PlacedBlock& 
 }
 
 }  // namespace
+
+PositionGradient::PositionGradient(const BlockModel& model, const Eigen::MatrixX3d& position)
+    : coefficients_(position.rows(), 9) {
+  for (int axis = 0; axis < 3; ++axis)
+    coefficients_.middleCols<3>(3 * axis).noalias() =
+        model.basis().derivative(axis).transpose().triangularView<Eigen::Upper>() * position;
+}
+
+Eigen::Matrix3d PositionGradient::at(const Eigen::VectorXd& phi) const {
+  const Eigen::Matrix<double, 9, 1> columns = coefficients_.transpose() * phi;
+  return columns.reshaped(3, 3);
+}
 
 bool is_affine(const BlockModel& model) {
   return model.fixed() || model.order() == 1;
@@ -125,6 +148,20 @@ ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const Pla
   moved.tangent_1 = turn * point.tangent_1;
   moved.tangent_2 = moved.normal.cross(moved.tangent_1);
   moved.gap = moved.normal.dot(moved.place_a - moved.place_b);
+  return moved;
+}
+
+std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points, PlacedBlock a, PlacedBlock b) {
+  std::array<std::optional<PositionGradient>, 2> gradients;
+  std::size_t k = 0;
+  for (PlacedBlock* block : {&a, &b}) {
+    std::optional<PositionGradient>& gradient = gradients[k++];
+    if (!points.empty() && block->gradient == nullptr && !is_affine(*block->model))
+      block->gradient = &gradient.emplace(*block->model, *block->position);
+  }
+  std::vector<ContactPoint> moved;
+  moved.reserve(points.size());
+  for (const ContactPoint& point : points) moved.push_back(moved_to(point, a, b));
   return moved;
 }
 

@@ -12,6 +12,8 @@
 // since the derivatives by the foot and by n vanish there: the rows of a point are the gradient of its gap.
 #pragma once
 
+#include <vector>
+
 #include "mechanics/block/block_model.hpp"
 
 namespace ashlar {
@@ -54,10 +56,24 @@ struct ContactPoint {
   return components[0] * point.normal + components[1] * point.tangent_1 + components[2] * point.tangent_2;
 }
 
+/// Gradient of a configuration, d x / d X, as the polynomial that it is: a point takes as many products as there are
+/// functions, not their square.
+class PositionGradient {
+ public:
+  /// @param position (p, 3)
+  PositionGradient(const BlockModel& model, const Eigen::MatrixX3d& position);
+  /// @param phi (p) values of the block's functions at a material point
+  [[nodiscard]] Eigen::Matrix3d at(const Eigen::VectorXd& phi) const;
+
+ private:
+  Eigen::Matrix<double, Eigen::Dynamic, 9> coefficients_;  ///< D_i' q, axis by axis
+};
+
 /// A block in a configuration that need not be that of a state.
 struct PlacedBlock {
   const BlockModel* model;
-  const Eigen::MatrixX3d* position;  ///< (p, 3)
+  const Eigen::MatrixX3d* position;            ///< (p, 3)
+  const PositionGradient* gradient = nullptr;  ///< of it, for many points; null: found for each
 };
 
 /// Whether the motion of a block is an affine map.
@@ -77,5 +93,8 @@ void complete(ContactPoint& point);
 /// it. A point whose normal is known at the start only, and one whose edges would cross farther beyond an end
 /// than they are long, keep normal and material points.
 [[nodiscard]] ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b);
+/// Many points: gradients are made once.
+[[nodiscard]] std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points, PlacedBlock a,
+                                                 PlacedBlock b);
 
 }  // namespace ashlar

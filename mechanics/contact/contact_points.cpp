@@ -1,6 +1,7 @@
 #include "mechanics/contact/contact_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -74,7 +75,7 @@ class CellMap {
 };
 
 PlacedBlock placed_block(const ContactBody& body) {
-  return {body.model, &body.state->position};
+  return {body.model, &body.state->position, body.gradient};
 }
 
 /// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
@@ -303,9 +304,11 @@ bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<doub
   return end->point == overlap.end->point && end->open == overlap.end->open;
 }
 
-ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
-                             const std::vector<bool>& masters, const ContactPointSettings& settings,
-                             const std::vector<PressureCut>& known) {
+namespace {
+
+ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
+                        const std::vector<bool>& masters, const ContactPointSettings& settings,
+                        const std::vector<PressureCut>& known) {
   const Search search{a, b, settings, known};
   ContactPoints result;
   if (settings.area_springs) {
@@ -319,6 +322,21 @@ ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const P
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
   result.points.shrink_to_fit();  // they may last
   return result;
+}
+
+}  // namespace
+
+ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
+                             const std::vector<bool>& masters, const ContactPointSettings& settings,
+                             const std::vector<PressureCut>& known) {
+  std::array<std::optional<PositionGradient>, 2> gradients;
+  std::array<ContactBody, 2> bodies = {a, b};
+  for (std::size_t k = 0; k < 2; ++k) {
+    ContactBody& body = bodies[k];
+    if (settings.curved && !is_affine(*body.model) && body.gradient == nullptr)
+      body.gradient = &gradients[k].emplace(*body.model, body.state->position);
+  }
+  return points_of(bodies[0], bodies[1], contacts, masters, settings, known);
 }
 
 }  // namespace ashlar

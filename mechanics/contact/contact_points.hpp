@@ -28,6 +28,7 @@ struct ContactBody {
   const BlockModel* model;
   const BlockState* state;
   const PlacedSurface* placed;
+  const PositionGradient* gradient = nullptr;  ///< of the state's position; null: contact_points() makes it
 };
 
 /// How contact points are made.

@@ -147,10 +147,10 @@ void PairRows::act_at(const std::vector<ContactPoint>& acting, const BlockInStep
 
 void PairRows::follow(std::vector<ContactPoint>& points, const BlockInStep& a, const BlockInStep& b,
                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) {
-  std::vector<ContactPoint> middle;
-  middle.reserve(points.size());
-  for (const ContactPoint& point : points)
-    middle.push_back(moved_to(point, {a.model, &a.middle}, {b.model, &b.middle}));
+  const std::vector<ContactPoint> middle =
+      moved_to(points, PlacedBlock{a.model, &a.middle}, PlacedBlock{b.model, &b.middle});
+  const std::vector<ContactPoint> end =
+      moved_to(middle, PlacedBlock{a.model, &a.end}, PlacedBlock{b.model, &b.end});
   act_at(middle, a, b, points);
   const Eigen::Matrix3Xd way = motion(ya, yb);
   bent_.setZero(static_cast<Eigen::Index>(points.size()));
@@ -159,17 +159,12 @@ void PairRows::follow(std::vector<ContactPoint>& points, const BlockInStep& a, c
     if (free_pair_)
       apart_.col(column) = in_frame(middle[k], middle[k].place_a - middle[k].place_b) - 0.5 * way.col(column);
     if (points[k].source == NormalSource::as_found) continue;
-    const ContactPoint end = moved_to(middle[k], {a.model, &a.end}, {b.model, &b.end});
-    bent_[column] = end.gap - points[k].gap - way(0, column);
+    bent_[column] = end[k].gap - points[k].gap - way(0, column);
   }
 }
 
 void PairRows::go_to_end(std::vector<ContactPoint>& points, const BlockInStep& a, const BlockInStep& b) {
-  std::vector<ContactPoint> end;
-  end.reserve(points.size());
-  for (const ContactPoint& point : points)
-    end.push_back(moved_to(point, {a.model, &a.end}, {b.model, &b.end}));
-  act_at(end, a, b, points);
+  act_at(moved_to(points, PlacedBlock{a.model, &a.end}, PlacedBlock{b.model, &b.end}), a, b, points);
 }
 
 Eigen::Matrix3Xd PairRows::along_axes(const Eigen::VectorXd& forces) const {

@@ -154,6 +154,56 @@ TEST(ContactKinematics, RowsAreTheGradientOfTheGap) {
   }
 }
 
+/// A configuration that bends in all its functions.
+Eigen::MatrixX3d bent(const BlockModel& block) {
+  Eigen::MatrixX3d position = block.basis().identity_map();
+  for (Eigen::Index a = 0; a < position.rows(); ++a)
+    position.row(a) += 0.01 * Vector3(std::sin(a + 1.0), std::cos(2.0 * a), std::sin(3.0 * a)).transpose();
+  return position;
+}
+
+TEST(ContactKinematics, TheGradientOfAConfigurationIsTheDerivativeOfItsPlaces) {
+  for (const int order : {1, 2, 3, 8}) {
+    const BlockModel block = box({0, 0, 0}, {2, 1, 1}, order);
+    const Eigen::MatrixX3d position = bent(block);
+    const PositionGradient gradient(block, position);
+    for (const Vector3& at : {Vector3(1.0, 0.5, 1.0), Vector3(0.3, 0.9, 0.2)}) {
+      const Eigen::Matrix3d found = gradient.at(block.basis().values(at));
+      constexpr double h = 1e-5;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3 way = h * Vector3::Unit(axis);
+        const PlacedBlock placed{&block, &position};
+        const Vector3 expected = (place_of(placed, at + way) - place_of(placed, at - way)) / (2.0 * h);
+        EXPECT_LT((found.col(axis) - expected).norm(), 1e-7 * found.norm()) << order;
+      }
+    }
+  }
+}
+
+TEST(ContactKinematics, ManyPointsMoveAsEachOfThemDoes) {
+  const BlockModel a = box({0, 0, 1}, {1, 1, 2}, 3);
+  const BlockModel b = box({-1, -1, 0}, {2, 2, 1}, 4);
+  const Eigen::MatrixX3d of_a = bent(a);
+  const Eigen::MatrixX3d of_b = bent(b);
+  std::vector<ContactPoint> points;
+  for (const double x : {0.2, 0.7}) {
+    for (const NormalSource source :
+         {NormalSource::face_of_a, NormalSource::face_of_b, NormalSource::as_found}) {
+      points.push_back(point_between({x, 0.4, 1}, {x, 0.4, 1}, {0, 0, 1}, source));
+      points.back().face_a = face_of(a, {0, 0, -1});
+      points.back().face_b = face_of(b, {0, 0, 1});
+    }
+  }
+  const std::vector<ContactPoint> all = moved_to(points, PlacedBlock{&a, &of_a}, PlacedBlock{&b, &of_b});
+  ASSERT_EQ(all.size(), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const ContactPoint one = moved_to(points[k], {&a, &of_a}, {&b, &of_b});
+    EXPECT_NEAR(all[k].gap, one.gap, 1e-13);
+    EXPECT_LT((all[k].place_a - one.place_a).norm() + (all[k].place_b - one.place_b).norm(), 1e-13);
+    EXPECT_LT((all[k].normal - one.normal).norm(), 1e-13);
+  }
+}
+
 TEST(ContactKinematics, FlatSubFacesKeepTheirNormal) {
   const BlockModel a = box({0.2, 0.3, 1}, {1, 1, 2});
   const BlockModel b = box({-1, -1, 0}, {2, 2, 1});
