@@ -10,33 +10,30 @@ namespace ashlar {
 
 class RunClock {
  public:
-  /// From here to its end the time is of the run, of an inner one of its output.
-  class Span {
+  /// One call of the run, from here to its end.
+  class Call {
    public:
-    enum class Part { run, output };
-    explicit Span(RunClock& clock, Part part = Part::run) : clock_(clock), part_(part), start_(now()) {
-      if (part_ == Part::run) clock_.running_since_ = start_;
+    explicit Call(RunClock& clock) : clock_(clock) { clock_.call_start_ = now(); }
+    ~Call() {
+      clock_.seconds_ = clock_.seconds();
+      clock_.call_start_.reset();
     }
-    ~Span() {
-      (part_ == Part::run ? clock_.seconds_.total : clock_.seconds_.output) += now() - start_;
-      if (part_ == Part::run) clock_.running_since_.reset();
-    }
-    Span(const Span&) = delete;
-    Span& operator=(const Span&) = delete;
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
 
    private:
     RunClock& clock_;
-    Part part_;
-    double start_;
   };
 
   /// The setup began at a time of now() and is over.
   void note_setup(double start) { seconds_.total = seconds_.setup = now() - start; }
+  /// For a Stopwatch.
+  [[nodiscard]] double& output() { return seconds_.output; }
 
   /// s, with the present call so far.
   [[nodiscard]] RunSeconds seconds() const {
     RunSeconds all = seconds_;
-    if (running_since_) all.total += now() - *running_since_;
+    if (call_start_) all.total += now() - *call_start_;
     return all;
   }
 
@@ -46,7 +43,7 @@ class RunClock {
 
  private:
   RunSeconds seconds_;
-  std::optional<double> running_since_;
+  std::optional<double> call_start_;
 };
 
 }  // namespace ashlar

@@ -14,6 +14,7 @@
 #include "apps/scene/scene_stages.hpp"
 #include "geometry/index.hpp"
 #include "solver/run/checkpoint.hpp"
+#include "solver/stopwatch.hpp"
 
 namespace ashlar {
 namespace {
@@ -62,7 +63,7 @@ SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads, double
 bool SceneRun::step() {
   if (status_ == RunStatus::failed) throw std::runtime_error(message_);
   if (status_) return false;
-  const RunClock::Span span(clock_);
+  const RunClock::Call call(clock_);
   if (stage_has_ended_) begin_next_stage();
   if (is_static(present_->scene.analysis)) {
     take_static_step();
@@ -168,7 +169,7 @@ void SceneRun::add_row() {
   const std::vector<double> values = history_row(built_.simulation, measures_, place_.origin, stage());
   rows_.back().insert(rows_.back().end(), values.begin(), values.end());
   if (!results_) return;
-  const RunClock::Span span(clock_, RunClock::Span::Part::output);
+  const Stopwatch watch(clock_.output());
   results_->add_step(built_.simulation);
 }
 

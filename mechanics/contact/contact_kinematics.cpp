@@ -1,8 +1,6 @@
 #include "mechanics/contact/contact_kinematics.hpp"
 
-#include <array>
 #include <cmath>
-#include <optional>
 
 #include "geometry/index.hpp"
 #include "geometry/subfaces/view_frame.hpp"
@@ -103,6 +101,11 @@ Eigen::Matrix3d PositionGradient::at(const Eigen::VectorXd& phi) const {
   return columns.reshaped(3, 3);
 }
 
+std::optional<PositionGradient> gradient_if_bent(const BlockModel& model, const Eigen::MatrixX3d& position) {
+  if (is_affine(model)) return std::nullopt;
+  return PositionGradient(model, position);
+}
+
 bool is_affine(const BlockModel& model) {
   return model.fixed() || model.order() == 1;
 }
@@ -152,13 +155,10 @@ ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const Pla
 }
 
 std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points, PlacedBlock a, PlacedBlock b) {
-  std::array<std::optional<PositionGradient>, 2> gradients;
-  std::size_t k = 0;
-  for (PlacedBlock* block : {&a, &b}) {
-    std::optional<PositionGradient>& gradient = gradients[k++];
-    if (!points.empty() && block->gradient == nullptr && !is_affine(*block->model))
-      block->gradient = &gradient.emplace(*block->model, *block->position);
-  }
+  const std::optional<PositionGradient> of_a = gradient_if_bent(*a.model, *a.position);
+  const std::optional<PositionGradient> of_b = gradient_if_bent(*b.model, *b.position);
+  if (of_a) a.gradient = &*of_a;
+  if (of_b) b.gradient = &*of_b;
   std::vector<ContactPoint> moved;
   moved.reserve(points.size());
   for (const ContactPoint& point : points) moved.push_back(moved_to(point, a, b));

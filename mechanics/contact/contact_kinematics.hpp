@@ -12,6 +12,7 @@
 // since the derivatives by the foot and by n vanish there: the rows of a point are the gradient of its gap.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
@@ -68,6 +69,10 @@ class PositionGradient {
  private:
   Eigen::Matrix<double, Eigen::Dynamic, 9> coefficients_;  ///< D_i' q, axis by axis
 };
+
+/// Empty for affine blocks, which have the same gradient everywhere.
+[[nodiscard]] std::optional<PositionGradient> gradient_if_bent(const BlockModel& model,
+                                                               const Eigen::MatrixX3d& position);
 
 /// A block in a configuration that need not be that of a state.
 struct PlacedBlock {

@@ -1,7 +1,6 @@
 #include "mechanics/contact/contact_points.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -329,14 +328,11 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                              const std::vector<bool>& masters, const ContactPointSettings& settings,
                              const std::vector<PressureCut>& known) {
-  std::array<std::optional<PositionGradient>, 2> gradients;
-  std::array<ContactBody, 2> bodies = {a, b};
-  for (std::size_t k = 0; k < 2; ++k) {
-    ContactBody& body = bodies[k];
-    if (settings.curved && !is_affine(*body.model) && body.gradient == nullptr)
-      body.gradient = &gradients[k].emplace(*body.model, body.state->position);
-  }
-  return points_of(bodies[0], bodies[1], contacts, masters, settings, known);
+  if (!settings.curved) return points_of(a, b, contacts, masters, settings, known);
+  const std::optional<PositionGradient> of_a = gradient_if_bent(*a.model, a.state->position);
+  const std::optional<PositionGradient> of_b = gradient_if_bent(*b.model, b.state->position);
+  return points_of({a.model, a.state, a.placed, of_a ? &*of_a : nullptr},
+                   {b.model, b.state, b.placed, of_b ? &*of_b : nullptr}, contacts, masters, settings, known);
 }
 
 }  // namespace ashlar

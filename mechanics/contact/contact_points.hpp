@@ -28,7 +28,7 @@ struct ContactBody {
   const BlockModel* model;
   const BlockState* state;
   const PlacedSurface* placed;
-  const PositionGradient* gradient = nullptr;  ///< of the state's position; null: contact_points() makes it
+  const PositionGradient* gradient = nullptr;  ///< contact_points() sets it
 };
 
 /// How contact points are made.

@@ -2,12 +2,11 @@
 import re
 import xml.etree.ElementTree as ElementTree
 
+import meshio
 import numpy as np
 import pytest
 
 import ashlar
-
-meshio = pytest.importorskip("meshio")
 
 
 def read(frame):

@@ -3,6 +3,7 @@ import decimal
 import json
 import pickle
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -217,6 +218,18 @@ def test_the_summary_tells_the_stages(tmp_path):
         assert [stage["status"] for stage in summary["stages"]] == ["completed", "completed"]
         assert [stage["steps"] for stage in summary["stages"]] == [10, 20]
     assert summaries[0]["stages"] == summaries[1]["stages"]
+
+
+def test_the_summary_tells_the_time_inside_the_run(tmp_path):
+    start = time.monotonic()
+    sim = scene(end_time=0.01).simulation()
+    sim.record(tmp_path / "out")
+    sim.run(callback=lambda s: time.sleep(0.02))
+    elapsed = time.monotonic() - start
+    seconds = json.loads((tmp_path / "out" / "summary.json").read_text())["wall_seconds"]
+    assert 0 < seconds["setup"] < seconds["total"] and 0 < seconds["output"] < seconds["total"]
+    # What the caller waits after each of the ten steps is not the run's, all else is within what has passed.
+    assert seconds["total"] < elapsed - 9 * 0.02
 
 
 def test_a_simulation_that_has_failed_says_so_again(tmp_path):
