@@ -295,7 +295,7 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
 
 bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance) {
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-  const bool may_end = gaps.size() > 0 && *least<-tolerance&& * most> tolerance;
+  const bool may_end = !gaps.empty() && -*least > tolerance && *most > tolerance;
   if (!overlap.end && !may_end) return true;
   const PolygonRule rule = polygon_rule(overlap.outline, overlap.degree);
   const std::optional<PressureEnd> end = end_of_pressure(overlap.outline, rule, gaps, tolerance, overlap.end);
