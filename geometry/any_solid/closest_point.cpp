@@ -20,6 +20,7 @@
 
 #include "geometry/any_solid/solid_features.hpp"
 #include "geometry/boxes/box_tree.hpp"
+#include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/rounding_mode.hpp"
 
 namespace ashlar {

@@ -1,12 +1,13 @@
-// Longer than other sources: one search, whose parts share the state of the pair of solids.
 #include "geometry/any_solid/distance_minima.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
-#include "geometry/boxes/box_tree.hpp"
+#include "geometry/any_solid/near_features.hpp"
+#include "geometry/exact/direction_constructions.hpp"
 
 namespace ashlar {
 
@@ -17,28 +18,6 @@ using Key = std::array<int, 4>;
 Key key_of(const ContactFeature& a, const ContactFeature& b) {
   return {a.dimension, a.index, b.dimension, b.index};
 }
-
-struct FeatureBoxes {
-  std::vector<ContactFeature> features;
-  std::vector<Box> boxes;
-
-  explicit FeatureBoxes(const SolidFeatures& solid) {
-    for (const int v : solid.solid().corners()) add({0, v}).include(solid.point(v));
-    for (int e = 0; e < static_cast<int>(solid.edges().size()); ++e) {
-      Box& box = add({1, e});
-      box.include(solid.point(solid.edges()[e].from));
-      box.include(solid.point(solid.edges()[e].to));
-    }
-    for (int f = 0; f < static_cast<int>(solid.solid().faces().size()); ++f) {
-      Box& box = add({2, f});
-      for (const SolidSide& side : solid.sides(f)) box.include(solid.point(side.from));
-    }
-  }
-  Box& add(const ContactFeature& feature) {
-    features.push_back(feature);
-    return boxes.emplace_back();
-  }
-};
 
 // Features of one of the two solids; `sign` is that of w in its normal cone.
 struct Body {
@@ -106,10 +85,10 @@ class MinimumFinder {
   }
 
   std::vector<DistanceMinimum> find(DecisionCounts& counts) {
-    collect_pairs();
+    const NearFeatures pairs = near_features(a_.features, b_.features, squared_limit());
     // Higher pairs first: they say which lower ones are in their closure.
     for (int total = 4; total >= 0; --total)
-      for (const auto& [f, g] : pairs_[total])
+      for (const auto& [f, g] : pairs[total])
         if (!closed_.contains(key_of(f, g))) decide(f, g);
     std::sort(found_.begin(), found_.end(), [](const DistanceMinimum& x, const DistanceMinimum& y) {
       return key_of(x.a, x.b) < key_of(y.a, y.b);
@@ -120,28 +99,11 @@ class MinimumFinder {
   }
 
  private:
-  void collect_pairs() {
-    const FeatureBoxes boxes_a(a_.features), boxes_b(b_.features);
-    const BoxTree tree_a(boxes_a.boxes), tree_b(boxes_b.boxes);
-    for_each_near_pair(
-        tree_a, tree_b, [limit = squared_limit()] { return limit; },
-        [&](int i, int k) {
-          const ContactFeature &f = boxes_a.features[i], &g = boxes_b.features[k];
-          const bool may_touch = boxes_a.boxes[i].meets(boxes_b.boxes[k]);
-          if (may_touch || (has_cone(a_, f) && has_cone(b_, g)))
-            pairs_[f.dimension + g.dimension].emplace_back(f, g);
-          return true;
-        });
-  }
   // An upper bound of the squared distances that are wanted.
   [[nodiscard]] double squared_limit() const {
     constexpr double up = std::numeric_limits<double>::infinity();
     if (bound_.distance) return std::nextafter(*bound_.distance * *bound_.distance, up);
     return bound_.touching ? 0.0 : std::nextafter(bound_.least_squared, up);
-  }
-  static bool has_cone(const Body& body, const ContactFeature& f) {
-    if (f.dimension == 0) return body.features.corner_kind(f.index) != CornerKind::reflex;
-    return f.dimension == 2 || body.features.edges()[f.index].convex;
   }
 
   void decide(const ContactFeature& f, const ContactFeature& g) {
@@ -403,9 +365,8 @@ class MinimumFinder {
   Body a_, b_;
   MinimumBound bound_;
   PredicateLadder ladder_;
-  bool floating_ = true;                           // what FlatSetting asks
-  std::array<std::vector<FeaturePair>, 5> pairs_;  // by the sum of the dimensions
-  std::set<Key> closed_;                           // pairs in the closure of a higher one
+  bool floating_ = true;  // what FlatSetting asks
+  std::set<Key> closed_;  // pairs in the closure of a higher one
   std::vector<DistanceMinimum> found_;
 };
 

@@ -1,134 +1,21 @@
-// Longer than other sources: one overlay of two outlines, whose parts share exact coordinates and signs.
 #include "geometry/any_solid/face_polygon_overlap.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 
-#include "geometry/exact/tracked_number.hpp"
+#include "geometry/any_solid/flat_projection.hpp"
 
 namespace ashlar {
 
 namespace {
 
-// A number of the projection: exact, and as a double with a bound of its error.
-struct Coordinate {
-  Rational exact;
-  TrackedNumber tracked;
-};
-
-// Conversion cuts off, which loses less than a unit in the last place, and less than the smallest number.
-Coordinate coordinate(Rational exact, bool is_double) {
-  const double value = exact.get_d();
-  const double error = is_double || sgn(exact) == 0 ? 0.0
-                                                    : 4.0 * TrackedNumber::unit_roundoff * std::abs(value) +
-                                                          std::numeric_limits<double>::denorm_min();
-  return {std::move(exact), {value, error}};
-}
-
-struct PlanePoint {
-  Coordinate u, v;
-};
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double least_value(const TrackedNumber& n) {
-  return n.error == 0.0 ? n.value : std::nextafter(n.value - 2.0 * n.error, -infinity);
-}
-
-double greatest_value(const TrackedNumber& n) {
-  return n.error == 0.0 ? n.value : std::nextafter(n.value + 2.0 * n.error, infinity);
-}
 
 void bound(const Coordinate& x, const Coordinate& y, double& low, double& high) {
   low = std::min(least_value(x.tracked), least_value(y.tracked));
   high = std::max(greatest_value(x.tracked), greatest_value(y.tracked));
 }
-
-// Signs in the projection.
-class PlaneSigns {
- public:
-  PlaneSigns(bool floating, DecisionCounts& counts) : floating_(floating), counts_(counts) {}
-
-  /// 1 if p, q, r turn left.
-  [[nodiscard]] int turn(const PlanePoint& p, const PlanePoint& q, const PlanePoint& r) const {
-    if (floating_) {
-      const TrackedNumber value = (q.u.tracked - p.u.tracked) * (r.v.tracked - p.v.tracked) -
-                                  (q.v.tracked - p.v.tracked) * (r.u.tracked - p.u.tracked);
-      if (const int sign = certain_sign(value); sign != unknown_sign) return sign;
-    }
-    ++counts_.exact;
-    return sgn(Rational((q.u.exact - p.u.exact) * (r.v.exact - p.v.exact) -
-                        (q.v.exact - p.v.exact) * (r.u.exact - p.u.exact)));
-  }
-  /// Sign of x - y.
-  [[nodiscard]] int compare(const Coordinate& x, const Coordinate& y) const {
-    if (floating_)
-      if (const int sign = certain_sign(x.tracked - y.tracked); sign != unknown_sign) return sign;
-    ++counts_.exact;
-    return cmp(x.exact, y.exact);
-  }
-  /// True if a point of the line through two different points is strictly between them.
-  [[nodiscard]] bool is_between(const PlanePoint& p, const PlanePoint& q, const PlanePoint& x) const {
-    const int along_u = compare(p.u, q.u);
-    if (along_u != 0) return compare(p.u, x.u) == along_u && compare(x.u, q.u) == along_u;
-    const int along_v = compare(p.v, q.v);
-    return compare(p.v, x.v) == along_v && compare(x.v, q.v) == along_v;
-  }
-
- private:
-  // Numbers of the projection are quotients, which NumericRange does not keep from underflow: what could be
-  // that is left to the exact answer. Underflow of an operation loses less than 2^-1074.
-  [[nodiscard]] int certain_sign(const TrackedNumber& value) const {
-    constexpr double underflow = 0x1p-1000;
-    if (std::abs(value.value) <= value.error * (1.0 + 0x1p-29) + underflow) return unknown_sign;
-    ++counts_.filter;
-    return value.value > 0.0 ? 1 : -1;
-  }
-
-  bool floating_;
-  DecisionCounts& counts_;
-};
-
-// Along the direction to a coordinate plane; left stays left.
-class Projection {
- public:
-  explicit Projection(const FlatSetting& setting) : coplanar_(setting.coplanar) {
-    const RationalVector& d = setting.direction;
-    const Vector3 size(std::abs(d.x.get_d()), std::abs(d.y.get_d()), std::abs(d.z.get_d()));
-    size.maxCoeff(&dropped_);
-    for (int i = 0; i < 3 && sgn(component(d, dropped_)) == 0; ++i) dropped_ = i;
-    first_ = (dropped_ + 1) % 3;
-    second_ = (dropped_ + 2) % 3;
-    const Rational& along = component(d, dropped_);
-    if (sgn(along) < 0) std::swap(first_, second_);
-    if (!coplanar_) {
-      first_slope_ = component(d, first_) / along;
-      second_slope_ = component(d, second_) / along;
-    }
-    // A face across d and its image differ by the cosine between their planes, |along| / |d|: the image on
-    // the coordinate plane is larger if it is made along d, smaller if it is made along the axis.
-    squared_scale_ = along * along / dot_product(d, d);
-    if (coplanar_) squared_scale_ = 1 / squared_scale_;
-  }
-
-  [[nodiscard]] PlanePoint operator()(const Vector3& x) const {
-    return {project(x, first_, first_slope_), project(x, second_, second_slope_)};
-  }
-  /// (true area / projected area)^2 of faces across the direction.
-  [[nodiscard]] const Rational& squared_scale() const { return squared_scale_; }
-
- private:
-  [[nodiscard]] Coordinate project(const Vector3& x, int axis, const Rational& slope) const {
-    if (sgn(slope) == 0) return coordinate(Rational(x[axis]), true);
-    return coordinate(Rational(Rational(x[axis]) - Rational(x[dropped_]) * slope), false);
-  }
-
-  bool coplanar_;
-  int dropped_ = 0, first_ = 0, second_ = 0;
-  Rational first_slope_, second_slope_, squared_scale_;
-};
 
 // Where a side meets a feature of the other piece in an inner point of the side.
 struct Cut {
@@ -160,7 +47,7 @@ struct Outline {
   std::vector<ContactFeature> met;  // by corner: corner or edge of the other piece at it, or dimension -1
   int face;
 
-  Outline(const FlatPiece& piece, const Projection& projection, bool floating) : face(piece.face) {
+  Outline(const FlatPiece& piece, const FlatProjection& projection, bool floating) : face(piece.face) {
     std::map<int, int> index;
     const auto add = [&](int v) {
       const auto [entry, is_new] = index.emplace(v, static_cast<int>(corners.size()));
@@ -273,7 +160,7 @@ struct Piece {
 class Overlay {
  public:
   Overlay(const FlatSetting& setting, const FlatPiece& a, const FlatPiece& b, DecisionCounts& counts)
-      : projection_(setting),
+      : projection_(setting.direction, setting.coplanar),
         signs_(setting.floating, counts),
         given_a_(a),
         given_b_(b),
@@ -413,7 +300,7 @@ class Overlay {
     return sum(from, multiple(difference(to, from), outline.position(outline.sides[side], place)));
   }
 
-  Projection projection_;
+  FlatProjection projection_;
   PlaneSigns signs_;
   const FlatPiece &given_a_, &given_b_;
   Outline a_, b_;

@@ -7,6 +7,7 @@
 #include "geometry/convex/convex_shape.hpp"
 #include "geometry/convex/overlap_polygon.hpp"
 #include "geometry/convex/plane_heights.hpp"
+#include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/direction_predicates.hpp"
 
 namespace ashlar {

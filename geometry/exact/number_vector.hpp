@@ -1,4 +1,4 @@
-// Three-vectors over the number types of the predicate ladder (see direction_predicates.hpp).
+// Three-vectors over the number types of the predicate ladder (see contact_direction.hpp).
 #pragma once
 
 namespace ashlar {

@@ -4,7 +4,7 @@
 // or overflows; hence |fl(r) - r| <= u |fl(r)| (1 + 2u). Every operation adds that bound to the bounds
 // inherited from its operands. The bounds themselves are rounded: each of them is low by at most a few u, so
 // a polynomial of less than 2^15 operations underestimates its error by less than 2^-30 of it, which
-// sign_of() adds back. Under- and overflow are excluded beforehand by NumericRange (direction_predicates.hpp);
+// sign_of() adds back. Under- and overflow are excluded beforehand by NumericRange (predicate_ladder.hpp);
 // rounding to nearest is granted by NearestRounding (rounding_mode.hpp).
 #pragma once
 

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/direction_predicates.hpp"
 
 namespace ashlar {
