@@ -176,7 +176,7 @@ struct SimulationSettings {
 
   bool area_springs = true;
   bool curved_surface = true;
-  bool augmented = false;  ///< multipliers take over from springs, see open_close.hpp
+  bool augmented = false;  ///< multipliers take over from springs, see augmentation.hpp
   double contact_distance =
       1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
   double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion

@@ -11,7 +11,6 @@
 #include "geometry/solid/rounded_convexity.hpp"
 #include "geometry/subfaces/surface_distance.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
-#include "solver/contact/hidden_sides.hpp"
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
@@ -34,6 +33,14 @@ void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairConta
   });
 }
 
+/// By block: those that never move and are there. @param absent by block, or empty
+std::vector<bool> fixed_and_present(const std::vector<BlockModel>& blocks, const std::vector<bool>& absent) {
+  std::vector<bool> fixed;
+  for (const BlockModel& block : blocks)
+    fixed.push_back(block.fixed() && (absent.empty() || !absent[fixed.size()]));
+  return fixed;
+}
+
 }  // namespace
 
 ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
@@ -43,7 +50,8 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
       absent_(std::move(absent)),
       left_out_(std::move(left_out)),
       placed_(blocks.size()),
-      tracks_(blocks.size()) {
+      tracks_(blocks.size()),
+      sides_(fixed_and_present(blocks, absent_), settings) {
   surfaces_.reserve(blocks.size());
   absent_.resize(blocks.size(), false);
   std::map<const BlockParts*, std::size_t> first;  // of equal blocks
@@ -51,9 +59,7 @@ ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const Simula
     const auto [twin, is_first] = first.emplace(block.parts().get(), surfaces_.size());
     surfaces_.emplace_back(block, settings.search.subdivisions, axes_,
                            is_first ? nullptr : &surfaces_[twin->second]);
-    const bool is_absent = absent_[fixed_.size()];
-    fixed_.push_back(block.fixed() && !is_absent);
-    moving_.push_back(!block.fixed() && !is_absent);
+    moving_.push_back(!block.fixed() && !absent_[moving_.size()]);
     thickness_.push_back(block.basis().volume() / surface_area(block.solid().mesh()));
     convex_.push_back(!surfaces_.back().surface().divided && is_convex_but_for_rounding(block.solid()));
   }
@@ -203,51 +209,19 @@ Clearance ContactFinder::clearance_of(const PairKey& pair) const {
   return {bound * (1.0 - 1e-6), tracks_[at(pair[0])].path + tracks_[at(pair[1])].path};
 }
 
-void ContactFinder::hide_fixed_sides() {
-  fixed_sides_.emplace();
-  std::vector<Box> boxes(surfaces_.size());
-  for (std::size_t k = 0; k < surfaces_.size(); ++k) {
-    if (fixed_[k]) boxes[k] = box_of(surfaces_[k].surface().points).grown(settings_.contact_distance);
-  }
-  const ContactLimits flush{settings_.contact_distance, settings_.contact_distance,
-                            settings_.search.contact_angle};
-  for (const PairKey& pair : meeting_boxes(boxes)) {
-    const SubFaceSurface& a = surfaces_[at(pair[0])].surface();
-    const SubFaceSurface& b = surfaces_[at(pair[1])].surface();
-    const PairContacts contacts =
-        find_contacts(PlacedSurface(a, a.points), PlacedSurface(b, b.points), flush);
-    fixed_sides_->add(pair, contacts.overlaps, a, b, settings_.contact_distance);
-  }
-}
-
-void ContactFinder::note_hidden_sides(const std::vector<std::pair<PairKey, const PairContacts*>>& contacts) {
-  hidden_sides_.emplace();
-  const bool any_inside = std::any_of(contacts.begin(), contacts.end(), [](const auto& pair) {
-    return std::any_of(pair.second->vertices.begin(), pair.second->vertices.end(),
-                       [](const VertexContact& contact) { return contact.gap < 0.0; });
-  });
-  if (!any_inside) return;
-  if (!fixed_sides_) hide_fixed_sides();
-  hidden_sides_ = *fixed_sides_;
-  for (const auto& [blocks, of_pair] : contacts) {
-    hidden_sides_->add(blocks, of_pair->overlaps, placed(blocks[0]).surface(), placed(blocks[1]).surface(),
-                       settings_.contact_distance);
-  }
-}
-
 void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const KnownContacts& known,
                                   const std::vector<ContactLimits>& limits) {
-  std::vector<std::pair<PairKey, const PairContacts*>> all;
+  std::vector<PairOfContacts> all;
   for (const auto& pair : searched) all.emplace_back(pair.blocks, &pair.contacts);
   for (std::size_t n = 0; n < near_.size(); ++n)
     if (known[n] != nullptr) all.emplace_back(near_[n].blocks, known[n]);
-  note_hidden_sides(all);
-  if (hidden_sides_->empty()) return;
+  sides_.note(all, surfaces_);
+  if (sides_.hidden().empty()) return;
   std::vector<std::size_t> again;
   for (std::size_t k = 0; k < searched.size(); ++k) {
     const auto& blocks = searched[k].blocks;
     const auto& contacts = searched[k].contacts;
-    const HiddenPlaces places = hidden_sides_->of_pair(blocks);
+    const HiddenPlaces places = sides_.hidden().of_pair(blocks);
     const bool below =
         std::any_of(contacts.vertices.begin(), contacts.vertices.end(), [&](const auto& contact) {
           const PlacedSurface& with_cell = placed(blocks[contact.vertex_of_a ? 1 : 0]);
@@ -262,7 +236,7 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const Kn
   parallel_for(settings_.threads, again.size(), [&](std::size_t n) {
     const PairKey& blocks = searched[again[n]].blocks;
     PairContacts& contacts = searched[again[n]].contacts;
-    const HiddenPlaces places = hidden_sides_->of_pair(blocks);
+    const HiddenPlaces places = sides_.hidden().of_pair(blocks);
     const DecisionCounts counts = contacts.counts;
     contacts = find_contacts(placed(blocks[0]), placed(blocks[1]), limits[again[n]], &places);
     contacts.counts.filter += counts.filter;
@@ -332,7 +306,7 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
 std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& states, KnownContacts& known,
                                                PairHistories& histories) {
   hidden_.clear();
-  hidden_sides_.reset();
+  sides_.begin();
   const auto is_unknown = [](const PairContacts* contacts) { return contacts == nullptr; };
   if (std::none_of(known.begin(), known.end(), is_unknown)) {
     counts_.block_pairs_kept += known.size();

@@ -16,8 +16,8 @@
 #include "geometry/contacts/convex_search.hpp"
 #include "geometry/contacts/motion_check.hpp"
 #include "mechanics/block/block_surface.hpp"
-#include "solver/contact/hidden_sides.hpp"
 #include "solver/contact/pair_history.hpp"
+#include "solver/contact/sides_of_step.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -181,11 +181,6 @@ class ContactFinder {
   /// @param limits of the pairs
   void search_hidden(std::vector<FoundContacts>& searched, const KnownContacts& known,
                      const std::vector<ContactLimits>& limits);
-  /// Notes the faces of near blocks that lie on each other, if any vertex is in a block.
-  /// @param contacts of pairs
-  void note_hidden_sides(const std::vector<std::pair<PairKey, const PairContacts*>>& contacts);
-  /// Notes the faces of fixed blocks that lie on each other.
-  void hide_fixed_sides();
   /// Completes the contacts of pairs of convex solids, with history.
   void settle_convex_pairs(std::vector<FoundContacts>& searched, const KnownContacts& known,
                            PairHistories& histories);
@@ -193,7 +188,6 @@ class ContactFinder {
   SimulationSettings settings_;
   Eigen::Matrix3d axes_;  ///< of the boxes below
   std::vector<bool> absent_;
-  std::vector<bool> fixed_;   ///< and present
   std::vector<bool> moving_;  ///< false for fixed blocks, and for those that sleep
   std::set<PairKey> left_out_;
   std::vector<double>
@@ -203,9 +197,7 @@ class ContactFinder {
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
   std::vector<BlockTrack> tracks_;                    ///< by block
   std::vector<NearPair> near_;                        ///< of the step
-  std::optional<HiddenSides> fixed_sides_;            ///< of fixed blocks, found when first asked for
-  std::optional<HiddenSides>
-      hidden_sides_;          ///< of the step, noted when first asked for; empty if no vertex is in a block
+  SidesOfStep sides_;                                 ///< that lie on other blocks
   std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };

@@ -66,10 +66,10 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
   counts_.motions_checked += pairs.size();
   if (pairs.empty()) return {};
   place_near(before);
-  if (!hidden_sides_) {
-    std::vector<std::pair<PairKey, const PairContacts*>> all;
+  if (!sides_.noted()) {
+    std::vector<PairOfContacts> all;
     for (const FoundContacts& pair : found) all.emplace_back(pair.blocks, &pair.contacts);
-    note_hidden_sides(all);
+    sides_.note(all, surfaces_);
   }
   std::vector<std::vector<Touch>> touches(pairs.size());
   parallel_for(settings_.threads, pairs.size(), [&](std::size_t k) {
@@ -84,8 +84,8 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
                                              tracks_[at(b)].checked_motion};
     touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
                               in_contact ? known->contacts : PairContacts{}, limits);
-    if (hidden_sides_->empty()) return;
-    const HiddenPlaces hidden = hidden_sides_->of_pair(pairs[k]);
+    if (sides_.hidden().empty()) return;
+    const HiddenPlaces hidden = sides_.hidden().of_pair(pairs[k]);
     turn_to_open_faces({&placed(a), &end_a}, {&placed(b), &end_b}, hidden, touches[k]);
   });
   std::vector<PassingBlocks> passing;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "solver/step/augmentation.hpp"
 #include "solver/step/first_guess.hpp"
 #include "solver/step/island_tangent.hpp"
+#include "solver/step/joint_failure.hpp"
 
 namespace ashlar {
 namespace {
@@ -22,10 +23,14 @@ enum class Outcome {
 class OpenClose {
  public:
   OpenClose(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result)
-      : problem_(problem), tangent_(problem), settings_(settings), result_(result) {}
+      : problem_(problem),
+        tangent_(problem),
+        failure_(problem),
+        augmentation_(problem),
+        settings_(settings),
+        result_(result) {}
 
   Outcome run() {
-    bond();
     known_balance_ = take_best_guess(problem_);
     for (int rounds = 0, evaluations = 0;;) {
       Outcome outcome = newton(settings_.iteration.newton_iterations, false);
@@ -34,8 +39,8 @@ class OpenClose {
         outcome = minimise();
       }
       if (outcome != Outcome::settled) return outcome;
-      if (!break_joints()) {
-        if (settings_.augmented && (stiffen() || lower_multipliers())) {
+      if (!failure_.break_joints()) {
+        if (settings_.augmented && augmentation_.adjust()) {
           if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
         } else if (evaluations < settings_.iteration.contact_evaluations && follow()) {
           ++evaluations;
@@ -62,136 +67,6 @@ class OpenClose {
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
   bool follow() {
     return followed_ = !problem_.scheme().from_rest && problem_.follow_contacts(settings_.followed_gap());
-  }
-
-  /// Joints with tensile strength do not break, and those with cohesion do not lose it, before what pulls at
-  /// them is balanced.
-  void bond() {
-    for (auto& laws : problem_.laws()) {
-      strengths_.emplace_back();
-      for (PointLaw& law : laws) {
-        strengths_.back().push_back(law.tension);
-        if (law.tension > 0.0)
-          law.tension = std::numeric_limits<double>::infinity();
-        else if (law.cohesion > 0.0)
-          law.bridged = true;
-      }
-    }
-  }
-
-  /// Breaks the joints with at least half of the largest overstress, or where none is overstressed those that
-  /// have opened; false if there are none.
-  bool break_joints() {
-    double most = 0.0;
-    const auto excess = [&](std::size_t pair, std::size_t point) {
-      return std::isinf(problem_.laws()[pair][point].tension)
-                 ? -problem_.responses()[pair].points[point].force[0] - strengths_[pair][point]
-                 : 0.0;
-    };
-    for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
-      for (std::size_t k = 0; k < strengths_[pair].size(); ++k) most = std::max(most, excess(pair, k));
-    }
-    if (!(most > 0.0)) return open_joints();
-    for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
-      for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
-        if (excess(pair, k) < 0.5 * most) continue;
-        open(problem_.laws()[pair][k]);
-      }
-    }
-    return true;
-  }
-
-  /// A point fails by opening. Its residual cohesion acts from the next step on where it is closed then: in this one
-  /// its shear force would jump with each change of state.
-  static void open(PointLaw& law) {
-    law.fail();
-    law.cohesion = 0.0;
-  }
-
-  /// Points with cohesion that have opened by more than rounding may make fail. @return whether there are any
-  bool open_joints() {
-    bool opened = false;
-    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      std::vector<PointLaw>& laws = problem_.laws()[pair];
-      if (std::none_of(laws.begin(), laws.end(), [](const PointLaw& law) { return law.bridged; })) continue;
-      const std::vector<double> gaps = problem_.gaps(pair);
-      for (std::size_t k = 0; k < laws.size(); ++k) {
-        PointLaw& law = laws[k];
-        if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
-            gaps[k] - problem_.pair(pair).dilation_before(k) <= settings_.tearing_gap())
-          continue;
-        law.bridged = false;
-        open(law);
-        opened = true;
-      }
-    }
-    return opened;
-  }
-
-  /// How far a point is from where multipliers alone would hold it, as a share of what it may give way by:
-  /// settings.multipliers.share of the tolerance, and of a point that goes deeper as much less as the depth
-  /// where it was found leaves.
-  double given_way(const PointLaw& law, const PointResponse& point, double gap) const {
-    constexpr double least = 0.01;  // of what a point at the surface may give way by
-    if (!law.augmented || point.state == ContactState::open) return 0.0;
-    const double allowed = settings_.multipliers.share * settings_.multipliers.penetration_tolerance;
-    const double left = std::clamp(1.0 + gap / settings_.multipliers.tolerated_depth(), least, 1.0);
-    double most = 0.0;
-    const auto look_at = [&most](double force, double stiffness, double way) {
-      if (stiffness > 0.0) most = std::max(most, force / (stiffness * way));
-    };
-    const double change = point.force[0] - law.normal_multiplier;
-    look_at(std::abs(change), law.normal_stiffness, change > 0.0 ? left * allowed : allowed);
-    look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness, allowed);
-    return most;
-  }
-
-  /// Makes springs beside multipliers as stiff as the step's change of forces asks for. @return whether any
-  /// were too soft
-  bool stiffen() {
-    constexpr double margin = 4.0;  // forces grow when springs do
-    constexpr double most = 1e4;    // at once
-    bool stiffer = false;
-    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
-        PointLaw& law = problem_.laws()[pair][k];
-        const double gap = problem_.pair(pair).points()[k].gap - problem_.pair(pair).dilation_before(k);
-        const double found = given_way(law, problem_.responses()[pair].points[k], gap);
-        if (found <= 1.0) continue;
-        stiffer = true;
-        const double factor = std::min(margin * found, most);
-        law.normal_stiffness *= factor;
-        law.shear_stiffness *= factor;
-      }
-    }
-    return stiffer;
-  }
-
-  /// Where a pair gives its blocks more than it has taken from them, points whose force falls in the step
-  /// start it from less force than they end it with: then they take. Forces that hardly fall hardly change,
-  /// so that rounding says nothing. @return whether any was lowered
-  bool lower_multipliers() {
-    if (problem_.scheme().from_rest) return false;
-    const double accuracy = settings_.multipliers.accuracy * settings_.multipliers.penetration_tolerance;
-    bool lowered = false;
-    beyond_ *= 2.0;  // 1 the first time
-    for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
-      std::vector<PointLaw>& laws = problem_.laws()[pair];
-      if (laws.empty() || !laws.front().augmented) continue;
-      const std::vector<PointResponse>& points = problem_.responses()[pair].points;
-      double force = 0.0;
-      for (const PointResponse& point : points) force += std::max(0.0, point.force[0]);
-      if (!(problem_.given(pair) - problem_.pair(pair).taken() > accuracy * force)) continue;
-      for (std::size_t k = 0; k < laws.size(); ++k) {
-        const Eigen::Vector2d shear = points[k].force.tail<2>();
-        const double fall = std::max(0.0, laws[k].normal_multiplier - points[k].force[0]);
-        const double along = std::max(0.0, shear.dot(laws[k].shear_multiplier - shear));
-        lowered = lowered || fall > 0.0 || along > 0.0;
-        laws[k].normal_multiplier = std::max(0.0, laws[k].normal_multiplier - (1.0 + beyond_) * fall);
-        if (along > 0.0) laws[k].shear_multiplier -= (1.0 + beyond_) * along / shear.squaredNorm() * shear;
-      }
-    }
-    return lowered;
   }
 
   /// That of the present guess, found anew unless it is known.
@@ -377,12 +252,12 @@ class OpenClose {
 
   IslandProblem& problem_;
   IslandTangent tangent_;
+  JointFailure failure_;
+  Augmentation augmentation_;
   const SimulationSettings& settings_;
   IslandResult& result_;
-  std::vector<std::vector<double>> strengths_;  ///< tensile strength of each point, N
-  double beyond_ = 0.5;      ///< multiples of a fall of force that multipliers are lowered below it
-  bool factorized_ = false;  ///< by newton()
-  bool followed_ = false;    ///< rows were taken anew since newton() was called
+  bool factorized_ = false;               ///< by newton()
+  bool followed_ = false;                 ///< rows were taken anew since newton() was called
   std::optional<Balance> known_balance_;  ///< of the present guess, where it was found before it is asked for
   double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()

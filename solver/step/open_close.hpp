@@ -15,15 +15,8 @@
 // contracts for moderate friction and is extrapolated, from its last two changes, where it goes slowly, to
 // and fro, or away. Between two passes Newton may finish what has come near enough.
 //
-// Joints with tensile strength hold within these iterations whatever pulls; where the balanced pull exceeds
-// the strength the joints that are overstressed most break, for good, and the iteration goes on: there are no
-// more rounds than joints. Cohesion likewise lasts across gaps until a balance shows which points have
-// opened.
-//
-// Augmented contact starts each step with the forces of the last one as multipliers (Uzawa, one update a
-// step). What the forces change by is left to springs, each made as stiff as it takes to hold its point
-// within a quarter of settings.multipliers.penetration_tolerance of where it was. A pair that would so give its blocks
-// more than it has taken from them starts from less force instead.
+// What a balance shows goes on from there: joints that fail (joint_failure.hpp), springs beside multipliers that are too
+// soft (augmentation.hpp), contact points that have moved.
 #pragma once
 
 #include "solver/step/island_equations.hpp"

@@ -1,0 +1,40 @@
+// Which faces are hidden in a step (hidden_sides.hpp): those between fixed blocks, found once, and those of the step's
+// contacts.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mechanics/block/block_surface.hpp"
+#include "solver/contact/hidden_sides.hpp"
+#include "solver/contact/pair_history.hpp"
+#include "solver/settings.hpp"
+
+namespace ashlar {
+
+/// The contacts of a pair of blocks (a < b).
+using PairOfContacts = std::pair<PairKey, const PairContacts*>;
+
+class SidesOfStep {
+ public:
+  /// @param fixed by block; those that are not there are none
+  SidesOfStep(std::vector<bool> fixed, const SimulationSettings& settings);
+
+  /// Begins a step of which nothing is noted.
+  void begin() { of_step_.reset(); }
+  [[nodiscard]] bool noted() const { return of_step_.has_value(); }
+  /// Notes the faces that lie on each other, if any vertex is in a block. @param surfaces of all blocks
+  void note(const std::vector<PairOfContacts>& contacts, const std::vector<BlockSurface>& surfaces);
+  /// Empty if no vertex is in a block. @pre noted
+  [[nodiscard]] const HiddenSides& hidden() const { return *of_step_; }
+
+ private:
+  [[nodiscard]] HiddenSides between_fixed_blocks(const std::vector<BlockSurface>& surfaces) const;
+
+  std::vector<bool> fixed_;
+  ContactLimits flush_;  ///< of faces that lie on each other
+  std::optional<HiddenSides> of_fixed_, of_step_;
+};
+
+}  // namespace ashlar

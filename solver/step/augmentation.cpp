@@ -1,0 +1,75 @@
+#include "solver/step/augmentation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ashlar {
+namespace {
+
+// How far a point is from where multipliers alone would hold it, as a share of what it may give way by:
+// settings.multipliers.share of the tolerance, and of a point that goes deeper as much less as the depth
+// where it was found leaves.
+double given_way(const PointLaw& law, const PointResponse& point, double gap,
+                 const SimulationSettings& settings) {
+  constexpr double least = 0.01;  // of what a point at the surface may give way by
+  if (!law.augmented || point.state == ContactState::open) return 0.0;
+  const double allowed = settings.multipliers.share * settings.multipliers.penetration_tolerance;
+  const double left = std::clamp(1.0 + gap / settings.multipliers.tolerated_depth(), least, 1.0);
+  double most = 0.0;
+  const auto look_at = [&most](double force, double stiffness, double way) {
+    if (stiffness > 0.0) most = std::max(most, force / (stiffness * way));
+  };
+  const double change = point.force[0] - law.normal_multiplier;
+  look_at(std::abs(change), law.normal_stiffness, change > 0.0 ? left * allowed : allowed);
+  look_at((law.shear_multiplier - point.force.tail<2>()).norm(), law.shear_stiffness, allowed);
+  return most;
+}
+
+}  // namespace
+
+bool Augmentation::stiffen() {
+  constexpr double margin = 4.0;  // forces grow when springs do
+  constexpr double most = 1e4;    // at once
+  bool stiffer = false;
+  for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+    for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
+      PointLaw& law = problem_.laws()[pair][k];
+      const double gap = problem_.pair(pair).points()[k].gap - problem_.pair(pair).dilation_before(k);
+      const double found = given_way(law, problem_.responses()[pair].points[k], gap, problem_.settings());
+      if (found <= 1.0) continue;
+      stiffer = true;
+      const double factor = std::min(margin * found, most);
+      law.normal_stiffness *= factor;
+      law.shear_stiffness *= factor;
+    }
+  }
+  return stiffer;
+}
+
+bool Augmentation::lower_multipliers() {
+  if (problem_.scheme().from_rest) return false;
+  const MultiplierSettings& multipliers = problem_.settings().multipliers;
+  const double accuracy = multipliers.accuracy * multipliers.penetration_tolerance;
+  bool lowered = false;
+  beyond_ *= 2.0;  // 1 the first time
+  for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+    std::vector<PointLaw>& laws = problem_.laws()[pair];
+    if (laws.empty() || !laws.front().augmented) continue;
+    const std::vector<PointResponse>& points = problem_.responses()[pair].points;
+    double force = 0.0;
+    for (const PointResponse& point : points) force += std::max(0.0, point.force[0]);
+    if (!(problem_.given(pair) - problem_.pair(pair).taken() > accuracy * force)) continue;
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      const Eigen::Vector2d shear = points[k].force.tail<2>();
+      const double fall = std::max(0.0, laws[k].normal_multiplier - points[k].force[0]);
+      const double along = std::max(0.0, shear.dot(laws[k].shear_multiplier - shear));
+      lowered = lowered || fall > 0.0 || along > 0.0;
+      laws[k].normal_multiplier = std::max(0.0, laws[k].normal_multiplier - (1.0 + beyond_) * fall);
+      if (along > 0.0) laws[k].shear_multiplier -= (1.0 + beyond_) * along / shear.squaredNorm() * shear;
+    }
+  }
+  return lowered;
+}
+
+}  // namespace ashlar

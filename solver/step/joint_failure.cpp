@@ -1,0 +1,71 @@
+#include "solver/step/joint_failure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ashlar {
+namespace {
+
+// A point fails by opening. Its residual cohesion acts from the next step on where it is closed then: in this one
+// its shear force would jump with each change of state.
+void open(PointLaw& law) {
+  law.fail();
+  law.cohesion = 0.0;
+}
+
+}  // namespace
+
+JointFailure::JointFailure(IslandProblem& problem) : problem_(problem) {
+  for (auto& laws : problem_.laws()) {
+    strengths_.emplace_back();
+    for (PointLaw& law : laws) {
+      strengths_.back().push_back(law.tension);
+      if (law.tension > 0.0)
+        law.tension = std::numeric_limits<double>::infinity();
+      else if (law.cohesion > 0.0)
+        law.bridged = true;
+    }
+  }
+}
+
+bool JointFailure::break_joints() {
+  double most = 0.0;
+  const auto excess = [&](std::size_t pair, std::size_t point) {
+    return std::isinf(problem_.laws()[pair][point].tension)
+               ? -problem_.responses()[pair].points[point].force[0] - strengths_[pair][point]
+               : 0.0;
+  };
+  for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
+    for (std::size_t k = 0; k < strengths_[pair].size(); ++k) most = std::max(most, excess(pair, k));
+  }
+  if (!(most > 0.0)) return open_joints();
+  for (std::size_t pair = 0; pair < strengths_.size(); ++pair) {
+    for (std::size_t k = 0; k < strengths_[pair].size(); ++k) {
+      if (excess(pair, k) < 0.5 * most) continue;
+      open(problem_.laws()[pair][k]);
+    }
+  }
+  return true;
+}
+
+bool JointFailure::open_joints() {
+  bool opened = false;
+  for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
+    std::vector<PointLaw>& laws = problem_.laws()[pair];
+    if (std::none_of(laws.begin(), laws.end(), [](const PointLaw& law) { return law.bridged; })) continue;
+    const std::vector<double> gaps = problem_.gaps(pair);
+    for (std::size_t k = 0; k < laws.size(); ++k) {
+      PointLaw& law = laws[k];
+      if (!law.bridged || problem_.responses()[pair].points[k].tangent(0, 0) > 0.0 ||
+          gaps[k] - problem_.pair(pair).dilation_before(k) <= problem_.settings().tearing_gap())
+        continue;
+      law.bridged = false;
+      open(law);
+      opened = true;
+    }
+  }
+  return opened;
+}
+
+}  // namespace ashlar
