@@ -32,16 +32,15 @@ BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads) {
   throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
 }
 
-FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
-                     const FolderClaim& claim, const RunCheckpoint* earlier,
-                     std::optional<FactorBracket> bracket, double start)
+FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStart start,
+                     const FolderClaim& claim)
     : loaded_(loaded),
       manner_(manner),
-      stages_(earlier != nullptr ? earlier->stages : std::vector<FinishedStage>()),
+      stages_(start.earlier != nullptr ? start.earlier->stages : std::vector<FinishedStage>()),
       scene_(scene_of_stage(loaded.scene, stages_.size())),
-      bracket_(std::move(bracket)),
-      built_(std::move(built)),
-      files_(loaded, claim, built_.simulation, earlier, start) {}
+      bracket_(std::move(start.bracket)),
+      built_(std::move(start.built)),
+      files_(loaded, claim, built_.simulation, start.earlier, start.began) {}
 
 RunEnd FolderRun::go(std::ostream& err) {
   files_.note_setup();

@@ -21,20 +21,22 @@ struct RunManner {
   bool quiet = false;                         ///< no progress
 };
 
+/// What a run starts from.
+struct RunStart {
+  BuiltSimulation built;                   ///< of the stage that the run begins or goes on in
+  const RunCheckpoint* earlier = nullptr;  ///< the checkpoint that it goes on from; null: none
+  std::optional<FactorBracket> bracket;    ///< of a search for a factor, whose motion the run shows
+  double began = 0.0;                      ///< seconds_now() when the program began
+};
+
 /// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
 [[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads);
 
 class FolderRun {
  public:
   /// @param loaded the whole scene; outlives this, as does the claim
-  /// @param built of the stage that the run begins or goes on in
-  /// @param earlier the checkpoint that it goes on from, or null
-  /// @param bracket of a search for a factor, whose motion this run shows
-  /// @param start seconds_now() when the program began
   /// @throws std::runtime_error if the folder cannot be written
-  FolderRun(const LoadedScene& loaded, const RunManner& manner, BuiltSimulation built,
-            const FolderClaim& claim, const RunCheckpoint* earlier, std::optional<FactorBracket> bracket,
-            double start);
+  FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStart start, const FolderClaim& claim);
 
   /// Steps until the end, an interrupt or a failure; the state and a summary are saved. @param err progress
   RunEnd go(std::ostream& err);

@@ -193,7 +193,7 @@ void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem
 }  // namespace
 
 int run_command(const RunOptions& options, std::ostream& err) {
-  const double start = seconds_now();
+  const double began = seconds_now();
   const std::filesystem::path folder = result_folder_of(options);
   const int threads = std::max(options.threads, 1);
   Diagnostics diagnostics;
@@ -216,9 +216,10 @@ int run_command(const RunOptions& options, std::ostream& err) {
     if (seeks_factor(prepared.loaded->scene.analysis) &&
         !find_factor_first(prepared, options, *claim, bracket, err))
       return exit_status::interrupted;
-    run.emplace(*prepared.loaded, RunManner{threads, options.checkpoint, options.quiet},
-                std::move(*prepared.built), *claim, prepared.earlier ? &*prepared.earlier : nullptr,
-                std::move(bracket), start);
+    RunStart start{std::move(*prepared.built), prepared.earlier ? &*prepared.earlier : nullptr,
+                   std::move(bracket), began};
+    run.emplace(*prepared.loaded, RunManner{threads, options.checkpoint, options.quiet}, std::move(start),
+                *claim);
   } catch (const std::exception& error) {
     // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
     err << "ashlar: error: " << error.what() << '\n';
