@@ -11,138 +11,18 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "apps/scene/scene_analysis.hpp"
+#include "apps/scene/scene_block.hpp"
+#include "apps/scene/scene_contact.hpp"
 #include "apps/scene/scene_places.hpp"
-#include "geometry/solid/polyhedron.hpp"
+#include "apps/scene/scene_shape.hpp"
 #include "geometry/triangle_mesh.hpp"
-#include "mechanics/supports/recorded_motion.hpp"
 
 namespace ashlar {
 
 struct CutRock;
-
-/// Times of a static analysis of constant loads that does not give them, s; each gives way to the other one
-/// where that is given.
-inline constexpr double default_static_end_time = 1.0;
-inline constexpr double default_static_time_step = 1e-3;
-
-/// { file, time, values, scale } in place of the rows of a history.
-struct SceneRecord {
-  std::filesystem::path file;  ///< CSV, as written; relative paths are relative to the scene file's folder
-  std::string time;            ///< name of the column of times
-  std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
-  double scale = 1.0;               ///< of the values
-  std::string sha256;               ///< of the file as it was read
-};
-
-/// [analysis]
-struct SceneAnalysis {
-  enum class Type {
-    dynamic,   ///< "dynamic": motion in time
-    statics,   ///< "static": equilibrium
-    safety,    ///< "factor-of-safety": static analyses with less and less strength
-    capacity,  ///< "capacity": static analyses with more and more load
-  };
-  enum class Integrator {
-    dda,                   ///< "dda": Newmark beta 1/2, gamma 1
-    average_acceleration,  ///< "average-acceleration": Newmark beta 1/4, gamma 1/2
-    generalized_alpha,     ///< "generalized-alpha": spectral radius at infinity is spectral_radius
-  };
-  enum class Formulation { total, incremental };
-  enum class InitialState {
-    as_placed,    ///< "as-placed": undeformed
-    equilibrium,  ///< "equilibrium": each supported block first settles under gravity, contacts off
-    statics,      ///< "static": a static analysis of all blocks comes first, contacts on
-  };
-  enum class Solver { automatic, cholmod, cg };
-  /// safety = { joints, tolerance, lower, upper }, capacity = { blocks, tolerance, lower, upper }
-  struct FactorSearch {
-    /// Names or globs: of cuts, and of blocks on either side, whose joints lose strength; of blocks whose
-    /// loads grow.
-    std::vector<std::string> of = {"*"};
-    double tolerance = 0.01;  ///< > 0, at most 1: relative width of the bracket
-    double lower = 0.1;       ///< > 0
-    double upper = 10.0;      ///< > lower
-  };
-  struct Gravity {
-    double time = 0.0;                ///< s
-    Vector3 value = Vector3::Zero();  ///< m/s^2
-  };
-
-  Type type = Type::dynamic;
-  /// s, > 0; required unless the analysis is static and nothing has a history: then a time like any other
-  double end_time = 0.0;
-  /// s, > 0, <= end_time; required like end_time. The largest step; static: between the loads that a history
-  /// goes through, and how gently the first iteration starts
-  double time_step = 0.0;
-  Integrator integrator = Integrator::dda;
-  double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
-  Formulation formulation = Formulation::total;
-  InitialState initial_state = InitialState::as_placed;
-  Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2, unless it has a history
-  std::vector<Gravity> gravity_history;        ///< times increase, linear between; empty: constant
-  std::optional<SceneRecord> gravity_file;     ///< where it comes from, if not from the scene
-  Solver solver = Solver::automatic;           ///< "auto"
-  double mass_damping = 0.0;                   ///< 1/s, >= 0
-  double stiffness_damping = 0.0;              ///< s, >= 0, Rayleigh's beta
-  bool sleeping = true;                ///< whether islands that have come to rest are held until woken
-  FactorSearch safety;                 ///< of type safety
-  FactorSearch capacity;               ///< of type capacity
-  std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto
-};
-
-/// The law between the faces of two blocks. Strengths default to none: a joint's strength has to be stated.
-struct SceneJointLaw {
-  std::optional<double> normal_stiffness;  ///< Pa/m (area springs) or N/m (point springs), > 0; empty: auto
-  std::optional<double> shear_stiffness;   ///< as normal_stiffness
-  double friction_angle = 0.0;             ///< deg, 0 to less than 90
-  double cohesion = 0.0;                   ///< Pa, >= 0
-  double tensile_strength = 0.0;           ///< Pa, >= 0
-  /// Of what has failed, or touches later; at most the values above. Empty: friction_angle, no cohesion, none
-  std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
-  double dilation_angle = 0.0;  ///< deg, 0 to friction_angle and its residual value
-  double damping = 0.0;         ///< share of critical, of the joint's springs, 0 to 1
-  bool tied = false;            ///< bonded over the common face; a key of [[joint]] only
-
-  [[nodiscard]] bool gives_stiffness() const { return normal_stiffness || shear_stiffness; }
-};
-
-/// [contact]
-struct SceneContact {
-  enum class Springs { area, point };
-  enum class Surface { curved, flat };
-
-  Springs springs = Springs::area;
-  Surface surface = Surface::curved;
-  SceneJointLaw law;                      ///< keys of the same names, for every pair without a [[joint]]
-  std::optional<double> distance;         ///< m, > 0; empty: auto
-  std::optional<double> angle;            ///< deg, 0 to 45; empty: auto
-  std::optional<double> chord_tolerance;  ///< m, > 0; empty: auto, or subdivisions
-  std::optional<int> subdivisions;        ///< uniform levels, 0 to 8; excludes chord_tolerance
-  std::optional<bool> augmented;          ///< multipliers: no deeper than penetration_tolerance; empty: auto
-  std::optional<double> penetration_tolerance;  ///< m, > 0; empty: auto
-  double fit = 0.0;                             ///< m, >= 0; 0: blocks stay as they are placed
-  std::optional<double> allowed_depth;          ///< m, > 0; empty: auto, 1e-2 of the smaller block
-};
-
-/// [[joint]]: what differs from [contact] between two blocks; the last entry that matches a pair wins, key by
-/// key.
-struct SceneJoint {
-  std::array<std::string, 2> blocks;  ///< names or globs (* ? [...]), in any order; match at least one pair
-  std::string cut;  ///< if not empty, only pairs that this [[cut]] has parted; blocks are then "*" by default
-  bool of_glued_cut = false;  ///< it stands in no scene: a [[cut]] with `glued` ties what it has parted
-  /// An outer empty optional: not given here. An inner empty one: given as "auto".
-  std::optional<std::optional<double>> normal_stiffness;
-  std::optional<std::optional<double>> shear_stiffness;
-  std::optional<double> friction_angle;
-  std::optional<double> cohesion;
-  std::optional<double> tensile_strength;
-  std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
-  std::optional<double> dilation_angle, damping;
-  std::optional<bool> tied;
-};
 
 /// [[material]]
 struct SceneMaterial {
@@ -153,142 +33,6 @@ struct SceneMaterial {
   double young_modulus = 0.0;  ///< Pa, > 0; required
   double poisson_ratio = 0.0;  ///< 0 to less than 0.5; required
   Elasticity elasticity = Elasticity::linear;
-};
-
-/// box = { min, max }
-struct SceneBox {
-  Vector3 min = Vector3::Zero();  ///< m, less than max in every component
-  Vector3 max = Vector3::Zero();  ///< m
-};
-
-/// mesh = { file, scale, split, group, weld, flip, repair }
-struct SceneMesh {
-  enum class Split {
-    none,        ///< "none": the file is one stone
-    components,  ///< "components": each closed surface is one
-    groups,      ///< "groups": each object or group of an OBJ file is one, each physical group of an MSH file
-    tetrahedra,  ///< "tetrahedra": each of an MSH file is one
-  };
-  enum class Flip {
-    automatic,  ///< "auto": surfaces that are inside out are turned
-    always,     ///< true: all surfaces are turned
-    never,      ///< false
-  };
-  std::filesystem::path file;  ///< as written; relative paths are relative to the scene file's folder
-  double scale = 1.0;          ///< > 0
-  Split split = Split::none;
-  std::string group;  ///< of an MSH file: the only physical group that is read, by name or number; empty: all
-  double weld = 0.0;  ///< m, >= 0: corners this near are one
-  Flip flip = Flip::never;
-  bool repair = false;  ///< whether holes are filled and the like (surface_repair.hpp)
-  /// What a block gets of a file that is split, in the file's units, and its 1-based number there.
-  std::shared_ptr<const TriangleMesh> stone;
-  int number = 0;
-};
-
-/// hull = { points }
-struct SceneHull {
-  std::vector<Vector3> points;  ///< m, at least 4, not coplanar
-};
-
-/// sphere = { center, radius, subdivisions }
-struct SceneSphere {
-  Vector3 center = Vector3::Zero();  ///< m
-  double radius = 0.0;               ///< m, > 0; required
-  int subdivisions = 3;              ///< 0 to 7
-};
-
-/// A piece of a block that a [[cut]] has cut, already placed. No scene can say it.
-struct ScenePiece {
-  std::shared_ptr<const Polyhedron> solid;
-};
-
-/// Empty (monostate) only if the scene has a fault there.
-using SceneShape = std::variant<std::monostate, SceneBox, SceneMesh, SceneHull, SceneSphere, ScenePiece>;
-
-/// rotate = { axis, angle, about }
-struct SceneRotation {
-  Vector3 axis = Vector3::UnitZ();  ///< not zero, any length
-  double angle = 0.0;               ///< deg, right-handed about axis
-  Vector3 about = Vector3::Zero();  ///< m
-};
-
-/// A plane in placed coordinates. It names the faces of the block that lie in it, whichever side they face.
-struct ScenePlane {
-  Vector3 point = Vector3::Zero();   ///< m
-  Vector3 normal = Vector3::Zero();  ///< not zero, any length
-};
-
-/// [[block.fix]]: clamped faces or a fixed point.
-struct SceneFix {
-  struct Motion {
-    double time = 0.0;                ///< s
-    Vector3 value = Vector3::Zero();  ///< m, m/s or m/s^2
-  };
-  std::variant<ScenePlane, Vector3>
-      where;  ///< a plane with at least one face, or a point, m, placed coordinates
-  std::array<bool, 3> components = {true, true, true};  ///< x, y, z held
-  /// What the rows of the history are; displacements are linear or cubic between rows (`interpolation`).
-  MotionRecord record = MotionRecord::displacement;
-  std::vector<Motion> history;      ///< the rows of the history that is given; times increase; empty: at rest
-  std::optional<SceneRecord> file;  ///< where they come from, if not from the scene
-};
-
-/// The key of a support's history: "displacement_history", "velocity_history" or "acceleration_history".
-[[nodiscard]] const char* history_key(const SceneFix& fix);
-
-/// [[block.load]]: traction on faces, or a force on faces or at a point.
-struct SceneLoad {
-  struct Factor {
-    double time = 0.0;  ///< s
-    double factor = 1.0;
-  };
-  enum class Kind {
-    traction,  ///< Pa, on the plane's faces
-    force,     ///< N, spread evenly over the plane's faces, or at the point
-  };
-  std::variant<ScenePlane, Vector3> where;  ///< as SceneFix::where; a traction needs a plane
-  Kind kind = Kind::traction;
-  Vector3 vector = Vector3::Zero();  ///< Pa or N
-  std::vector<Factor> history;       ///< times increase; empty: factor 1 always
-  std::optional<SceneRecord> file;   ///< where it comes from, if not from the scene
-  bool of_fill = false;              ///< weight of an arch's fill, which a fixed block does without
-};
-
-/// array = { count, step, stagger }
-struct SceneArray {
-  std::vector<int> count;             ///< (1 to 3), blocks in each direction, >= 1
-  std::vector<Vector3> step;          ///< as many, m, from one to the next
-  Vector3 stagger = Vector3::Zero();  ///< m, of every second one of the last direction
-};
-
-/// [[block]]
-struct SceneBlock {
-  std::string name;      ///< unique; required
-  std::string material;  ///< name of a [[material]]; only a fixed block may leave it out (empty)
-  int order = 1;         ///< 0 to 12; 0: rigid
-  SceneShape shape;      ///< exactly one of box, mesh, hull, sphere
-  std::optional<SceneRotation> rotate;
-  Vector3 translate = Vector3::Zero();         ///< m, after rotate
-  Vector3 velocity = Vector3::Zero();          ///< m/s
-  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
-  bool fixed = false;                          ///< the whole block never moves; then no fix, load or velocity
-  std::vector<SceneFix> fix;
-  std::vector<SceneLoad> load;
-  std::optional<SceneArray> array;  ///< empty in a scene that has been read: there its copies are blocks
-};
-
-/// [[assign]]: properties of the blocks that patterns match; of several entries the last one counts, key by
-/// key, but supports and loads add up.
-struct SceneAssign {
-  std::vector<std::string> blocks;  ///< names or globs, each matches at least one block
-  std::optional<std::string> material;
-  std::optional<int> order;
-  std::optional<bool> fixed;
-  std::optional<Vector3> velocity;
-  std::optional<Vector3> angular_velocity;
-  std::vector<SceneFix> fix;
-  std::vector<SceneLoad> load;
 };
 
 /// [[cut]]: what cuts the blocks that match: parallel planes, the faces of a solid, or the cells around
@@ -391,6 +135,9 @@ struct Scene {
   std::vector<SceneBlock> uncut;        ///< if there are cuts: `block` as the file has it
   std::shared_ptr<const CutRock> rock;  ///< which block is a piece of what (cut_rock.hpp); null without cuts
 };
+
+/// The key of a support's history: "displacement_history", "velocity_history" or "acceleration_history".
+[[nodiscard]] const char* history_key(const SceneFix& fix);
 
 /// What a joint gives replaces what the law had.
 void override_law(SceneJointLaw& law, const SceneJoint& joint);

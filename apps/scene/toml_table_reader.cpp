@@ -4,12 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-
-#include "apps/scene/nearest_name.hpp"
-#include "apps/scene/toml_faults.hpp"
-#include "geometry/exact/coordinate_limit.hpp"
 
 namespace ashlar {
 
@@ -53,36 +48,12 @@ void TomlTableReader::error_at_value(std::string_view key, std::string message) 
   reading_.error(reading_.places().value(path(key)), std::move(message));
 }
 
-void TomlTableReader::wrong_type(const toml::node& node, std::string_view key, std::string_view words,
-                                 std::string_view hint) {
-  reading_.error(node,
-                 fmt::format("{} has the wrong type ({}), {} is needed{}", key, describe(node), words, hint));
-}
-
-// A formula with what it comes to.
-static std::string describe_number(const toml::node& node, double value) {
-  return node.is_string() ? fmt::format("{} = {}", describe(node), value) : describe(node);
-}
-
-std::optional<double> TomlTableReader::finite_number(const toml::node& node, std::string_view key,
-                                                     std::string_view words) {
-  if (!TomlReading::has_number(node)) {
-    const auto* text = node.as_string();
-    wrong_type(node, key, words, text == nullptr ? "" : number_hint(**text));
-    return std::nullopt;
-  }
-  const std::optional<double> value = reading_.number(node, key);
-  if (!value || std::isfinite(*value)) return value;
-  reading_.error(node, fmt::format("{} is not finite ({}), {} is needed", key, describe(node), words));
-  return std::nullopt;
-}
-
 bool TomlTableReader::read_bool(std::string_view key, bool& result, const char* form) {
   note(key, {.kind = KeyForm::Kind::boolean});
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_boolean()) {
-    wrong_type(*node, key, fmt::format("true or false{}", form));
+    value(*node, key).wrong_type(fmt::format("true or false{}", form));
     return false;
   }
   result = **node->as_boolean();
@@ -94,7 +65,7 @@ bool TomlTableReader::read_text(std::string_view key, std::string& result) {
   const toml::node* node = find(key);
   if (!node) return false;
   if (!node->is_string()) {
-    wrong_type(*node, key, "a text in quotes");
+    value(*node, key).wrong_type("a text in quotes");
     return false;
   }
   result = **node->as_string();
@@ -119,22 +90,16 @@ bool TomlTableReader::read_number(std::string_view key, double& result, const Nu
   note(key, {.kind = KeyForm::Kind::number, .range = range});
   const toml::node* node = find(key);
   if (!node) return false;
-  const std::optional<double> value = finite_number(*node, key, range.words);
-  if (!value) return false;
-  if (!range.contains(*value)) {
-    reading_.error(*node, fmt::format("{} is out of range ({}), {} is needed", key,
-                                      describe_number(*node, *value), range.words));
-    return false;
-  }
-  result = *value;
-  return true;
+  const std::optional<double> number = value(*node, key).number(range);
+  if (number) result = *number;
+  return number.has_value();
 }
 
 bool TomlTableReader::read_number(std::string_view key, std::optional<double>& result,
                                   const NumberRange& range) {
-  double value = 0.0;
-  if (!read_number(key, value, range)) return false;
-  result = value;
+  double number = 0.0;
+  if (!read_number(key, number, range)) return false;
+  result = number;
   return true;
 }
 
@@ -153,62 +118,35 @@ bool TomlTableReader::read_number_or_auto(std::string_view key, std::optional<do
                      {range.low, range.high, range.low_allowed, range.high_allowed, words.c_str()});
 }
 
-static std::string integer_words(int low, int high) {
-  return high == std::numeric_limits<int>::max() ? fmt::format("a whole number of at least {}", low)
-                                                 : fmt::format("a whole number from {} to {}", low, high);
-}
-
 static KeyForm whole_numbers(KeyForm::Kind kind, int low, int high) {
   return {.kind = kind, .range = {static_cast<double>(low), static_cast<double>(high), true, true, ""}};
-}
-
-std::optional<int> TomlTableReader::integer(const toml::node& node, std::string_view key, int low, int high) {
-  const std::string words = integer_words(low, high);
-  const bool formula = !node.is_number() && TomlReading::has_number(node);
-  if (!node.is_integer() && !formula) {
-    wrong_type(node, key, words);
-    return std::nullopt;
-  }
-  const std::optional<double> value = reading_.number(node, key);
-  if (!value) return std::nullopt;
-  if (*value != std::floor(*value)) {
-    reading_.error(node, fmt::format("{} is no whole number ({}), {} is needed; round(...) makes one", key,
-                                     describe_number(node, *value), words));
-    return std::nullopt;
-  }
-  if (*value < low || *value > high) {
-    reading_.error(node, fmt::format("{} is out of range ({}), {} is needed", key,
-                                     describe_number(node, *value), words));
-    return std::nullopt;
-  }
-  return static_cast<int>(*value);
 }
 
 bool TomlTableReader::read_integer(std::string_view key, int& result, int low, int high) {
   note(key, whole_numbers(KeyForm::Kind::whole_number, low, high));
   const toml::node* node = find(key);
   if (!node) return false;
-  const std::optional<int> value = integer(*node, key, low, high);
-  if (value) result = *value;
-  return value.has_value();
+  const std::optional<int> number = value(*node, key).whole_number(low, high);
+  if (number) result = *number;
+  return number.has_value();
 }
 
 bool TomlTableReader::read_integers(std::string_view key, std::vector<int>& result, int low, int high) {
   note(key, whole_numbers(KeyForm::Kind::whole_numbers, low, high));
-  const toml::array* array = find_array(key, fmt::format("an array of {}", integer_words(low, high)));
+  const toml::array* array = find_array(key, fmt::format("an array of {}", whole_number_words(low, high)));
   if (!array) return false;
   std::vector<int> integers;
   for (const toml::node& entry : *array)
-    if (const auto value = integer(entry, key, low, high)) integers.push_back(*value);
+    if (const auto number = value(entry, key).whole_number(low, high)) integers.push_back(*number);
   if (integers.size() != array->size()) return false;
   result = std::move(integers);
   return true;
 }
 
 bool TomlTableReader::read_integer(std::string_view key, std::optional<int>& result, int low, int high) {
-  int value = 0;
-  if (!read_integer(key, value, low, high)) return false;
-  result = value;
+  int number = 0;
+  if (!read_integer(key, number, low, high)) return false;
+  result = number;
   return true;
 }
 
@@ -216,22 +154,7 @@ std::optional<std::size_t> TomlTableReader::read_word(std::string_view key,
                                                       const std::vector<std::string>& words) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
-  return find_word(*node, key, words);
-}
-
-std::optional<std::size_t> TomlTableReader::find_word(const toml::node& node, std::string_view key,
-                                                      const std::vector<std::string>& words) {
-  const std::string all = fmt::format("\"{}\"", fmt::join(words, "\", \""));
-  const auto* text = node.as_string();
-  if (!text) {
-    wrong_type(node, key, fmt::format("one of {}", all));
-    return std::nullopt;
-  }
-  const auto found = std::find(words.begin(), words.end(), **text);
-  if (found != words.end()) return found - words.begin();
-  reading_.error(node, fmt::format("unknown {} ({}), {}one of {} is needed", key, describe(node),
-                                   guess(**text, words, "\""), all));
-  return std::nullopt;
+  return value(*node, key).word(words);
 }
 
 bool TomlTableReader::read_words_among(std::string_view key, std::vector<std::string>& result,
@@ -240,7 +163,7 @@ bool TomlTableReader::read_words_among(std::string_view key, std::vector<std::st
   if (!array) return false;
   std::vector<std::string> found;
   for (const toml::node& entry : *array) {
-    const std::optional<std::size_t> index = find_word(entry, key, words);
+    const std::optional<std::size_t> index = value(entry, key).word(words);
     if (!index) continue;
     const std::string& word = words[*index];
     if (std::find(found.begin(), found.end(), word) != found.end())
@@ -256,53 +179,23 @@ bool TomlTableReader::read_words_among(std::string_view key, std::vector<std::st
 const toml::array* TomlTableReader::find_array(std::string_view key, const std::string& words) {
   const toml::node* node = find(key);
   if (!node) return nullptr;
-  if (!node->is_array()) wrong_type(*node, key, words);
+  if (!node->is_array()) value(*node, key).wrong_type(words);
   return node->as_array();
-}
-
-std::optional<std::vector<double>> TomlTableReader::read_row(const toml::node& node, std::string_view key,
-                                                             std::size_t width, std::string_view words) {
-  const toml::array* array = node.as_array();
-  if (!array) {
-    wrong_type(node, key, words);
-    return std::nullopt;
-  }
-  if (array->size() != width) {
-    reading_.error(
-        node, fmt::format("{} has the wrong length ({} entries), {} is needed", key, array->size(), words));
-    return std::nullopt;
-  }
-  std::vector<double> row;
-  for (const toml::node& entry : *array)
-    if (const std::optional<double> value = finite_number(entry, key, "a number")) row.push_back(*value);
-  if (row.size() != width) return std::nullopt;
-  return row;
 }
 
 bool TomlTableReader::read_vector(std::string_view key, Vector3& result) {
   note(key, {.kind = KeyForm::Kind::row, .width = 3});
   const toml::node* node = find(key);
   if (!node) return false;
-  const auto row = read_row(*node, key, 3, "[x, y, z]");
+  const auto row = value(*node, key).row(3, "[x, y, z]");
   if (!row) return false;
   result = Vector3((*row)[0], (*row)[1], (*row)[2]);
   return true;
 }
 
-bool TomlTableReader::check_place(const toml::node& node, std::string_view key, const Vector3& place) {
-  for (const double coordinate : place) {
-    if (!is_too_far(coordinate)) continue;
-    reading_.error(
-        node, fmt::format("{} has a coordinate that is too large ({:g} m), -1e150 to 1e150 is needed", key,
-                          coordinate));
-    return false;
-  }
-  return true;
-}
-
 bool TomlTableReader::read_place(std::string_view key, Vector3& result) {
   Vector3 place;
-  if (!read_vector(key, place) || !check_place(*find(key), key, place)) return false;
+  if (!read_vector(key, place) || !value(*find(key), key).holds_place(place)) return false;
   result = place;
   return true;
 }
@@ -314,7 +207,7 @@ bool TomlTableReader::read_places(std::string_view key, std::vector<Vector3>& re
   std::vector<Vector3> places;
   for (const auto& row : rows) {
     places.emplace_back(row[0], row[1], row[2]);
-    if (!check_place(entries[places.size() - 1], key, places.back())) return false;
+    if (!value(entries[places.size() - 1], key).holds_place(places.back())) return false;
   }
   result = std::move(places);
   return true;
@@ -329,7 +222,7 @@ bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>&
     if (const auto* text = entry.as_string())
       texts.push_back(**text);
     else
-      wrong_type(entry, key, "a text in quotes");
+      value(entry, key).wrong_type("a text in quotes");
   }
   if (texts.size() != array->size()) return false;
   result = std::move(texts);
@@ -349,7 +242,7 @@ bool TomlTableReader::read_rows(std::string_view key, std::vector<std::vector<do
   }
   std::vector<std::vector<double>> rows;
   for (const toml::node& entry : *array)
-    if (auto row = read_row(entry, key, width, words)) rows.push_back(std::move(*row));
+    if (auto row = value(entry, key).row(width, words)) rows.push_back(std::move(*row));
   if (rows.size() != array->size()) return false;
   result = std::move(rows);
   return true;
@@ -378,7 +271,7 @@ std::optional<TomlTableReader> TomlTableReader::table(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   if (!node->is_table()) {
-    wrong_type(*node, key, "a table");
+    value(*node, key).wrong_type("a table");
     return std::nullopt;
   }
   return TomlTableReader(reading_, *node->as_table(), path(key), child_name(key));
@@ -400,7 +293,7 @@ std::vector<std::optional<TomlTableReader>> TomlTableReader::tables(std::string_
     const toml::node& entry = *array->get(i);
     const std::string entry_path = fmt::format("{}.{}", path(key), i);
     if (!entry.is_table()) {
-      wrong_type(entry, key, "a table");
+      value(entry, key).wrong_type("a table");
       result.emplace_back();
       continue;
     }

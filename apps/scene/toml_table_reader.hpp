@@ -14,6 +14,7 @@
 
 #include "apps/scene/number_ranges.hpp"
 #include "apps/scene/toml_reading.hpp"
+#include "apps/scene/toml_value.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
@@ -129,20 +130,12 @@ class TomlTableReader {
                                                      const std::vector<std::string>& words);
   bool read_words_among(std::string_view key, std::vector<std::string>& result,
                         const std::vector<std::string>& words);
-  [[nodiscard]] std::optional<std::size_t> find_word(const toml::node& node, std::string_view key,
-                                                     const std::vector<std::string>& words);
   [[nodiscard]] const toml::array* find_array(std::string_view key, const std::string& words);
-  [[nodiscard]] std::optional<int> integer(const toml::node& node, std::string_view key, int low, int high);
-  [[nodiscard]] std::optional<double> finite_number(const toml::node& node, std::string_view key,
-                                                    std::string_view words);
-  [[nodiscard]] std::optional<std::vector<double>> read_row(const toml::node& node, std::string_view key,
-                                                            std::size_t width, std::string_view words);
-  /// Reports the first coordinate that is too large, at the node. @return whether there is none
-  bool check_place(const toml::node& node, std::string_view key, const Vector3& place);
   [[nodiscard]] std::string child_name(std::string_view key) const;
-  /// @param hint what else to say of the value
-  void wrong_type(const toml::node& node, std::string_view key, std::string_view words,
-                  std::string_view hint = "");
+  /// A node that the key holds, or has in its array.
+  [[nodiscard]] TomlValue value(const toml::node& node, std::string_view key) {
+    return {reading_, node, key};
+  }
 
   TomlReading& reading_;
   TomlReading::KnownTable& known_;
