@@ -148,6 +148,10 @@ IntegerVector subtract(const IntegerVector& a, const IntegerVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+IntegerVector negated(const IntegerVector& a) {
+  return {-a[0], -a[1], -a[2]};
+}
+
 IntegerVector scale_add(const mpz_class& factor, const IntegerVector& a, const IntegerVector& b) {
   IntegerVector result = b;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -39,6 +39,7 @@ struct ConvexBody {
 [[nodiscard]] mpz_class dot(const IntegerVector& a, const IntegerVector& b);
 [[nodiscard]] IntegerVector cross(const IntegerVector& a, const IntegerVector& b);
 [[nodiscard]] IntegerVector subtract(const IntegerVector& a, const IntegerVector& b);
+[[nodiscard]] IntegerVector negated(const IntegerVector& a);
 /// factor a + b
 [[nodiscard]] IntegerVector scale_add(const mpz_class& factor, const IntegerVector& a,
                                       const IntegerVector& b);
