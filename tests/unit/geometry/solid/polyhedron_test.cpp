@@ -6,16 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "geometry/solid/shapes.hpp"
-#include "geometry/subfaces/sub_face_surface.hpp"
 #include "support/sample_meshes.hpp"
+#include "unit/geometry/solid/expect_consistent.hpp"
 
 namespace ashlar {
 namespace {
 
+using test_support::expect_consistent;
 using test_support::make_divided_cube;
 using test_support::make_frame;
 using test_support::make_l_prism;
@@ -37,38 +37,6 @@ const PolyhedronFace& face_with_normal(const Polyhedron& p, const Vector3& norma
 
 bool contains(const std::vector<int>& loop, int v) {
   return std::find(loop.begin(), loop.end(), v) != loop.end();
-}
-
-// What must hold between faces, edges, corners and triangles of every solid.
-void expect_consistent(const Polyhedron& p) {
-  std::vector<int> seen(p.mesh().triangles.size(), 0);
-  for (std::size_t f = 0; f < p.faces().size(); ++f) {
-    for (const int t : p.faces()[f].triangles) {
-      ++seen[t];
-      EXPECT_EQ(p.face_of_triangle()[t], static_cast<int>(f));
-    }
-  }
-  EXPECT_THAT(seen, testing::Each(1));
-
-  std::set<std::array<int, 3>> sides;  // face, from, to
-  for (std::size_t f = 0; f < p.faces().size(); ++f) {
-    for (const auto& loop : p.faces()[f].loops) {
-      EXPECT_GE(loop.size(), 3U);
-      EXPECT_EQ(std::set<int>(loop.begin(), loop.end()).size(), loop.size());
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        sides.insert({static_cast<int>(f), loop[i], loop[(i + 1) % loop.size()]});
-      }
-    }
-  }
-  EXPECT_EQ(sides.size(), 2 * p.edges().size());
-  std::set<int> ends;
-  for (const PolyhedronEdge& e : p.edges()) {
-    EXPECT_EQ(sides.count({e.faces[0], e.vertices[0], e.vertices[1]}), 1U);
-    EXPECT_EQ(sides.count({e.faces[1], e.vertices[1], e.vertices[0]}), 1U);
-    EXPECT_NE(e.faces[0], e.faces[1]);
-    ends.insert(e.vertices.begin(), e.vertices.end());
-  }
-  EXPECT_EQ(std::vector<int>(ends.begin(), ends.end()), p.corners());
 }
 
 TEST(Polyhedron, box) {
@@ -328,74 +296,6 @@ TEST(Polyhedron, volume_is_correctly_rounded) {
   EXPECT_EQ(far.volume(), 1.0);
   const double tiny = std::ldexp(1.0, -357);
   EXPECT_EQ(Polyhedron(make_box({0, 0, 0}, {tiny, tiny, 3 * tiny})).volume(), std::ldexp(3.0, -1071));
-}
-
-TEST(Polyhedron, moved_copy_keeps_faces_and_updates_measures) {
-  const Polyhedron p(make_divided_cube(3));
-  const double c = std::cos(0.3);
-  const double s = std::sin(0.3);
-  std::vector<Vector3> points = p.mesh().points;
-  for (Vector3& q : points) q = 2.0 * Vector3(c * q.x() - s * q.y(), s * q.x() + c * q.y(), q.z());
-  const Polyhedron moved = p.with_points(points);
-  expect_consistent(moved);
-  EXPECT_TRUE(moved.convex());
-  EXPECT_THAT(moved.faces(), SizeIs(6));
-  EXPECT_NEAR(moved.volume(), 8.0, 1e-13);
-  for (std::size_t f = 0; f < 6; ++f) {
-    const Vector3& n = p.faces()[f].normal;
-    const Vector3 rotated(c * n.x() - s * n.y(), s * n.x() + c * n.y(), n.z());
-    EXPECT_LT((moved.faces()[f].normal - rotated).norm(), 1e-14);
-  }
-}
-
-TEST(Polyhedron, moved_copy_refuses_what_is_no_placement) {
-  const Polyhedron p(make_pyramid());
-  std::vector<Vector3> points = p.mesh().points;
-  EXPECT_THROW((void)p.with_points({points.begin(), points.end() - 1}), std::invalid_argument);
-  points[0].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)p.with_points(points), std::invalid_argument);
-  points = p.mesh().points;
-  for (Vector3& q : points) q.x() = -q.x();
-  EXPECT_THROW((void)p.with_points(points), std::invalid_argument);
-}
-
-TEST(Polyhedron, other_triangles_keep_faces_and_edges) {
-  // A turned box whose triangles are split: rounding puts the midpoints off the faces.
-  const double c = std::cos(0.3), s = std::sin(0.3);
-  const Polyhedron box(make_box({0, 0, 0}, {1, 2, 3}));
-  std::vector<Vector3> points;
-  for (const Vector3& q : box.mesh().points)
-    points.emplace_back(c * q.x() - s * q.y(), s * q.x() + c * q.y(), q.z());
-  const Polyhedron turned = box.with_points(points);
-  const SubFaceSurface surface = divide_surface(turned, 2);
-  TriangleMesh mesh;
-  mesh.points = surface.points;
-  std::vector<int> faces;
-  for (const SurfaceCell& cell : surface.cells) {
-    mesh.triangles.push_back({cell.corners[0], cell.corners[1], cell.corners[2]});
-    faces.push_back(cell.face);
-  }
-  const Polyhedron divided = turned.with_triangles(mesh, faces);
-  EXPECT_THAT(divided.mesh().triangles, SizeIs(12 * 16));
-  ASSERT_THAT(divided.faces(), SizeIs(6));
-  EXPECT_THAT(divided.edges(), SizeIs(12));
-  EXPECT_THAT(divided.corners(), SizeIs(8));
-  EXPECT_NEAR(divided.volume(), 6.0, 1e-13);
-  for (std::size_t f = 0; f < 6; ++f) {
-    EXPECT_EQ(divided.faces()[f].normal, turned.faces()[f].normal);
-    EXPECT_THAT(divided.faces()[f].triangles, SizeIs(32));
-    ASSERT_THAT(divided.faces()[f].loops, SizeIs(1));
-    const auto& loop = divided.faces()[f].loops[0];
-    const auto& old_loop = turned.faces()[f].loops[0];
-    ASSERT_EQ(loop.size(), old_loop.size());
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      EXPECT_EQ(divided.mesh().points[static_cast<std::size_t>(loop[k])],
-                turned.mesh().points[static_cast<std::size_t>(old_loop[k])]);
-  }
-  EXPECT_THROW((void)turned.with_triangles(mesh, {}), std::invalid_argument);
-  mesh.points[0].x() += 1.0;
-  mesh.points[1].x() += 1.0;
-  EXPECT_THROW((void)turned.with_triangles(mesh, faces), std::invalid_argument);
 }
 
 TEST(Polyhedron, refused_mesh_carries_all_its_defects) {
