@@ -3,10 +3,11 @@
 
 Usage: python3 data/corpora/make_bad_meshes.py        (always writes the same files)
 
-Sound solids with numbers and order of their points and triangles shuffled are spoilt in one known way and written
-in one of the formats. A line of index.tsv is: file, what must be found, a text that must occur in one of the
-messages (or -). What must be found is "unreadable", or the complete set of defects separated by ", "; a final
-"..." allows others besides. Nothing here asks the program: each expectation follows from how the file was made.
+Sound solids (sound_solids.py) with numbers and order of their points and triangles shuffled are spoilt in one known
+way and written in one of the formats (mesh_files.py). A line of index.tsv is: file, what must be found, a text that
+must occur in one of the messages (or -). What must be found is "unreadable", or the complete set of defects separated
+by ", "; a final "..." allows others besides. Nothing here asks the program: each expectation follows from how the
+file was made.
 Coordinates are multiples of powers of two, so that what is meant to be flat or to touch is so exactly.
 """
 
@@ -14,64 +15,15 @@ import pathlib
 import random
 import struct
 
+from mesh_files import (INDEXED, WELDED, ply_header, to_big_endian_ply, to_binary_ply, to_binary_stl, to_obj, to_off,
+                        to_ply, to_stl)
+from sound_solids import (SOLIDS, box, dented_box, frame, inverted, joined, l_prism, moved, octahedron, prism, pyramid,
+                          tetrahedron, welded)
+
 FOLDER = pathlib.Path(__file__).parent / "bad_meshes"
 INDEX = []
 RANDOM = random.Random(20)
-
-
-# ---- sound solids: (points, outward triangles) ----------------------------------------------------------------
-
-def prism(profile, cap, rings, height=1.0):
-    n = len(profile)
-    points = [(x, y, z) for z in (0.0, height) for x, y in profile]
-    triangles = [t for a, b, c in cap for t in ((a, c, b), (a + n, b + n, c + n))]
-    for ring in rings:
-        for a, b in zip(ring, ring[1:] + ring[:1]):
-            triangles += [(a, b, b + n), (a, b + n, a + n)]
-    return points, triangles
-
-
-def box(low=(0, 0, 0), high=(1, 1, 1)):
-    (x, y, z), (u, v, w) = low, high
-    points, triangles = prism([(x, y), (u, y), (u, v), (x, v)], [(0, 1, 2), (0, 2, 3)], [[0, 1, 2, 3]], 1.0)
-    return [(a, b, z if c == 0 else w) for a, b, c in points], triangles
-
-
-def tetrahedron():
-    return ([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
-
-
-def pyramid():
-    return ([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 1, 3)],
-            [(0, 2, 1), (0, 3, 2), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)])
-
-
-def octahedron():
-    points = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    upper = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4)]
-    return points, upper + [(b, a, 5) for a, b, _ in upper]
-
-
-def l_prism():
-    return prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], [(0, 1, 3), (1, 2, 3), (0, 3, 5), (3, 4, 5)],
-                 [[0, 1, 2, 3, 4, 5]])
-
-
-def frame():
-    return prism([(0, 0), (3, 0), (3, 3), (0, 3), (1, 1), (2, 1), (2, 2), (1, 2)],
-                 [(0, 1, 5), (0, 5, 4), (1, 2, 6), (1, 6, 5), (2, 3, 7), (2, 7, 6), (3, 0, 4), (3, 4, 7)],
-                 [[0, 1, 2, 3], [4, 7, 6, 5]])
-
-
-def dented_box(height, x=0.5, y=0.5):
-    """Unit box with the middle of its top moved to the given place; the height of a dent may be below 0."""
-    points, triangles = box()
-    triangles = [t for t in triangles if min(t) < 4]
-    return points + [(x, y, height)], triangles + [(4, 5, 8), (5, 6, 8), (6, 7, 8), (7, 4, 8)]
-
-
-SOLIDS = {"box": box, "tetrahedron": tetrahedron, "pyramid": pyramid, "octahedron": octahedron, "l_prism": l_prism,
-          "frame": frame}
+TURN = {}  # of the formats, by family
 
 
 # ---- changes that keep or spoil -------------------------------------------------------------------------------
@@ -95,28 +47,6 @@ def placed(mesh, keep_numbers=False):
     return points, triangles
 
 
-def joined(a, b):
-    n = len(a[0])
-    return a[0] + b[0], a[1] + [tuple(v + n for v in t) for t in b[1]]
-
-
-def welded(mesh):
-    """Equal points become one, numbered as they appear."""
-    points, triangles = mesh
-    number = {}
-    for p in points:
-        number.setdefault(p, len(number))
-    return list(number), [tuple(number[points[v]] for v in t) for t in triangles]
-
-
-def moved(mesh, shift):
-    return [tuple(x + s for x, s in zip(p, shift)) for p in mesh[0]], mesh[1]
-
-
-def inverted(mesh):
-    return mesh[0], [(a, c, b) for a, b, c in mesh[1]]
-
-
 def edge_name(a, b):
     return f"edge {min(a, b)}-{max(a, b)}"
 
@@ -129,60 +59,7 @@ def users(triangles, a, b):
     return [i for i, t in enumerate(triangles) if a in t and b in t]
 
 
-# ---- formats --------------------------------------------------------------------------------------------------
-
-def to_off(mesh):
-    points, triangles = mesh
-    return "OFF\n%d %d 0\n" % (len(points), len(triangles)) + lines("", points) + lines("3 ", triangles)
-
-
-def to_obj(mesh):
-    return lines("v ", mesh[0]) + lines("f ", [[v + 1 for v in t] for t in mesh[1]])
-
-
-def to_ply(mesh):
-    return ply_header("ascii", mesh) + lines("", mesh[0]) + lines("3 ", mesh[1])
-
-
-def ply_header(form, mesh):
-    return ("ply\nformat %s 1.0\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n"
-            "element face %d\nproperty list uchar int vertex_indices\nend_header\n"
-            % (form, len(mesh[0]), len(mesh[1])))
-
-
-def to_binary_ply(mesh, order="<"):
-    form = "binary_little_endian" if order == "<" else "binary_big_endian"
-    body = b"".join(struct.pack(order + "3d", *p) for p in mesh[0])
-    return ply_header(form, mesh).encode() + body + b"".join(struct.pack(order + "B3i", 3, *t) for t in mesh[1])
-
-
-def to_big_endian_ply(mesh):
-    return to_binary_ply(mesh, ">")
-
-
-def to_stl(mesh):
-    facets = ["facet normal 0 0 0\nouter loop\n" + lines("vertex ", [mesh[0][v] for v in t]) + "endloop\nendfacet\n"
-              for t in mesh[1]]
-    return "solid bad\n" + "".join(facets) + "endsolid bad\n"
-
-
-def to_binary_stl(mesh):
-    facets = [struct.pack("<12f", 0, 0, 0, *(x for v in t for x in mesh[0][v])) + b"\0\0" for t in mesh[1]]
-    return bytes(80) + struct.pack("<I", len(facets)) + b"".join(facets)
-
-
-def lines(prefix, rows):
-    return "".join(prefix + " ".join(map(number_text, row)) + "\n" for row in rows)
-
-
-def number_text(x):
-    return repr(x)[:-2] if isinstance(x, float) and repr(x).endswith(".0") else repr(x)
-
-
-INDEXED = [(to_off, "off"), (to_obj, "obj"), (to_ply, "ply"), (to_binary_ply, "ply"), (to_big_endian_ply, "ply")]
-WELDED = INDEXED + [(to_stl, "stl"), (to_binary_stl, "stl")]
-TURN = {}
-
+# ---- files ----------------------------------------------------------------------------------------------------
 
 def write(family, content, ending, found, mention="-"):
     number = sum(1 for line in INDEX if line[0].startswith(family + "_")) + 1

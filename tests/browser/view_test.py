@@ -4,131 +4,19 @@ Use: view_test.py ASHLAR SCENES, the program and the folder of the demo scenes.
 """
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
 from browser import Browser, Picture, find_chromium
+from legibility import DRAWN, TOO_FAINT, TOO_WIDE
+from pages import Pages, PageTest
+from picture_test import PictureTest  # run with those below
 
 WIDTH, HEIGHT = 900, 520
-HERE = pathlib.Path(__file__).parent
-
-# Shares of the scene's canvas that are not background: in its middle half, and along its two sides.
-DRAWN = """(() => {
-    const from = element("canvas"), copy = document.createElement("canvas");
-    const [width, height] = [copy.width, copy.height] = [from.width, from.height];
-    const context = copy.getContext("2d");
-    context.drawImage(from, 0, 0);
-    const [r, g, b] = new THREE.Color(theme().background).toArray().map((c) => Math.round(255 * c));
-    const drawn = (x, y, w, h) => {
-      const {data} = context.getImageData(x, y, w, h);
-      let count = 0;
-      for (let i = 0; i < data.length; i += 4) if (data[i] !== r || data[i + 1] !== g || data[i + 2] !== b) ++count;
-      return count / (w * h);
-    };
-    return [drawn(width >> 2, height >> 2, width >> 1, height >> 1), drawn(0, 0, 2, height) + drawn(width - 2, 0, 2, height)];
-  })()"""
-
-# Elements that go beyond the window, or whose text goes beyond them.
-TOO_WIDE = """[...document.querySelectorAll("body *")].filter((item) => {
-    const box = item.getBoundingClientRect();
-    return box.width > 0 && (box.right > innerWidth + 1 || box.left < -1
-      || (item.matches("button, legend, label, td, h1") && item.scrollWidth > item.clientWidth + 1));
-  }).map((item) => item.tagName + "#" + item.id + " " + item.textContent.slice(0, 20))"""
-
-# Texts whose contrast with what is behind them (WCAG 2) is less than 4.5, and the colours that texts on the picture have.
-TOO_FAINT = """(() => {
-    const numbers = (colour) => colour.match(/[\\d.]+/g).map(Number);
-    const light = (rgb) => rgb.slice(0, 3).map((c) => c / 255)
-      .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))
-      .reduce((sum, c, k) => sum + [0.2126, 0.7152, 0.0722][k] * c, 0);
-    const contrast = (a, b) => { const [low, high] = [light(a), light(b)].sort((x, y) => x - y);
-      return (high + 0.05) / (low + 0.05); };
-    const behind = (item) => {
-      for (; item; item = item.parentElement) {
-        const colour = numbers(getComputedStyle(item).backgroundColor);
-        if (colour.length < 4 || colour[3] > 0) return colour;
-      }
-      return [255, 255, 255];
-    };
-    const faint = [...document.querySelectorAll("body *")].filter((item) => item.getClientRects().length > 0
-      && !item.matches("script, option, optgroup, :disabled")
-      && [...item.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim())
-      && contrast(numbers(getComputedStyle(item).color), behind(item)) < 4.5)
-      .map((item) => item.tagName + "#" + item.id + " " + item.textContent.slice(0, 20));
-    const rgb = (colour) => new THREE.Color(colour).toArray().map((c) => 255 * c);
-    if (contrast(rgb(theme().text), rgb(theme().background)) < 4.5) faint.push("text on the picture");
-    return faint;
-  })()"""
 
 
-class Pages:
-    """The scenes simulated and viewed once, and the browser that all tests share."""
-    browser = None
-    files = {}
-
-    @classmethod
-    def write(cls, program, scenes, folder):
-        cls.program, cls.folder = program, folder
-        falling = scenes / "falling_block.toml"
-        curved = ["--set", "analysis.end_time=0.01", "--set", "output.curved=true"]
-        stress = ["--set", 'output.fields=["displacement", "velocity", "stress"]']
-        for name, scene, more in (("falling", falling, ["--set", "analysis.end_time=0.56"]),
-                                  ("curved", falling, curved),
-                                  ("slope", HERE / "slope.toml", []), ("column", HERE / "column.toml", []),
-                                  ("arch", scenes / "arch_stands.toml", stress),
-                                  ("wall", scenes / "wall.toml", ["--set", "analysis.end_time=0.02", *stress])):
-            out = folder / name
-            subprocess.run([program, "run", scene, "--out", out, "--quiet", "--view", *more], check=True)
-            cls.files[name] = (out / "view.html").as_uri()
-
-
-class ViewTest(unittest.TestCase):
-    def setUp(self):
-        self.browser = Pages.browser
-        self.browser.complaints.clear()
-
-    def tearDown(self):
-        self.assertEqual(self.browser.complaints, [])
-
-    def open(self, name, wishes=""):
-        # A change of the part behind # alone does not load a page.
-        self.browser.open("about:blank")
-        self.browser.open(Pages.files[name] + wishes)
-        self.evaluate("started.then(() => 0)")
-        self.wait_for_painting()
-
-    def wait_for_painting(self):
-        """No user acts before there is something to see; plots find their size when they are painted first."""
-        self.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
-
-    def evaluate(self, expression):
-        return self.browser.evaluate(expression)
-
-    def change(self, control, value):
-        """Sets a control as the user would and lets the page know."""
-        member = "checked" if isinstance(value, bool) else "value"
-        literal = str(value).lower() if isinstance(value, bool) else repr(value)
-        self.evaluate(f"element('{control}').{member} = {literal};"
-                      f"element('{control}').dispatchEvent(new Event('change'))")
-
-    def text(self, element_id):
-        return self.evaluate(f"element('{element_id}').innerText")
-
-    def middle_of(self, element_id, share=0.5):
-        x, y, width, height = self.evaluate(
-            f"(r => [r.x, r.y, r.width, r.height])(element('{element_id}').getBoundingClientRect())")
-        return x + share * width, y + 0.5 * height
-
-    def on_screen(self, vector):
-        """Pixel at which the page shows a THREE.Vector3, given as an expression."""
-        return self.evaluate(f"""(() => {{ const p = {vector}.clone().project(camera), c = element('canvas');
-            return [(p.x + 1) / 2 * c.clientWidth, (1 - p.y) / 2 * c.clientHeight]; }})()""")
-
-    def picked(self):
-        return dict(line.split("\t") for line in self.text("picked").splitlines())
-
+class ViewTest(PageTest):
     def colours_of_blocks(self):
         """Colours seen at the centres of the blocks."""
         picture = Picture(self.browser.screenshot())
@@ -417,77 +305,6 @@ class ViewTest(unittest.TestCase):
                         self.assertEqual(sides, 0, "the scene is cut off")
                         self.assertEqual(self.evaluate(TOO_WIDE), [])
                         self.assertEqual(self.evaluate(TOO_FAINT), [])
-
-    def picture(self, name, *options):
-        path = Pages.folder / "picture.png"
-        path.unlink(missing_ok=True)
-        command = [Pages.program, "picture", Pages.folder / name, "-o", path, *options]
-        done = subprocess.run(command, capture_output=True, text=True)
-        return done, Picture(path.read_bytes()) if path.exists() else None
-
-    def test_picture_command(self):
-        done, picture = self.picture("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("frame 0 of 0 to 56", done.stdout)
-        self.assertEqual((picture.width, picture.height), (320, 200))
-        # Seen from the front the cube is a column of pixels above the beam's free end, and the beam fills the width.
-        pixels = [[picture.pixel(x, y) for x in range(60, 320)] for y in range(30, 200)]
-        widths = [sum(pixel != (255, 255, 255) for pixel in row) for row in pixels]
-        upper, lower = widths[:60], widths[60:]
-        self.assertGreater(max(upper), 10)
-        self.assertGreater(max(lower), 2 * max(upper))
-
-    def test_picture_from_nearer(self):
-        view = ("falling", "--size", "320x200", "--frame", "0", "--color", "block", "--from=0,-1,0")
-        drawn = []
-        # All; the beam's middle; a point beside the blocks.
-        for more in ((), ("--at=4,0,-0.2", "--zoom", "3"), ("--at=4,0,40", "--zoom", "3")):
-            done, picture = self.picture(*view, *more)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            drawn.append(sum(pixel != (255, 255, 255) for pixel in picture.pixels(60, 62, 230, 105)))  # without legend, axes
-        self.assertGreater(drawn[1], 2 * drawn[0])
-        self.assertEqual(drawn[2], 0)
-
-    def test_picture_with_and_without_contacts(self):
-        arrow = (0xc0, 0x00, 0x18)
-        counts = []
-        for more in ((), ("--no-arrows",), ("--contacts", "none"), ("--scale", "2")):
-            done, picture = self.picture("slope", "--size", "320x200", *more)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            pixels = picture.pixels(0, 0, 320, 200)
-            counts.append((pixels.count(arrow), pixels.count((0xe8, 0x59, 0x0c))))
-        self.assertGreater(min(counts[0]), 20)
-        self.assertEqual(counts[1][0], 0)
-        self.assertGreater(counts[1][1], 20)  # what slides
-        self.assertEqual(counts[2], (0, 0))
-        self.assertGreater(min(counts[3]), 20)  # contacts go with enlarged displacements
-
-    def test_picture_of_joints_and_thrust(self):
-        for more in (("--joints", "opening"), ("--thrust-line", "--color", "stone"), ("--section", "y,0"), ("--crosses",),
-                     ("--dark",), ("--from", "front"), ("--range", "0,1e-4"), ("--si",), ("--vectors", "displacement")):
-            done, picture = self.picture("arch", "--size", "320x200", *more)
-            self.assertEqual((done.returncode, done.stderr), (0, ""), more)
-            pixels = picture.pixels(0, 0, 320, 200)
-            self.assertGreater(len(set(pixels)), 20, more)
-            if more[0] == "--thrust-line":
-                self.assertGreater(pixels.count((0xc0, 0x00, 0x18)), 100)
-
-    def test_picture_of_a_study(self):
-        out = Pages.folder / "study"
-        done = subprocess.run([Pages.program, "study", "subfaces", "--out", out], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"picture: {out / 'subfaces.png'}", done.stdout)
-        picture = Picture((out / "subfaces.png").read_bytes())
-        self.assertEqual((picture.width, picture.height), (1000, 600))
-        self.assertEqual(picture.pixel(5, 5), (255, 255, 255))
-        # The curves of n = 2 and n = 3.
-        for colour in ((0x00, 0x72, 0xb2), (0xd5, 0x5e, 0x00)):
-            self.assertGreater(picture.pixels(90, 50, 640, 530).count(colour), 100)
-
-    def test_picture_of_a_field_that_was_not_written(self):
-        done, picture = self.picture("column", "--color", "velocity")
-        self.assertEqual((done.returncode, picture), (2, None))
-        self.assertIn("no velocity", done.stderr)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
 
-from scenes import cross, dot, sub
+from solids import cross, dot, sub
 
 SAMPLES = 7          # along each edge, without its ends
 ALLOWED_SHARE = 1e-3  # of the size of a block, beyond what the program says that its springs hold
