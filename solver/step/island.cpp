@@ -203,7 +203,7 @@ IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
                           const SimulationSettings& settings, IslandSolvers::Entry& solver) {
   IslandResult result;
   IslandProblem problem(island, bodies, pairs, scheme, settings, solver);
-  iterate_open_close(problem, settings, result);
+  iterate_open_close(problem, result);
   return result;
 }
 

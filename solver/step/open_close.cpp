@@ -22,12 +22,12 @@ enum class Outcome {
 
 class OpenClose {
  public:
-  OpenClose(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result)
+  OpenClose(IslandProblem& problem, IslandResult& result)
       : problem_(problem),
         tangent_(problem),
         failure_(problem),
         augmentation_(problem),
-        settings_(settings),
+        settings_(problem.settings()),
         result_(result) {}
 
   Outcome run() {
@@ -265,8 +265,8 @@ class OpenClose {
 
 }  // namespace
 
-void iterate_open_close(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result) {
-  const Outcome outcome = OpenClose(problem, settings, result).run();
+void iterate_open_close(IslandProblem& problem, IslandResult& result) {
+  const Outcome outcome = OpenClose(problem, result).run();
   problem.hand_over(result);
   result.status = outcome == Outcome::settled    ? IslandStatus::settled
                   : outcome == Outcome::singular ? IslandStatus::not_positive_definite

@@ -25,6 +25,6 @@ namespace ashlar {
 
 /// Balances the equations of an island from the changes its bodies have. @param result gets status, counts,
 /// responses and laws; the bodies their changes
-void iterate_open_close(IslandProblem& problem, const SimulationSettings& settings, IslandResult& result);
+void iterate_open_close(IslandProblem& problem, IslandResult& result);
 
 }  // namespace ashlar
