@@ -140,76 +140,81 @@ std::vector<KnownPlace> places_of(const PlacedSurface& a, const PlacedSurface& b
   return places;
 }
 
-/// A point, a side or a cell with what surrounds it.
-struct Feature {
-  std::vector<int> points;
-  int cell;                           ///< one that has it
-  std::vector<int> faces;             ///< a contact of one of these stands for it
-  Vector3 outward = Vector3::Zero();  ///< of a side: sum of the normals beside it
+/// A side of cells between two points.
+struct Side {
+  std::array<int, 2> ends;
+  std::array<int, 2> cells;  ///< beside it
 };
 
-/// All points, sides and cells of a surface that a motion check looks at.
+/// Points, sides and cells of a surface that a motion check looks at.
 struct Features {
-  std::vector<Feature> points;
-  std::vector<Feature> sides;
-  std::vector<Feature> cells;
+  std::vector<int> points;
+  std::vector<Side> sides;
+  std::vector<int> cells;
 };
-
-void sort_out(std::vector<int>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
 
 Features features_near(const MovingSurface& moving, const Box& around) {
   const SubFaceSurface& surface = moving.start->surface();
-  std::vector<std::vector<int>> faces_at(surface.points.size());
-  std::vector<int> cell_at(surface.points.size(), -1);
-  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
-    for (const int corner : surface.cells[c].corners) {
-      faces_at[at(corner)].push_back(surface.cells[c].face);
-      if (cell_at[at(corner)] < 0) cell_at[at(corner)] = static_cast<int>(c);
-    }
-  }
-  for (auto& faces : faces_at) sort_out(faces);
+  const auto is_near = [&](std::span<const int> points) { return swept_box(moving, points).meets(around); };
   Features features;
-  const auto add = [&](std::vector<Feature>& list, Feature feature) {
-    if (swept_box(moving, feature.points).meets(around)) list.push_back(std::move(feature));
-  };
-  for (std::size_t p = 0; p < surface.points.size(); ++p) {
-    if (cell_at[p] >= 0 && (surface.divided || surface.vertex_of_point[p] >= 0))
-      add(features.points, {{static_cast<int>(p)}, cell_at[p], faces_at[p]});
+  for (int p = 0; p < static_cast<int>(surface.points.size()); ++p) {
+    if (!surface.cells_at[at(p)].empty() && (surface.divided || surface.vertex_of_point[at(p)] >= 0) &&
+        is_near({&p, 1}))
+      features.points.push_back(p);
   }
-  // The faces beside a side, and those at its ends that are across a convex edge of these.
-  const auto add_side = [&](int start, int end, const std::array<int, 2>& cells) {
-    const std::array<int, 2> beside = {surface.cells[at(cells[0])].face, surface.cells[at(cells[1])].face};
-    Feature side{{start, end}, cells[0], {beside.begin(), beside.end()}};
-    for (const int point : side.points) {
-      for (const int face : faces_at[at(point)]) {
-        const auto& joined = surface.convex_neighbours[at(face)];
-        if (std::any_of(beside.begin(), beside.end(),
-                        [&](int own) { return std::binary_search(joined.begin(), joined.end(), own); }))
-          side.faces.push_back(face);
-      }
-    }
-    sort_out(side.faces);
-    side.outward = moving.start->normal(cells[0]) + moving.start->normal(cells[1]);
-    add(features.sides, std::move(side));
+  const auto add_side = [&](const Side& side) {
+    if (is_near(side.ends)) features.sides.push_back(side);
   };
   for (const SurfaceEdge& edge : surface.edges) {
-    if (edge.convex) add_side(edge.ends[0], edge.ends[1], edge.cells);
+    if (edge.convex) add_side({edge.ends, edge.cells});
   }
-  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
-    const SurfaceCell& cell = surface.cells[c];
-    Feature feature{cell.corners, static_cast<int>(c), surface.convex_neighbours[at(cell.face)]};
-    feature.faces.push_back(cell.face);
-    add(features.cells, std::move(feature));
+  for (int c = 0; c < static_cast<int>(surface.cells.size()); ++c) {
+    const SurfaceCell& cell = surface.cells[at(c)];
+    if (is_near(cell.corners)) features.cells.push_back(c);
     for (std::size_t k = 0; surface.divided && k < 3; ++k) {
       const int start = cell.corners[k];
       const int end = cell.corners[(k + 1) % 3];
-      if (cell.rim[k] < 0 && start < end) add_side(start, end, {static_cast<int>(c), static_cast<int>(c)});
+      if (cell.rim[k] < 0 && start < end) add_side({{start, end}, {c, c}});
     }
   }
   return features;
+}
+
+// Faces whose contacts stand for a feature: a known one between them is the feature's own.
+
+std::vector<int> faces_of_point(const SubFaceSurface& surface, int point) {
+  std::vector<int> faces;
+  for (const int cell : surface.cells_at[at(point)]) faces.push_back(surface.cells[at(cell)].face);
+  return faces;
+}
+
+std::vector<int> faces_of_cell(const SubFaceSurface& surface, int cell) {
+  const int own = surface.cells[at(cell)].face;
+  std::vector<int> faces = surface.convex_neighbours[at(own)];
+  faces.push_back(own);
+  return faces;
+}
+
+/// The faces beside a side, and those at its ends that are across a convex edge of these.
+std::vector<int> faces_of_side(const SubFaceSurface& surface, const Side& side) {
+  const std::array<int, 2> beside = {surface.cells[at(side.cells[0])].face,
+                                     surface.cells[at(side.cells[1])].face};
+  std::vector<int> faces(beside.begin(), beside.end());
+  for (const int point : side.ends) {
+    for (const int cell : surface.cells_at[at(point)]) {
+      const int face = surface.cells[at(cell)].face;
+      const auto& joined = surface.convex_neighbours[at(face)];
+      if (std::any_of(beside.begin(), beside.end(),
+                      [&](int own) { return std::binary_search(joined.begin(), joined.end(), own); }))
+        faces.push_back(face);
+    }
+  }
+  return faces;
+}
+
+/// Sum of the normals beside a side.
+Vector3 outward_of(const PlacedSurface& surface, const Side& side) {
+  return surface.normal(side.cells[0]) + surface.normal(side.cells[1]);
 }
 
 /// Finds the touches of one pair of surfaces.
@@ -237,47 +242,75 @@ class MotionCheck {
     return box;
   }
 
+  /// Points of a feature, as it is listed.
+  static std::span<const int> points_of(const SubFaceSurface&, const Side& side) { return side.ends; }
+  static std::span<const int> points_of(const SubFaceSurface& surface, int cell) {
+    return surface.cells[at(cell)].corners;
+  }
+
+  template <class Feature>
   static std::vector<Box> boxes(const MovingSurface& s, const std::vector<Feature>& features, double margin) {
     std::vector<Box> result;
     result.reserve(features.size());
-    for (const Feature& feature : features) result.push_back(swept_box(s, feature.points).grown(margin));
+    for (const Feature& feature : features)
+      result.push_back(swept_box(s, points_of(s.start->surface(), feature)).grown(margin));
+    return result;
+  }
+  static std::vector<Box> boxes_of_points(const MovingSurface& s, const std::vector<int>& points,
+                                          double margin) {
+    std::vector<Box> result;
+    result.reserve(points.size());
+    for (const int point : points) result.push_back(swept_box(s, {&point, 1}).grown(margin));
     return result;
   }
 
-  /// Whether a known contact of two features is where one of them is at the start or the end of the step.
-  /// @param moved the point or side of surface s among them
-  [[nodiscard]] bool is_known(const Feature& of_a, const Feature& of_b, const Feature& moved,
-                              const MovingSurface& s) const {
+  /// Whether a known contact between faces is where a point or side is at the start or the end of the step.
+  /// @param ends of the point or side of surface s
+  [[nodiscard]] bool is_known(const std::vector<int>& faces_a, const std::vector<int>& faces_b,
+                              const MovingSurface& s, const std::array<int, 2>& ends) const {
     const auto has = [](const std::vector<int>& faces, int face) {
       return std::find(faces.begin(), faces.end(), face) != faces.end();
     };
-    const Path first = path_of(s, moved.points.front()), last = path_of(s, moved.points.back());
+    const Path first = path_of(s, ends[0]), last = path_of(s, ends[1]);
     const auto is_near = [&](const Vector3& start, const Vector3& end, const KnownPlace& place) {
       return std::all_of(place.outlines.begin(), place.outlines.end(), [&](const auto& outline) {
         return distance_to_place(start, end, outline) <= limits_.reach;
       });
     };
     return std::any_of(known_.begin(), known_.end(), [&](const KnownPlace& place) {
-      return has(of_a.faces, place.face_a) && has(of_b.faces, place.face_b) &&
+      return has(faces_a, place.face_a) && has(faces_b, place.face_b) &&
              (is_near(first.at(0.0), last.at(0.0), place) || is_near(first.at(1.0), last.at(1.0), place));
     });
   }
+  [[nodiscard]] bool is_known_vertex(bool point_of_a, int point, int cell) const {
+    const MovingSurface& with_point = point_of_a ? a_ : b_;
+    const std::vector<int> of_point = faces_of_point(with_point.start->surface(), point);
+    const std::vector<int> of_cell = faces_of_cell((point_of_a ? b_ : a_).start->surface(), cell);
+    return is_known(point_of_a ? of_point : of_cell, point_of_a ? of_cell : of_point, with_point,
+                    {point, point});
+  }
+  [[nodiscard]] bool is_known_crossing(const Side& of_a, const Side& of_b) const {
+    const std::vector<int> faces_a = faces_of_side(a_.start->surface(), of_a);
+    const std::vector<int> faces_b = faces_of_side(b_.start->surface(), of_b);
+    return is_known(faces_a, faces_b, a_, of_a.ends) && is_known(faces_a, faces_b, b_, of_b.ends);
+  }
 
-  void check_points(const std::vector<Feature>& points, const std::vector<Feature>& cells, bool point_of_a) {
+  // What is known is asked for last: most features that are near do not meet.
+  void check_points(const std::vector<int>& points, const std::vector<int>& cells, bool point_of_a) {
     const MovingSurface& with_point = point_of_a ? a_ : b_;
     const MovingSurface& with_cell = point_of_a ? b_ : a_;
-    for (const auto& [i, j] :
-         meeting_boxes(boxes(with_point, points, limits_.tolerance), boxes(with_cell, cells, 0.0))) {
-      const Feature& point = points[at(i)];
-      const Feature& cell = cells[at(j)];
-      if (point_of_a ? is_known(point, cell, point, a_) : is_known(cell, point, point, b_)) continue;
-      const Path p = path_of(with_point, point.points[0]);
-      const Path first = path_of(with_cell, cell.points[0]);
-      for (std::size_t k = 1; k + 1 < cell.points.size(); ++k) {
-        const std::array<Path, 3> corners = {first, path_of(with_cell, cell.points[k]),
-                                             path_of(with_cell, cell.points[k + 1])};
+    for (const auto& [i, j] : meeting_boxes(boxes_of_points(with_point, points, limits_.tolerance),
+                                            boxes(with_cell, cells, 0.0))) {
+      const int point = points[at(i)];
+      const int cell = cells[at(j)];
+      const auto& outline = with_cell.start->surface().cells[at(cell)].corners;
+      const Path p = path_of(with_point, point);
+      const Path first = path_of(with_cell, outline[0]);
+      for (std::size_t k = 1; k + 1 < outline.size(); ++k) {
+        const std::array<Path, 3> corners = {first, path_of(with_cell, outline[k]),
+                                             path_of(with_cell, outline[k + 1])};
         if (const auto share = enters(p, corners)) {
-          add_vertex(with_point, point, with_cell, cell, point_of_a, *share);
+          if (!is_known_vertex(point_of_a, point, cell)) add_vertex(point_of_a, point, cell, *share);
           break;
         }
       }
@@ -306,13 +339,14 @@ class MotionCheck {
     return share;
   }
 
-  void add_vertex(const MovingSurface& with_point, const Feature& point, const MovingSurface& with_cell,
-                  const Feature& cell, bool point_of_a, double share) {
-    const PlacedSurface& surface = *with_cell.start;
-    const double gap = surface.normal(cell.cell).dot(with_point.start->point(point.points[0]) -
-                                                     surface.point(cell.points[0]));
-    touches_.push_back({share, VertexContact{point_of_a, point.points[0], point.cell, cell.cell, gap,
-                                             tributary_area(with_point.start->surface(), {point.cell})}});
+  void add_vertex(bool point_of_a, int point, int cell, double share) {
+    const PlacedSurface& with_point = *(point_of_a ? a_ : b_).start;
+    const PlacedSurface& with_cell = *(point_of_a ? b_ : a_).start;
+    const int own_cell = with_point.surface().cells_at[at(point)].front();
+    const int corner = with_cell.surface().cells[at(cell)].corners[0];
+    const double gap = with_cell.normal(cell).dot(with_point.point(point) - with_cell.point(corner));
+    touches_.push_back({share, VertexContact{point_of_a, point, own_cell, cell, gap,
+                                             tributary_area(with_point.surface(), {own_cell})}});
   }
 
   /// Whether two sides that start beside each other diverge by less than the tolerance there. They meet at
@@ -324,17 +358,17 @@ class MotionCheck {
     return u.cross(v).norm() <= limits_.tolerance * std::max(u.norm(), v.norm());
   }
 
-  void check_sides(const Feature& of_a, const Feature& of_b) {
-    if (is_known(of_a, of_b, of_a, a_) && is_known(of_a, of_b, of_b, b_)) return;
-    const std::array<Path, 2> a = {path_of(a_, of_a.points[0]), path_of(a_, of_a.points[1])};
-    const std::array<Path, 2> b = {path_of(b_, of_b.points[0]), path_of(b_, of_b.points[1])};
+  void check_sides(const Side& of_a, const Side& of_b) {
+    const std::array<Path, 2> a = {path_of(a_, of_a.ends[0]), path_of(a_, of_a.ends[1])};
+    const std::array<Path, 2> b = {path_of(b_, of_b.ends[0]), path_of(b_, of_b.ends[1])};
     const auto across = [&](double share) {
       return Vector3((a[1].at(share) - a[0].at(share)).cross(b[1].at(share) - b[0].at(share)));
     };
     if (start_parallel(a, b)) return;
     // The volume is positive while b is ahead of a along u x v; apart are the two where that leads into b.
     auto volume = signed_volume(b[0], a[0], a[1], b[1]);
-    const double sign = across(0.0).dot(of_a.outward - of_b.outward) < 0.0 ? -1.0 : 1.0;
+    const double sign =
+        across(0.0).dot(outward_of(*a_.start, of_a) - outward_of(*b_.start, of_b)) < 0.0 ? -1.0 : 1.0;
     for (double& coefficient : volume) coefficient *= sign;
     const double allowed = limits_.tolerance * std::min(across(0.0).norm(), across(1.0).norm());
     if (volume[0] < -allowed || *std::min_element(volume.begin(), volume.end()) >= -allowed) return;
@@ -361,15 +395,15 @@ class MotionCheck {
       const double length = (side[1].at(*share) - side[0].at(*share)).norm();
       return std::min(along, 1.0 - along) * length <= 0.25 * limits_.tolerance;
     };
-    if (is_end(a, s) || is_end(b, t)) return;
+    if (is_end(a, s) || is_end(b, t) || is_known_crossing(of_a, of_b)) return;
     const Vector3 normal = -sign * across(*share).normalized();
     const Vector3 apart = place(a, s, 0.0) - place(b, t, 0.0);
-    touches_.push_back({*share, EdgeContact{{{of_a.points[0], of_a.points[1]}, of_a.cell, s},
-                                            {{of_b.points[0], of_b.points[1]}, of_b.cell, t},
+    touches_.push_back({*share, EdgeContact{{of_a.ends, of_a.cells[0], s},
+                                            {of_b.ends, of_b.cells[0], t},
                                             normal,
                                             normal.dot(apart),
-                                            std::min(tributary_area(a_.start->surface(), {of_a.cell}),
-                                                     tributary_area(b_.start->surface(), {of_b.cell}))}});
+                                            std::min(tributary_area(a_.start->surface(), {of_a.cells[0]}),
+                                                     tributary_area(b_.start->surface(), {of_b.cells[0]}))}});
   }
 
   const MovingSurface a_;

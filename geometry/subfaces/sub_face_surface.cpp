@@ -145,6 +145,14 @@ void add_triangles(const Polyhedron& solid, int face, const std::vector<int>& ed
   }
 }
 
+void find_cells_at_points(SubFaceSurface& surface) {
+  surface.cells_at.resize(surface.points.size());
+  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
+    for (const int point : surface.cells[c].corners)
+      surface.cells_at[at(point)].push_back(static_cast<int>(c));
+  }
+}
+
 void find_vertices(SubFaceSurface& surface) {
   surface.vertex_of_point.assign(surface.points.size(), -1);
   for (const SurfaceEdge& edge : surface.edges) {
@@ -163,17 +171,17 @@ void find_vertices(SubFaceSurface& surface) {
     vertex_at(edge.ends[0])->neighbours.push_back(edge.ends[1]);
     vertex_at(edge.ends[1])->neighbours.push_back(edge.ends[0]);
   }
-  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
-    const auto& corners = surface.cells[c].corners;
+  for (const SurfaceCell& cell : surface.cells) {
+    const auto& corners = cell.corners;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       SurfaceVertex* vertex = vertex_at(corners[k]);
       if (vertex == nullptr) continue;
-      vertex->cells.push_back(static_cast<int>(c));
       vertex->neighbours.push_back(corners[(k + 1) % corners.size()]);
       vertex->neighbours.push_back(corners[(k + corners.size() - 1) % corners.size()]);
     }
   }
   for (SurfaceVertex& vertex : surface.vertices) {
+    vertex.cells = surface.cells_at[at(vertex.point)];
     std::sort(vertex.neighbours.begin(), vertex.neighbours.end());
     vertex.neighbours.erase(std::unique(vertex.neighbours.begin(), vertex.neighbours.end()),
                             vertex.neighbours.end());
@@ -182,12 +190,8 @@ void find_vertices(SubFaceSurface& surface) {
 
 /// Edges of the polyhedron between whole faces, with any cell of each face that touches the edge.
 void take_edges_of_polyhedron(const Polyhedron& solid, SubFaceSurface& surface) {
-  std::vector<std::vector<int>> cells_of_point(surface.points.size());
-  for (std::size_t c = 0; c < surface.cells.size(); ++c) {
-    for (const int point : surface.cells[c].corners) cells_of_point[at(point)].push_back(static_cast<int>(c));
-  }
   const auto cell_at = [&](int point, int face) {
-    for (const int cell : cells_of_point[at(point)]) {
+    for (const int cell : surface.cells_at[at(point)]) {
       if (surface.cells[at(cell)].face == face) return cell;
     }
     throw std::logic_error("an edge's end belongs to no cell of its face");
@@ -223,6 +227,7 @@ SubFaceSurface whole_surface(const Polyhedron& solid) {
       cell.rim.push_back(edge_of_side.at(sorted(loop[k], loop[(k + 1) % loop.size()])));
     surface.cells.push_back(std::move(cell));
   }
+  find_cells_at_points(surface);
   take_edges_of_polyhedron(solid, surface);
   find_vertices(surface);
   surface.face_share = face_shares(solid);
@@ -261,6 +266,7 @@ SubFaceSurface surface_of_triangles(const Polyhedron& solid, const std::vector<V
     triangles.push_back({cell.corners[0], cell.corners[1], cell.corners[2]});
   }
   surface.cells = std::move(cells);
+  find_cells_at_points(surface);
   const std::vector<int> twins = twins_of_closed(triangles, surface.points.size());
   for (int h = 0; h < static_cast<int>(twins.size()); ++h) {
     const SurfaceCell& cell = surface.cells[at(h / 3)];

@@ -20,16 +20,6 @@ double rounding_of(const BlockModel& model) {
   return 1e-14 * std::cbrt(model.basis().volume());
 }
 
-/// d x / d X where the functions have these values.
-Eigen::Matrix3d gradient_of(const PlacedBlock& block, const Eigen::VectorXd& phi) {
-  if (block.gradient != nullptr) return block.gradient->at(phi);
-  Eigen::Matrix3d result;
-  for (int axis = 0; axis < 3; ++axis)
-    result.col(axis) = block.position->transpose() *
-                       (block.model->basis().derivative(axis).triangularView<Eigen::Lower>() * phi);
-  return result;
-}
-
 struct Foot {
   Vector3 material;
   Vector3 place;
@@ -39,39 +29,35 @@ struct Foot {
 /// Closest point of a face's polynomial surface to a point, by Gauss-Newton in the face's plane from a start
 /// on it.
 Foot closest_point(const PlacedBlock& block, int face, const Vector3& start, const Vector3& target) {
-  const ViewFrame plane(start, block.model->solid().faces()[at(face)].normal);
+  const ViewFrame plane(start, block.model().solid().faces()[at(face)].normal);
   Eigen::Matrix<double, 3, 2> directions;
   directions << plane.e1, plane.e2;
   Foot foot{start, Vector3::Zero(), Vector3::Zero()};
-  const int corrections = corrections_of(*block.model);
+  const int corrections = corrections_of(block.model());
   for (int step = 0; step <= corrections; ++step) {
-    const Eigen::VectorXd phi = block.model->basis().values(foot.material);
-    foot.place = block.position->transpose() * phi;
-    const Eigen::Matrix<double, 3, 2> tangents = gradient_of(block, phi) * directions;
+    const PlacedBlock::Local local = block.at(foot.material);
+    foot.place = local.place;
+    const Eigen::Matrix<double, 3, 2> tangents = local.gradient * directions;
     foot.normal = tangents.col(0).cross(tangents.col(1)).normalized();
     const Eigen::Matrix2d metric = tangents.transpose() * tangents;
     const Eigen::Vector2d change = metric.inverse() * (tangents.transpose() * (target - foot.place));
-    if (step == corrections || (tangents * change).norm() <= rounding_of(*block.model)) break;
+    if (step == corrections || (tangents * change).norm() <= rounding_of(block.model())) break;
     foot.material += directions * change;
   }
   return foot;
 }
 
-/// An edge as a line at the place of its contact point. @param edge reference coordinates, m
-Vector3 line_of(const PlacedBlock& block, const Vector3& material, const Vector3& edge) {
-  return gradient_of(block, block.model->basis().values(material)) * edge;
-}
-
 /// Puts the material points where the two edges are nearest. @return false if an edge ends long before that
 bool set_crossing(ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b) {
   const Vector3 last_normal = point.normal;
-  const int corrections = std::max(corrections_of(*a.model), corrections_of(*b.model));
-  const double smallest = std::max(rounding_of(*a.model), rounding_of(*b.model));
+  const int corrections = std::max(corrections_of(a.model()), corrections_of(b.model()));
+  const double smallest = std::max(rounding_of(a.model()), rounding_of(b.model()));
   Eigen::Vector2d shares = Eigen::Vector2d::Zero();  // of the edges, from where the point was found
   const ContactPoint found = point;
   for (int step = 0; step <= corrections; ++step) {
     Eigen::Matrix<double, 3, 2> lines;
-    lines << line_of(a, point.material_a, point.edge_a), -line_of(b, point.material_b, point.edge_b);
+    lines << a.at(point.material_a).gradient * point.edge_a,
+        -(b.at(point.material_b).gradient * point.edge_b);
     point.normal = lines.col(1).cross(lines.col(0)).normalized();
     if (point.normal.dot(last_normal) < 0.0) point.normal = -point.normal;
     const Eigen::Matrix2d metric = lines.transpose() * lines;
@@ -81,37 +67,42 @@ bool set_crossing(ContactPoint& point, const PlacedBlock& a, const PlacedBlock& 
     if (!(shares.cwiseAbs().maxCoeff() <= 1.0)) return false;
     point.material_a = found.material_a + shares[0] * point.edge_a;
     point.material_b = found.material_b + shares[1] * point.edge_b;
-    point.place_a = place_of(a, point.material_a);
-    point.place_b = place_of(b, point.material_b);
+    point.place_a = a.place(point.material_a);
+    point.place_b = b.place(point.material_b);
   }
   return true;
 }
 
 }  // namespace
 
-PositionGradient::PositionGradient(const BlockModel& model, const Eigen::MatrixX3d& position)
-    : coefficients_(position.rows(), 9) {
+PlacedBlock::PlacedBlock(const BlockModel& model, const Eigen::MatrixX3d& position)
+    : model_(&model), position_(&position), affine_(is_affine(model)) {
+  const PolynomialBasis& basis = model.basis();
+  if (affine_) {
+    centroid_.place = position.transpose() * basis.values(basis.centroid());
+    centroid_.gradient = position.transpose() * basis.gradients(basis.centroid());
+    return;
+  }
+  coefficients_.resize(position.rows(), 9);
   for (int axis = 0; axis < 3; ++axis)
     coefficients_.middleCols<3>(3 * axis).noalias() =
-        model.basis().derivative(axis).transpose().triangularView<Eigen::Upper>() * position;
+        basis.derivative(axis).transpose().triangularView<Eigen::Upper>() * position;
 }
 
-Eigen::Matrix3d PositionGradient::at(const Eigen::VectorXd& phi) const {
+Vector3 PlacedBlock::place(const Vector3& material) const {
+  if (affine_) return centroid_.place + centroid_.gradient * (material - model_->basis().centroid());
+  return position_->transpose() * model_->basis().values(material);
+}
+
+PlacedBlock::Local PlacedBlock::at(const Vector3& material) const {
+  if (affine_) return {place(material), centroid_.gradient};
+  const Eigen::VectorXd phi = model_->basis().values(material);
   const Eigen::Matrix<double, 9, 1> columns = coefficients_.transpose() * phi;
-  return columns.reshaped(3, 3);
-}
-
-std::optional<PositionGradient> gradient_if_bent(const BlockModel& model, const Eigen::MatrixX3d& position) {
-  if (is_affine(model)) return std::nullopt;
-  return PositionGradient(model, position);
+  return {position_->transpose() * phi, columns.reshaped(3, 3)};
 }
 
 bool is_affine(const BlockModel& model) {
   return model.fixed() || model.order() == 1;
-}
-
-Vector3 place_of(const PlacedBlock& block, const Vector3& material) {
-  return block.position->transpose() * block.model->basis().values(material);
 }
 
 void set_foot(ContactPoint& point, const PlacedBlock& master, int face, bool master_is_a) {
@@ -131,8 +122,8 @@ void complete(ContactPoint& point) {
 
 ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b) {
   ContactPoint moved = point;
-  moved.place_a = place_of(a, moved.material_a);
-  moved.place_b = place_of(b, moved.material_b);
+  moved.place_a = a.place(moved.material_a);
+  moved.place_b = b.place(moved.material_b);
   const ContactPoint kept = moved;
   switch (point.source) {
     case NormalSource::as_found:
@@ -154,11 +145,8 @@ ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const Pla
   return moved;
 }
 
-std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points, PlacedBlock a, PlacedBlock b) {
-  const std::optional<PositionGradient> of_a = gradient_if_bent(*a.model, *a.position);
-  const std::optional<PositionGradient> of_b = gradient_if_bent(*b.model, *b.position);
-  if (of_a) a.gradient = &*of_a;
-  if (of_b) b.gradient = &*of_b;
+std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points, const PlacedBlock& a,
+                                   const PlacedBlock& b) {
   std::vector<ContactPoint> moved;
   moved.reserve(points.size());
   for (const ContactPoint& point : points) moved.push_back(moved_to(point, a, b));

@@ -12,7 +12,6 @@
 // since the derivatives by the foot and by n vanish there: the rows of a point are the gradient of its gap.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "mechanics/block/block_model.hpp"
@@ -57,35 +56,34 @@ struct ContactPoint {
   return components[0] * point.normal + components[1] * point.tangent_1 + components[2] * point.tangent_2;
 }
 
-/// Gradient of a configuration, d x / d X, as the polynomial that it is: a point takes as many products as there are
-/// functions, not their square.
-class PositionGradient {
+/// A block in a configuration that need not be that of a state: x(X) and d x / d X as the polynomials that they are.
+class PlacedBlock {
  public:
-  /// @param position (p, 3)
-  PositionGradient(const BlockModel& model, const Eigen::MatrixX3d& position);
-  /// @param phi (p) values of the block's functions at a material point
-  [[nodiscard]] Eigen::Matrix3d at(const Eigen::VectorXd& phi) const;
+  struct Local {
+    Vector3 place;             ///< m
+    Eigen::Matrix3d gradient;  ///< d x / d X
+  };
+
+  /// @param position (p, 3). Both are to live as long as this
+  PlacedBlock(const BlockModel& model, const Eigen::MatrixX3d& position);
+
+  [[nodiscard]] const BlockModel& model() const { return *model_; }
+  /// Current place of a material point, m.
+  [[nodiscard]] Vector3 place(const Vector3& material) const;
+  /// At a material point. A block that bends takes as many products as there are functions, not their square.
+  [[nodiscard]] Local at(const Vector3& material) const;
 
  private:
-  Eigen::Matrix<double, Eigen::Dynamic, 9> coefficients_;  ///< D_i' q, axis by axis
-};
-
-/// Empty for affine blocks, which have the same gradient everywhere.
-[[nodiscard]] std::optional<PositionGradient> gradient_if_bent(const BlockModel& model,
-                                                               const Eigen::MatrixX3d& position);
-
-/// A block in a configuration that need not be that of a state.
-struct PlacedBlock {
-  const BlockModel* model;
-  const Eigen::MatrixX3d* position;            ///< (p, 3)
-  const PositionGradient* gradient = nullptr;  ///< of it, for many points; null: found for each
+  const BlockModel* model_;
+  const Eigen::MatrixX3d* position_;
+  bool affine_;
+  Local centroid_;  ///< of affine blocks
+  Eigen::Matrix<double, Eigen::Dynamic, 9>
+      coefficients_;  ///< of d x / d X, axis by axis; of blocks that bend
 };
 
 /// Whether the motion of a block is an affine map.
 [[nodiscard]] bool is_affine(const BlockModel& model);
-
-/// Current place of a material point, m.
-[[nodiscard]] Vector3 place_of(const PlacedBlock& block, const Vector3& material);
 
 /// Puts the foot of the other block's point on a face of the master's true surface, with the normal there.
 /// Gap and tangents are left as they are. @param face of the master
@@ -98,8 +96,7 @@ void complete(ContactPoint& point);
 /// it. A point whose normal is known at the start only, and one whose edges would cross farther beyond an end
 /// than they are long, keep normal and material points.
 [[nodiscard]] ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b);
-/// Many points: gradients are made once.
-[[nodiscard]] std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points, PlacedBlock a,
-                                                 PlacedBlock b);
+[[nodiscard]] std::vector<ContactPoint> moved_to(const std::vector<ContactPoint>& points,
+                                                 const PlacedBlock& a, const PlacedBlock& b);
 
 }  // namespace ashlar

@@ -73,10 +73,6 @@ class CellMap {
   Eigen::Matrix<double, 3, 2> placed_slope_;
 };
 
-PlacedBlock placed_block(const ContactBody& body) {
-  return {body.model, &body.state->position, body.gradient};
-}
-
 /// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
 bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved) {
   return curved || (is_affine(*a.model) && is_affine(*b.model));
@@ -106,9 +102,9 @@ class OverlapPoints {
     if (has_true_places(a_, b_, curved_))
       point.source = master_is_a_ ? NormalSource::face_of_a : NormalSource::face_of_b;
     if (curved_) {
-      point.place_a = place_of(placed_block(a_), point.material_a);
-      point.place_b = place_of(placed_block(b_), point.material_b);
-      set_foot(point, placed_block(master_is_a_ ? a_ : b_), master_is_a_ ? point.face_a : point.face_b,
+      point.place_a = a_.configuration->place(point.material_a);
+      point.place_b = b_.configuration->place(point.material_b);
+      set_foot(point, *(master_is_a_ ? a_ : b_).configuration, master_is_a_ ? point.face_a : point.face_b,
                master_is_a_);
     } else {
       point.place_a = map_a_.placed(place);
@@ -242,7 +238,7 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
   if (has_true_places(a, b, settings.curved))
     point.source = contact.vertex_of_a ? NormalSource::face_of_b : NormalSource::face_of_a;
   if (settings.curved) {
-    set_foot(point, placed_block(with_cell), face, !contact.vertex_of_a);
+    set_foot(point, *with_cell.configuration, face, !contact.vertex_of_a);
   } else {
     point.normal = contact.vertex_of_a ? normal : Vector3(-normal);
   }
@@ -262,7 +258,7 @@ SidePoint side_point(const ContactBody& body, const CrossedSide& side, bool curv
   };
   SidePoint point;
   point.material = between(reference_point(body, side.ends[0]), reference_point(body, side.ends[1]));
-  point.place = curved ? place_of(placed_block(body), point.material)
+  point.place = curved ? body.configuration->place(point.material)
                        : between(body.placed->point(side.ends[0]), body.placed->point(side.ends[1]));
   return point;
 }
@@ -329,10 +325,10 @@ ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const P
                              const std::vector<bool>& masters, const ContactPointSettings& settings,
                              const std::vector<PressureCut>& known) {
   if (!settings.curved) return points_of(a, b, contacts, masters, settings, known);
-  const std::optional<PositionGradient> of_a = gradient_if_bent(*a.model, a.state->position);
-  const std::optional<PositionGradient> of_b = gradient_if_bent(*b.model, b.state->position);
-  return points_of({a.model, a.state, a.placed, of_a ? &*of_a : nullptr},
-                   {b.model, b.state, b.placed, of_b ? &*of_b : nullptr}, contacts, masters, settings, known);
+  const PlacedBlock of_a(*a.model, a.state->position);
+  const PlacedBlock of_b(*b.model, b.state->position);
+  return points_of({a.model, a.state, a.placed, &of_a}, {b.model, b.state, b.placed, &of_b}, contacts,
+                   masters, settings, known);
 }
 
 }  // namespace ashlar

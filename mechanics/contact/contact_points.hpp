@@ -28,7 +28,7 @@ struct ContactBody {
   const BlockModel* model;
   const BlockState* state;
   const PlacedSurface* placed;
-  const PositionGradient* gradient = nullptr;  ///< contact_points() sets it
+  const PlacedBlock* configuration = nullptr;  ///< of the state; contact_points() sets it
 };
 
 /// How contact points are made.

@@ -65,8 +65,10 @@ Eigen::Matrix3Xd BlockRows::displacements(const Eigen::MatrixX3d& change) const 
 void BlockRows::add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3Xd& motion) const {
   if (fixed()) return;
   if (is_affine()) {
-    const Eigen::Map<const AffineUnknowns> unknowns(y.data());
-    motion += sign * (as_affine(values_[0]) * unknowns).transpose();
+    const AffineUnknowns unknowns = sign * Eigen::Map<const AffineUnknowns>(y.data());
+    const AffineValues values = as_affine(values_[0]);
+    for (Eigen::Index k = 0; k < motion.cols(); ++k)
+      motion.col(k) += unknowns.transpose() * values.row(k).transpose();
     return;
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -74,18 +76,22 @@ void BlockRows::add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3
 }
 
 Eigen::VectorXd BlockRows::force(const Eigen::Matrix3Xd& forces) const {
-  Eigen::VectorXd result(unknowns());
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(unknowns());
+  add_force(forces, 1.0, result);
+  return result;
+}
+
+void BlockRows::add_force(const Eigen::Matrix3Xd& forces, double sign, Eigen::VectorXd& sum) const {
   if (is_affine()) {
-    AffineUnknowns sum = AffineUnknowns::Zero();
+    AffineUnknowns all = AffineUnknowns::Zero();
     for (Eigen::Index k = 0; k < forces.cols(); ++k)
-      sum += as_affine(values_[0]).row(k).transpose() * forces.col(k).transpose();
-    Eigen::Map<AffineUnknowns>(result.data()) = sum;
-    return result;
+      all += as_affine(values_[0]).row(k).transpose() * forces.col(k).transpose();
+    Eigen::Map<AffineUnknowns>(sum.data()) += sign * all;
+    return;
   }
   for (int axis = 0; axis < 3; ++axis)
-    result.segment(start(axis), count(axis)).noalias() =
-        values(axis).transpose() * forces.row(axis).transpose();
-  return result;
+    sum.segment(start(axis), count(axis)).noalias() +=
+        sign * (values(axis).transpose() * forces.row(axis).transpose());
 }
 
 Eigen::MatrixXd BlockRows::tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const {

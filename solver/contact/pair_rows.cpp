@@ -148,9 +148,9 @@ void PairRows::act_at(const std::vector<ContactPoint>& acting, const BlockInStep
 void PairRows::follow(std::vector<ContactPoint>& points, const BlockInStep& a, const BlockInStep& b,
                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) {
   const std::vector<ContactPoint> middle =
-      moved_to(points, PlacedBlock{a.model, &a.middle}, PlacedBlock{b.model, &b.middle});
+      moved_to(points, PlacedBlock(*a.model, a.middle), PlacedBlock(*b.model, b.middle));
   const std::vector<ContactPoint> end =
-      moved_to(middle, PlacedBlock{a.model, &a.end}, PlacedBlock{b.model, &b.end});
+      moved_to(middle, PlacedBlock(*a.model, a.end), PlacedBlock(*b.model, b.end));
   act_at(middle, a, b, points);
   const Eigen::Matrix3Xd way = motion(ya, yb);
   bent_.setZero(static_cast<Eigen::Index>(points.size()));
@@ -164,7 +164,7 @@ void PairRows::follow(std::vector<ContactPoint>& points, const BlockInStep& a, c
 }
 
 void PairRows::go_to_end(std::vector<ContactPoint>& points, const BlockInStep& a, const BlockInStep& b) {
-  act_at(moved_to(points, PlacedBlock{a.model, &a.end}, PlacedBlock{b.model, &b.end}), a, b, points);
+  act_at(moved_to(points, PlacedBlock(*a.model, a.end), PlacedBlock(*b.model, b.end)), a, b, points);
 }
 
 Eigen::Matrix3Xd PairRows::along_axes(const Eigen::VectorXd& forces) const {
@@ -218,16 +218,17 @@ PointStiffnesses PairRows::couplings(const PairResponse& response) const {
   return result;
 }
 
-std::pair<Eigen::VectorXd, Eigen::VectorXd> PairRows::product(const PointStiffnesses& stiffnesses,
-                                                              const Eigen::VectorXd& da,
-                                                              const Eigen::VectorXd& db) const {
+void PairRows::add_product(const PointStiffnesses& stiffnesses, const Eigen::VectorXd& da,
+                           const Eigen::VectorXd& db, Eigen::VectorXd& on_a, Eigen::VectorXd& on_b) const {
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, count_);
   if (da.size() > 0) values_->a.add_motion(da, 1.0, moved);
   if (db.size() > 0) values_->b.add_motion(db, -1.0, moved);
-  for (Eigen::Index k = 0; k < count_; ++k)
-    moved.col(k) = (stiffnesses.col(k).reshaped(3, 3) * moved.col(k)).eval();
-  return {da.size() > 0 ? values_->a.force(moved) : Eigen::VectorXd(),
-          db.size() > 0 ? Eigen::VectorXd(-values_->b.force(moved)) : Eigen::VectorXd()};
+  for (Eigen::Index k = 0; k < count_; ++k) {
+    const Vector3 force = Eigen::Map<const Eigen::Matrix3d>(stiffnesses.col(k).data()) * moved.col(k);
+    moved.col(k) = force;
+  }
+  if (on_a.size() > 0) values_->a.add_force(moved, 1.0, on_a);
+  if (on_b.size() > 0) values_->b.add_force(moved, -1.0, on_b);
 }
 
 PairTangent PairRows::tangent(const PairResponse& response) const {

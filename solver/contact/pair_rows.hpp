@@ -118,11 +118,10 @@ class PairRows {
   /// MeanResponse::coupling of each point, along x, y, z: the part of the Jacobian of -force that is not symmetric.
   /// Without columns where no point has any
   [[nodiscard]] PointStiffnesses couplings(const PairResponse& response) const;
-  /// What stiffnesses of the points make of changes of the unknowns. @param da,db (unknowns), of fixed blocks empty
-  /// @return forces on the unknowns of a and b, N, with the sign of the tangent; of fixed blocks empty
-  [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::VectorXd> product(const PointStiffnesses& stiffnesses,
-                                                                    const Eigen::VectorXd& da,
-                                                                    const Eigen::VectorXd& db) const;
+  /// Adds what stiffnesses of the points make of changes of the unknowns: forces on the unknowns of a and b, N, with the
+  /// sign of the tangent. @param da,db,on_a,on_b (unknowns), of fixed blocks empty
+  void add_product(const PointStiffnesses& stiffnesses, const Eigen::VectorXd& da, const Eigen::VectorXd& db,
+                   Eigen::VectorXd& on_a, Eigen::VectorXd& on_b) const;
 
   /// Norm of the longest row of each block; 0: fixed.
   [[nodiscard]] double longest_of_a() const { return values_->longest_a; }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "geometry/index.hpp"
 #include "solver/linear/gmres.hpp"
 #include "solver/parallel_for.hpp"
 
@@ -117,13 +118,6 @@ bool IslandTangent::products_pay() const {
   return to_assemble > problem_.settings().iteration.old_factor_iterations * product;
 }
 
-Eigen::VectorXd IslandTangent::part(const Eigen::VectorXd& of_island, int block) const {
-  const int place = problem_.place(block);
-  if (place < 0) return {};
-  const BodyStep& body = problem_.block(block);
-  return body.of_unknowns(of_island.segment(solver_.matrix.offset(place), body.model->freedom()));
-}
-
 void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const {
   const TimeScheme& scheme = problem_.scheme();
   for (std::size_t k = 0; k < problem_.bodies(); ++k) {
@@ -139,20 +133,39 @@ void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force)
 }
 
 void IslandTangent::add_pairs(const std::vector<PairStiffnesses>& stiffnesses, const Eigen::VectorXd& x,
-                              Eigen::VectorXd& force) const {
+                              Eigen::VectorXd& force) {
+  changes_.resize(problem_.bodies());
+  forces_.resize(problem_.bodies());
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BodyStep& body = problem_.body(k);
+    const auto of_body = x.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom());
+    if (body.model->rigid()) {
+      changes_[k].noalias() = body.fields * of_body;
+    } else {
+      changes_[k] = of_body;
+    }
+    forces_[k].setZero(changes_[k].size());
+  }
+  Eigen::VectorXd none;  // of fixed blocks
   for (const auto& [k, points] : stiffnesses) {
     const ContactPair& pair = problem_.pair(k);
-    const auto [on_a, on_b] = pair.rows().product(points, part(x, pair.a()), part(x, pair.b()));
-    for (const auto& [block, added] : {std::pair(pair.a(), &on_a), std::pair(pair.b(), &on_b)}) {
-      const int place = problem_.place(block);
-      if (place < 0) continue;
-      const BodyStep& body = problem_.block(block);
-      force.segment(solver_.matrix.offset(place), body.model->freedom()) += body.in_equations(*added);
+    const int a = problem_.place(pair.a());
+    const int b = problem_.place(pair.b());
+    pair.rows().add_product(points, a < 0 ? none : changes_[at(a)], b < 0 ? none : changes_[at(b)],
+                            a < 0 ? none : forces_[at(a)], b < 0 ? none : forces_[at(b)]);
+  }
+  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
+    const BodyStep& body = problem_.body(k);
+    auto on_body = force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom());
+    if (body.model->rigid()) {
+      on_body.noalias() += body.fields.transpose() * forces_[k];
+    } else {
+      on_body += forces_[k];
     }
   }
 }
 
-Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const {
+Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) {
   const IterationSettings& settings = problem_.settings().iteration;
   std::vector<PairStiffnesses> stiffnesses;
   for (std::size_t k = 0; k < problem_.pairs(); ++k) {

@@ -64,7 +64,7 @@ TEST(ContactKinematics, TheFootOfACornerMovesAlongAFaceThatTurns) {
   const double t = 0.02;
   const Eigen::MatrixX3d place_a = moved(a, 0.0, Vector3::Zero(), {0.1, 0, 0.05});
   const Eigen::MatrixX3d place_b = moved(b, t, {0, 0, 1}, Vector3::Zero());
-  const ContactPoint end = moved_to(point, {&a, &place_a}, {&b, &place_b});
+  const ContactPoint end = moved_to(point, {a, place_a}, {b, place_b});
   const Vector3 normal(std::sin(t), 0, std::cos(t));
   EXPECT_LT((end.normal - normal).norm(), 1e-15);
   // The corner is at (0.3, 0.3, 1.05), so 0.3 sin t + 0.05 cos t above the turned top.
@@ -85,7 +85,7 @@ TEST(ContactKinematics, WhatTurnsAsOneBlockHasNoGap) {
   const ContactPoint point = corner_on_top(a, b);
   const Eigen::MatrixX3d place_a = moved(a, 0.7, {0.5, 0, 3}, {1, 2, 3});
   const Eigen::MatrixX3d place_b = moved(b, 0.7, {0.5, 0, 3}, {1, 2, 3});
-  const ContactPoint end = moved_to(point, {&a, &place_a}, {&b, &place_b});
+  const ContactPoint end = moved_to(point, {a, place_a}, {b, place_b});
   EXPECT_NEAR(end.gap, 0.0, 1e-14);
   EXPECT_LT((end.material_b - point.material_b).norm(), 1e-14);
 }
@@ -99,7 +99,7 @@ TEST(ContactKinematics, CrossedEdgesAreAskedWhereTheyAreNearest) {
   point.edge_b = {2, 0, 0};
   const Eigen::MatrixX3d place_b = moved(b, 0.0, Vector3::Zero(), Vector3::Zero());
   const Eigen::MatrixX3d shifted = moved(a, 0.0, Vector3::Zero(), {0.3, 0.1, 0.02});
-  const ContactPoint end = moved_to(point, {&a, &shifted}, {&b, &place_b});
+  const ContactPoint end = moved_to(point, {a, shifted}, {b, place_b});
   EXPECT_NEAR(end.gap, 0.02, 1e-15);
   EXPECT_LT((end.material_a - Vector3(0.2, -0.1, 1)).norm(), 1e-15);
   EXPECT_LT((end.material_b - Vector3(0.5, 0, 1)).norm(), 1e-15);
@@ -108,12 +108,12 @@ TEST(ContactKinematics, CrossedEdgesAreAskedWhereTheyAreNearest) {
   const double t = 0.05;
   const Eigen::MatrixX3d turned = moved(b, t, {0, 0, 1}, Vector3::Zero());
   const Eigen::MatrixX3d still = moved(a, 0.0, Vector3::Zero(), Vector3::Zero());
-  const ContactPoint tipped = moved_to(point, {&a, &still}, {&b, &turned});
+  const ContactPoint tipped = moved_to(point, {a, still}, {b, turned});
   EXPECT_LT((tipped.normal - Vector3(std::sin(t), 0, std::cos(t))).norm(), 1e-15);
   EXPECT_NEAR(tipped.gap, 0.2 * std::sin(t), 1e-15);
   // Farther beyond its end than it is long.
   const Eigen::MatrixX3d gone = moved(a, 0.0, Vector3::Zero(), {0, 2.5, 0});
-  const ContactPoint kept = moved_to(point, {&a, &gone}, {&b, &turned});
+  const ContactPoint kept = moved_to(point, {a, gone}, {b, turned});
   EXPECT_EQ(kept.material_a, point.material_a);
   EXPECT_EQ(kept.normal, point.normal);
 }
@@ -138,7 +138,7 @@ TEST(ContactKinematics, RowsAreTheGradientOfTheGap) {
     const auto at = [&](const Eigen::VectorXd& q) {
       const Eigen::MatrixX3d qa = q.head(3 * a.basis().size()).reshaped(a.basis().size(), 3);
       const Eigen::MatrixX3d qb = q.tail(3 * b.basis().size()).reshaped(b.basis().size(), 3);
-      return moved_to(found, {&a, &qa}, {&b, &qb});
+      return moved_to(found, {a, qa}, {b, qb});
     };
     const ContactPoint point = at(place);
     Eigen::RowVectorXd rows(place.size());
@@ -166,14 +166,16 @@ TEST(ContactKinematics, TheGradientOfAConfigurationIsTheDerivativeOfItsPlaces) {
   for (const int order : {1, 2, 3, 8}) {
     const BlockModel block = box({0, 0, 0}, {2, 1, 1}, order);
     const Eigen::MatrixX3d position = bent(block);
-    const PositionGradient gradient(block, position);
+    const PlacedBlock placed(block, position);
     for (const Vector3& at : {Vector3(1.0, 0.5, 1.0), Vector3(0.3, 0.9, 0.2)}) {
-      const Eigen::Matrix3d found = gradient.at(block.basis().values(at));
+      const Eigen::Matrix3d found = placed.at(at).gradient;
+      const Vector3 place = position.transpose() * block.basis().values(at);
+      EXPECT_LT((placed.at(at).place - place).norm(), 1e-14) << order;
+      EXPECT_EQ(placed.place(at), placed.at(at).place) << order;
       constexpr double h = 1e-5;
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3 way = h * Vector3::Unit(axis);
-        const PlacedBlock placed{&block, &position};
-        const Vector3 expected = (place_of(placed, at + way) - place_of(placed, at - way)) / (2.0 * h);
+        const Vector3 expected = (placed.place(at + way) - placed.place(at - way)) / (2.0 * h);
         EXPECT_LT((found.col(axis) - expected).norm(), 1e-7 * found.norm()) << order;
       }
     }
@@ -194,10 +196,10 @@ TEST(ContactKinematics, ManyPointsMoveAsEachOfThemDoes) {
       points.back().face_b = face_of(b, {0, 0, 1});
     }
   }
-  const std::vector<ContactPoint> all = moved_to(points, PlacedBlock{&a, &of_a}, PlacedBlock{&b, &of_b});
+  const std::vector<ContactPoint> all = moved_to(points, PlacedBlock{a, of_a}, PlacedBlock{b, of_b});
   ASSERT_EQ(all.size(), points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const ContactPoint one = moved_to(points[k], {&a, &of_a}, {&b, &of_b});
+    const ContactPoint one = moved_to(points[k], {a, of_a}, {b, of_b});
     EXPECT_NEAR(all[k].gap, one.gap, 1e-13);
     EXPECT_LT((all[k].place_a - one.place_a).norm() + (all[k].place_b - one.place_b).norm(), 1e-13);
     EXPECT_LT((all[k].normal - one.normal).norm(), 1e-13);
@@ -211,7 +213,7 @@ TEST(ContactKinematics, FlatSubFacesKeepTheirNormal) {
   point.source = NormalSource::as_found;
   const Eigen::MatrixX3d place_a = moved(a, 0.0, Vector3::Zero(), {0.1, 0, 0.05});
   const Eigen::MatrixX3d place_b = moved(b, 0.3, {0, 0, 1}, Vector3::Zero());
-  const ContactPoint end = moved_to(point, {&a, &place_a}, {&b, &place_b});
+  const ContactPoint end = moved_to(point, {a, place_a}, {b, place_b});
   EXPECT_EQ(end.normal, point.normal);
   EXPECT_EQ(end.material_b, point.material_b);
 }

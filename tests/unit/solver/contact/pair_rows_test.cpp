@@ -88,7 +88,9 @@ TEST(PairRows, ProductsOfStiffnessesAreThoseOfTheTangent) {
     const Eigen::VectorXd da = random_vector(subject.a.unknowns(), 1);
     const Eigen::VectorXd db = random_vector(subject.b.unknowns(), 2);
     const PairTangent tangent = subject.rows.tangent(response);
-    const auto [on_a, on_b] = subject.rows.product(subject.rows.stiffnesses(response), da, db);
+    Eigen::VectorXd on_a = Eigen::VectorXd::Zero(da.size());
+    Eigen::VectorXd on_b = Eigen::VectorXd::Zero(db.size());
+    subject.rows.add_product(subject.rows.stiffnesses(response), da, db, on_a, on_b);
     Eigen::VectorXd expected_a = tangent.aa * da;
     if (db.size() > 0) expected_a += tangent.ab * db;
     EXPECT_LT((on_a - expected_a).norm(), 1e-13 * expected_a.norm());
@@ -112,7 +114,9 @@ TEST(PairRows, CouplingsAreForcesByMotionAtEachPoint) {
     }
     PairResponse expected;
     subject.rows.set_forces(forces, expected);
-    const auto [on_a, on_b] = subject.rows.product(subject.rows.couplings(response), da, db);
+    Eigen::VectorXd on_a = Eigen::VectorXd::Zero(da.size());
+    Eigen::VectorXd on_b = Eigen::VectorXd::Zero(db.size());
+    subject.rows.add_product(subject.rows.couplings(response), da, db, on_a, on_b);
     EXPECT_LT((on_a - expected.force_on_a).norm(), 1e-13 * expected.force_on_a.norm());
     ASSERT_EQ(on_b.size(), subject.b.unknowns());
     if (db.size() > 0) {
