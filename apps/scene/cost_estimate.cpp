@@ -19,7 +19,7 @@ constexpr double program = 2e7;
 constexpr double of_triangle = 2000.0;
 constexpr double of_sub_face = 2000.0;            ///< without what grows with the order
 constexpr double of_surface_value = 10.0;         ///< of a function at a point of a sub-face
-constexpr double of_pair_and_unknown = 4e3;       ///< contact points, matrix and factor
+constexpr double of_pair_and_unknown = 1e4;       ///< contact points, matrix and factor, where faces meet
 constexpr double matrices_of_kind = 4.0;          ///< of size 3p x 3p, of blocks that differ
 constexpr double matrices_of_block = 2.0;         ///< and of each block
 constexpr double bytes_per_mesh_triangle = 20.0;  ///< of a file, the least of all formats
@@ -72,23 +72,32 @@ std::pair<std::size_t, int> kind_of(const SceneBlock& block) {
   return {block.shape.index(), block.order};
 }
 
-double number_of_pairs(const std::vector<std::optional<Polyhedron>>& solids, const Scene& scene,
-                       double& memory) {
+/// Blocks with boxes that meet, and what those of them take that can touch along faces.
+struct NearPairs {
+  double count = 0.0;
+  double memory = 0.0;  ///< bytes
+};
+
+NearPairs near_pairs(const std::vector<std::optional<Polyhedron>>& solids, const Scene& scene) {
   std::vector<Box> boxes;
   std::vector<std::size_t> blocks;
+  double faces = 0.0;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (!solids[k]) continue;
     boxes.push_back(box_of(solids[k]->mesh().points));
     blocks.push_back(k);
+    faces += static_cast<double>(solids[k]->faces().size());
   }
-  double pairs = 0.0;
+  NearPairs pairs;
   for (const auto& [a, b] : meeting_boxes(boxes)) {
     const SceneBlock& first = scene.block[blocks[static_cast<std::size_t>(a)]];
     const SceneBlock& second = scene.block[blocks[static_cast<std::size_t>(b)]];
     if (first.fixed && second.fixed) continue;
-    pairs += 1.0;
-    memory += of_pair_and_unknown * (unknowns_of(first) + unknowns_of(second));
+    pairs.count += 1.0;
+    pairs.memory += of_pair_and_unknown * (unknowns_of(first) + unknowns_of(second));
   }
+  // Blocks that touch along an edge or at a corner, and boxes of blocks that lean, have no contact points.
+  pairs.memory *= std::min(1.0, 0.5 * faces / std::max(pairs.count, 1.0));
   return pairs;
 }
 
@@ -124,7 +133,11 @@ CostEstimate estimate_cost(const Scene& scene, const std::vector<std::optional<P
     estimate.memory +=
         sizeof(double) * size * size * (matrices_of_block + (differs ? matrices_of_kind : 0.0));
   }
-  if (solids != nullptr) estimate.pairs = number_of_pairs(*solids, scene, estimate.memory);
+  if (solids != nullptr) {
+    const NearPairs pairs = near_pairs(*solids, scene);
+    estimate.pairs = pairs.count;
+    estimate.memory += pairs.memory;
+  }
   return estimate;
 }
 

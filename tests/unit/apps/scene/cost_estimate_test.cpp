@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "apps/scene/scene_solids.hpp"
 #include "unit/apps/run_fixture.hpp"
 #include "unit/apps/sample_scene.hpp"
 
@@ -43,6 +44,28 @@ TEST(CostEstimate, CountsWhatIsDivided) {
   EXPECT_EQ(estimate_cost(scene_of(head + sphere(1, 5))).sub_faces, 20480.0);
   EXPECT_EQ(estimate_cost(scene_of(sample())).unknowns, 24.0);
   EXPECT_EQ(estimate_cost(scene_of(head + sphere(0, 5))).unknowns, 6.0);
+}
+
+/// 27 unit cubes that fill a cube.
+std::string filled_cube() {
+  std::string text = head;
+  for (int k = 0; k < 27; ++k) {
+    const int x = k % 3, y = k / 3 % 3, z = k / 9;
+    text += fmt::format(
+        "[[block]]\nname = \"b{}\"\nmaterial = \"m\"\nbox = {{ min = [{}, {}, {}], max = [{}, {}, {}] }}\n",
+        k, x, y, z, x + 1, y + 1, z + 1);
+  }
+  return text;
+}
+
+// 54 pairs share a face, 72 an edge, 32 a corner: 158 in all. Half of the faces are 81, and a pair has 24 unknowns.
+TEST(CostEstimate, NoMorePairsTakeMemoryThanFacesCanTouch) {
+  Diagnostics diagnostics;
+  const Scene scene = scene_of(filled_cube());
+  const std::vector<std::optional<Polyhedron>> solids = build_solids(scene, diagnostics);
+  const CostEstimate estimate = estimate_cost(scene, &solids);
+  EXPECT_EQ(estimate.pairs, 158.0);
+  EXPECT_NEAR(estimate.memory - estimate_cost(scene).memory, 81.0 * 24.0 * 1e4, 1.0);
 }
 
 TEST_F(RunCommand, AScene270BytesLongIsRefusedForItsSize) {
