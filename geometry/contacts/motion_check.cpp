@@ -222,7 +222,7 @@ class MotionCheck {
  public:
   MotionCheck(const MovingSurface& a, const MovingSurface& b, const PairContacts& known,
               const MotionLimits& limits)
-      : a_(a), b_(b), limits_(limits), known_(places_of(*a.start, *b.start, known)) {}
+      : a_(a), b_(b), limits_(limits), known_(known) {}
 
   std::vector<Touch> run() {
     const double near = limits_.tolerance;
@@ -267,7 +267,7 @@ class MotionCheck {
   /// Whether a known contact between faces is where a point or side is at the start or the end of the step.
   /// @param ends of the point or side of surface s
   [[nodiscard]] bool is_known(const std::vector<int>& faces_a, const std::vector<int>& faces_b,
-                              const MovingSurface& s, const std::array<int, 2>& ends) const {
+                              const MovingSurface& s, const std::array<int, 2>& ends) {
     const auto has = [](const std::vector<int>& faces, int face) {
       return std::find(faces.begin(), faces.end(), face) != faces.end();
     };
@@ -277,19 +277,20 @@ class MotionCheck {
         return distance_to_place(start, end, outline) <= limits_.reach;
       });
     };
-    return std::any_of(known_.begin(), known_.end(), [&](const KnownPlace& place) {
+    if (!places_) places_ = places_of(*a_.start, *b_.start, known_);
+    return std::any_of(places_->begin(), places_->end(), [&](const KnownPlace& place) {
       return has(faces_a, place.face_a) && has(faces_b, place.face_b) &&
              (is_near(first.at(0.0), last.at(0.0), place) || is_near(first.at(1.0), last.at(1.0), place));
     });
   }
-  [[nodiscard]] bool is_known_vertex(bool point_of_a, int point, int cell) const {
+  [[nodiscard]] bool is_known_vertex(bool point_of_a, int point, int cell) {
     const MovingSurface& with_point = point_of_a ? a_ : b_;
     const std::vector<int> of_point = faces_of_point(with_point.start->surface(), point);
     const std::vector<int> of_cell = faces_of_cell((point_of_a ? b_ : a_).start->surface(), cell);
     return is_known(point_of_a ? of_point : of_cell, point_of_a ? of_cell : of_point, with_point,
                     {point, point});
   }
-  [[nodiscard]] bool is_known_crossing(const Side& of_a, const Side& of_b) const {
+  [[nodiscard]] bool is_known_crossing(const Side& of_a, const Side& of_b) {
     const std::vector<int> faces_a = faces_of_side(a_.start->surface(), of_a);
     const std::vector<int> faces_b = faces_of_side(b_.start->surface(), of_b);
     return is_known(faces_a, faces_b, a_, of_a.ends) && is_known(faces_a, faces_b, b_, of_b.ends);
@@ -409,7 +410,8 @@ class MotionCheck {
   const MovingSurface a_;
   const MovingSurface b_;
   const MotionLimits limits_;
-  std::vector<KnownPlace> known_;
+  const PairContacts& known_;
+  std::optional<std::vector<KnownPlace>> places_;  ///< of what is known, once it is asked for
   std::vector<Touch> touches_;
 };
 
