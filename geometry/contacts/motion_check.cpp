@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include "geometry/any_solid/triangle_distance.hpp"
 #include "geometry/boxes/box_pairs.hpp"
@@ -24,15 +23,6 @@ struct Path {
 
 Path path_of(const MovingSurface& s, int point) {
   return {s.start->point(point), s.end->point(point) - s.start->point(point)};
-}
-
-Box swept_box(const MovingSurface& s, std::span<const int> points) {
-  Box box;
-  for (const int point : points) {
-    box.include(s.start->point(point));
-    box.include(s.end->point(point));
-  }
-  return box;
 }
 
 /// Bernstein coefficients over the step of (p - a) . ((b - a) x (c - a)): products of linear functions.
@@ -140,83 +130,6 @@ std::vector<KnownPlace> places_of(const PlacedSurface& a, const PlacedSurface& b
   return places;
 }
 
-/// A side of cells between two points.
-struct Side {
-  std::array<int, 2> ends;
-  std::array<int, 2> cells;  ///< beside it
-};
-
-/// Points, sides and cells of a surface that a motion check looks at.
-struct Features {
-  std::vector<int> points;
-  std::vector<Side> sides;
-  std::vector<int> cells;
-};
-
-Features features_near(const MovingSurface& moving, const Box& around) {
-  const SubFaceSurface& surface = moving.start->surface();
-  const auto is_near = [&](std::span<const int> points) { return swept_box(moving, points).meets(around); };
-  Features features;
-  for (int p = 0; p < static_cast<int>(surface.points.size()); ++p) {
-    if (!surface.cells_at[at(p)].empty() && (surface.divided || surface.vertex_of_point[at(p)] >= 0) &&
-        is_near({&p, 1}))
-      features.points.push_back(p);
-  }
-  const auto add_side = [&](const Side& side) {
-    if (is_near(side.ends)) features.sides.push_back(side);
-  };
-  for (const SurfaceEdge& edge : surface.edges) {
-    if (edge.convex) add_side({edge.ends, edge.cells});
-  }
-  for (int c = 0; c < static_cast<int>(surface.cells.size()); ++c) {
-    const SurfaceCell& cell = surface.cells[at(c)];
-    if (is_near(cell.corners)) features.cells.push_back(c);
-    for (std::size_t k = 0; surface.divided && k < 3; ++k) {
-      const int start = cell.corners[k];
-      const int end = cell.corners[(k + 1) % 3];
-      if (cell.rim[k] < 0 && start < end) add_side({{start, end}, {c, c}});
-    }
-  }
-  return features;
-}
-
-// Faces whose contacts stand for a feature: a known one between them is the feature's own.
-
-std::vector<int> faces_of_point(const SubFaceSurface& surface, int point) {
-  std::vector<int> faces;
-  for (const int cell : surface.cells_at[at(point)]) faces.push_back(surface.cells[at(cell)].face);
-  return faces;
-}
-
-std::vector<int> faces_of_cell(const SubFaceSurface& surface, int cell) {
-  const int own = surface.cells[at(cell)].face;
-  std::vector<int> faces = surface.convex_neighbours[at(own)];
-  faces.push_back(own);
-  return faces;
-}
-
-/// The faces beside a side, and those at its ends that are across a convex edge of these.
-std::vector<int> faces_of_side(const SubFaceSurface& surface, const Side& side) {
-  const std::array<int, 2> beside = {surface.cells[at(side.cells[0])].face,
-                                     surface.cells[at(side.cells[1])].face};
-  std::vector<int> faces(beside.begin(), beside.end());
-  for (const int point : side.ends) {
-    for (const int cell : surface.cells_at[at(point)]) {
-      const int face = surface.cells[at(cell)].face;
-      const auto& joined = surface.convex_neighbours[at(face)];
-      if (std::any_of(beside.begin(), beside.end(),
-                      [&](int own) { return std::binary_search(joined.begin(), joined.end(), own); }))
-        faces.push_back(face);
-    }
-  }
-  return faces;
-}
-
-/// Sum of the normals beside a side.
-Vector3 outward_of(const PlacedSurface& surface, const Side& side) {
-  return surface.normal(side.cells[0]) + surface.normal(side.cells[1]);
-}
-
 /// Finds the touches of one pair of surfaces.
 class MotionCheck {
  public:
@@ -226,12 +139,12 @@ class MotionCheck {
 
   std::vector<Touch> run() {
     const double near = limits_.tolerance;
-    const Features of_a = features_near(a_, all(b_).grown(near));
-    const Features of_b = features_near(b_, all(a_).grown(near));
+    const MovingFeatures of_a = features_near(a_, all(b_).grown(near));
+    const MovingFeatures of_b = features_near(b_, all(a_).grown(near));
     check_points(of_a.points, of_b.cells, true);
     check_points(of_b.points, of_a.cells, false);
-    for (const auto& [i, j] : meeting_boxes(boxes(a_, of_a.sides, near), boxes(b_, of_b.sides, 0.0)))
-      check_sides(of_a.sides[at(i)], of_b.sides[at(j)]);
+    for (const auto& [i, j] : meeting_boxes(grown(of_a.sides.boxes, near), of_b.sides.boxes))
+      check_sides(of_a.sides.list[at(i)], of_b.sides.list[at(j)]);
     return std::move(touches_);
   }
 
@@ -242,26 +155,9 @@ class MotionCheck {
     return box;
   }
 
-  /// Points of a feature, as it is listed.
-  static std::span<const int> points_of(const SubFaceSurface&, const Side& side) { return side.ends; }
-  static std::span<const int> points_of(const SubFaceSurface& surface, int cell) {
-    return surface.cells[at(cell)].corners;
-  }
-
-  template <class Feature>
-  static std::vector<Box> boxes(const MovingSurface& s, const std::vector<Feature>& features, double margin) {
-    std::vector<Box> result;
-    result.reserve(features.size());
-    for (const Feature& feature : features)
-      result.push_back(swept_box(s, points_of(s.start->surface(), feature)).grown(margin));
-    return result;
-  }
-  static std::vector<Box> boxes_of_points(const MovingSurface& s, const std::vector<int>& points,
-                                          double margin) {
-    std::vector<Box> result;
-    result.reserve(points.size());
-    for (const int point : points) result.push_back(swept_box(s, {&point, 1}).grown(margin));
-    return result;
+  static std::vector<Box> grown(std::vector<Box> boxes, double margin) {
+    for (Box& box : boxes) box = box.grown(margin);
+    return boxes;
   }
 
   /// Whether a known contact between faces is where a point or side is at the start or the end of the step.
@@ -290,20 +186,19 @@ class MotionCheck {
     return is_known(point_of_a ? of_point : of_cell, point_of_a ? of_cell : of_point, with_point,
                     {point, point});
   }
-  [[nodiscard]] bool is_known_crossing(const Side& of_a, const Side& of_b) {
+  [[nodiscard]] bool is_known_crossing(const SurfaceSide& of_a, const SurfaceSide& of_b) {
     const std::vector<int> faces_a = faces_of_side(a_.start->surface(), of_a);
     const std::vector<int> faces_b = faces_of_side(b_.start->surface(), of_b);
     return is_known(faces_a, faces_b, a_, of_a.ends) && is_known(faces_a, faces_b, b_, of_b.ends);
   }
 
   // What is known is asked for last: most features that are near do not meet.
-  void check_points(const std::vector<int>& points, const std::vector<int>& cells, bool point_of_a) {
+  void check_points(const FeatureList<int>& points, const FeatureList<int>& cells, bool point_of_a) {
     const MovingSurface& with_point = point_of_a ? a_ : b_;
     const MovingSurface& with_cell = point_of_a ? b_ : a_;
-    for (const auto& [i, j] : meeting_boxes(boxes_of_points(with_point, points, limits_.tolerance),
-                                            boxes(with_cell, cells, 0.0))) {
-      const int point = points[at(i)];
-      const int cell = cells[at(j)];
+    for (const auto& [i, j] : meeting_boxes(grown(points.boxes, limits_.tolerance), cells.boxes)) {
+      const int point = points.list[at(i)];
+      const int cell = cells.list[at(j)];
       const auto& outline = with_cell.start->surface().cells[at(cell)].corners;
       const Path p = path_of(with_point, point);
       const Path first = path_of(with_cell, outline[0]);
@@ -359,7 +254,7 @@ class MotionCheck {
     return u.cross(v).norm() <= limits_.tolerance * std::max(u.norm(), v.norm());
   }
 
-  void check_sides(const Side& of_a, const Side& of_b) {
+  void check_sides(const SurfaceSide& of_a, const SurfaceSide& of_b) {
     const std::array<Path, 2> a = {path_of(a_, of_a.ends[0]), path_of(a_, of_a.ends[1])};
     const std::array<Path, 2> b = {path_of(b_, of_b.ends[0]), path_of(b_, of_b.ends[1])};
     const auto across = [&](double share) {

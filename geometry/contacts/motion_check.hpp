@@ -13,14 +13,9 @@
 #include <vector>
 
 #include "geometry/contacts/contact_search.hpp"
+#include "geometry/contacts/moving_features.hpp"
 
 namespace ashlar {
-
-/// A surface during a step: the same cells at its start and its end.
-struct MovingSurface {
-  const PlacedSurface* start;
-  const PlacedSurface* end;
-};
 
 /// Two features that would pass through each other.
 struct Touch {

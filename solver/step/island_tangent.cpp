@@ -133,39 +133,28 @@ void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force)
 }
 
 void IslandTangent::add_pairs(const std::vector<PairStiffnesses>& stiffnesses, const Eigen::VectorXd& x,
-                              Eigen::VectorXd& force) {
-  changes_.resize(problem_.bodies());
-  forces_.resize(problem_.bodies());
+                              Eigen::VectorXd& force) const {
+  const auto equations = [&](auto& of_island, std::size_t k) {
+    return of_island.segment(solver_.matrix.offset(static_cast<int>(k)), problem_.body(k).model->freedom());
+  };
+  std::vector<Eigen::VectorXd> changes, forces;  // of each body, in its unknowns
   for (std::size_t k = 0; k < problem_.bodies(); ++k) {
-    const BodyStep& body = problem_.body(k);
-    const auto of_body = x.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom());
-    if (body.model->rigid()) {
-      changes_[k].noalias() = body.fields * of_body;
-    } else {
-      changes_[k] = of_body;
-    }
-    forces_[k].setZero(changes_[k].size());
+    changes.push_back(problem_.body(k).of_unknowns(equations(x, k)));
+    forces.emplace_back(Eigen::VectorXd::Zero(changes[k].size()));
   }
   Eigen::VectorXd none;  // of fixed blocks
   for (const auto& [k, points] : stiffnesses) {
     const ContactPair& pair = problem_.pair(k);
     const int a = problem_.place(pair.a());
     const int b = problem_.place(pair.b());
-    pair.rows().add_product(points, a < 0 ? none : changes_[at(a)], b < 0 ? none : changes_[at(b)],
-                            a < 0 ? none : forces_[at(a)], b < 0 ? none : forces_[at(b)]);
+    pair.rows().add_product(points, a < 0 ? none : changes[at(a)], b < 0 ? none : changes[at(b)],
+                            a < 0 ? none : forces[at(a)], b < 0 ? none : forces[at(b)]);
   }
-  for (std::size_t k = 0; k < problem_.bodies(); ++k) {
-    const BodyStep& body = problem_.body(k);
-    auto on_body = force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom());
-    if (body.model->rigid()) {
-      on_body.noalias() += body.fields.transpose() * forces_[k];
-    } else {
-      on_body += forces_[k];
-    }
-  }
+  for (std::size_t k = 0; k < problem_.bodies(); ++k)
+    equations(force, k) += problem_.body(k).in_equations(forces[k]);
 }
 
-Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) {
+Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const {
   const IterationSettings& settings = problem_.settings().iteration;
   std::vector<PairStiffnesses> stiffnesses;
   for (std::size_t k = 0; k < problem_.pairs(); ++k) {

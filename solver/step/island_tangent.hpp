@@ -49,17 +49,14 @@ class IslandTangent {
   void add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
   /// Adds what stiffnesses of contact points make of a change.
   void add_pairs(const std::vector<PairStiffnesses>& stiffnesses, const Eigen::VectorXd& x,
-                 Eigen::VectorXd& force);
+                 Eigen::VectorXd& force) const;
   /// Solves with an old factor. @return empty if it is none any more
-  [[nodiscard]] Eigen::VectorXd solve_with_old(const Eigen::VectorXd& right_side, bool coupled);
+  [[nodiscard]] Eigen::VectorXd solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const;
 
   const IslandProblem& problem_;
   IslandSolvers::Entry& solver_;
   bool factor_is_old_ = false;  ///< of another matrix than that of the last responses
   bool assembled_ = false;      ///< since update_factor() was called
-  // Of add_pairs(), kept from call to call: their memory is asked for once.
-  std::vector<Eigen::VectorXd> changes_;  ///< of each body, in its unknowns
-  std::vector<Eigen::VectorXd> forces_;   ///< on each body's unknowns
 };
 
 }  // namespace ashlar

@@ -82,5 +82,14 @@ class Packages(unittest.TestCase):
         found = output_of(["/usr/bin/python3", "-c", code], env={**os.environ, "PYTHONPATH": str(place)})
         self.assertTrue(found.startswith(str(place)))
 
+    @unittest.skipUnless(options.python, "built without Python")
+    def test_an_example_it_brings_makes_a_plot(self):
+        place = self.root / "usr/lib/python3/dist-packages"
+        example = self.root / "usr/share/doc/python3-ashlar/examples/falling_block.py"
+        picture = Path(self.folder.name) / "height.png"
+        output_of(["/usr/bin/python3", example, picture],
+                  env={**os.environ, "PYTHONPATH": str(place), "MPLBACKEND": "Agg"})
+        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
 
 unittest.main(argv=sys.argv[:1])
