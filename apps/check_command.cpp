@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <utility>
 
+#include "apps/results/json_text.hpp"
 #include "apps/run/override_option.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/build_simulation.hpp"
@@ -14,6 +17,62 @@
 #include "apps/scene/scene_loading.hpp"
 
 namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a good scene says of itself, a line each.
+std::vector<std::string> notes_of(const Scene& scene) {
+  std::vector<std::string> lines = scene.notes;
+  for (std::string& line : motion_left(scene)) lines.push_back(std::move(line));
+  return lines;
+}
+
+void print_report(const std::filesystem::path& file, const LoadedScene& loaded, std::ostream& out) {
+  const Scene& scene = loaded.scene;
+  const auto counted = [](std::size_t count, const char* noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  };
+  out << fmt::format("{}: good: {}, {}, {}, {}\n", file.string(), counted(scene.block.size(), "block"),
+                     counted(scene.material.size(), "material"), counted(scene.joint.size(), "joint"),
+                     counted(scene.measure.size(), "measure"));
+  out << to_string(loaded.cost, scene.block.size()) << '\n';
+  for (const std::string& line : notes_of(scene)) out << line << '\n';
+}
+
+Json fault_json(const Diagnostic& fault) {
+  Json json{{"severity", fault.severity == Severity::error ? "error" : "warning"}};
+  if (fault.place.line == 0) {
+    json["argument"] = fault.place.origin;
+  } else {
+    json["file"] = fault.place.origin;
+    json["line"] = fault.place.line;
+    json["column"] = fault.place.column;
+  }
+  json["message"] = fault.message;
+  return json;
+}
+
+/// @param loaded is there if there are no errors
+Json report_json(const Diagnostics& diagnostics, const std::optional<LoadedScene>& loaded) {
+  Json json{{"good", diagnostics.good()}, {"faults", Json::array()}};
+  for (const Diagnostic& fault : diagnostics.listed()) json["faults"].push_back(fault_json(fault));
+  if (!diagnostics.good()) return json;
+  const Scene& scene = loaded->scene;
+  json["blocks"] = scene.block.size();
+  json["materials"] = scene.material.size();
+  json["joints"] = scene.joint.size();
+  json["measures"] = scene.measure.size();
+  const CostEstimate& cost = loaded->cost;
+  json["estimate"] = {{"sub_faces", cost.sub_faces},
+                      {"unknowns", cost.unknowns},
+                      {"near_pairs", cost.pairs},
+                      {"memory_bytes", cost.memory}};
+  json["notes"] = notes_of(scene);
+  return json;
+}
+
+}  // namespace
 
 int check_command(const CheckOptions& options, std::ostream& out, std::ostream& err) {
   Diagnostics diagnostics;
@@ -28,19 +87,13 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
     if (built && is_static(first->scene.analysis))
       refuse_loose_blocks(first->scene, built->simulation, diagnostics);
   }
-  diagnostics.print(err);
-  if (!diagnostics.good()) return exit_status::bad_input;
-  const Scene& scene = loaded->scene;
-  const auto counted = [](std::size_t count, const char* noun) {
-    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-  };
-  out << fmt::format("{}: good: {}, {}, {}, {}\n", options.scene.string(),
-                     counted(scene.block.size(), "block"), counted(scene.material.size(), "material"),
-                     counted(scene.joint.size(), "joint"), counted(scene.measure.size(), "measure"));
-  out << to_string(loaded->cost, scene.block.size()) << '\n';
-  for (const std::string& line : scene.notes) out << line << '\n';
-  for (const std::string& line : motion_left(scene)) out << line << '\n';
-  return exit_status::done;
+  if (options.json) {
+    out << json_text(report_json(diagnostics, loaded), 2) << '\n';
+  } else {
+    diagnostics.print(err);
+    if (diagnostics.good()) print_report(options.scene, *loaded, out);
+  }
+  return diagnostics.good() ? exit_status::done : exit_status::bad_input;
 }
 
 void declare_check_command(CLI::App& program, CommandContext& context) {
@@ -51,6 +104,7 @@ void declare_check_command(CLI::App& program, CommandContext& context) {
       ->required()
       ->type_name("");
   declare_overrides(*command, options->overrides);
+  command->add_flag("--json", options->json, "Print all that is said as JSON, faults with their places too");
   command->callback(
       [options, &context] { context.status = check_command(*options, context.out, context.err); });
 }

@@ -54,29 +54,33 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
   return result;
 }
 
-void Diagnostics::print(std::ostream& stream) const {
+std::vector<Diagnostic> Diagnostics::listed() const {
   struct Kind {
     std::size_t count = 0;
     const Diagnostic* first_hidden = nullptr;
   };
   const std::vector<Diagnostic> all = sorted();
+  std::vector<Diagnostic> result;
   std::map<std::pair<Severity, std::string_view>, Kind> kinds;
   for (const Diagnostic& diagnostic : all) {
     Kind& kind = kinds[{diagnostic.severity, kind_of(diagnostic)}];
     if (++kind.count <= listed_of_a_kind)
-      stream << to_string(diagnostic) << '\n';
+      result.push_back(diagnostic);
     else if (kind.first_hidden == nullptr)
       kind.first_hidden = &diagnostic;
   }
   for (const auto& [name, kind] : kinds) {
     if (kind.first_hidden == nullptr) continue;
-    stream << to_string(
-                  Diagnostic{kind.first_hidden->place,
-                             fmt::format("{} more of this kind from here on ({}), the first {} are listed",
-                                         kind.count - listed_of_a_kind, name.second, listed_of_a_kind),
-                             name.first})
-           << '\n';
+    result.push_back({kind.first_hidden->place,
+                      fmt::format("{} more of this kind from here on ({}), the first {} are listed",
+                                  kind.count - listed_of_a_kind, name.second, listed_of_a_kind),
+                      name.first});
   }
+  return result;
+}
+
+void Diagnostics::print(std::ostream& stream) const {
+  for (const Diagnostic& diagnostic : listed()) stream << to_string(diagnostic) << '\n';
 }
 
 }  // namespace ashlar

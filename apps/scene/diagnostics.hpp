@@ -51,8 +51,10 @@ class Diagnostics {
   /// In file order; faults of arguments come after those of files. Faults at one place keep the order in
   /// which they were found, and a fault found twice is listed once.
   [[nodiscard]] std::vector<Diagnostic> sorted() const;
-  /// One line each, sorted; of faults that differ in names and numbers only, the first listed_of_a_kind and a
-  /// line with the number of the others.
+  /// As sorted(), but of faults that differ in names and numbers only the first listed_of_a_kind; at the end one for
+  /// the others of each kind, with their number, where the first of them is.
+  [[nodiscard]] std::vector<Diagnostic> listed() const;
+  /// What is listed, one line each.
   void print(std::ostream& stream) const;
 
  private:
