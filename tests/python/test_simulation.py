@@ -1,7 +1,9 @@
 """Scenes and simulations from Python, against values derived by hand."""
 import decimal
 import json
+import os
 import pickle
+import signal
 import threading
 import time
 
@@ -259,3 +261,13 @@ def test_other_threads_run_while_it_computes():
         thread.join()
     done.set()
     assert np.array_equal(sims[0].history["energy.elastic"], sims[1].history["energy.elastic"])
+
+
+def test_ctrl_c_ends_a_run_between_two_steps():
+    sim = scene(end_time=1e6).simulation()  # longer than anybody waits
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        sim.run()
+    steps = len(sim.history["time"])
+    sim.step()
+    assert len(sim.history["time"]) == steps + 1
