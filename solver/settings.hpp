@@ -64,9 +64,9 @@ struct DepthSettings {
 /// Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
 /// where the others are exceeded the step is cut.
 struct IterationSettings {
-  int newton_iterations = 16;
+  int newton_iterations = 60;
   double newton_overshoot = 0.3;  ///< 0 to 1: work along a change that may be undone by going all its way
-  int newton_patience = 8;        ///< iterations that do not halve what is left, one after another
+  int newton_patience = 8;        ///< iterations in which the sum of what is left is not halved
   int krylov_iterations = 30;     ///< of one linear system with friction's coupling to normal forces
   int old_factor_iterations =
       10;  ///< of one linear system with a factor of an earlier step: more cost a new one
@@ -127,6 +127,9 @@ struct StaticSettings {
   /// as residual_tolerance: tighter, as soft motions make more of a force that is not balanced
   double residual_tolerance = 1e-13;
   double tolerance = 1e-10;  ///< what equilibrium may lack, as a share of a block's largest force
+  /// of the largest force of a block: what an iteration may lack whose friction does not settle. The next one goes on
+  /// from there, and is no balance unless it lacks `tolerance` at most (notes/when_statics_end.md)
+  double unsettled_share = 1e-3;
   /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
   /// smaller follows contacts better
   double motion = 0.05;

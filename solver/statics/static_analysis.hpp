@@ -6,7 +6,8 @@
 // that of the scene's time step; it falls tenfold with each iteration that settles and rises where an
 // iteration does not settle or a block would move too far at once, so that the iteration ends as a Newton
 // iteration of the static equations and begins as a motion that contacts can follow. rho m D is what
-// equilibrium still lacks.
+// equilibrium still lacks, and what is left of the equations where friction did not settle
+// (settings.statics.unsettled_share).
 //
 // Slip is that of the load level, from where blocks were when its loads were put on, whatever happened in
 // between: what slid, lifted off or tore while inertia carried part of the load is no part of the answer.

@@ -189,7 +189,13 @@ class StaticIteration {
     accept(run_, scheme, problem_);
     run_.state.report.step = step_of(scheme);
     if (statics.holds_bonds && (balanced || has_set_off(run_))) let_bonds_go(run_);
-    if (!cut_) statics.inertia = std::max(0.1 * scheme.inertia, least_);
+    const bool settled_friction = std::none_of(problem_.bodies.begin(), problem_.bodies.end(),
+                                               [](const BodyStep& body) { return body.lacking > 0.0; });
+    if (!settled_friction) {
+      statics.inertia = 10.0 * scheme.inertia;
+    } else if (!cut_) {
+      statics.inertia = std::max(0.1 * scheme.inertia, least_);
+    }
     const bool still =
         balanced && (scheme.inertia <= least_ || least_ == 0.0) &&
         (before == contact_states(run_.state.report) || motion <= run_.settings().statics.stillness);

@@ -99,7 +99,7 @@ bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepPro
     if (!run.system.moving()[k]) continue;
     const BodyStep& body = problem.bodies[k];
     const BlockModel& block = run.blocks()[k];
-    const double lacking = block.material().density * scheme.inertia * body.change.norm();
+    const double lacking = block.material().density * scheme.inertia * body.change.norm() + body.lacking;
     const Eigen::MatrixX3d position = run.state.states[k].position + body.motion();
     if (lacking <= run.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
       run.state.statics.progress.travels[k] = 0.0;

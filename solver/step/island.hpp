@@ -30,6 +30,7 @@ struct BodyStep {
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
   Eigen::VectorXd change;          ///< D, the result
   double largest_force = 0.0;      ///< norm of the largest force that acts on it
+  double lacking = 0.0;            ///< norm of what is left of its equations, N; 0: no more than it may lack
   ElasticResponse elastic;         ///< where the integrator takes it
   Eigen::MatrixX3d prescribed;     ///< what supports that move add to the position, (p, 3); empty: nothing
   /// Of damping by stiffness: the elastic force at the start of the step in the frame that turns with the block, (p, 3)

@@ -104,15 +104,16 @@ void IslandProblem::judge(Balance& balance, const std::vector<ForceErrors>& erro
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
         balance.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
-    body.largest_force = scale;
     if (left == 0.0) continue;
     const double share = left / (tolerance * scale + rounding);
     // Numbers that overflowed have settled nothing, and no comparison with them may say so.
     const bool finite = std::isfinite(share) && std::isfinite(scale);
     balance.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
     balance.worst = std::max(balance.worst, balance.shares[k]);
+    balance.sum += balance.shares[k];
     balance.largest_part = std::max(balance.largest_part, finite ? left / scale : balance.shares[k]);
   }
+  recall(balance);
 }
 
 Balance IslandProblem::balance() const {
@@ -136,9 +137,15 @@ Balance IslandProblem::balance() const {
   return result;
 }
 
-void IslandProblem::recall(const Balance& balance) {
-  for (std::size_t k = 0; k < island_.bodies.size(); ++k)
-    bodies_[at(island_.bodies[k])].largest_force = balance.scales[k];
+void IslandProblem::recall(const Balance& balance) const {
+  for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
+    BodyStep& body = bodies_[at(island_.bodies[k])];
+    body.largest_force = balance.scales[k];
+    body.lacking =
+        balance.shares[k] <= 1.0
+            ? 0.0
+            : balance.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
+  }
 }
 
 Eigen::VectorXd IslandProblem::contact_forces() const {

@@ -15,6 +15,7 @@ struct Balance {
   Eigen::VectorXd left;        ///< N, in the island's equations
   std::vector<double> shares;  ///< of what each body may lack, what is left on it
   double worst = 0.0;          ///< the largest share; <= 1: settled
+  double sum = 0.0;            ///< of shares: falls from guess to guess where the largest does not yet
   double largest_part = 0.0;   ///< of the largest force on each body, what is left on it: the largest
   std::vector<double> scales;  ///< norm of the largest force on each body
   [[nodiscard]] bool settled() const { return worst <= 1.0; }
@@ -54,7 +55,7 @@ class IslandProblem {
   void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
   [[nodiscard]] Balance balance() const;
   /// Takes a balance that was found at the present guess for that of the last call of balance().
-  void recall(const Balance& balance);
+  void recall(const Balance& balance) const;
   /// Forces of the last responses alone, N, in the island's equations.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
   void apply(const Eigen::VectorXd& change, double share);

@@ -87,7 +87,9 @@ class OpenClose {
   /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
   Outcome newton(int most, bool closing) {
     std::vector<std::vector<ContactState>> seen;
+    if (!closing) nearest_ = {};
     least_ = std::numeric_limits<double>::infinity();
+    double last_gain = least_;
     int without_gain = 0;
     bool last_factor = false;  // was used once more
     // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
@@ -108,13 +110,16 @@ class OpenClose {
         return Outcome::settled;
       }
       // Slip that turns round leaves the states as they are.
-      without_gain = balance.worst < 0.5 * least_ ? 0 : without_gain + 1;
+      const bool halved = balance.sum < 0.5 * last_gain;
+      without_gain = halved ? 0 : without_gain + 1;
+      if (halved) last_gain = balance.sum;
       if (!std::isfinite(balance.worst) || without_gain > (closing ? 0 : settings_.iteration.newton_patience))
         return Outcome::stalled;
       if (balance.worst < least_) {
         least_ = balance.worst;
         if (!closing) best_ = problem_.guess();
       }
+      if (balance.sum < nearest_.sum) nearest_ = {balance.sum, balance.largest_part, problem_.guess()};
       std::vector<ContactState> states = problem_.states();
       const bool as_before = !seen.empty() && states == seen.back();
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
@@ -164,6 +169,17 @@ class OpenClose {
     respond();
   }
 
+  /// Takes the nearest guess for the answer of an iteration of a static analysis: the next one goes on from there.
+  /// @return false unless it is near enough
+  bool take_nearest() {
+    if (!problem_.scheme().from_rest || nearest_.largest_part > settings_.statics.unsettled_share)
+      return false;
+    problem_.set_guess(nearest_.guess);
+    respond();
+    known_balance_ = problem_.balance();
+    return true;
+  }
+
   Outcome minimise() {
     problem_.set_guess(best_);
     respond();
@@ -179,6 +195,7 @@ class OpenClose {
       const std::vector<double> next = bounds();
       const Outcome finished = newton(settings_.iteration.newton_iterations, true);
       if (finished == Outcome::settled) return finished;
+      if (pass + 1 >= settings_.iteration.plain_passes && take_nearest()) return Outcome::settled;
       problem_.set_guess(guess);
       Eigen::Map<Eigen::VectorXd> held(limits.data(), static_cast<Eigen::Index>(limits.size()));
       const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(next.data(), held.size()) - held;
@@ -261,6 +278,11 @@ class OpenClose {
   std::optional<Balance> known_balance_;  ///< of the present guess, where it was found before it is asked for
   double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
   std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()
+  struct {
+    double sum = std::numeric_limits<double>::infinity();
+    double largest_part = std::numeric_limits<double>::infinity();
+    std::vector<Eigen::VectorXd> guess;
+  } nearest_;  ///< of the least Balance::sum since the last newton() that was not closing began
 };
 
 }  // namespace
