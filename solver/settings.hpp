@@ -64,7 +64,7 @@ struct DepthSettings {
 /// Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
 /// where the others are exceeded the step is cut.
 struct IterationSettings {
-  int newton_iterations = 60;
+  int newton_iterations = 60;     ///< newton_patience ends them before
   double newton_overshoot = 0.3;  ///< 0 to 1: work along a change that may be undone by going all its way
   int newton_patience = 8;        ///< iterations in which the sum of what is left is not halved
   int krylov_iterations = 30;     ///< of one linear system with friction's coupling to normal forces

@@ -178,7 +178,7 @@ class StaticIteration {
     StaticState& statics = run_.state.statics;
     const std::array<int, 3> before = contact_states(run_.state.report);
     const bool balanced = note_balance(run_, scheme, problem_);
-    note_way_on(run_, way_on_);
+    if (is_settled(problem_)) note_way_on(run_, way_on_);
     if (balanced) {
       forget_accelerations(run_);
     } else {
@@ -189,9 +189,7 @@ class StaticIteration {
     accept(run_, scheme, problem_);
     run_.state.report.step = step_of(scheme);
     if (statics.holds_bonds && (balanced || has_set_off(run_))) let_bonds_go(run_);
-    const bool settled_friction = std::none_of(problem_.bodies.begin(), problem_.bodies.end(),
-                                               [](const BodyStep& body) { return body.lacking > 0.0; });
-    if (!settled_friction) {
+    if (!is_settled(problem_)) {
       statics.inertia = 10.0 * scheme.inertia;
     } else if (!cut_) {
       statics.inertia = std::max(0.1 * scheme.inertia, least_);

@@ -92,6 +92,11 @@ bool has_set_off(const RunContext& run) {
       [&](double travel) { return travel > taken_along_share * run.settings().statics.travel; });
 }
 
+bool is_settled(const StepProblem& problem) {
+  return std::none_of(problem.bodies.begin(), problem.bodies.end(),
+                      [](const BodyStep& body) { return body.lacking > 0.0; });
+}
+
 bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
   bool balanced = true;
   const std::vector<bool> held = run.system.held_without_contacts();
@@ -137,7 +142,7 @@ double travel(const RunContext& run, int block) {
 void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
   auto [sliding, fail] = joints_of(run, problem);
   if (fail) forget_accelerations(run);
-  const bool settled = sliding == run.state.statics.onset.sliding;
+  const bool settled = is_settled(problem) && sliding == run.state.statics.onset.sliding;
   run.state.statics.onset.sliding = std::move(sliding);
   // Until joints slide twice alike the last iteration knows best: in the first ones inertia bears most of the weight.
   if (!settled && std::isfinite(run.state.statics.onset.least_lacking)) return;

@@ -16,6 +16,8 @@ namespace ashlar {
 /// How far a block is from where it set off, m.
 [[nodiscard]] double travel(const RunContext& run, int block);
 
+/// Whether no body lacks what its open-close iteration had to leave (settings.statics.unsettled_share).
+[[nodiscard]] bool is_settled(const StepProblem& problem);
 /// Takes note of what each block lacks of balance. @return whether none lacks anything
 [[nodiscard]] bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
 /// Keeps what is reported of moving blocks. Before the problem is accepted.

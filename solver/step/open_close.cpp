@@ -57,11 +57,14 @@ class OpenClose {
   /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
   /// nothing damps make more of it. The last factor takes most of it away.
   void polish() {
-    const Eigen::VectorXd change = tangent_.solve(next_balance().left, true);
-    Evaluation settled = problem_.set_aside();
+    const Balance balance = next_balance();
+    const Eigen::VectorXd change = tangent_.solve(balance.left, true);
+    Evaluation before = problem_.set_aside();
     problem_.apply(change, 1.0);
     respond();
-    if (!problem_.balance().settled()) problem_.take_back(std::move(settled));
+    if (problem_.balance().settled()) return;
+    problem_.take_back(std::move(before));
+    problem_.recall(balance);
   }
 
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
@@ -119,7 +122,8 @@ class OpenClose {
         least_ = balance.worst;
         if (!closing) best_ = problem_.guess();
       }
-      if (balance.sum < nearest_.sum) nearest_ = {balance.sum, balance.largest_part, problem_.guess()};
+      if (problem_.scheme().from_rest && balance.sum < nearest_.sum)
+        nearest_ = {balance.sum, balance.largest_part, problem_.guess()};
       std::vector<ContactState> states = problem_.states();
       const bool as_before = !seen.empty() && states == seen.back();
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
@@ -172,8 +176,7 @@ class OpenClose {
   /// Takes the nearest guess for the answer of an iteration of a static analysis: the next one goes on from there.
   /// @return false unless it is near enough
   bool take_nearest() {
-    if (!problem_.scheme().from_rest || nearest_.largest_part > settings_.statics.unsettled_share)
-      return false;
+    if (nearest_.largest_part > settings_.statics.unsettled_share) return false;
     problem_.set_guess(nearest_.guess);
     respond();
     known_balance_ = problem_.balance();
@@ -282,7 +285,7 @@ class OpenClose {
     double sum = std::numeric_limits<double>::infinity();
     double largest_part = std::numeric_limits<double>::infinity();
     std::vector<Eigen::VectorXd> guess;
-  } nearest_;  ///< of the least Balance::sum since the last newton() that was not closing began
+  } nearest_;  ///< in statics: of the least Balance::sum since the last newton() that was not closing began
 };
 
 }  // namespace

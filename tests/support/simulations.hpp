@@ -54,6 +54,13 @@ inline bool run_until(Simulation& simulation, double time) {
   return true;
 }
 
+/// A static analysis to its end.
+inline StaticStatus run_static(Simulation& simulation, double end_time) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = simulation.static_step(end_time);
+  return status;
+}
+
 /// Current position of a material point.
 inline Vector3 place_of(const Simulation& simulation, int block, const Vector3& point) {
   const auto index = static_cast<std::size_t>(block);

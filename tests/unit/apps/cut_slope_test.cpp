@@ -10,6 +10,7 @@
 
 #include "apps/scene/build_simulation.hpp"
 #include "apps/scene/scene_loading.hpp"
+#include "support/simulations.hpp"
 
 namespace ashlar {
 namespace {
@@ -29,12 +30,6 @@ std::string friction(const std::string& key, double angle) {
   return key + ".friction_angle=" + std::to_string(angle);
 }
 
-StaticStatus run_static(Simulation& simulation) {
-  StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing) status = simulation.static_step(1.0);
-  return status;
-}
-
 class CutSlope : public testing::TestWithParam<double> {};
 
 // What lies on the bedding through the toe sets off along it with a = g (sin 30 - cos 30 tan(phi)), as one. In the first
@@ -44,7 +39,7 @@ TEST_P(CutSlope, SetsOffAlongItsBedding) {
   auto built = built_slope({"parameters.height=4", "parameters.width=3", friction("joint.0", angle)});
   ASSERT_TRUE(built);
   Simulation& simulation = built->simulation;
-  const StaticStatus status = run_static(simulation);
+  const StaticStatus status = test_support::run_static(simulation, 1.0);
   const double along = 9.81 * (std::sin(30 * degree) - std::cos(30 * degree) * std::tan(angle * degree));
   if (along < 0.0) {
     EXPECT_EQ(status, StaticStatus::equilibrium);
@@ -66,7 +61,7 @@ TEST(SteepJoints, StandsWhereFrictionDoesNotSettleAtOnce) {
                             "contact.augmented=true", friction("contact", raised(40)),
                             friction("joint.0", raised(29))});
   ASSERT_TRUE(built);
-  EXPECT_EQ(run_static(built->simulation), StaticStatus::equilibrium);
+  EXPECT_EQ(test_support::run_static(built->simulation, 1.0), StaticStatus::equilibrium);
   EXPECT_GT(built->simulation.counts().open_close_fallbacks, 0U);
 }
 

@@ -1,4 +1,4 @@
-// Blocks of rock for static analyses, and the analysis to its end.
+// Blocks of rock for static analyses.
 #pragma once
 
 #include <cmath>
@@ -24,12 +24,6 @@ inline BlockDefinition fixed_block(Polyhedron solid) {
   BlockDefinition block = block_of("base", std::move(solid), rock, 1);
   block.fixed = true;
   return block;
-}
-
-inline StaticStatus run_static(Simulation& simulation, double end_time) {
-  StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing) status = simulation.static_step(end_time);
-  return status;
 }
 
 /// A cube on a slope.
