@@ -31,7 +31,7 @@ std::optional<Balance> take_best_guess(IslandProblem& problem) {
   if (staying.largest_part <= little) return staying;
   Evaluation stayed = problem.set_aside();
   Balance best_balance = try_guess(problem, FirstGuess::falling);
-  double least = best_balance.worst;
+  double least = best_balance.sum;
   std::vector<double> shares = best_balance.shares;
   Evaluation best = problem.set_aside();
   std::vector<Eigen::VectorXd> own = best.guess;
@@ -43,8 +43,8 @@ std::optional<Balance> take_best_guess(IslandProblem& problem) {
       own[k] = evaluation.guess[k];
       kinds[k] = kind;
     }
-    if (!(balance.worst <= least_gain * least)) return;
-    least = balance.worst;
+    if (!(balance.sum <= least_gain * least)) return;
+    least = balance.sum;
     best_balance = std::move(balance);
     best = std::move(evaluation);
   };
@@ -55,7 +55,7 @@ std::optional<Balance> take_best_guess(IslandProblem& problem) {
     problem.set_guess(own);
     problem.respond();
     Balance mixed = problem.balance();
-    if (mixed.worst <= least_gain * least) return mixed;
+    if (mixed.sum <= least_gain_of_one * least) return mixed;
   }
   problem.take_back(std::move(best));
   return best_balance;

@@ -176,5 +176,30 @@ TEST(OpenClose, AWallAtRestIsGuessedToStay) {
   EXPECT_TRUE(simulation.rejections().empty());
 }
 
+// Four courses of four bricks; the end of the top one overhangs by half its length and topples. As soon as it is fast,
+// it lacks more than it does in free fall if all stay, and the fifteen others would lose their states for its sake.
+TEST(OpenClose, WhatOneBrickLacksDoesNotMakeTheOthersFall) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-9, -9, -5}, {9, 9, 0}));
+  for (int row = 0; row < 4; ++row) {
+    for (int k = 0; k < 4; ++k) {
+      const Vector3 low(k + 0.5 * (row % 2) - 0.5, -0.25, 0.5 * row);
+      blocks.emplace_back(
+          block_of("brick", Polyhedron(make_box(low, low + Vector3(1.0, 0.5, 0.5))), {2600, 1e10, 0.2}, 1));
+    }
+  }
+  SimulationSettings settings;
+  settings.time_step = 1.0 / 240.0;
+  std::vector<InitialMotion> at_rest(blocks.size());
+  Simulation simulation(std::move(blocks), at_rest, same_law({2e12, 1e12, 0.5, 0.0, 0.0, true}), settings);
+  int iterations = 0;
+  for (int step = 1; step <= 260; ++step) {
+    ASSERT_TRUE(run_until(simulation, step * settings.time_step));
+    if (step > 236) iterations += simulation.report().iterations;
+  }
+  EXPECT_LT(place_of(simulation, 16, {4.0, 0.0, 1.75}).z(), 1.7) << "it topples";
+  EXPECT_LE(iterations, 24 * 6);
+}
+
 }  // namespace
 }  // namespace ashlar
