@@ -115,6 +115,16 @@ void ContactPair::rest_at(std::vector<double> rests) {
   respond_at_start();
 }
 
+void ContactPair::touch_within(double depth) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    double& gap = start_(0, static_cast<Eigen::Index>(k));
+    if (laws_[k].tension > 0.0 || gap >= 0.0 || gap < -depth) continue;
+    rests_[k] = points_[k].gap;
+    gap = 0.0;
+  }
+  respond_at_start();
+}
+
 void ContactPair::hold_where_found(double taken) {
   taken_ = taken;
   std::vector<double> rests;

@@ -95,6 +95,9 @@ class ContactPair {
   /// elastic slip shrinks in proportion. Pairs with bonds that can take tension, and tied ones, stay as they
   /// are, and so do pairs with multipliers.
   void hold_at_most(const SpringEnergy& held);
+  /// Springs without tension that are placed below the surface, by no more than this, are at rest there.
+  /// @param depth m, >= 0
+  void touch_within(double depth);
   /// Points with multipliers, which hold no energy, are held where they are found below the surface, bonds
   /// also above it.
   /// @param taken what the pair has taken from its blocks and not given back, J, >= 0

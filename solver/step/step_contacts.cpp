@@ -289,6 +289,7 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
     lasting.rows = pair.rows().values();
     pair.may_last(std::make_shared<const LastingContacts>(std::move(lasting)));
   }
+  if (use == PairUse::motion && !state.has_begun()) pair.touch_within(law.rounding);
   if (goes_on && law.augmented) pair.hold_where_found(known.taken);
   if (!moved.empty()) pair.count_slip(moved);
   if (use == PairUse::statics && state.statics.holds_bonds) pair.hold_bonds();

@@ -221,6 +221,27 @@ TEST(ContactPair, MovedApartPushesFromADepthOnAndKeepsBonds) {
   EXPECT_EQ(force_at(1e-6, 1e6, true), Eigen::Vector3d::Zero());
 }
 
+TEST(ContactPair, WhatIsPlacedBelowTheSurfaceByRoundingTouches) {
+  JointLaw law{2e9, 1e9, 0.5, 0.0, 0.0, true};
+  law.rounding = 3e-14;
+  const auto start_force = [&](double gap) {
+    const Setting setting = skew_setting(gap);
+    PointMemory memory;
+    memory.intact = true;
+    ContactPair pair = pair_of(setting, law, memory);
+    pair.touch_within(law.rounding);
+    const PairResponse response = pair.respond(none(setting.a), none(setting.b), false);
+    EXPECT_NE(response.points[0].state, ContactState::open) << gap;
+    return response.points[0].force[0];
+  };
+  EXPECT_EQ(start_force(-2e-14), 0.0);
+  EXPECT_EQ(start_force(2e-14), 0.0);
+  EXPECT_DOUBLE_EQ(start_force(-4e-14), 2e9 * 0.25 * 4e-14);
+  // A bond holds either way.
+  law.tensile_strength = 1e6;
+  EXPECT_DOUBLE_EQ(start_force(-2e-14), 2e9 * 0.25 * 2e-14);
+}
+
 TEST(ContactPair, WithoutPointsThereAreNoForces) {
   Setting setting = skew_setting(0.0);
   setting.points.clear();
