@@ -116,13 +116,12 @@ void ContactPair::rest_at(std::vector<double> rests) {
 }
 
 void ContactPair::touch_within(double depth) {
+  std::vector<double> rests = rests_;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    double& gap = start_(0, static_cast<Eigen::Index>(k));
-    if (laws_[k].tension > 0.0 || gap >= 0.0 || gap < -depth) continue;
-    rests_[k] = points_[k].gap;
-    gap = 0.0;
+    const double gap = start_(0, static_cast<Eigen::Index>(k));
+    if (laws_[k].tension == 0.0 && gap < 0.0 && gap >= -depth) rests[k] = points_[k].gap;
   }
-  respond_at_start();
+  rest_at(std::move(rests));
 }
 
 void ContactPair::hold_where_found(double taken) {

@@ -19,7 +19,8 @@ Balance try_guess(IslandProblem& problem, FirstGuess kind) {
 std::optional<Balance> take_best_guess(IslandProblem& problem) {
   // Not 1/2 or 1, which symmetric scenes have but for rounding.
   constexpr double least_gain = 0.45;
-  constexpr double least_gain_of_one = 0.9;
+  // Of a body with a guess of its own, and of all bodies with theirs: that has been evaluated in any case.
+  constexpr double least_gain_of_own = 0.9;
   // Of the largest force on each body: where it lacks no more, Newton's iteration goes from there as from the best guess.
   constexpr double little = 0.1;
   if (problem.scheme().from_rest || problem.pairs() == 0) {
@@ -38,7 +39,7 @@ std::optional<Balance> take_best_guess(IslandProblem& problem) {
   std::vector<FirstGuess> kinds(own.size(), FirstGuess::falling);
   const auto compare = [&](FirstGuess kind, Balance balance, Evaluation evaluation) {
     for (std::size_t k = 0; k < own.size(); ++k) {
-      if (balance.shares[k] > least_gain_of_one * shares[k]) continue;
+      if (balance.shares[k] > least_gain_of_own * shares[k]) continue;
       shares[k] = balance.shares[k];
       own[k] = evaluation.guess[k];
       kinds[k] = kind;
@@ -55,7 +56,7 @@ std::optional<Balance> take_best_guess(IslandProblem& problem) {
     problem.set_guess(own);
     problem.respond();
     Balance mixed = problem.balance();
-    if (mixed.sum <= least_gain_of_one * least) return mixed;
+    if (mixed.sum <= least_gain_of_own * least) return mixed;
   }
   problem.take_back(std::move(best));
   return best_balance;

@@ -237,7 +237,7 @@ def main():
     parser.add_argument("--blocks", type=int, default=10000, help="in each, about")
     parser.add_argument("--order", type=int, default=0, help="of the blocks of the run")
     parser.add_argument("--min-volume", type=float, default=0.0,
-                        help="smaller pieces are glued, of the mean volume; 1e-3 takes most of the time off a run")
+                        help="smaller pieces are glued, of the mean volume")
     parser.add_argument("--run", action="store_true", help="take one step with each, too: 20 s each")
     parser.add_argument("--growth", action="store_true")
     parser.add_argument("--special", action="store_true")
