@@ -129,12 +129,12 @@ class RegionTracer {
     return result;
   }
 
-  /// The innermost outer loop around a hole.
+  /// The innermost outer loop around a hole, which has one.
   [[nodiscard]] std::size_t owner_of(const Loop& hole, const std::vector<const Loop*>& outer) const {
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < outer.size(); ++k)
       if (lies_within(hole, *outer[k]) && (!best || lies_within(*outer[k], *outer[*best]))) best = k;
-    return best.value_or(0);
+    return best.value();
   }
 
   [[nodiscard]] static FaceOutline region_of(const std::vector<const Loop*>& loops) {

@@ -35,6 +35,27 @@ Found search(const Body& a, const Body& b, const std::optional<EntranceName>& hi
   return found;
 }
 
+TEST(ConvexSurface, FindsAnEdgeFromEitherEnd) {
+  const Body cube(box({0, 0, 0}, {1, 2, 3}));
+  const ConvexSurface convex(cube.placed);
+  const std::vector<Vector3>& points = cube.surface.points;
+  int edges = 0;
+  for (int from = 0; from < static_cast<int>(points.size()); ++from) {
+    for (int to = 0; to < static_cast<int>(points.size()); ++to) {
+      const Vector3 way = points[static_cast<std::size_t>(to)] - points[static_cast<std::size_t>(from)];
+      const bool along_an_axis = (way.array() != 0.0).count() == 1;
+      bool turned = false, turned_back = false;
+      const int edge = convex.find_edge({from, to}, turned);
+      EXPECT_EQ(edge >= 0, along_an_axis) << from << " " << to;
+      if (edge < 0) continue;
+      ++edges;
+      EXPECT_EQ(convex.find_edge({to, from}, turned_back), edge);
+      EXPECT_NE(turned, turned_back);
+    }
+  }
+  EXPECT_EQ(edges, 24);  // 12, from both ends
+}
+
 Polyhedron moved(const Polyhedron& solid, const Eigen::AngleAxisd& turn, const Vector3& shift) {
   std::vector<Vector3> points;
   for (const Vector3& point : solid.mesh().points) points.emplace_back(turn * point + shift);

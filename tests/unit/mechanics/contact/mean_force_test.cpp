@@ -170,5 +170,23 @@ TEST(JointLaw, MeanCouplingIsWhatTheMeanTangentLeavesOut) {
   }
 }
 
+TEST(JointLaw, APointThatJustTouchesOverAStepRubsWhereItIsPressed) {
+  JointLaw dry = law;
+  dry.cohesion = dry.tensile_strength = 0.0;
+  const PointLaw point = point_law(dry, 0.1, false);
+  const PointResponse start = point_response(point, 0.0, {0, 0});
+  const auto mean = [&](double gap) {
+    return averaged_step(point, start, Eigen::Vector3d::Zero(), {gap, 3e-6, 4e-6}).mean;
+  };
+  const MeanResponse touching = mean(0.0);
+  EXPECT_TRUE(touching.force.isZero(0.0));
+  // Pressed by d, the mean normal force is kn d / 2, and friction tan(phi) of that against the slip.
+  const double normal = 0.5 * 2e9 * 0.1 * 1e-9;
+  const Eigen::Vector3d pressed(normal, -0.5 * 0.6 * normal, -0.5 * 0.8 * normal);
+  EXPECT_LT((mean(-1e-9).force - pressed).norm(), 1e-12 * normal);
+  const Eigen::Matrix3d whole = touching.tangent + left_out(touching.coupling);
+  EXPECT_LT((whole.col(0) * 1e-9 - pressed).norm(), 1e-12 * normal);
+}
+
 }  // namespace
 }  // namespace ashlar
