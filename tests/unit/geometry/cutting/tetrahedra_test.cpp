@@ -42,10 +42,12 @@ double free_area(const TetrahedronMesh& mesh) {
     }
   }
   double area = 0.0;
-  for (const auto& [face, cells] : count) {
-    EXPECT_LE(cells, 2);
-    if (cells == 2) continue;
-    const auto corner = [&](std::size_t k) { return mesh.points[static_cast<std::size_t>(face[k])]; };
+  for (const auto& counted : count) {
+    EXPECT_LE(counted.second, 2);
+    if (counted.second == 2) continue;
+    const auto corner = [&](std::size_t k) {
+      return mesh.points[static_cast<std::size_t>(counted.first[k])];
+    };
     area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
   }
   return area;
