@@ -105,7 +105,7 @@ std::vector<BlockState> driven_states(const BlockSystem& system, const RunState&
     const BlockModel& block = system.blocks()[k];
     const Eigen::MatrixX3d prescribed =
         block.prescribed_change(state.states[k].position, state.time(), state.clock.time_after(step));
-    if (prescribed.size() == 0 || prescribed.isZero(0.0)) continue;
+    if (prescribed.isZero(0.0)) continue;  // nothing prescribed is zero too
     if (states.empty()) states = state.states;
     states[k].velocity = block.space().expand(block.space().restrict(state.states[k].velocity)) +
                          prescribed / (step > 0.0 ? step : 1.0);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -29,12 +30,14 @@ BlockDefinition fixed_block(Polyhedron solid) {
 
 /// A cube of 1 m without friction on a slope down to -x, and a fixed block that it meets when it has gone a way. The
 /// springs of 1e10 N/m give way by micrometres. @param ways of the stop, m; none: there is none
-Simulation on_slope(const std::vector<double>& ways) {
+/// @param cube_last the cube comes after all others, not before them
+Simulation on_slope(const std::vector<double>& ways, bool cube_last = false) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1));
   blocks.emplace_back(fixed_block(tilted_box({-6, -2, -1}, {2, 2, 0}, incline)));
   for (const double way : ways)
     blocks.emplace_back(fixed_block(tilted_box({-1.5 - way, -2, 0.25}, {-0.5 - way, 2, 0.75}, incline)));
+  if (cube_last) std::rotate(blocks.begin(), blocks.begin() + 1, blocks.end());
   const std::vector<InitialMotion> at_rest(blocks.size());
   return Simulation(std::move(blocks), at_rest, same_law({1e10, 1e10, 0.0, 0.0, 0.0, true}), {});
 }
@@ -62,10 +65,13 @@ TEST(StraightWay, WhatNothingStopsIsNotFollowed) {
 TEST(StraightWay, AStopAheadIsSeen) {
   // 0.3 m: no contact is known of it. 5e-4 m: half the contact distance, there is one, that does not touch.
   for (const double way : {0.3, 5e-4}) {
-    Simulation simulation = on_slope({way});
-    const Vector3 start = place_of(simulation, 0, {0, 0, 0});
-    ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << way;
-    EXPECT_NEAR((place_of(simulation, 0, {0, 0, 0}) - start).norm(), way, 1e-5);
+    for (const bool cube_last : {false, true}) {
+      Simulation simulation = on_slope({way}, cube_last);
+      const std::size_t cube = cube_last ? 2 : 0;
+      const Vector3 start = place_of(simulation, cube, {0, 0, 0});
+      ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium) << way << cube_last;
+      EXPECT_NEAR((place_of(simulation, cube, {0, 0, 0}) - start).norm(), way, 1e-5);
+    }
   }
 }
 

@@ -260,5 +260,19 @@ TEST(ContactImpulses, ARockingBlockLosesWhatAnInelasticImpactTakes) {
   }
 }
 
+TEST(ContactImpulses, FrictionThatIsDueAndThatActedIsCounted) {
+  // 0.2 s on fixed ground, from 3 m/s down to 2: an impulse of m g t presses, half of it rubs.
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-4, -4, -1}, {8, 5, 0}));
+  blocks.push_back(cube({0, 0, 0}));
+  Simulation simulation(std::move(blocks), {{}, {{3, 0, 0}, {0, 0, 0}}},
+                        same_law({2e10, 1e10, 0.5, 0.0, 0.0, true}), augmented(1e-3));
+  ASSERT_TRUE(test_support::run_until(simulation, 0.2));
+  const double impulse = 0.5 * 2500.0 * 9.81 * 0.2;
+  EXPECT_NEAR(simulation.sliding_friction().due, impulse, 0.01 * impulse);
+  EXPECT_NEAR(simulation.sliding_friction().acted, impulse, 0.01 * impulse);
+  EXPECT_NEAR(velocity_of(simulation, 1, {0.5, 0.5, 0.5}).x(), 3.0 - 0.5 * 9.81 * 0.2, 0.01);
+}
+
 }  // namespace
 }  // namespace ashlar
