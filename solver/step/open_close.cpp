@@ -261,16 +261,12 @@ class OpenClose {
     double found = work_high;
     for (int k = 0; k < settings_.iteration.line_search_steps && std::abs(found) > enough && work_high < 0.0;
          ++k) {
-      const double share = low + (high - low) * work_low / (work_low - work_high);
-      const double last = std::exchange(found, work(share));
-      double& end = found > 0.0 ? low : high;
-      double& work_end = found > 0.0 ? work_low : work_high;
-      // Where the same end moves again, the other one counts for less (Anderson and Bjoerck, 1973): springs that
-      // close may have made its work a thousand times as large.
-      const double less = 1.0 - found / work_end;
-      if ((found > 0.0) == (last > 0.0)) (found > 0.0 ? work_high : work_low) *= less > 0.0 ? less : 0.5;
-      end = share;
-      work_end = found;
+      // False position, and every third time the middle: the work has kinks.
+      const double share =
+          k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * work_low / (work_low - work_high);
+      found = work(share);
+      (found > 0.0 ? low : high) = share;
+      (found > 0.0 ? work_low : work_high) = found;
     }
   }
 
