@@ -15,13 +15,13 @@
 #include <thread>
 #include <vector>
 
-// gcc says so by a macro, clang by a feature.
-#if defined(__has_feature)
+// gcc says so by a macro, clang by a feature. The macro first: libraries define __has_feature, as none, for gcc.
+#if defined(__SANITIZE_THREAD__)
+#define ASHLAR_THREAD_SANITIZER
+#elif defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define ASHLAR_THREAD_SANITIZER
 #endif
-#elif defined(__SANITIZE_THREAD__)
-#define ASHLAR_THREAD_SANITIZER
 #endif
 
 namespace ashlar {
