@@ -19,7 +19,7 @@ Balance try_guess(IslandProblem& problem, FirstGuess kind) {
 std::optional<Balance> take_best_guess(IslandProblem& problem) {
   // Not 1/2 or 1, which symmetric scenes have but for rounding.
   constexpr double least_gain = 0.45;
-  // Of a body with a guess of its own, and of all bodies with theirs: that has been evaluated in any case.
+  // The same for a body's own choice, and for the guess that these choices make, which has been evaluated in any case.
   constexpr double least_gain_of_own = 0.9;
   // Of the largest force on each body: where it lacks no more, Newton's iteration goes from there as from the best guess.
   constexpr double little = 0.1;

@@ -77,7 +77,7 @@ TEST(HistoryWriterResume, KeepsEverythingUpToTheLastRow) {
 
 TEST(HistoryWriterResume, DropsALineThatWasCut) {
   const TemporaryFolder folder;
-  write_text(folder / "history.csv", std::string(kTable) + "4,0.");
+  write_text(folder / "history.csv", std::string(kTable).append("4,0."));
   const HistoryWriter history = HistoryWriter::resume(folder / "history.csv", kColumns, 3);
   EXPECT_EQ(read_text(folder / "history.csv"), kTable);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/simulations.hpp"
+#include "unit/solver/contact/sample_pair.hpp"
 
 namespace ashlar {
 namespace {
@@ -12,17 +13,13 @@ ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 
   static const BlockModel block(
       test_support::block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {1, 1, 0}, 1));
   const BlockState state = block.initial_state();
-  ContactPoint point{};
-  point.material_a = point.material_b = point.place_a = point.place_b = {0.5, 0.5, 0.0};
-  point.normal = Vector3::UnitZ();
-  point.tangent_1 = Vector3::UnitX();
-  point.tangent_2 = Vector3::UnitY();
-  point.gap = -depth;
-  point.area = 1.0;
   PointMemory memory;
   memory.intact = true;
   const JointLaw law{2.0, 1.0, 0.5, 0.0, tensile_strength, true};
-  return {{a, b, {&block, &state, nullptr}, {&block, &state, nullptr}}, law, {point}, {memory}};
+  return {{a, b, {&block, &state, nullptr}, {&block, &state, nullptr}},
+          law,
+          {test_support::level_point({0.5, 0.5, 0.0}, -depth)},
+          {memory}};
 }
 
 PairHistory that_held(double normal, double shear = 0.0) {

@@ -12,6 +12,7 @@
 #include "solver/contact/contact_finder.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "support/simulations.hpp"
+#include "unit/solver/contact/sample_pair.hpp"
 
 namespace ashlar {
 namespace {
@@ -33,15 +34,7 @@ class TwoCubes : public ::testing::Test {
     found.positions = {of_a_.position, of_b_.position};
     found.reach = 1e-3;
     found.law.normal_stiffness = 1e9;
-    ContactPoint point{};
-    point.material_a = point.material_b = Vector3(0.5, 0.5, 1.0);
-    point.place_a = point.place_b = point.material_a;
-    point.normal = Vector3::UnitZ();
-    point.tangent_1 = Vector3::UnitX();
-    point.tangent_2 = Vector3::UnitY();
-    point.gap = -1e-7;
-    point.area = 1.0;
-    found.found.points = {point};
+    found.found.points = {test_support::level_point({0.5, 0.5, 1.0}, -1e-7)};
     found.rows = PairRows::values_of(above_, below_, found.found.points);
     lasting_ = std::make_shared<const LastingContacts>(std::move(found));
   }

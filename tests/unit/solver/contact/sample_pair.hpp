@@ -1,4 +1,4 @@
-// Two blocks with one contact point, whose forces are tested.
+// Contact points made by hand, and two blocks with one of them, whose forces are tested.
 #pragma once
 
 #include <vector>
@@ -7,6 +7,18 @@
 #include "support/simulations.hpp"
 
 namespace ashlar::test_support {
+
+/// A contact point of 1 m^2 that is pressed along z. @param place of both blocks' points, m. @param gap m
+inline ContactPoint level_point(const Vector3& place, double gap) {
+  ContactPoint point{};
+  point.material_a = point.material_b = point.place_a = point.place_b = place;
+  point.normal = Vector3::UnitZ();
+  point.tangent_1 = Vector3::UnitX();
+  point.tangent_2 = Vector3::UnitY();
+  point.gap = gap;
+  point.area = 1.0;
+  return point;
+}
 
 struct Setting {
   BlockModel a;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "support/simulations.hpp"
+#include "unit/solver/contact/sample_pair.hpp"
 
 namespace ashlar {
 namespace {
@@ -20,14 +21,10 @@ const BlockState& at_rest() {
 
 /// One spring between two blocks.
 ContactPair pair_of(int a, int b) {
-  ContactPoint point{};
-  point.face_a = point.face_b = 0;
-  point.material_a = point.material_b = point.place_a = point.place_b = Vector3::Zero();
-  point.normal = Vector3::UnitZ();
-  point.tangent_1 = Vector3::UnitX();
-  point.tangent_2 = Vector3::UnitY();
-  point.area = 1.0;
-  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}}, JointLaw{}, {point}, {{}}};
+  return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}},
+          JointLaw{},
+          {test_support::level_point({0, 0, 0}, 0.0)},
+          {{}}};
 }
 
 ContactPair tie_of(int a, int b, const Tie& tie) {
