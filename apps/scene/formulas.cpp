@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cfenv>
 #include <cmath>
 #include <numbers>
@@ -68,12 +67,13 @@ bool is_constant(std::string_view name) {
                      [&](const auto& constant) { return name == constant.first; });
 }
 
+// Those of the parser, in whatever locale the program runs.
 bool is_letter(char letter) {
-  return letter == '_' || std::isalpha(static_cast<unsigned char>(letter)) != 0;
+  return letter == '_' || (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
 }
 
 bool is_digit(char letter) {
-  return std::isdigit(static_cast<unsigned char>(letter)) != 0;
+  return letter >= '0' && letter <= '9';
 }
 
 // Past the number that begins at `at`: digits with a point and an exponent.
@@ -193,6 +193,9 @@ void Formulas::leave_out(const std::string& name) {
 }
 
 std::string Formulas::fault_of_name(const std::string& name) {
+  if (name.size() > longest_parameter)
+    return fmt::format("parameter has too long a name ({} characters), at most {} are allowed", name.size(),
+                       longest_parameter);
   const bool good = !name.empty() && is_letter(name.front()) &&
                     std::all_of(name.begin(), name.end(),
                                 [](char letter) { return is_letter(letter) || is_digit(letter); });

@@ -33,6 +33,9 @@ class FormulaError : public std::runtime_error {
 /// Characters that a formula may have.
 inline constexpr std::size_t longest_formula = 1000;
 
+/// Characters that a parameter's name may have: no more than the parser takes.
+inline constexpr std::size_t longest_parameter = 100;
+
 /// Named values and what formulas of them come to. Each of pi (3.14...) and deg (pi / 180) is always there.
 class Formulas {
  public:
@@ -45,8 +48,9 @@ class Formulas {
   void define(const std::string& name, double value);
   /// Says that a name is a parameter without a value, because of a fault that is reported elsewhere.
   void leave_out(const std::string& name);
-  /// "what is wrong, what is allowed" of a name that cannot be a parameter's: a letter, then letters, digits
-  /// and _ are, names of functions and constants are not. Empty for a good one.
+  /// "what is wrong, what is allowed" of a name that cannot be a parameter's: a letter from a to z, A to Z or
+  /// _, then letters and digits are, at most longest_parameter in all; names of functions and constants are
+  /// not. Empty for a good one.
   [[nodiscard]] static std::string fault_of_name(const std::string& name);
 
   /// @param text begins with "=". @return a finite number

@@ -81,6 +81,14 @@ TEST(Formulas, NamesThatParametersCannotHave) {
   EXPECT_NE(Formulas::fault_of_name("2h"), "");
   EXPECT_NE(Formulas::fault_of_name("a-b"), "");
   EXPECT_NE(Formulas::fault_of_name(""), "");
+  EXPECT_NE(Formulas::fault_of_name("h\xe9"), "");
+  const std::string longest(100, 'h');
+  EXPECT_EQ(Formulas::fault_of_name(longest), "");
+  Formulas formulas;
+  formulas.define(longest, 2.0);
+  EXPECT_EQ(formulas.value("= 2*" + longest), 4.0);
+  EXPECT_EQ(Formulas::fault_of_name(longest + "h"),
+            "parameter has too long a name (101 characters), at most 100 are allowed");
   EXPECT_EQ(Formulas::fault_of_name("sin"),
             "parameter has a name that is taken (sin), formulas know it as a function");
   EXPECT_EQ(Formulas::fault_of_name("deg"),

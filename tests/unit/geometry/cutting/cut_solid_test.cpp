@@ -187,6 +187,41 @@ TEST(CutSolid, PlaneAlongAnInnerFaceParts) {
   }
 }
 
+// A plate with a wall around a tower that is hollow: the section has two outer loops, one within the hole of the other,
+// and each hole belongs to the loop next around it.
+TEST(CutSolid, SectionsMayHaveLoopsWithinHoles) {
+  CutSolid block(cube(9.0));
+  int around = 0;
+  for (const int rim : {1, 3, 4}) {
+    const Polyhedron pit(make_box(Vector3(rim, rim, 1), Vector3(9 - rim, 9 - rim, 10)));
+    block.cut_along(pit, 0, rim, [&](int piece) { return block.label(piece) == around; });
+    around = rim;
+  }
+  // Plate and wall, the gap between wall and tower, the tower, and what is in it.
+  std::map<int, int> by_label;
+  for (const int piece : block.pieces()) by_label[block.label(piece)] = piece;
+  ASSERT_EQ(by_label.size(), 4U);
+  EXPECT_EQ(block.volume(by_label[0]), 81.0 + 8.0 * (81 - 49));
+  EXPECT_EQ(block.volume(by_label[3]), 8.0 * (9 - 1));
+  block.glue(by_label[3], by_label[0]);
+
+  CutSolid solid{Polyhedron(block.mesh(by_label[0]))};
+  solid.cut({Vector3::UnitZ(), Vector3(0, 0, 5)}, 7, always);
+  const std::vector<int> pieces = solid.pieces();
+  ASSERT_EQ(pieces.size(), 3U);
+  std::vector<double> volumes, areas;
+  for (const int piece : pieces) {
+    volumes.push_back(solid.volume(piece));
+    EXPECT_EQ(Polyhedron(solid.mesh(piece)).volume(), solid.volume(piece));
+    for (const PieceFace& face : solid.faces(piece))
+      if (face.mark == 7) areas.push_back(solid.area(face));
+  }
+  std::sort(volumes.begin(), volumes.end());
+  std::sort(areas.begin(), areas.end());
+  EXPECT_EQ(volumes, (std::vector<double>{4.0 * 8, 4.0 * 32, 81.0 + 4.0 * 8 + 4.0 * 32}));
+  EXPECT_EQ(areas, (std::vector<double>{8, 8, 32, 32}));
+}
+
 TEST(CutSolid, AlongABoxLeavesAHole) {
   CutSolid solid(cube(4.0));
   const Polyhedron tunnel(make_box({1, -1, 1}, {2, 5, 3}));
@@ -225,6 +260,45 @@ TEST(CutSolid, ChoiceLeavesPiecesWholeAndFacesFit) {
   EXPECT_EQ(solid.mesh(right).points.size(), 8U);
 }
 
+// Measures half way between two numbers: only exact arithmetic tells that they are, and the even one is taken.
+TEST(CutSolid, MeasuresBetweenTwoNumbersAreRoundedToTheEvenOne) {
+  constexpr double x = 1 + 0x1p-26;
+  const auto measure = [&](double y) {
+    const CutSolid solid(Polyhedron(make_box({0, 0, 0}, {x, y, 1})));
+    double area = 0.0;
+    for (const PieceFace& face : solid.faces(0))
+      if (solid.normal(face).z() == 1.0) area = solid.area(face);
+    EXPECT_EQ(area, solid.volume(0));
+    return area;
+  };
+  EXPECT_EQ(measure(1 + 0x1p-27), 1 + 0x1p-26 + 0x1p-27) << "and 2^-53";
+  EXPECT_EQ(measure(1 + 0x3p-27), 1 + 0x1p-26 + 0x3p-27 + 0x1p-51) << "and 3 2^-53";
+}
+
+// The upper half of a box on its lower half.
+TEST(CutSolid, APieceIsAKeyBlockByTheFacesThatHoldIt) {
+  CutSolid solid(cube(2.0));
+  solid.cut({Vector3::UnitZ(), Vector3::Ones()}, 0, always);
+  for (const int piece : solid.pieces()) {
+    std::vector<HeldFace> held;
+    double outward = 0.0;
+    for (const PieceFace& face : solid.faces(piece)) {
+      if (face.neighbour < 0) continue;
+      held.push_back({face.plane, face.below});
+      outward = solid.normal(face).z();
+    }
+    ASSERT_EQ(held.size(), 1U);
+    const Vector3 against(0, 0, outward);
+    const KeyBlock pressed = solid.key_block(piece, held, against);
+    EXPECT_TRUE(pressed.finite);
+    EXPECT_TRUE(pressed.removable);
+    EXPECT_EQ(pressed.mode, BlockMode::stable);
+    const KeyBlock pulled = solid.key_block(piece, held, -against);
+    EXPECT_EQ(pulled.mode, BlockMode::falling);
+    EXPECT_EQ(pulled.direction, -against);
+  }
+}
+
 TEST(CutSolid, DiscMeetsWhatIsWithinItsRadius) {
   CutSolid solid(cube(2.0));
   const CutPlane plane{Vector3::UnitZ(), Vector3(3, 1, 1)};
@@ -232,6 +306,10 @@ TEST(CutSolid, DiscMeetsWhatIsWithinItsRadius) {
   EXPECT_EQ(solid.distance_in_plane(0, {Vector3::UnitZ(), Vector3::Ones()}), 0.0);
   EXPECT_EQ(solid.distance_in_plane(0, {Vector3::UnitZ(), Vector3(1, 1, 5)}),
             std::numeric_limits<double>::infinity());
+  // In the notch of an L, half way between its two faces, and within one of its arms.
+  const CutSolid notched(angle());
+  EXPECT_EQ(notched.distance_in_plane(0, {Vector3::UnitZ(), Vector3(1.5, 1.75, 0.5)}), 0.5);
+  EXPECT_EQ(notched.distance_in_plane(0, {Vector3::UnitZ(), Vector3(0.5, 1.75, 0.5)}), 0.0);
 }
 
 // Eight points at the corners of a cube within the cube: its octants.

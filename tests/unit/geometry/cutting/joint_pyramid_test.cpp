@@ -62,5 +62,13 @@ TEST(JointPyramid, FallsOffARoofAndLiftsOffAFloor) {
   EXPECT_EQ(block.direction, -Vector3::UnitZ());
 }
 
+TEST(JointPyramid, ModesHaveNames) {
+  EXPECT_STREQ(to_string(BlockMode::not_removable), "not removable");
+  EXPECT_STREQ(to_string(BlockMode::stable), "stable");
+  EXPECT_STREQ(to_string(BlockMode::falling), "falling");
+  EXPECT_STREQ(to_string(BlockMode::sliding_on_one), "sliding on one face");
+  EXPECT_STREQ(to_string(BlockMode::sliding_on_two), "sliding on two faces");
+}
+
 }  // namespace
 }  // namespace ashlar
