@@ -1,9 +1,13 @@
 #include "apps/results/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -70,6 +74,21 @@ void write_file_atomically(const std::filesystem::path& path, Durability durabil
     throw;
   }
   if (durability == Durability::power) sync_folder(path.parent_path());
+}
+
+void refuse_other_file(const std::filesystem::path& path, const char* kind,
+                       std::initializer_list<std::string_view> marks) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;  // writing tells what else is in the way
+  std::string head(1000, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  const bool same = std::any_of(marks.begin(), marks.end(),
+                                [&](std::string_view mark) { return head.find(mark) != std::string::npos; });
+  if (!same && !head.empty())
+    throw std::invalid_argument(
+        fmt::format("{} is in the way: it is no {}, another name is needed", path.string(), kind));
 }
 
 }  // namespace ashlar

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string_view>
 
 #include "apps/results/output_file.hpp"
@@ -26,5 +27,12 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
 /// The same for content that is not in memory as a whole. @param write is given the open file once
 void write_file_atomically(const std::filesystem::path& path, Durability durability,
                            const std::function<void(OutputFile&)>& write);
+
+/// That a file may be replaced: it is not there, or its first 1000 bytes have one of these marks of its kind.
+/// @throws std::invalid_argument "PATH is in the way: it is no KIND, another name is needed"
+void refuse_other_file(const std::filesystem::path& path, const char* kind,
+                       std::initializer_list<std::string_view> marks);
+
+inline constexpr std::string_view png_mark = "\x89PNG", svg_mark = "<svg";
 
 }  // namespace ashlar

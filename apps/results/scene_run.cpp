@@ -9,6 +9,7 @@
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/json_text.hpp"
 #include "apps/results/run_summary.hpp"
+#include "apps/scene/added_blocks.hpp"
 #include "apps/scene/initial_state.hpp"
 #include "apps/scene/loose_blocks.hpp"
 #include "apps/scene/scene_stages.hpp"
@@ -74,13 +75,16 @@ bool SceneRun::step() {
 }
 
 void SceneRun::begin_next_stage() {
-  const SimulationSnapshot last = built_.simulation.snapshot();
   const std::vector<bool> was_absent = built_.simulation.system().absent();
-  place_.elapsed += built_.simulation.time();
   const auto next = static_cast<std::size_t>(place_.stage);
-  present_ = std::make_shared<const LoadedScene>(stage_of(*scene_, next));
-  built_ = built(*present_, threads_, false);
-  built_.simulation.start_stage(last, was_absent);
+  const auto scene = std::make_shared<const LoadedScene>(stage_of(*scene_, next));
+  BuiltSimulation stage = built(*scene, threads_, false);
+  stage.simulation.start_stage(built_.simulation.snapshot(), was_absent);
+  if (const auto overlap = overlap_of_added(stage.simulation, was_absent))
+    fail(fmt::format("stage {} cannot begin: {}", scene_->scene.stage[next].name, *overlap));
+  place_.elapsed += built_.simulation.time();
+  present_ = scene;
+  built_ = std::move(stage);
   ++place_.stage;
   stage_has_ended_ = false;
   message_.clear();

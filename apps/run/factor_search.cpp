@@ -22,7 +22,7 @@ class Search {
     while (goes_on && bracket_.lower && bracket_.upper &&
            *bracket_.upper > *bracket_.lower * (1.0 + range_.tolerance)) {
       const std::optional<double> next = middle();
-      if (!next) break;
+      if (!next || *next <= *bracket_.lower || *next >= *bracket_.upper) break;  // neighbouring numbers
       goes_on = decide(*next);
     }
     bracket_.resolved = goes_on && resolved();
@@ -32,7 +32,8 @@ class Search {
  private:
   [[nodiscard]] bool resolved() const {
     if (bracket_.lower && bracket_.upper)
-      return *bracket_.upper <= *bracket_.lower * (1.0 + range_.tolerance);
+      return *bracket_.upper <= std::max(*bracket_.lower * (1.0 + range_.tolerance),
+                                         std::nextafter(*bracket_.lower, *bracket_.upper));
     return bracket_.lower == range_.upper || bracket_.upper == range_.lower;
   }
 

@@ -6,6 +6,7 @@
 
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/interrupt_guard.hpp"
+#include "apps/scene/added_blocks.hpp"
 #include "apps/scene/scene_stages.hpp"
 
 namespace ashlar {
@@ -50,9 +51,7 @@ RunEnd FolderRun::go(std::ostream& err) {
     status = go_through_stage(err);
     while (is_done(status) && stages_.size() + 1 < stage_count(loaded_.scene)) {
       if (!manner_.quiet) err << end_of_stage(status) << '\n';
-      begin_next_stage(status);
-      save();
-      status = go_through_stage(err);
+      status = begin_next_stage(status) ? go_through_stage(err) : RunStatus::failed;
     }
   } catch (const std::exception& error) {
     status = saved_after(error);
@@ -81,20 +80,28 @@ FinishedStage FolderRun::finished(RunStatus status) const {
   return {to_string(status), message_, built_.simulation.steps(), built_.simulation.time()};
 }
 
+/// @return false: blocks that it adds have no room, and the run stays at the end of the last stage
 /// @throws std::runtime_error if its blocks cannot be built, which those of the whole scene could
-void FolderRun::begin_next_stage(RunStatus status) {
-  const SimulationSnapshot end = built_.simulation.snapshot();
+bool FolderRun::begin_next_stage(RunStatus status) {
   const std::vector<bool> was_absent = built_.simulation.system().absent();
+  const LoadedScene next = stage_of(loaded_, stages_.size() + 1);
+  BuiltSimulation built = built_or_thrown(next, manner_.threads);
+  built.simulation.start_stage(built_.simulation.snapshot(), was_absent);
+  if (const auto overlap = overlap_of_added(built.simulation, was_absent)) {
+    message_ =
+        fmt::format("stage {} cannot begin: {}", loaded_.scene.stage[stages_.size() + 1].name, *overlap);
+    return false;
+  }
   stages_.push_back(finished(status));
   message_.clear();
-  const LoadedScene next = stage_of(loaded_, stages_.size());
-  built_ = built_or_thrown(next, manner_.threads);
-  built_.simulation.start_stage(end, was_absent);
+  built_ = std::move(built);
   scene_ = next.scene;
   double elapsed = 0.0;
   for (const FinishedStage& stage : stages_) elapsed += stage.time;
   files_.tables().begin_stage(built_.simulation, elapsed,
                               loaded_.scene.stage[stages_.size()].reset_displacement);
+  save();
+  return true;
 }
 
 RunStatus FolderRun::take_steps(ProgressLine& progress) {

@@ -48,7 +48,7 @@ class FolderRun {
   RunStatus go_through_stage(std::ostream& err);
   [[nodiscard]] std::string end_of_stage(RunStatus status) const;
   [[nodiscard]] FinishedStage finished(RunStatus status) const;
-  void begin_next_stage(RunStatus status);
+  bool begin_next_stage(RunStatus status);
   RunStatus take_steps(ProgressLine& progress);
   RunStatus find_equilibrium(ProgressLine& progress);
   RunStatus audited();

@@ -138,8 +138,17 @@ bool go_on_from_checkpoint(PreparedRun& run, const std::filesystem::path& folder
   if (!faults.good()) return false;
   if (!run.earlier->stages.empty())
     run.built = built_or_thrown(stage_of(*run.loaded, run.earlier->stages.size()), threads);
-  run.built->simulation.restore(run.earlier->simulation);
-  return true;
+  Simulation& simulation = run.built->simulation;
+  simulation.restore(run.earlier->simulation);
+  const SceneAnalysis analysis = scene_of_stage(run.loaded->scene, run.earlier->stages.size()).analysis;
+  const double end_time = analysis.end_time;
+  constexpr double rounding = 1e-6;  // of a step
+  if (simulation.time() - end_time <= rounding * analysis.time_step) return true;
+  err << fmt::format(
+      "ashlar: error: end_time ({} s) is before the time that the run has reached ({} s), a later "
+      "one, or a new folder, is needed\n",
+      end_time, simulation.time());
+  return false;
 }
 
 void tell_beginning(const PreparedRun& run, std::ostream& err) {

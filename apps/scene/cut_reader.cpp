@@ -22,6 +22,9 @@ void read_number_of_planes(TomlTableReader& table, SceneCut& cut) {
   if (!table.holds_infinity("number")) table.read_integer("number", cut.number, 0, largest_integer);
 }
 
+/// Of a spacing's deviation, in means: beyond it nearly all planes are in heaps that rounding cannot tell apart.
+constexpr double most_deviation = 100.0;
+
 void read_spacing_law(TomlTableReader table, SceneCut& cut) {
   table.require("mean");
   table.read_number("mean", cut.spacing, range::positive_length);
@@ -38,6 +41,10 @@ void read_spacing_law(TomlTableReader table, SceneCut& cut) {
     cut.deviation = mean;
     return;
   }
+  if (cut.deviation > most_deviation * mean)
+    table.error_at_value("deviation", fmt::format("deviation is out of range ({}), at most {} times the mean "
+                                                  "({}) is needed",
+                                                  cut.deviation, most_deviation, most_deviation * mean));
   const double most = mean / std::sqrt(3.0);
   if (cut.law == SceneCut::Spacing::uniform && cut.deviation >= most)
     table.error_at_value(

@@ -16,10 +16,24 @@ std::string to_string(const Place& place) {
   return fmt::format("{}:{}:{}", place.origin, place.line, place.column);
 }
 
+/// A line with its middle left out where names or values of the user make it too long.
+static std::string shortened(std::string line) {
+  if (line.size() <= longest_line) return line;
+  const auto inside_letter = [&](std::size_t byte) {
+    return (static_cast<unsigned char>(line[byte]) & 0xC0U) == 0x80U;  // UTF-8
+  };
+  std::size_t head = longest_line / 2, tail = line.size() - longest_line / 2;
+  while (head > 0 && inside_letter(head)) --head;
+  while (tail < line.size() && inside_letter(tail)) ++tail;
+  return fmt::format("{} [... {} bytes ...] {}", std::string_view(line).substr(0, head), tail - head,
+                     std::string_view(line).substr(tail));
+}
+
 std::string to_string(const Diagnostic& diagnostic) {
   std::string line =
       fmt::format("{}: {}: {}", to_string(diagnostic.place),
                   diagnostic.severity == Severity::error ? "error" : "warning", diagnostic.message);
+  line = shortened(std::move(line));
   // Values of the user may hold line breaks.
   std::replace_if(
       line.begin(), line.end(), [](unsigned char letter) { return letter < ' '; }, ' ');

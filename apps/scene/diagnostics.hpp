@@ -33,6 +33,9 @@ struct Diagnostic {
   Severity severity = Severity::error;
 };
 
+/// Bytes of a line that is told; the middle of longer ones is left out.
+inline constexpr std::size_t longest_line = 2000;
+
 /// "PLACE: error: MESSAGE" or "PLACE: warning: MESSAGE" in one line: control characters become blanks.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 

@@ -268,6 +268,11 @@ std::vector<MasonryPiece> read_wall(TomlTableReader& table) {
   const auto lintels = place_lintels(table, *wall, bricklayer);
   if (!lintels) return {};
   const std::vector<WallBox> laid = bricklayer.lay();
+  if (laid.empty()) {
+    table.error_at_key("openings",
+                       "openings leave nothing of the wall (0 bricks), at least one brick is needed");
+    return {};
+  }
   warn_of_thin_pieces(table, *wall, laid);
   std::vector<MasonryPiece> pieces;
   for (const WallBox& brick : laid)

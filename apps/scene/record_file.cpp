@@ -105,8 +105,11 @@ class RecordReader {
                              wanted()));
         return no_column;
       }
+      if (const auto times = std::count(names.begin(), names.end(), name); times > 1)
+        fault(1, fmt::format("record has several columns \"{}\" ({}), one is needed", name, times));
       return static_cast<std::size_t>(found - names.begin());
     };
+    width_ = names.size();
     columns_.push_back(find(record_.time));
     for (const std::string& name : record_.values) columns_.push_back(name.empty() ? no_column : find(name));
     return faults_ == 0;
@@ -115,6 +118,13 @@ class RecordReader {
   void add_row(std::string_view line, std::vector<std::vector<double>>& rows) {
     const std::vector<Field> fields = fields_of(line, separator_);
     std::vector<double> row;
+    for (std::size_t k = width_; k < fields.size(); ++k) {
+      if (fields[k].text.empty()) continue;
+      fault(fields[k].column, fmt::format("row is too long ({} fields), {} are needed as there are names; a "
+                                          "decimal comma makes two fields of one number",
+                                          fields.size(), width_));
+      return;
+    }
     for (std::size_t n = 0; n < columns_.size(); ++n) {
       if (columns_[n] == no_column) {
         row.push_back(0.0);
@@ -163,6 +173,7 @@ class RecordReader {
   std::string name_;
   Diagnostics& diagnostics_;
   std::vector<std::size_t> columns_;  ///< of the time and of each value
+  std::size_t width_ = 0;             ///< fields of the line of names
   char separator_ = ',';
   int line_ = 0;
   std::size_t faults_ = 0;

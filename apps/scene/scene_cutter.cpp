@@ -18,6 +18,8 @@ namespace {
 
 /// Planes are numbered in doubles and kept as int.
 constexpr double largest_plane_number = 1e9;
+/// Random spacings are drawn one after the other.
+constexpr double most_drawn_planes = 1e7;
 
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
   return std::any_of(patterns.begin(), patterns.end(),
@@ -165,12 +167,16 @@ void SceneCutter::cut_by_set(std::size_t index, const std::vector<Target>& targe
   if (!check_number(index, added)) return;
   for (const PlaneRange& range : ranges) {
     const double farthest = std::max(std::abs(range.low), std::abs(range.high));
-    if (!cut.spacing || cut.number || farthest / *cut.spacing < largest_plane_number) continue;
+    const bool drawn = cut.deviation > 0.0;
+    const double most = drawn ? most_drawn_planes : largest_plane_number;
+    if (!cut.spacing || (drawn ? cut.number.value_or(most) < most : cut.number.has_value()) ||
+        farthest / *cut.spacing < most)
+      continue;
     error(
         index, "point",
         fmt::format("point is too far from the blocks for this spacing ({:.3g} m), less than {:.0e} spacings "
                     "are allowed",
-                    farthest, largest_plane_number));
+                    farthest, most));
     return;
   }
   for (std::size_t k = 0; k < targets.size(); ++k) cut_by_planes(index, targets[k], ranges[k]);

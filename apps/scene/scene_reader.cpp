@@ -308,6 +308,10 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (file == "-") {
     std::ostringstream input;
     input << std::cin.rdbuf();
+    if (input.str().empty())
+      diagnostics.error({"(standard input)", 1, 1},
+                        "scene cannot be read (standard input is empty or closed), a "
+                        "scene is needed");
     return parse_scene(input.str(), "(standard input)", overrides, diagnostics);
   }
   if (std::filesystem::is_directory(file, ignored)) reason = "is a folder";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -80,6 +81,8 @@ int run_variant(RunOptions run, std::ostream& log) {
 [[noreturn]] void run_in_child(const RunOptions& run, const std::filesystem::path& log_file) {
   // A signal to the terminal's group is the sweep's to pass on: once.
   (void)setpgid(0, 0);
+  // A sweep that is killed leaves no run behind.
+  (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
   int status = exit_status::failed;
   {
     std::ofstream log(log_file);
@@ -210,6 +213,12 @@ std::vector<RunOptions> runs_of(const SweepOptions& options, const std::vector<V
   return runs;
 }
 
+/// @throws std::invalid_argument if what has the names of the pictures is none
+void refuse_other_pictures(std::filesystem::path picture) {
+  if (picture.extension() == ".png") refuse_other_file(picture, "PNG picture", {png_mark});
+  refuse_other_file(picture.replace_extension(".svg"), "SVG picture", {svg_mark});
+}
+
 /// Of the first value that was asked for, or else of the first usual one beside the time.
 void write_picture(const SweepOptions& options, const std::vector<VariedKey>& keys, const SweepTable& table,
                    std::ostream& err) {
@@ -244,7 +253,9 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   try {
     for (const std::string& text : options.varied) keys.push_back(parse_varied_key(text));
     variants = variants_of(keys);
-    if (options.picture) (void)sweep_svg(keys, {{"value"}, {}}, "value");  // told before the runs, not after
+    // Told before the runs, not after.
+    if (options.picture) (void)sweep_svg(keys, {{"value"}, {}}, "value");
+    if (options.picture && !options.force) refuse_other_pictures(*options.picture);
   } catch (const std::invalid_argument& fault) {
     return refuse(fault.what());
   }

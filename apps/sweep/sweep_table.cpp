@@ -70,6 +70,12 @@ std::vector<std::string> usual_values(const std::vector<RunValues>& runs) {
   return names;
 }
 
+/// Of a variant whose run has left no summary: a sweep that was stopped may not have come to it.
+std::string status_without_summary(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder.string() + ".log")) return "not run";
+  return std::filesystem::exists(folder / ".ashlar") ? "interrupted" : "refused";
+}
+
 }  // namespace
 
 SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Variant>& variants,
@@ -91,7 +97,7 @@ SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Var
     }
     row.push_back(quote_csv_field(folders[k].parent_path().filename().string() + "/" + variants[k].folder));
     row.push_back(runs[k].summary.is_object() ? runs[k].summary.value("status", std::string("damaged"))
-                                              : "refused");
+                                              : status_without_summary(folders[k]));
     for (const std::string& name : names) {
       std::string& field = row.emplace_back();
       if (const std::optional<double> value = runs[k].find(name)) append_csv_number(field, *value);

@@ -36,6 +36,7 @@ std::string last_lines(const std::string& text) {
 
 void make_movie(const MovieOptions& options, const std::filesystem::path& ffmpeg,
                 const std::vector<std::string>& codec, const std::string& suffix, std::ostream& out) {
+  refuse_other_file(options.movie, "film", {"ftyp", "WEBP", "GIF8"});
   const std::vector<DrawnFrame> frames = draw_frames(options.look, options.frames);
   const ScratchFolder scratch;
   for (std::size_t k = 0; k < frames.size(); ++k)

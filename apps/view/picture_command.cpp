@@ -149,6 +149,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
   };
   ViewReport report;
   try {
+    refuse_other_file(options.picture, "PNG picture", {png_mark});
     ViewOptions wanted;
     wanted.frame = options.frame;
     wanted.points = points_of(options);
@@ -180,6 +181,7 @@ int make_pictures(const PictureOptions& options, std::ostream& out, std::ostream
   try {
     for (const DrawnFrame& frame : draw_frames(options, options.frames)) {
       const std::filesystem::path picture = numbered(options.picture, frame.index);
+      refuse_other_file(picture, "PNG picture", {png_mark});
       write_file_atomically(picture, frame.png, Durability::process);
       out << fmt::format("picture: {}\n", picture.string());
     }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <ostream>
 
+#include "apps/results/atomic_file.hpp"
 #include "apps/view/view_file.hpp"
 
 namespace ashlar {
@@ -13,13 +14,14 @@ namespace ashlar {
 int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostream& err) {
   const std::filesystem::path page = options.page.value_or(options.folder / "view.html");
   try {
+    refuse_other_file(page, "page of ashlar", {"<title>Ashlar</title>"});
     const ViewReport report =
         write_view_file(options.folder, page,
                         {.points = options.all_points ? ViewPoints::all : ViewPoints::few, .frame = {}});
     out << fmt::format("view: {} ({} of {} frames, {:.1f} MB); open it in a browser\n", page.string(),
                        report.frames_kept, report.frames, 1e-6 * static_cast<double>(report.bytes));
     return exit_status::done;
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     err << "ashlar: error: " << error.what() << '\n';
     return exit_status::bad_input;
   }

@@ -11,9 +11,17 @@
 namespace ashlar {
 namespace {
 
+Vector3 mean_of(const std::vector<Vector3>& points, const std::vector<int>& corners) {
+  Vector3 sum = Vector3::Zero();
+  for (const int corner : corners) sum += points[at(corner)];
+  return sum / static_cast<double>(corners.size());
+}
+
 AuditedBlock placed_block(const BlockSurface& surface, const BlockState& state) {
   AuditedBlock block;
   block.points = surface.points(state);
+  for (const SurfaceCell& cell : surface.surface().cells)
+    block.cells.push_back(mean_of(block.points, cell.corners));
   block.box = box_of(block.points).grown(surface.bulge(state));
   return block;
 }
@@ -110,11 +118,14 @@ class PairAudit {
         map_(outer.map),
         resolution_(resolution),
         clear_(clear),
-        points_(with_points.points.size()),
+        points_(with_points.points.size() + with_points.cells.size()),
         middles_(with_points.middles.size()) {}
 
   [[nodiscard]] PairDepth run() {
-    for (std::size_t k = 0; k < with_points_.points.size(); ++k) check_point(static_cast<int>(k));
+    const std::size_t corners = with_points_.points.size();
+    for (std::size_t k = 0; k < corners; ++k) check_point(k, with_points_.points[k], surface_.points[k]);
+    for (std::size_t k = 0; k < with_points_.cells.size(); ++k)
+      check_point(corners + k, with_points_.cells[k], mean_of(surface_.points, surface_.cells[k].corners));
     for (std::size_t k = 0; k < surface_.edges.size(); ++k) {
       if (surface_.edges[k].convex && with_points_.edges[k].meets(outer_.box)) check_edge(k);
     }
@@ -138,18 +149,18 @@ class PairAudit {
     return preimage.material;
   }
 
-  void check_point(int point) {
-    const Vector3& place = with_points_.points[at(point)];
+  /// @param index among points, then cells. @param reference in the block that has it, m
+  void check_point(std::size_t index, const Vector3& place, const Vector3& reference) {
     if (!contains(outer_.box, place)) return;
-    const auto& material = material_of(points_[at(point)], place);
+    const auto& material = material_of(points_[index], place);
     if (!material) return;
     if (!clear_.points.empty()) {
-      ClearBall& ball = clear_.points[at(point)];
+      ClearBall& ball = clear_.points[index];
       if (ball.around(*material) > 0.0) return;
       ball = {*material, finder_.clear_radius(*material)};
       if (ball.radius > 0.0) return;
     }
-    if (const auto depth = finder_.of_point(*material)) take(*depth, place, {point, point}, 0.0);
+    if (const auto depth = finder_.of_point(*material)) take(*depth, place, reference);
   }
 
   void check_edge(std::size_t index) {
@@ -189,20 +200,19 @@ class PairAudit {
     const Vector3 way = *last - *first;
     const double within = way.squaredNorm() > 0.0 ? way.dot(depth->place - *first) / way.squaredNorm() : 0.0;
     const double along = (*part)[0] + within * ((*part)[1] - (*part)[0]);
-    const std::size_t edge = with_points_.middles.empty() ? piece : piece / 2;
-    take(*depth, start + along * whole, surface_.edges[edge].ends,
-         shares[0] + along * (shares[1] - shares[0]));
+    const auto& ends_of_edge = surface_.edges[with_points_.middles.empty() ? piece : piece / 2].ends;
+    const Vector3& from = surface_.points[at(ends_of_edge[0])];
+    const double share = shares[0] + along * (shares[1] - shares[0]);
+    take(*depth, start + along * whole, from + share * (surface_.points[at(ends_of_edge[1])] - from));
   }
 
-  void take(const SolidDepth& found, const Vector3& place, const std::array<int, 2>& points, double along) {
+  void take(const SolidDepth& found, const Vector3& place, const Vector3& reference) {
     const double depth = found.depth * map_.stretch_across(found.place, found.way_out);
     if (!(depth > deepest_.depth)) return;
     deepest_.depth = depth;
     deepest_.place = place;
-    deepest_.points = points;
-    deepest_.along = along;
     deepest_.face = found.face;
-    deepest_.materials[1] = found.place;
+    deepest_.materials = {reference, found.place};
     deepest_.normal = map_.placed_normal(found.place, found.way_out);
   }
 
@@ -257,7 +267,8 @@ std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<std::array<int,
   for (const auto& [a, b] : pairs) {
     for (const auto& [inner, outer] : {std::array{a, b}, std::array{b, a}}) {
       const AuditedBlock& block = audited_[at(inner)];
-      prepare({inner, outer}, block.points.size(), block.edges.size() + block.middles.size());
+      prepare({inner, outer}, block.points.size() + block.cells.size(),
+              block.edges.size() + block.middles.size());
     }
   }
   std::vector<std::array<PairDepth, 2>> found(pairs.size());
@@ -270,9 +281,6 @@ std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<std::array<int,
                                   scope.resolution, clear_.at({inner, outer}))
                             .run();
       depth.blocks = {inner, outer};
-      if (!(depth.depth > 0.0)) return depth;
-      const Vector3& start = surface.points[at(depth.points[0])];
-      depth.materials[0] = start + depth.along * (surface.points[at(depth.points[1])] - start);
       return depth;
     };
     found[k] = {audit(a, b), audit(b, a)};

@@ -1,5 +1,5 @@
 // How deep blocks are in each other, without asking their contacts: the true depth of the deepest corner,
-// sub-face point or edge of any block in another one, over all near pairs.
+// sub-face point, middle of a sub-face or edge of any block in another one, over all near pairs.
 //
 // Points of one block's surface are taken back to the reference shape of the other one (material_map.hpp),
 // where faces are flat whatever the block's order is, and asked there how deep they are (solid_depth.hpp).
@@ -24,12 +24,9 @@ namespace ashlar {
 
 /// The deepest point of one block in another one.
 struct PairDepth {
-  std::array<int, 2> blocks;  ///< the block with the point, then the one that it is in
-  double depth = 0.0;         ///< m, > 0
-  Vector3 place;              ///< current coordinates, m
-  /// Points of the first block's surface that it is on: one, or both ends of an edge.
-  std::array<int, 2> points;
-  double along = 0.0;                ///< of the edge, from its first end, 0 to 1
+  std::array<int, 2> blocks;         ///< the block with the point, then the one that it is in
+  double depth = 0.0;                ///< m, > 0
+  Vector3 place;                     ///< current coordinates, m
   int face = -1;                     ///< of the second block's solid: the nearest
   Vector3 normal;                    ///< of it, outward, current coordinates, unit
   std::array<Vector3, 2> materials;  ///< the point in both blocks, reference coordinates, m
@@ -73,7 +70,7 @@ struct ClearSegment {
 /// What is known of the points and edges of a block near one that is not convex: which need not be asked
 /// again.
 struct ClearParts {
-  std::vector<ClearBall> points;
+  std::vector<ClearBall> points;    ///< of the surface, then those of its cells
   std::vector<ClearSegment> edges;  ///< halves of edges that may curve, one after the other
 };
 
@@ -81,6 +78,7 @@ struct ClearParts {
 struct AuditedBlock {
   std::vector<Vector3> points;   ///< of its surface, m; empty: not looked at yet
   Box box;                       ///< of the points, grown by how far the surface is off its cells
+  std::vector<Vector3> cells;    ///< means of the corners of its sub-faces, m
   std::vector<Vector3> middles;  ///< of its edges, m; empty: they are straight
   std::vector<Box> edges;        ///< empty: no other block has been near
 };

@@ -225,8 +225,7 @@ static void visit_members(Archive& archive, Box& box) {
 
 template <class Archive>
 static void visit_members(Archive& archive, PairDepth& depth) {
-  archive(depth.blocks, depth.depth, depth.place, depth.points, depth.along, depth.face, depth.normal,
-          depth.materials);
+  archive(depth.blocks, depth.depth, depth.place, depth.face, depth.normal, depth.materials);
 }
 
 template <class Archive>

@@ -97,5 +97,20 @@ TEST_P(AtomicFile, FailsWithoutATrace) {
 
 INSTANTIATE_TEST_SUITE_P(All, AtomicFile, testing::Values(Durability::process, Durability::power));
 
+TEST(AtomicFile, OnlyFilesOfItsKindMayBeReplaced) {
+  const TemporaryFolder folder;
+  const auto path = folder / "picture.png";
+  const auto refuse = [&] { refuse_other_file(path, "PNG picture", {png_mark, "other"}); };
+  EXPECT_NO_THROW(refuse()) << "it is not there";
+  write_text(path, "");
+  EXPECT_NO_THROW(refuse()) << "nothing is lost";
+  write_text(path, "\x89PNG\r\n...");
+  EXPECT_NO_THROW(refuse());
+  write_text(path, "precious");
+  EXPECT_THAT(refuse, ThrowsMessage<std::invalid_argument>(
+                          HasSubstr("picture.png is in the way: it is no PNG picture, another name is needed")));
+  EXPECT_EQ(read_text(path), "precious");
+}
+
 }  // namespace
 }  // namespace ashlar

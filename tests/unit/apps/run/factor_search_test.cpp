@@ -41,6 +41,18 @@ TEST(FactorSearch, BracketsTheLimitToTheTolerance) {
   }
 }
 
+// A tolerance that no two numbers are within is met where no number is left between them.
+TEST(FactorSearch, EndsAtNeighbouringNumbers) {
+  for (const double limit : {1.5862568514200606, 1.0, 0.3}) {
+    Slope slope{limit};
+    const FactorBracket bracket = find_factor({{"*"}, 1e-300, 0.1, 10.0}, std::ref(slope));
+    ASSERT_TRUE(bracket.resolved && bracket.lower && bracket.upper) << limit;
+    EXPECT_EQ(*bracket.upper, limit);
+    EXPECT_EQ(*bracket.lower, std::nextafter(limit, 0.0));
+    EXPECT_LE(slope.tried.size(), 70U);
+  }
+}
+
 TEST(FactorSearch, StaysInItsRangeAndSaysWhatIsBeyond) {
   for (const double limit : {0.01, 100.0}) {
     Slope slope{limit};

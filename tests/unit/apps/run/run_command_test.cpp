@@ -266,6 +266,16 @@ TEST_F(RunCommand, ResumeDropsWhatAKilledRunWroteAfterItsCheckpoint) {
   expect_same_results("straight", "cut");
 }
 
+TEST_F(RunCommand, ResumeDoesNotGoBackInTime) {
+  ASSERT_EQ(run("out", {"--set", "analysis.end_time=0.02"}), exit_status::done) << faults_;
+  const std::string summary = text("out/summary.json");
+  EXPECT_EQ(run("out", {"--resume", "--set", "analysis.end_time=0.01"}), exit_status::bad_input);
+  EXPECT_THAT(faults_,
+              HasSubstr("end_time (0.01 s) is before the time that the run has reached (0.02 s), a later"));
+  EXPECT_EQ(text("out/summary.json"), summary);
+  EXPECT_EQ(run("out", {"--resume", "--set", "analysis.end_time=0.02"}), exit_status::done) << faults_;
+}
+
 TEST_F(RunCommand, ResumeNeedsTheCheckpointOfTheSameScene) {
   EXPECT_EQ(run("out", {"--resume"}), exit_status::bad_input);
   EXPECT_THAT(faults_, AllOf(StartsWith((folder_ / "out/checkpoint").string() + ": error: no checkpoint")));

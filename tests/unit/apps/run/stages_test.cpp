@@ -121,6 +121,45 @@ reset_displacement = true
   EXPECT_NEAR(column("out/history.csv", "top.uz").back(), -20e3 / 1e9, 1e-3 * 20e3 / 1e9);
 }
 
+// A block that falls for a second is where the next stage adds one: flush, so that no corner of one is within the other.
+TEST_F(Stages, WhatIsAddedNeedsRoom) {
+  const auto falling = [](double shift) {
+    const std::string x = std::to_string(shift), end = std::to_string(shift + 1.0);
+    return R"(
+analysis = { end_time = 1, time_step = 1e-2, gravity = [0, 0, 0] }
+contact = { friction_angle = 30 }
+material = [{ name = "m", density = 2700, young_modulus = 1e10, poisson_ratio = 0.2 }]
+[[block]]
+name = "s"
+material = "m"
+box = { min = [0, 0, 2], max = [1, 1, 3] }
+velocity = [0, 0, -1.5]
+[[block]]
+name = "t"
+material = "m"
+box = { min = [)" +
+           x + ", 0, 0], max = [" + end + R"(, 1, 1] }
+[[stage]]
+name = "a"
+[[stage]]
+name = "b"
+add = ["t"]
+)";
+  };
+  scene(falling(0.0));
+  EXPECT_EQ(run("out"), exit_status::failed);
+  EXPECT_THAT(faults_,
+              HasSubstr("stage b cannot begin: the stage adds block t where block s is now: they overlap by "
+                        "0.5 m, allowed is 0.01 m"));
+  const nlohmann::json result = summary("out");
+  EXPECT_EQ(result["status"], "failed");
+  EXPECT_EQ(result["time"], 1.0) << "the end of the first stage is kept";
+  EXPECT_EQ(run("out", {"--resume"}), exit_status::failed) << "and goes on to the same end";
+  EXPECT_THAT(faults_, HasSubstr("stage b cannot begin"));
+  scene(falling(1.0));
+  EXPECT_EQ(run("beside"), exit_status::done) << faults_;
+}
+
 TEST_F(Stages, LoadsAndSupportsComeWithTheirStage) {
   scene(stack + R"(
 [[stage]]

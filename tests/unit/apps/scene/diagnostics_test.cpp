@@ -30,6 +30,20 @@ TEST(Diagnostics, PrintsEachFaultInOneLine) {
   EXPECT_EQ(to_string(Diagnostic{{"s.toml", 1, 2}, "wrong (a\nb\tc)"}), "s.toml:1:2: error: wrong (a b c)");
 }
 
+TEST(Diagnostics, LeavesTheMiddleOfLongLinesOut) {
+  std::string message = "unknown name (";
+  for (int k = 0; k < 100000; ++k) message += "\xC3\xA9";  // e with an accent
+  message += "), one is needed";
+  Diagnostics diagnostics;
+  diagnostics.error({"s.toml", 1, 2}, message);
+  const std::string line = to_string(diagnostics.sorted().front());
+  EXPECT_LT(line.size(), longest_line + 40);
+  EXPECT_THAT(line, ::testing::StartsWith("s.toml:1:2: error: unknown name (\xC3\xA9"));
+  EXPECT_THAT(line, ::testing::HasSubstr("\xC3\xA9 [... 198"));
+  EXPECT_THAT(line, ::testing::HasSubstr(" bytes ...] \xC3\xA9"));
+  EXPECT_THAT(line, ::testing::EndsWith("\xC3\xA9), one is needed"));
+}
+
 TEST(Diagnostics, ListsTheSameFaultOnce) {
   Diagnostics diagnostics;
   EXPECT_TRUE(diagnostics.good());

@@ -174,6 +174,8 @@ INSTANTIATE_TEST_SUITE_P(
             "s.toml:7:1: error: masonry is too large (about 2e+12 pieces up to this one), at most 20000"},
         FaultCase{0, wall + "openings = [{ box = { min = [6, 0, 0], max = [7, 1, 1] } }]\n",
                   "s.toml:14:13: error: opening is not in the wall (along 6 to 7, up 0 to 1 m)"},
+        FaultCase{0, wall + "openings = [{ box = { min = [-1, -1, -1], max = [60, 2, 50] } }]\n",
+                  "s.toml:14:1: error: openings leave nothing of the wall (0 bricks), at least one brick"},
         FaultCase{0, wall + "openings = [{ box = { min = [1, 0.1, 0], max = [2, 1, 1] } }]\n",
                   "s.toml:14:13: error: opening does not go through the wall (across from 0.1 to 1 m), from "
                   "0 to 0.25"},

@@ -256,6 +256,14 @@ TEST(SceneCuts, FaultsHaveTheirPlaces) {
                    "\"uniform\" }\n",
             "s.toml:22:35: error: deviation lets spacings be zero or less (0.6), less than mean / sqrt(3) = "
             "0.57735 is needed"},
+           {head + "dip = 1\ndip_direction = 0\nspacing = { mean = 1, deviation = 101, distribution = "
+                   "\"lognormal\" }\n",
+            "s.toml:22:35: error: deviation is out of range (101), at most 100 times the mean (100) is "
+            "needed"},
+           {head +
+                "dip = 1\ndip_direction = 0\npoint = [0, 0, 1e6]\nspacing = { mean = 1e-3, deviation = 1e-3, "
+                "distribution = \"exponential\" }\nmost_blocks = 100000000\n",
+            "too far from the blocks for this spacing (1e+06 m), less than 1e+07 spacings are allowed"},
            {head + "voronoi = { count = 3 }\ndip = 3\n",
             "s.toml:21:1: error: dip beside voronoi (both given), only one of both is allowed"},
            {head + "voronoi = { count = 3000000 }\n",

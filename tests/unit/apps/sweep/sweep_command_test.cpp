@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "apps/sweep/sweep_table.hpp"
+#include "apps/sweep/variants.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
@@ -63,6 +65,20 @@ TEST_F(Sweep, ARowForEachRunWithWhatCameOfIt) {
   EXPECT_EQ(printed_, text("t.csv"));
   EXPECT_THAT(faults_, AllOf(HasSubstr("3 of 3"), HasSubstr("end_time=-1: refused, see ")));
   EXPECT_THAT(text("t.runs/analysis.end_time=-1.log"), HasSubstr("end_time is out of range"));
+}
+
+TEST_F(Sweep, WhatWasNotBegunIsNotRefused) {
+  const std::vector<VariedKey> keys = {parse_varied_key("a=1,2,3")};
+  std::vector<std::filesystem::path> folders;
+  for (const Variant& variant : variants_of(keys)) folders.push_back(runs() / variant.folder);
+  std::filesystem::create_directories(folders[1]);
+  write_text(folders[1].string() + ".log", "");
+  write_text(folders[1] / ".ashlar", "");
+  write_text(folders[2].string() + ".log", "");
+  const SweepTable table = sweep_table(keys, variants_of(keys), folders, {});
+  std::vector<std::string> found;
+  for (const auto& row : table.rows) found.push_back(row[2]);
+  EXPECT_EQ(found, (std::vector<std::string>{"not run", "interrupted", "refused"}));
 }
 
 TEST_F(Sweep, UsualValuesAreTimeAndMeasures) {

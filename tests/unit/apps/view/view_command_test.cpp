@@ -202,6 +202,18 @@ TEST_F(ViewCommand, AFolderWithoutSummaryIsShown) {
   EXPECT_EQ(run({"view", (folder / "out").string()}), exit_status::done) << err.str();
 }
 
+TEST_F(ViewCommand, OtherFilesAreNotReplaced) {
+  simulate();
+  const std::string scene = (folder / "glide.toml").string();
+  EXPECT_EQ(run({"view", (folder / "out").string(), "-o", scene}), exit_status::bad_input);
+  EXPECT_THAT(err.str(),
+              HasSubstr("glide.toml is in the way: it is no page of ashlar, another name is needed"));
+  EXPECT_EQ(read_text(scene), scene_text);
+  const std::string page = (folder / "page.html").string();
+  for (int k = 0; k < 2; ++k)
+    EXPECT_EQ(run({"view", (folder / "out").string(), "-o", page}), exit_status::done) << err.str();
+}
+
 TEST_F(ViewCommand, FaultsNameTheFile) {
   EXPECT_EQ(run({"view", (folder / "none").string()}), exit_status::bad_input);
   EXPECT_THAT(err.str(), AllOf(HasSubstr("error: no result folder ("), HasSubstr("/none does not exist), ")));

@@ -41,13 +41,13 @@ TEST(DepthAudit, ACornerInAFaceIsAsDeepAsItIs) {
       cube({0, 0, 0}),
       Eigen::AngleAxisd(Eigen::Quaterniond::FromTwoVectors(Vector3(1, 1, 1), Vector3(0, 0, 1))));
   std::vector<Vector3> points;
-  for (const Vector3& point : corner_down.mesh().points) points.emplace_back(point + Vector3(5, 5, 9.9));
+  for (const Vector3& point : corner_down.mesh().points) points.emplace_back(point + Vector3(4, 3, 9.9));
   for (const int order : {1, 2}) {
     const auto depths = audit(corner_down.with_points(points), cube({0, 0, 0}, 10.0), order);
     ASSERT_EQ(depths.size(), 1U);
     EXPECT_EQ(depths[0].blocks, (std::array{0, 1}));
     EXPECT_NEAR(depths[0].depth, 0.1, 1e-12);
-    EXPECT_NEAR((depths[0].place - Vector3(5, 5, 9.9)).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((depths[0].place - Vector3(4, 3, 9.9)).norm(), 0.0, 1e-12);
     EXPECT_NEAR((depths[0].normal - Vector3::UnitZ()).norm(), 0.0, 1e-12);
   }
 }
@@ -66,6 +66,22 @@ TEST(DepthAudit, EdgesThatCrossAreSeenWithoutACornerInside) {
   const auto depths = audit(bar(Vector3::UnitX(), 0.9), bar(Vector3::UnitY(), 0.0), 1);
   ASSERT_EQ(depths.size(), 2U);
   for (const PairDepth& depth : depths) EXPECT_NEAR(depth.depth, 0.1 / std::sqrt(2.0), 1e-12);
+}
+
+// Flush on each other all corners and edges of both are on the other's sides: only the middles of faces are inside.
+TEST(DepthAudit, ABlockThatIsFlushOnAnotherIsAsDeepAsItHasSunkIn) {
+  const auto prism = [](double low) {
+    return Polyhedron(make_convex_hull(std::vector<Vector3>{
+        {0, 0, low}, {3, 0, low}, {0, 3, low}, {0, 0, low + 2}, {3, 0, low + 2}, {0, 3, low + 2}}));
+  };
+  for (const int order : {1, 2}) {
+    for (const auto& depths :
+         {audit(cube({0, 0, 0.97}), cube({0, 0, 0}), order), audit(prism(1.97), prism(0), order)}) {
+      ASSERT_EQ(depths.size(), 2U) << "each in the other";
+      for (const PairDepth& depth : depths) EXPECT_NEAR(depth.depth, 0.03, 1e-12);
+      EXPECT_NEAR(depths[0].normal.z(), depths[0].blocks[0] == 0 ? 1.0 : -1.0, 1e-12);
+    }
+  }
 }
 
 TEST(DepthAudit, BlocksThatTouchOrArePassedOverHaveNone) {
