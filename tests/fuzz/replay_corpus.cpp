@@ -1,4 +1,5 @@
 // Runs every file of the corpus through every target, without libFuzzer: replay_corpus FOLDER
+// Writes stored states of the program as it is for the fuzzer to begin with: replay_corpus --seeds FOLDER
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/seeds.hpp"
 #include "fuzz/targets.hpp"
 
 namespace {
@@ -28,8 +30,7 @@ std::string bytes_of(const fs::path& file) {
 }
 
 // Whether all went well.
-bool replay(const fs::path& file) {
-  const std::string bytes = bytes_of(file);
+bool replay(const std::string& file, const std::string& bytes) {
   for (const auto& target : ashlar::fuzz::targets) {
     const auto fail = [&](const char* what) {
       std::fprintf(stderr, "%s: %s: %s\n", file.c_str(), std::string(target.name).c_str(), what);
@@ -61,17 +62,36 @@ bool has_good_seeds(const fs::path& folder) {
   return good;
 }
 
+bool takes_stored_states() {
+  bool good = true;
+  for (const std::string& state : ashlar::fuzz::stored_states()) {
+    good = replay("stored state", state) && good;
+    if (ashlar::fuzz::checkpoint(state)) continue;
+    std::fprintf(stderr, "checkpoint: a stored state is not taken\n");
+    good = false;
+  }
+  return good;
+}
+
+int write_seeds(const fs::path& folder) {
+  int number = 0;
+  for (const std::string& state : ashlar::fuzz::stored_states())
+    std::ofstream(folder / ("state_" + std::to_string(++number)), std::ios::binary) << state;
+  return 0;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
+  if (count == 3 && std::string(arguments[1]) == "--seeds") return write_seeds(arguments[2]);
   if (count != 2) {
-    std::fprintf(stderr, "usage: replay_corpus FOLDER\n");
+    std::fprintf(stderr, "usage: replay_corpus [--seeds] FOLDER\n");
     return 2;
   }
   const std::vector<fs::path> files = files_of(arguments[1]);
   bool good = true;
-  for (const fs::path& file : files) good = replay(file) && good;
-  good = good && has_good_seeds(arguments[1]);
+  for (const fs::path& file : files) good = replay(file.string(), bytes_of(file)) && good;
+  good = good && has_good_seeds(arguments[1]) && takes_stored_states();
   std::printf("%zu files, %zu targets: %s\n", files.size(), ashlar::fuzz::targets.size(),
               good ? "good" : "failed");
   return good ? 0 : 1;

@@ -107,8 +107,8 @@ TEST(AtomicFile, OnlyFilesOfItsKindMayBeReplaced) {
   write_text(path, "\x89PNG\r\n...");
   EXPECT_NO_THROW(refuse());
   write_text(path, "precious");
-  EXPECT_THAT(refuse, ThrowsMessage<std::invalid_argument>(
-                          HasSubstr("picture.png is in the way: it is no PNG picture, another name is needed")));
+  EXPECT_THAT(refuse, ThrowsMessage<std::invalid_argument>(HasSubstr(
+                          "picture.png is in the way: it is no PNG picture, another name is needed")));
   EXPECT_EQ(read_text(path), "precious");
 }
 
