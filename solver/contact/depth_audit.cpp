@@ -212,7 +212,8 @@ class PairAudit {
     deepest_.depth = depth;
     deepest_.place = place;
     deepest_.face = found.face;
-    deepest_.materials = {reference, found.place};
+    // On both surfaces: what is between them is strained too.
+    deepest_.materials = {reference, found.place + found.depth * found.way_out};
     deepest_.normal = map_.placed_normal(found.place, found.way_out);
   }
 

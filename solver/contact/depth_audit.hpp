@@ -24,12 +24,13 @@ namespace ashlar {
 
 /// The deepest point of one block in another one.
 struct PairDepth {
-  std::array<int, 2> blocks;         ///< the block with the point, then the one that it is in
-  double depth = 0.0;                ///< m, > 0
-  Vector3 place;                     ///< current coordinates, m
-  int face = -1;                     ///< of the second block's solid: the nearest
-  Vector3 normal;                    ///< of it, outward, current coordinates, unit
-  std::array<Vector3, 2> materials;  ///< the point in both blocks, reference coordinates, m
+  std::array<int, 2> blocks;  ///< the block with the point, then the one that it is in
+  double depth = 0.0;         ///< m, > 0
+  Vector3 place;              ///< current coordinates, m
+  int face = -1;              ///< of the second block's solid: the nearest
+  Vector3 normal;             ///< of it, outward, current coordinates, unit
+  std::array<Vector3, 2>
+      materials;  ///< the point, and that of the face nearest to it, reference coordinates, m
 };
 
 /// A depth as it was measured, and where its two material points were then.
