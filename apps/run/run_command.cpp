@@ -16,6 +16,7 @@
 #include "apps/scene/loose_blocks.hpp"
 #include "apps/scene/scene_stages.hpp"
 #include "apps/view/view_file.hpp"
+#include "solver/state/step_clock.hpp"
 
 namespace ashlar {
 namespace {
@@ -142,8 +143,7 @@ bool go_on_from_checkpoint(PreparedRun& run, const std::filesystem::path& folder
   simulation.restore(run.earlier->simulation);
   const SceneAnalysis analysis = scene_of_stage(run.loaded->scene, run.earlier->stages.size()).analysis;
   const double end_time = analysis.end_time;
-  constexpr double rounding = 1e-6;  // of a step
-  if (simulation.time() - end_time <= rounding * analysis.time_step) return true;
+  if (simulation.time() - end_time <= time_rounding(analysis.time_step, end_time)) return true;
   err << fmt::format(
       "ashlar: error: end_time ({} s) is before the time that the run has reached ({} s), a later "
       "one, or a new folder, is needed\n",

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <Eigen/Core>
+#include <vector>
 
 #include "apps/scene/initial_overlap.hpp"
 #include "geometry/boxes/box_pairs.hpp"
@@ -11,21 +12,23 @@
 namespace ashlar {
 namespace {
 
-/// Blocks in their places, with what pairs of them are made of.
-struct PlacedSolids {
+/// Some blocks, and where their points are.
+struct PlacedBlocks {
   std::vector<int> blocks;
-  std::vector<Polyhedron> solids;
+  std::vector<std::vector<Vector3>> points;
   std::vector<Box> boxes;
 
   void add(const Simulation& simulation, int block) {
     const BlockModel& model = simulation.blocks()[at(block)];
-    const BlockState& state = simulation.states()[at(block)];
-    std::vector<Vector3> points;
-    for (const Vector3& point : model.solid().mesh().points)
-      points.push_back(model.motion_of(state, point).place);
-    boxes.push_back(box_of(points));
-    solids.push_back(model.solid().with_points(std::move(points)));
+    const Eigen::MatrixX3d places =
+        model.basis().values(model.solid().mesh().points) * simulation.states()[at(block)].position;
+    std::vector<Vector3>& placed = points.emplace_back();
+    for (Eigen::Index k = 0; k < places.rows(); ++k) placed.emplace_back(places.row(k));
+    boxes.push_back(box_of(placed));
     blocks.push_back(block);
+  }
+  [[nodiscard]] Polyhedron solid(const Simulation& simulation, int index) const {
+    return simulation.blocks()[at(blocks[at(index)])].solid().with_points(points[at(index)]);
   }
 };
 
@@ -33,24 +36,30 @@ struct PlacedSolids {
 
 std::optional<std::string> overlap_of_added(const Simulation& simulation,
                                             const std::vector<bool>& was_absent) {
-  PlacedSolids added, others;
-  for (int k = 0; k < simulation.system().count(); ++k)
-    if (simulation.system().present(k)) (was_absent[at(k)] ? added : others).add(simulation, k);
+  const BlockSystem& system = simulation.system();
+  PlacedBlocks added, others;
+  for (int k = 0; k < system.count(); ++k)
+    if (system.present(k) && was_absent[at(k)]) added.add(simulation, k);
+  if (added.blocks.empty()) return std::nullopt;
+  for (int k = 0; k < system.count(); ++k)
+    if (system.present(k) && !was_absent[at(k)]) others.add(simulation, k);
+  const DepthSettings& depth = system.settings().depth;
   std::optional<std::string> fault;
   double most = 0.0;
   for (const auto& [i, j] : meeting_boxes(added.boxes, others.boxes)) {
-    const BlockModel& a = simulation.blocks()[at(added.blocks[at(i)])];
-    const BlockModel& b = simulation.blocks()[at(others.blocks[at(j)])];
-    if (a.fixed() && b.fixed()) continue;
-    const Polyhedron &solid_a = added.solids[at(i)], &solid_b = others.solids[at(j)];
-    const double allowed = allowed_share_of_added * std::cbrt(std::min(solid_a.volume(), solid_b.volume()));
-    const OverlapDepth overlap = overlap_depth(solid_a, solid_b);
+    const int a = added.blocks[at(i)], b = others.blocks[at(j)];
+    if (simulation.blocks()[at(a)].fixed() && simulation.blocks()[at(b)].fixed()) continue;
+    const double allowed = depth.allowed_depth > 0.0
+                               ? depth.allowed_depth
+                               : depth.unknown_depth_share * system.smaller_size({a, b});
+    const OverlapDepth overlap = overlap_depth(added.solid(simulation, i), others.solid(simulation, j));
     if (overlap.depth - allowed <= most) continue;
     most = overlap.depth - allowed;
     fault = fmt::format(
-        "the stage adds block {} where block {} is now: they overlap by {}{:.3g} m, allowed "
-        "is {:.3g} m",
-        a.name(), b.name(), overlap.exact ? "" : "at least ", overlap.depth, allowed);
+        "the stage adds block {} where block {} is now: they overlap by {}{:.3g} m, allowed is "
+        "{:.3g} m",
+        simulation.blocks()[at(a)].name(), simulation.blocks()[at(b)].name(),
+        overlap.exact ? "" : "at least ", overlap.depth, allowed);
   }
   return fault;
 }

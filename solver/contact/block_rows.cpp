@@ -95,6 +95,7 @@ void BlockRows::add_force(const Eigen::Matrix3Xd& forces, double sign, Eigen::Ve
 }
 
 Eigen::MatrixXd BlockRows::tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const {
+  if (stiffnesses.cols() == 0) return Eigen::MatrixXd::Zero(unknowns(), other.unknowns());
   if (is_affine() && other.is_affine())
     return affine_tangent(stiffnesses, as_affine(values_[0]), as_affine(other.values_[0]));
   Eigen::MatrixXd result(unknowns(), other.unknowns());

@@ -75,8 +75,10 @@ bool takes_stored_states() {
 
 int write_seeds(const fs::path& folder) {
   int number = 0;
-  for (const std::string& state : ashlar::fuzz::stored_states())
-    std::ofstream(folder / ("state_" + std::to_string(++number)), std::ios::binary) << state;
+  for (const std::string& state : ashlar::fuzz::stored_states()) {
+    std::ofstream file(folder / ("state_" + std::to_string(++number)), std::ios::binary);
+    if (!(file << state).flush()) return 1;
+  }
   return 0;
 }
 

@@ -158,6 +158,15 @@ add = ["t"]
   EXPECT_THAT(faults_, HasSubstr("stage b cannot begin"));
   scene(falling(1.0));
   EXPECT_EQ(run("beside"), exit_status::done) << faults_;
+  // Incremental blocks are where they have been carried to.
+  const std::vector<std::string> incremental = {"--set", "analysis.formulation=incremental"};
+  EXPECT_EQ(run("carried_beside", incremental), exit_status::done) << faults_;
+  scene(falling(0.0));
+  EXPECT_EQ(run("carried", incremental), exit_status::failed);
+  EXPECT_THAT(faults_, HasSubstr("they overlap by 0.5 m"));
+  // As deep as the scene allows.
+  EXPECT_NE(run("allowed", {"--set", "contact.allowed_depth=0.6"}), exit_status::bad_input);
+  EXPECT_THAT(faults_, ::testing::Not(HasSubstr("cannot begin")));
 }
 
 TEST_F(Stages, LoadsAndSupportsComeWithTheirStage) {

@@ -113,6 +113,9 @@ TEST(BlockRows, SomePointsAreThoseOfAll) {
   EXPECT_LT((of_some.col(0) - of_all.col(2)).norm(), 1e-15);
   EXPECT_LT((of_some.col(1) - of_all.col(0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(some.squared_row(1, Vector3::UnitY()), all.squared_row(0, Vector3::UnitY()));
+  const BlockRows none = all.at_points({});
+  EXPECT_EQ(none.tangent(PointStiffnesses(9, 0), none),
+            Eigen::MatrixXd::Zero(all.unknowns(), all.unknowns()));
 }
 
 TEST(BlockRows, OfAFixedBlockThereAreNone) {
