@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "apps/results/base64.hpp"
+#include "apps/scene/base64.hpp"
 #include "geometry/index.hpp"
 
 namespace ashlar {

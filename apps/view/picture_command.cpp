@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/results/base64.hpp"
 #include "apps/results/scratch_folder.hpp"
+#include "apps/scene/base64.hpp"
 #include "apps/view/headless_browser.hpp"
 #include "apps/view/view_file.hpp"
 

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/results/base64.hpp"
 #include "apps/results/scratch_folder.hpp"
+#include "apps/scene/base64.hpp"
 #include "apps/view/headless_browser.hpp"
 
 namespace ashlar {

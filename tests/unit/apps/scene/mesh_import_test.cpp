@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "apps/results/base64.hpp"
+#include "apps/scene/base64.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"

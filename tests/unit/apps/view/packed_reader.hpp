@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/results/base64.hpp"
+#include "apps/scene/base64.hpp"
 
 namespace ashlar {
 

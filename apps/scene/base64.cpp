@@ -1,4 +1,4 @@
-#include "apps/results/base64.hpp"
+#include "apps/scene/base64.hpp"
 
 #include <openssl/evp.h>
 
