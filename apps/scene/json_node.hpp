@@ -1,0 +1,48 @@
+// Values of a JSON file that may come from anywhere: each access checks the type, and says where it failed.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "geometry/mesh/mesh_io.hpp"
+
+namespace ashlar {
+
+/// Levels of arrays and objects in each other. glTF's own go 7 deep; what programs add under "extras" may be deeper.
+inline constexpr std::size_t most_json_levels = 100;
+
+/// Parses a whole text. The tree takes up to 50 times its bytes. @throws MeshFileError with line and column
+[[nodiscard]] nlohmann::json parse_json_file(std::string_view text);
+
+/// A value with its path, such as accessors[3].count. The tree must outlive it.
+/// All members @throws MeshFileError "PATH is ..., allowed ...".
+class JsonNode {
+ public:
+  JsonNode(const nlohmann::json& value, std::string path);
+
+  /// A member of an object; none if there is none.
+  [[nodiscard]] std::optional<JsonNode> find(const char* key) const;
+  /// The same, which must be there.
+  [[nodiscard]] JsonNode at(const char* key) const;
+  /// Elements of an array.
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] JsonNode at(std::size_t index) const;
+
+  [[nodiscard]] const std::string& text() const;
+  [[nodiscard]] double number() const;
+  [[nodiscard]] bool boolean() const;
+  /// A whole number below 2^32.
+  [[nodiscard]] std::size_t count() const;
+  /// An index into something of `size` elements.
+  [[nodiscard]] std::size_t index(std::size_t size) const;
+
+  [[noreturn]] void fail(const std::string& fault, const std::string& allowed) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string path_;
+};
+
+}  // namespace ashlar
