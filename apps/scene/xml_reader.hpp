@@ -1,0 +1,63 @@
+// XML of a file that may come from anywhere, as it streams by: elements with their attributes, parsed by expat.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "geometry/mesh/mesh_io.hpp"
+
+namespace ashlar {
+
+/// Elements in each other.
+inline constexpr std::size_t most_xml_levels = 100;
+/// Bytes of one tag, comment or instruction. expat begins again with one that is not whole, hence a bound.
+inline constexpr std::size_t longest_xml_token = 1U << 20U;
+
+/// Names and values of a start tag, as they are written; prefixes are part of names.
+class XmlAttributes {
+ public:
+  explicit XmlAttributes(const char** list) : list_(list) {}
+
+  [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const;
+  /// Calls `use` with each name and value.
+  void each(const std::function<void(std::string_view, std::string_view)>& use) const;
+
+ private:
+  const char** list_;
+};
+
+/// What is done with elements; a MeshFileError that is thrown gets the place of the tag.
+class XmlHandler {
+ public:
+  virtual ~XmlHandler() = default;
+  virtual void start(std::string_view name, const XmlAttributes& attributes) = 0;
+  virtual void end() = 0;
+};
+
+class XmlReader {
+ public:
+  explicit XmlReader(XmlHandler& handler);
+  ~XmlReader();
+  XmlReader(const XmlReader&) = delete;
+  XmlReader& operator=(const XmlReader&) = delete;
+
+  /// @throws MeshFileError: not well-formed, a document type (entities are declared there), too deep, a tag that is too
+  /// long, and what the handler throws
+  void take(std::string_view piece);
+  /// After the last piece.
+  void finish();
+
+ private:
+  struct State;
+  void check(bool good);
+
+  std::unique_ptr<State> state_;
+};
+
+/// Version of expat.
+[[nodiscard]] std::string xml_library_version();
+
+}  // namespace ashlar
