@@ -1,0 +1,22 @@
+// Reader of drawings (DXF as text): 3DFACE, POLYLINE as polyface or polygon mesh, and INSERT of blocks with them.
+// Coordinates are those of the file.
+//
+// Other entities, and which edges or layers are shown, are passed over. Refused by name: binary DXF, smoothed polygon
+// meshes, inserts in rows and columns, and inserts in another plane than xy. Numbers of vertices and faces that a drawing
+// claims are not used where it may claim anything.
+#pragma once
+
+#include <string_view>
+
+#include "apps/scene/shape_layout.hpp"
+
+namespace ashlar {
+
+/// Blocks in blocks.
+inline constexpr int most_block_levels = 100;
+
+/// Faces of a layer are one object, in the order of their first faces: those of the drawing itself, then those of its
+/// inserts. @throws MeshFileError with line and column
+[[nodiscard]] ShapeLayout read_dxf(std::string_view text);
+
+}  // namespace ashlar
