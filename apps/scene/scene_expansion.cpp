@@ -142,7 +142,11 @@ void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, D
     }
     for (std::size_t k = 0; k < masonry.size(); ++k)
       list.add(as_pieces(std::move(masonry[k])), fmt::format("masonry.{}", k));
-    if (list.blocks.size() > most_laid_blocks) refuse_number(scene, list, diagnostics);
+    if (list.blocks.size() > most_laid_blocks) {
+      refuse_number(scene, list, diagnostics);
+      // Their names are known to other checks; solids of so many are not built.
+      for (PieceBlock& block : list.blocks) block.block.shape = {};
+    }
     for (std::size_t k = 0; k < list.blocks.size(); ++k) {
       record_origins(scene.places, k, list.blocks[k], list.origins[k]);
       scene.block.push_back(std::move(list.blocks[k].block));
