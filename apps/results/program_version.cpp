@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "apps/scene/mesh_import.hpp"
+#include "apps/scene/xml_reader.hpp"
 #include "geometry/library_versions.hpp"
 #include "solver/library_versions.hpp"
 
@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, std::string>> tool_versions() {
   versions.emplace_back(
       "fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   versions.emplace_back("zlib", zlibVersion());
-  if (!assimp_version().empty()) versions.emplace_back("assimp", assimp_version());
+  versions.emplace_back("expat", xml_library_version());
   return versions;
 }
 
