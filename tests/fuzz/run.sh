@@ -7,7 +7,7 @@ programs="$root/build/fuzz/tests/fuzz"
 inputs=${1:-100000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(scene include formula record off obj stl ply groups checkpoint vtu pvd summary)
+((${#targets[@]} > 0)) || targets=(scene include formula record off obj stl ply groups gltf glb dxf package model checkpoint vtu pvd summary)
 
 status=0
 for target in "${targets[@]}"; do

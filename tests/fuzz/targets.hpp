@@ -28,6 +28,11 @@ bool obj(std::string_view bytes);         //
 bool stl(std::string_view bytes);         //
 bool ply(std::string_view bytes);         //
 bool groups(std::string_view bytes);      ///< an OBJ file of many stones
+bool gltf(std::string_view bytes);        ///< each of the imported meshes, without files beside it
+bool glb(std::string_view bytes);         //
+bool dxf(std::string_view bytes);         //
+bool package(std::string_view bytes);     ///< a 3MF file, which is a zip archive
+bool model(std::string_view bytes);       ///< its model part, without the archive's checksums around it
 bool checkpoint(std::string_view bytes);  ///< the stored state of a simulation, without header and hash
 bool vtu(std::string_view bytes);         ///< a frame, and its curved cells divided for the page
 bool pvd(std::string_view bytes);         ///< the list of frames
@@ -41,7 +46,7 @@ struct Target {
   bool lasting = true;
 };
 
-inline constexpr std::array<Target, 13> targets = {{{"scene", scene},
+inline constexpr std::array<Target, 18> targets = {{{"scene", scene},
                                                     {"include", include},
                                                     {"formula", formula},
                                                     {"record", record},
@@ -50,6 +55,11 @@ inline constexpr std::array<Target, 13> targets = {{{"scene", scene},
                                                     {"stl", stl},
                                                     {"ply", ply},
                                                     {"groups", groups},
+                                                    {"gltf", gltf},
+                                                    {"glb", glb},
+                                                    {"dxf", dxf},
+                                                    {"package", package},
+                                                    {"model", model},
                                                     {"checkpoint", checkpoint, false},
                                                     {"vtu", vtu},
                                                     {"pvd", pvd},
