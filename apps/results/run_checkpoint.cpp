@@ -47,7 +47,7 @@ static void visit_members(Archive& archive, RunSeconds& seconds) {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 19;
+constexpr std::uint32_t layout_version = 20;
 
 /// What follows the magic line; then comes the payload, and its hash.
 struct Header {

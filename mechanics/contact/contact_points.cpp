@@ -73,6 +73,28 @@ class CellMap {
   Eigen::Matrix<double, 3, 2> placed_slope_;
 };
 
+/// The outward normal of the master's face at a point, out of b, reference configuration.
+Vector3 reference_normal(const ContactBody& a, const ContactBody& b, const ContactPoint& point,
+                         bool master_is_a) {
+  return master_is_a ? Vector3(-a.model->solid().faces()[at(point.face_a)].normal)
+                     : b.model->solid().faces()[at(point.face_b)].normal;
+}
+
+/// The normal of two crossed edges, out of b, reference configuration; zero if they are parallel.
+Vector3 reference_normal_of_edges(const ContactBody& a, const ContactBody& b, const ContactPoint& point) {
+  const Vector3 across = point.edge_a.cross(point.edge_b).normalized();
+  const Vector3 out_of_b =
+      b.model->solid().faces()[at(point.face_b)].normal - a.model->solid().faces()[at(point.face_a)].normal;
+  return across.dot(out_of_b) < 0.0 ? Vector3(-across) : across;
+}
+
+/// Counts a gap from where the material points were placed. @param normal out of b, reference configuration
+/// @param known how deep the blocks were placed in each other, m
+void count_from_placement(ContactPoint& point, const Vector3& normal, double known) {
+  point.overlap = std::clamp(-normal.dot(point.material_a - point.material_b), 0.0, known);
+  point.gap += point.overlap;
+}
+
 /// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
 bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved) {
   return curved || (is_affine(*a.model) && is_affine(*b.model));
@@ -82,12 +104,13 @@ bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved) {
 class OverlapPoints {
  public:
   OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap, bool master_is_a,
-                bool curved)
+                const ContactPointSettings& settings)
       : a_(a),
         b_(b),
         overlap_(overlap),
         master_is_a_(master_is_a),
-        curved_(curved),
+        curved_(settings.curved),
+        known_overlap_(settings.known_overlap),
         map_a_(a, overlap.cell_a, overlap.frame),
         map_b_(b, overlap.cell_b, overlap.frame) {}
 
@@ -113,6 +136,8 @@ class OverlapPoints {
           master_is_a_ ? Vector3(-a_.placed->normal(overlap_.cell_a)) : b_.placed->normal(overlap_.cell_b);
     }
     complete(point);
+    if (known_overlap_ > 0.0)
+      count_from_placement(point, reference_normal(a_, b_, point, master_is_a_), known_overlap_);
     return point;
   }
   /// The map of the cell of a, or of b.
@@ -124,6 +149,7 @@ class OverlapPoints {
   const CellOverlap& overlap_;
   bool master_is_a_;
   bool curved_;
+  double known_overlap_;
   CellMap map_a_;
   CellMap map_b_;
 };
@@ -173,7 +199,7 @@ void add_area_springs(const Search& search, const CellOverlap& overlap, bool mas
   const int degree = std::max({2, a.model->order(), b.model->order()});
   const std::vector<Eigen::Vector2d> outline =
       outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed));
-  const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
+  const OverlapPoints make(a, b, overlap, master_is_a, settings);
   std::vector<ContactPoint> points;
   const auto add_points = [&](const PolygonRule& rule) {
     for (std::size_t k = 0; k < rule.points.size(); ++k)
@@ -210,7 +236,7 @@ void add_point_springs(const Search& search, const FaceOverlap& face,
   const double area = outline.area / static_cast<double>(outline.corners.size());
   for (const FaceOverlapPoint& point : outline.corners) {
     const CellOverlap& overlap = overlaps[at(point.overlap)];
-    points.push_back(OverlapPoints(a, b, overlap, master_is_a, search.settings.curved)
+    points.push_back(OverlapPoints(a, b, overlap, master_is_a, search.settings)
                          .at_place(overlap.corners[at(point.corner)].place, area));
   }
 }
@@ -243,6 +269,8 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
     point.normal = contact.vertex_of_a ? normal : Vector3(-normal);
   }
   complete(point);
+  if (settings.known_overlap > 0.0)
+    count_from_placement(point, reference_normal(a, b, point, !contact.vertex_of_a), settings.known_overlap);
   points.push_back(point);
 }
 
@@ -284,6 +312,8 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
   point.edge_a = edge_of(a, contact.of_a);
   point.edge_b = edge_of(b, contact.of_b);
   complete(point);
+  if (settings.known_overlap > 0.0)
+    count_from_placement(point, reference_normal_of_edges(a, b, point), settings.known_overlap);
   points.push_back(point);
 }
 

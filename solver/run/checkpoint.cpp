@@ -64,7 +64,7 @@ template <class Archive>
 static void visit_members(Archive& archive, ContactPoint& point) {
   archive(point.type, point.face_a, point.face_b, point.material_a, point.material_b, point.place_a,
           point.place_b, point.normal, point.tangent_1, point.tangent_2, point.gap, point.area, point.source,
-          point.edge_a, point.edge_b);
+          point.edge_a, point.edge_b, point.overlap);
 }
 
 template <class Archive>
@@ -279,7 +279,7 @@ static void visit_members(Archive& archive, PhaseSeconds& seconds) {
 template <class Archive>
 static void visit_members(Archive& archive, PairHistory& pair) {
   archive(pair.memory, pair.lasting, pair.clearance, pair.entrance, pair.work, pair.taken, pair.bonded,
-          pair.broken, pair.depth);
+          pair.broken, pair.depth, pair.overlap);
 }
 
 template <class Archive>

@@ -79,13 +79,14 @@ struct StepReport {
   int locked = 0;
   int sliding = 0;
   double penetration = 0.0;  ///< largest of any contact point, m, >= 0
-  double depth = 0.0;        ///< true depth of the deepest point of any block in another one, m, >= 0
+  /// True depth of the deepest point of any block in another one, beyond what they were placed, m, >= 0
+  double depth = 0.0;
 };
 
 /// The deepest that any block has been in another one.
 struct DeepestPoint {
   std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: none has been
-  double depth = 0.0;                    ///< m
+  double depth = 0.0;                    ///< m, beyond what the blocks were placed
   double share = 0.0;                    ///< depth over the size of the smaller block
   double time = 0.0;                     ///< s
   Vector3 place = Vector3::Zero();       ///< m

@@ -54,10 +54,12 @@ std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<P
       return run.settings().depth.allowed_depth > 0.0 ? run.settings().depth.allowed_depth : share * size;
     };
     const auto contact = known.find({a, b});
-    hold_against(pair, allowed(run.settings().depth.unknown_depth_share) +
+    const double placed = history_of(run.state.pairs, {a, b}).overlap;
+    hold_against(pair, placed + allowed(run.settings().depth.unknown_depth_share) +
                            (contact == known.end() ? 0.0 : contact->second));
     // A joint of given stiffness gives way as its user has asked for.
-    if (run.system.law(a, b).rigid) hold_against(pair, allowed(run.settings().depth.allowed_depth_share));
+    if (run.system.law(a, b).rigid)
+      hold_against(pair, placed + allowed(run.settings().depth.allowed_depth_share));
   }
   return fault;
 }
@@ -111,17 +113,17 @@ std::optional<StateFault> audit_present(const RunContext& run) {
 void note_depths(const RunContext& run, const std::vector<PairDepth>& depths) {
   for (auto& [blocks, pair] : run.state.pairs) {
     if (run.system.moving()[at(blocks[0])] || run.system.moving()[at(blocks[1])]) pair.depth = 0.0;
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
+    run.state.report.depth = std::max(run.state.report.depth, pair.depth - pair.overlap);
   }
   for (const PairDepth& pair : depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    double& depth = run.state.pairs[{a, b}].depth;
-    depth = std::max(depth, pair.depth);
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
-    if (pair.depth > run.state.extremes.deepest.depth)
-      run.state.extremes.deepest = {pair.blocks, pair.depth,
-                                    pair.depth / run.system.smaller_size(pair.blocks), run.state.time(),
-                                    pair.place};
+    PairHistory& history = run.state.pairs[{a, b}];
+    history.depth = std::max(history.depth, pair.depth);
+    const double depth = pair.depth - history.overlap;
+    run.state.report.depth = std::max(run.state.report.depth, depth);
+    if (depth > run.state.extremes.deepest.depth)
+      run.state.extremes.deepest = {pair.blocks, depth, depth / run.system.smaller_size(pair.blocks),
+                                    run.state.time(), pair.place};
   }
 }
 
