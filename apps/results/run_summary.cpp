@@ -92,6 +92,21 @@ nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& si
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
 }
 
+/// Pairs of blocks that are placed in each other by more than rounding.
+nlohmann::ordered_json known_overlaps_of(const BuiltSimulation& built) {
+  const auto name = [&](int block) {
+    return built.simulation.blocks()[static_cast<std::size_t>(block)].name();
+  };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const KnownOverlap& known : built.overlaps) {
+    if (known.rounding) continue;
+    list.push_back({{"blocks", nlohmann::ordered_json{name(known.blocks[0]), name(known.blocks[1])}},
+                    {"depth", known.overlap.depth},
+                    {"exact", known.overlap.exact}});
+  }
+  return list;
+}
+
 /// Null where there is none.
 nlohmann::ordered_json json_of(const std::optional<PlacedValue>& largest, const Simulation& simulation) {
   if (!largest) return nullptr;
@@ -157,6 +172,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["contact_depth_max"] = simulation.largest_penetration();
   if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
     summary["deepest"] = json_of(deepest, simulation);
+  if (!built.overlaps.empty()) summary["known_overlaps"] = known_overlaps_of(built);
   summary["largest_displacement"] = json_of(largest.displacement, simulation);
   summary["largest_compression"] = json_of(largest.compression, simulation);
   summary["largest_tension"] = json_of(largest.tension, simulation);

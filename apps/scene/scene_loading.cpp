@@ -1,6 +1,8 @@
 #include "apps/scene/scene_loading.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
 #include "apps/scene/base_motion.hpp"
@@ -14,7 +16,6 @@
 #include "apps/scene/scene_solids.hpp"
 #include "apps/scene/scene_stages.hpp"
 #include "apps/scene/soft_blocks.hpp"
-#include "apps/scene/survey_fit.hpp"
 
 namespace ashlar {
 namespace {
@@ -36,13 +37,27 @@ void warn_of_keys_idle_in_all(const std::vector<const Scene*>& stages, Diagnosti
   for (const Diagnostic& warning : idle) diagnostics.warning(warning.place, warning.message);
 }
 
+/// Of all stages: pairs that may overlap, each once.
+std::vector<KnownOverlap> check_overlaps(const std::vector<const Scene*>& stages,
+                                         const std::vector<std::optional<Polyhedron>>& solids,
+                                         Diagnostics& diagnostics) {
+  std::map<std::array<int, 2>, KnownOverlap> known;
+  for (const Scene* stage : stages)
+    for (const KnownOverlap& overlap : check_initial_overlap(*stage, solids, diagnostics))
+      known.emplace(overlap.blocks, overlap);
+  std::vector<KnownOverlap> result;
+  result.reserve(known.size());
+  for (const auto& [blocks, overlap] : known) result.push_back(overlap);
+  return result;
+}
+
 /// Checks and builds what was read.
 std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Preparation* preparation,
                                   LoadPurpose purpose) {
   const auto phase = [&](const char* words) {
     if (preparation != nullptr) preparation->phase(words);
   };
-  LoadedScene loaded{std::move(scene), {}, {}, {}};
+  LoadedScene loaded{std::move(scene), {}, {}, {}, {}};
   check_cuts(loaded.scene, diagnostics);
   if (!loaded.scene.cut.empty()) {
     // Names of pieces are known once they are cut, and only what can be read is cut.
@@ -65,15 +80,15 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
     return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
-  fit_to_survey(loaded.scene, solids, loaded.shapes, diagnostics);
   for (const Scene* stage : stages) {
     check_placement(*stage, solids, diagnostics);
     check_limits(*stage, solids, diagnostics);
   }
   warn_of_mesh_units(loaded.scene, solids, diagnostics);
   phase("overlaps of blocks");
-  for (const Scene* stage : stages) check_initial_overlap(*stage, solids, diagnostics);
+  loaded.overlaps = check_overlaps(stages, solids, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
+  warn_of_known_overlaps(loaded.scene, loaded.overlaps, diagnostics);
   phase("sizes of the scene");
   loaded.cost = estimate_cost(loaded.scene, &solids);
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
@@ -102,7 +117,7 @@ std::optional<LoadedScene> load_scene_text(std::string_view text, const std::fil
 }
 
 LoadedScene stage_of(const LoadedScene& whole, std::size_t stage) {
-  return {scene_of_stage(whole.scene, stage), whole.solids, whole.shapes, whole.cost};
+  return {scene_of_stage(whole.scene, stage), whole.solids, whole.shapes, whole.cost, whole.overlaps};
 }
 
 }  // namespace ashlar

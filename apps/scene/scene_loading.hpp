@@ -10,6 +10,7 @@
 
 #include "apps/scene/cost_estimate.hpp"
 #include "apps/scene/diagnostics.hpp"
+#include "apps/scene/initial_overlap.hpp"
 #include "apps/scene/preparation.hpp"
 #include "apps/scene/scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
@@ -21,7 +22,8 @@ struct LoadedScene {
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
   /// One per scene.block, before it was translated; equal ones are one.
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  CostEstimate cost;  ///< with all blocks of all stages
+  CostEstimate cost;                   ///< with all blocks of all stages
+  std::vector<KnownOverlap> overlaps;  ///< that contact.allowed_overlap accepts, by pair
 };
 
 /// One stage of a scene (scene_stages.hpp), or the scene itself if it has none.
