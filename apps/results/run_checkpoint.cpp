@@ -12,42 +12,10 @@
 
 namespace ashlar {
 
-template <class Archive>
-static void visit_members(Archive& archive, PvdFrame& frame) {
-  archive(frame.time, frame.file);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, DisplacementOrigin& origin) {
-  archive(origin.measures, origin.surfaces, origin.solids);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, ResultProgress& progress) {
-  archive(progress.last_row_step, progress.last_frame_step, progress.intervals_written, progress.stage,
-          progress.elapsed, progress.origin);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.surface_frames, state.contact_frames, state.joint_frames,
-          state.contact_bytes, state.progress);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, FinishedStage& stage) {
-  archive(stage.status, stage.message, stage.steps, stage.time);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, RunSeconds& seconds) {
-  archive(seconds.total, seconds.setup, seconds.output);
-}
-
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 19;
+constexpr std::uint32_t layout_version = 20;
 
 /// What follows the magic line; then comes the payload, and its hash.
 struct Header {

@@ -37,6 +37,13 @@ struct LastingContacts {
   std::shared_ptr<const PairRows::Values> rows;  ///< of the points; null: not made yet (a checkpoint's)
 };
 
+/// Lists what a checkpoint stores (run/byte_archive.hpp); rows follow from it, see with_rows().
+template <class Archive>
+void visit_members(Archive& archive, LastingContacts& lasting) {
+  auto& [contacts, positions, divisions, reach, law, found, rows] = lasting;
+  archive(contacts, positions, divisions, reach, law, found);
+}
+
 /// Contacts as they are at a later state.
 struct KeptContacts {
   std::shared_ptr<const LastingContacts> lasting;
