@@ -234,8 +234,13 @@ static void visit_members(Archive& archive, MeasuredDepth& depth) {
 }
 
 template <class Archive>
+static void visit_members(Archive& archive, PairRoom& room) {
+  archive(room.blocks, room.room);
+}
+
+template <class Archive>
 static void visit_members(Archive& archive, KnownDepths& known) {
-  archive(known.positions, known.boxes, known.depths);
+  archive(known.positions, known.boxes, known.depths, known.rooms);
 }
 
 template <class Archive>
