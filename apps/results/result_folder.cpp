@@ -198,6 +198,7 @@ DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Mea
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                            const StagePlace& place)
     : folder_(emptied(std::move(folder))),
+      frames_(folder_ / "frames"),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
@@ -220,6 +221,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                            const ResultFolderState& state)
     : folder_(std::move(folder)),
+      frames_(folder_ / "frames"),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
@@ -270,6 +272,7 @@ void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, boo
 void ResultFolder::check_in_place() const {
   history_.check_in_place();
   contact_rows_.check_in_place();
+  frames_.check();
 }
 
 void ResultFolder::add_step(const Simulation& simulation) {
