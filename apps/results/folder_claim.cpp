@@ -143,7 +143,8 @@ FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
     sign();
   } catch (const std::filesystem::filesystem_error& fault) {
     close();
-    throw ClaimRefused(fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.what()));
+    throw ClaimRefused(
+        fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.code().message()));
   } catch (...) {
     close();
     throw;

@@ -108,6 +108,7 @@ class SceneRun {
 
   std::shared_ptr<const LoadedScene> scene_;    ///< of all stages
   std::shared_ptr<const LoadedScene> present_;  ///< the present stage
+  SceneIdentity identity_;
   int threads_;
   BuiltSimulation built_;
   std::vector<Measure> measures_;

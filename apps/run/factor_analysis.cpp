@@ -91,6 +91,8 @@ std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, doub
     if (!goes_on()) return std::nullopt;
     try {
       status = trial_step(simulation, end_time);
+    } catch (const std::bad_alloc&) {
+      throw;  // another try, with more memory, may tell
     } catch (const std::exception&) {
       status = StaticStatus::not_converged;
     }

@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-constexpr std::array handled = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
+constexpr std::array handled = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGPIPE, SIGXFSZ};
 
 // Handlers read and write these; guards of other threads do, too.
 std::atomic<bool> stop_wanted = false;
@@ -31,13 +31,19 @@ Guards& guards() {
 }
 
 extern "C" void on_interrupt(int) {
-  stop_wanted = true;
+  const bool is_first = !stop_wanted.exchange(true);
   // A step may take long, and a second Ctrl-C loses what was not saved.
   constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
-  if (on_terminal) (void)!::write(STDERR_FILENO, note.data(), note.size());
+  if (is_first && on_terminal) (void)!::write(STDERR_FILENO, note.data(), note.size());
 }
 
 }  // namespace
+
+/// What the caller of a library wants with these is not known: they are only its own as long as it says nothing.
+static bool left_to_others(int signal, const struct sigaction& old) {
+  const bool announces = signal == SIGQUIT || signal == SIGXCPU || signal == SIGUSR1;
+  return announces && old.sa_handler != SIG_DFL;
+}
 
 InterruptGuard::InterruptGuard() {
   Guards& all = guards();
@@ -49,9 +55,10 @@ InterruptGuard::InterruptGuard() {
     const bool stops = handled[k] != SIGPIPE && handled[k] != SIGXFSZ;
     sigaction(handled[k], nullptr, &all.before[k]);
     if (handled[k] == SIGHUP && all.before[k].sa_handler == SIG_IGN) continue;
+    if (left_to_others(handled[k], all.before[k])) continue;
     struct sigaction action {};
     action.sa_handler = stops ? on_interrupt : SIG_IGN;
-    action.sa_flags = stops ? static_cast<int>(SA_RESETHAND) : 0;
+    action.sa_flags = stops && handled[k] != SIGXCPU ? static_cast<int>(SA_RESETHAND) : 0;
     sigaction(handled[k], &action, nullptr);
   }
 }

@@ -26,7 +26,7 @@ struct TrialManner {
 
 class KeptTrial {
  public:
-  /// @param scene outlives it. @param hash of the scene (run_checkpoint.hpp). @param folder claimed by this run
+  /// @param scene outlives it. @param hash of the scene (scene_identity.hpp). @param folder claimed by this run
   KeptTrial(const LoadedScene& scene, std::uint64_t hash, std::filesystem::path folder, TrialManner manner)
       : scene_(scene), hash_(hash), path_(std::move(folder) / trial_state_name), manner_(manner) {}
 

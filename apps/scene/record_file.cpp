@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "apps/scene/input_file.hpp"
 #include "apps/scene/nearest_name.hpp"
 
 namespace ashlar {
@@ -55,6 +57,8 @@ class RecordReader {
       : record_(record), name_(std::move(name)), diagnostics_(diagnostics) {}
 
   std::optional<std::vector<std::vector<double>>> read(std::istream& stream) {
+    // A line that there is no memory for must not pass for the end of the file.
+    stream.exceptions(std::ios::badbit);
     std::string line;
     std::vector<std::vector<double>> rows;
     while (std::getline(stream, line)) {
@@ -204,13 +208,15 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
                                          path.string(), there ? "is no file" : "there is no such file"));
     return std::nullopt;
   }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    diagnostics.error(
-        place, fmt::format("record cannot be read (\"{}\"), a readable CSV file is needed", path.string()));
+  std::istringstream content;
+  try {
+    content.str(whole_file(path, most_input_bytes));
+  } catch (const std::runtime_error& reason) {
+    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable CSV file is needed",
+                                         path.string(), fault_text(reason)));
     return std::nullopt;
   }
-  return parse_record(record, stream, path.string(), diagnostics);
+  return parse_record(record, content, path.string(), diagnostics);
 }
 
 std::optional<std::vector<std::vector<double>>> parse_record(const SceneRecord& record, std::istream& content,

@@ -92,7 +92,7 @@ class IslandSolvers {
     bool used = true;
     double inertia = 0.0;  ///< TimeScheme::inertia of the factor; 0: it is of no use in another step
   };
-  explicit IslandSolvers(LinearMethod method = LinearMethod::cholesky) : method_(method) {}
+  explicit IslandSolvers(LinearMethod method) : method_(method) {}
 
   /// The solver of an island. @param key role, block indices, then pairs
   [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/results/run_checkpoint.hpp"
+#include "apps/results/scene_identity.hpp"
 #include "apps/run/kept_trial.hpp"
 #include "unit/apps/run_fixture.hpp"
 
@@ -185,7 +185,7 @@ TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
   Diagnostics diagnostics;
   const std::optional<LoadedScene> loaded = load_scene(scene_, {}, diagnostics);
   ASSERT_TRUE(loaded);
-  KeptTrial stopped(*loaded, scene_hash(*loaded), folder_ / "half", {1, std::nullopt, true});
+  KeptTrial stopped(*loaded, scene_identity(*loaded).scene, folder_ / "half", {1, std::nullopt, true});
   std::ostringstream told;
   int asked = 0;
   ASSERT_FALSE(stopped.run(

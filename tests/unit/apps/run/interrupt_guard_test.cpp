@@ -12,7 +12,7 @@ namespace {
 void ignore(int) {}
 
 TEST(InterruptGuard, EachSignalToStopIsARequest) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
     const InterruptGuard guard;
     EXPECT_FALSE(InterruptGuard::interrupted());
     ::raise(signal);
@@ -51,6 +51,26 @@ TEST(InterruptGuard, AClosedTerminalStaysIgnoredUnderNohup) {
     EXPECT_FALSE(InterruptGuard::interrupted());
   }
   EXPECT_EQ(std::signal(SIGHUP, old), SIG_IGN) << "as it was";
+}
+
+// The system sends it each second from the limit on; the default action of a second one would end the process.
+TEST(InterruptGuard, ALimitOfProcessorTimeThatIsToldAgainDoesNotEndTheProgram) {
+  const InterruptGuard guard;
+  ::raise(SIGXCPU);
+  ::raise(SIGXCPU);
+  EXPECT_TRUE(InterruptGuard::interrupted());
+}
+
+TEST(InterruptGuard, SignalsThatTheProcessHandlesStayWithIt) {
+  static volatile std::sig_atomic_t heard = 0;
+  const auto old = std::signal(SIGUSR1, [](int) { heard = 1; });
+  {
+    const InterruptGuard guard;
+    ::raise(SIGUSR1);
+    EXPECT_FALSE(InterruptGuard::interrupted());
+  }
+  EXPECT_EQ(heard, 1);
+  (void)std::signal(SIGUSR1, old);
 }
 
 TEST(InterruptGuard, LogsThatNobodyReadsDoNotEndTheProgram) {
