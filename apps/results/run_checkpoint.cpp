@@ -8,46 +8,13 @@
 #include <string>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/scene/scene_json.hpp"
 
 namespace ashlar {
-
-template <class Archive>
-static void visit_members(Archive& archive, PvdFrame& frame) {
-  archive(frame.time, frame.file);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, DisplacementOrigin& origin) {
-  archive(origin.measures, origin.surfaces, origin.solids);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, ResultProgress& progress) {
-  archive(progress.last_row_step, progress.last_frame_step, progress.intervals_written, progress.stage,
-          progress.elapsed, progress.origin);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.surface_frames, state.contact_frames, state.joint_frames,
-          state.contact_bytes, state.progress);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, FinishedStage& stage) {
-  archive(stage.status, stage.message, stage.steps, stage.time);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, RunSeconds& seconds) {
-  archive(seconds.total, seconds.setup, seconds.output);
-}
 
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 20;
+constexpr std::uint32_t layout_version = 21;
 
 /// What follows the magic line; then comes the payload, and its hash.
 struct Header {
@@ -57,40 +24,8 @@ struct Header {
 
 }  // namespace
 
-std::uint64_t scene_hash(const LoadedScene& loaded) {
-  nlohmann::ordered_json json = to_json(loaded.scene);
-  for (const char* key : {"end_time", "memory_limit"}) json["analysis"].erase(key);
-  if (!loaded.scene.stage.empty()) json["stage"].back()["analysis"].erase("end_time");
-  json.erase("title");
-  std::uint64_t hash = hash_bytes(json.dump());
-  for (const Polyhedron& solid : loaded.solids) {
-    ByteWriter writer;
-    writer(solid.mesh().points, solid.mesh().triangles);
-    hash = hash_bytes(writer.take(), hash);
-  }
-  ByteWriter records;
-  const SceneAnalysis& analysis = loaded.scene.analysis;
-  for (std::size_t n = 0; analysis.gravity_file && n < analysis.gravity_history.size(); ++n)
-    records(analysis.gravity_history[n].time, analysis.gravity_history[n].value);
-  const auto add_fix = [&](const SceneFix& fix) {
-    for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)
-      records(fix.history[n].time, fix.history[n].value);
-  };
-  const auto add_load = [&](const SceneLoad& load) {
-    for (std::size_t n = 0; load.file && n < load.history.size(); ++n)
-      records(load.history[n].time, load.history[n].factor);
-  };
-  for (const SceneBlock& block : loaded.scene.block) {
-    for (const SceneFix& fix : block.fix) add_fix(fix);
-    for (const SceneLoad& load : block.load) add_load(load);
-  }
-  for (const SceneStage& stage : loaded.scene.stage) {
-    for (std::size_t n = 0; stage.analysis.gravity_file && n < stage.analysis.gravity_history.size(); ++n)
-      records(stage.analysis.gravity_history[n].time, stage.analysis.gravity_history[n].value);
-    for (const SceneStage::Fix& entry : stage.fix) add_fix(entry.fix);
-    for (const SceneStage::Load& entry : stage.load) add_load(entry.load);
-  }
-  return hash_bytes(records.take(), hash);
+std::uint32_t checkpoint_layout() {
+  return layout_version;
 }
 
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
@@ -151,6 +86,8 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     reader(checkpoint.stages, checkpoint.folder, checkpoint.seconds);
     return checkpoint;
   } catch (const CheckpointError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw CheckpointError(

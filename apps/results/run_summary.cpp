@@ -141,8 +141,8 @@ BrokenJoints broken_joints(const Simulation& simulation) {
   return broken;
 }
 
-nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
-                                   const RunOutcome& outcome) {
+nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
+                                   const BuiltSimulation& built, const RunOutcome& outcome) {
   const auto& [status, message, seconds, frames, largest, stages] = outcome;
   const Simulation& simulation = built.simulation;
   nlohmann::ordered_json summary;
@@ -199,6 +199,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   versions["ashlar"] = program_version();
   for (const auto& [name, version] : tool_versions()) versions[name] = version;
   summary["versions"] = versions;
+  summary["identity"] = to_json(identity);
   summary["scene"] = to_json(scene);
   if (!stages.empty()) summary["stages"] = json_of(stages, scene);
   return summary;

@@ -294,6 +294,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
           fmt::format(
               "order is too high for the shape of block {} in double precision ({}), at most {} is allowed",
               block.name, block.order, error.highest_safe_order));
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
                         fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));

@@ -30,8 +30,10 @@ struct LoadedScene {
 [[nodiscard]] LoadedScene stage_of(const LoadedScene& whole, std::size_t stage);
 
 enum class LoadPurpose {
-  run,     ///< the cost of a run may refuse the scene
-  blocks,  ///< only its blocks are looked at
+  run,  ///< the cost of a run may refuse the scene
+  /// Only its blocks are looked at: names in stages, assignments, joints and measures that none has are warned of, as the
+  /// names of pieces are known once they are listed.
+  blocks,
 };
 
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
@@ -49,6 +51,7 @@ enum class LoadPurpose {
 [[nodiscard]] std::optional<LoadedScene> load_scene_text(std::string_view text,
                                                          const std::filesystem::path& file,
                                                          const std::vector<std::string>& overrides,
-                                                         Diagnostics& diagnostics);
+                                                         Diagnostics& diagnostics,
+                                                         Preparation* preparation = nullptr);
 
 }  // namespace ashlar

@@ -20,6 +20,7 @@
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/base64.hpp"
 #include "apps/results/scratch_folder.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/view/headless_browser.hpp"
 #include "apps/view/view_file.hpp"
 
@@ -154,8 +155,10 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
     wanted.frame = options.frame;
     wanted.points = points_of(options);
     report = write_view_file(options.folder, view, wanted);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    return complain(error.what(), exit_status::bad_input);
+    return complain(fault_text(error), exit_status::bad_input);
   }
   const std::size_t frame = options.frame.value_or(report.frames - 1);
   const std::string page =
@@ -215,8 +218,10 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
     ViewOptions wanted;
     wanted.points = points_of(options);
     report = write_view_file(options.folder, view, wanted);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    throw std::invalid_argument(error.what());
+    throw std::invalid_argument(fault_text(error));
   }
   const std::size_t last = report.frames - 1;
   std::vector<std::size_t> range = {0, last};

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "apps/results/atomic_file.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/view/view_file.hpp"
 
 namespace ashlar {
@@ -21,8 +22,10 @@ int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostr
     out << fmt::format("view: {} ({} of {} frames, {:.1f} MB); open it in a browser\n", page.string(),
                        report.frames_kept, report.frames, 1e-6 * static_cast<double>(report.bytes));
     return exit_status::done;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    err << "ashlar: error: " << error.what() << '\n';
+    err << "ashlar: error: " << fault_text(error) << '\n';
     return exit_status::bad_input;
   }
 }

@@ -54,6 +54,13 @@ class ContactMemory {
   ContactMemory(std::vector<Entry> entries, std::vector<PressureCut> cuts, double deepest,
                 const SpringEnergy& held, double bulge);
 
+  /// Lists all members, for a checkpoint.
+  template <class Archive>
+  friend void visit_members(Archive& archive, ContactMemory& memory) {
+    auto& [entries, cuts, deepest, bulge, held, squared_reach, largest_area, most_dilation] = memory;
+    archive(entries, cuts, deepest, bulge, held, squared_reach, largest_area, most_dilation);
+  }
+
   /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
   /// old points of the same faces, or, if none of those is as near as the whole contact was wide, of any
   /// faces whose normals are within 60 degrees. Points without one start open, without slip, bonded by the

@@ -135,7 +135,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
 }
 
 std::optional<StateFault> Simulation::audit() {
-  return audit_present(context());
+  return audit_present(context()).fault;
 }
 
 Vector3 Simulation::momentum() const {

@@ -39,8 +39,10 @@ struct Rejection {
 
 /// Why a state is no state that a step may end in.
 struct StateFault {
-  RejectionReason reason;           ///< not_finite, inside_out or too_deep
-  std::array<int, 2> blocks;        ///< of one block: the same twice; too_deep: the first is in the second
+  RejectionReason reason;  ///< not_finite, inside_out, too_deep or open_close_not_settled
+  /// Of one block: the same twice; too_deep: the first is in the second; open_close_not_settled: those whose contact
+  /// points have changed their states most often
+  std::array<int, 2> blocks;
   double depth = 0.0;               ///< m, of too_deep
   double allowed = 0.0;             ///< m
   Vector3 place = Vector3::Zero();  ///< m

@@ -139,7 +139,8 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
 }
 
 StepContacts::StepContacts(const BlockSystem& system)
-    : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()) {}
+    : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()),
+      order_(system.blocks(), system.settings().gravity_at(0.0)) {}
 
 std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockSystem& system,
                                                                     const RunState& state,
@@ -267,10 +268,12 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   // Blocks may be deeper along the normal of a contact than along the shortest way out.
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
                                             2.0 * known.overlap};
-  const std::vector<bool> masters =
-      first_is_master(body_a, body_b, contacts.overlaps, [&covered, a = a, b = b](const RimPlace& rim) {
+  const std::vector<bool> masters = first_is_master(
+      body_a, body_b, contacts.overlaps,
+      [&covered, a = a, b = b](const RimPlace& rim) {
         return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
-      });
+      },
+      order_.is_before(a, b));
   ContactPoints made = contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
   std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.

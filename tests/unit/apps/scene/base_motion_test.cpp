@@ -177,6 +177,16 @@ TEST_F(RunCommand, FaultsOfRecordsHaveTheirPlace) {
       {"t,a,t\n0,1,2\n", "r.csv:1:1: error: record has several columns \"t\" (2), one is needed"},
       {"t,a\n0, 1e999\n", "r.csv:2:4: error: no number (\"1e999\"), a finite number is needed"},
       {"t,a\n0, nan\n", "r.csv:2:4: error: no number (\"nan\"), a finite number is needed"},
+      {"t,a\n0,+-1\n", "r.csv:2:3: error: no number (\"+-1\"), a finite number is needed"},
+      {"t,a\n0,++1\n", "r.csv:2:3: error: no number (\"++1\"), a finite number is needed"},
+      {"t,a\r0,1\r1,2\r",
+       "r.csv:1:4: error: lines are ended by carriage returns alone (byte 13), line feeds, or both together, "
+       "are "
+       "needed"},
+      {"t,a\r\n0,1\r1,2\r\n", "r.csv:2:4: error: lines are ended by carriage returns alone (byte 13)"},
+      {"PEER NGA STRONG MOTION DATABASE RECORD\nA SINE\nACCELERATION TIME SERIES IN UNITS OF G\n",
+       "r.csv:1:1: error: a PEER record has no line of column names and no times (\"PEER NGA STRONG MOTION "
+       "DATABASE RECORD\"), columns \"t\", \"a\" and rows of numbers are needed"},
       {"t;a\n0;1,5\n",
        "r.csv:2:3: error: no number (\"1,5\"), a finite number with a decimal point, not a comma, is"}};
   for (const auto& [content, fault] : cases) {
