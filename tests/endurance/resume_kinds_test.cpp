@@ -27,6 +27,10 @@ struct Kind {
   std::vector<std::string> overrides;
 };
 
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.name;
+}
+
 std::vector<Kind> kinds() {
   std::vector<Kind> result;
   std::ifstream file(tests_folder / "kinds.json");
