@@ -211,6 +211,7 @@ function forceNote(frame) {
     const force = current.arrows && visible.length > 0 ? ", largest force " + quantity(largest(visible), "N") : "";
     notes.push(visible.length + (visible.length === 1 ? " contact point" : " contact points") + force);
   }
+  if (current.thrust && !forces.thrust.visible) notes.push("no line of thrust: no free block has forces in two joints");
   if (current.chain && frame.links.length > 0) notes.push("largest joint force " + quantity(largest(frame.links), "N"));
   return notes.join("; ");
 }

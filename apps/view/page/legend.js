@@ -50,7 +50,7 @@ function scaleOf(field, range, about) {
   return {unit: unit.name, ticks: ticks.map((tick) => ({share: (tick - low) / (high - low), text: tickText(tick, ticks)}))};
 }
 
-const scaleTitle = (field, range) => field.label + (field.unit ? " (" + scaleOf(field, range, 5).unit + ")" : "");
+const scaleTitle = (field, range) => labelOf(field, currentFrame()) + (field.unit ? " (" + scaleOf(field, range, 5).unit + ")" : "");
 
 function drawUprightScale(context, field, range, {x, y, width, height}) {
   const below = drawWrapped(context, scaleTitle(field, range), x, y + 12, width);

@@ -41,14 +41,16 @@ function jointAt(caster) {
   return null;
 }
 
+const orderText = ({fixed, order}) => (fixed ? "fixed" : order === 0 ? "0 (rigid)" : String(order));
+
 function rowsOfBlock(index) {
   const block = data.blocks[index];
-  const rows = [["block", block.name], ["order", block.fixed ? "fixed" : block.order], ["material", block.material || "-"]];
+  const rows = [["block", block.name], ["order", orderText(block)], ["material", block.material || "-"]];
   if (!current.hidden.has(index) && surface.triangleBlock.includes(index)) rows.push(["centre (m)", vectorText(centreOf(index))]);
   if (current.picked.place) rows.push(["clicked at (m)", vectorText(current.picked.place)]);
   const field = blockField();
   if (!isWhole(field) && current.picked.face)
-    rows.push([field.label + " near", quantity(field.at(currentFrame(), surface.source[current.picked.face.a]), field.unit)]);
+    rows.push([labelOf(field, currentFrame()) + " near", quantity(field.at(currentFrame(), surface.source[current.picked.face.a]), field.unit)]);
   return rows;
 }
 

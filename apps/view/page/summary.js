@@ -42,7 +42,13 @@ function answerRows(summary) {
   const displaced = summary.displaced || [];
   if (displaced.length > 0)
     add("went far", namesText(displaced.map(({block, distance}) => block + " (" + quantity(distance, "m") + ")")));
-  for (const [key, name, unit] of [["largest_displacement", "largest displacement", "m"],
+  if (current.relative !== null) {
+    const last = data.frames[data.frames.length - 1];
+    const largest = largestShownDisplacement(last);
+    if (largest) add("largest displacement" + relativeWords(last), placedText(largest, "m"));
+  }
+  const absolute = current.relative === null ? "" : ", absolute";
+  for (const [key, name, unit] of [["largest_displacement", "largest displacement" + absolute, "m"],
     ["largest_compression", "largest compression", "Pa"], ["largest_tension", "largest tension", "Pa"]])
     if (key in summary) add(name, summary[key] ? placedText(summary[key], unit) : "none");
   const broken = summary.broken;

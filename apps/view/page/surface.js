@@ -66,23 +66,31 @@ function buildMeshes(surface) {
     selection: edgeLines([], places, "#ff00aa")};
 }
 
-/// @return place of a point of a frame with displacements enlarged
+/// @return place of a point of a frame; displacements as they are shown are enlarged, so that what they are relative to
+/// stays in its place
 function placeOf(frame, point, scale, into) {
   const i = 3 * point;
-  const {displacement} = frame;
-  return into.set(data.reference[i] + scale * displacement[i], data.reference[i + 1] + scale * displacement[i + 1],
-    data.reference[i + 2] + scale * displacement[i + 2]);
+  const {reference} = data;
+  const {displacement: by} = frame;
+  into.set(reference[i] + by[i], reference[i + 1] + by[i + 1], reference[i + 2] + by[i + 2]);
+  if (scale === 1) return into;
+  const shown = shownDisplacement(frame);
+  into.x += (scale - 1) * shown[i];
+  into.y += (scale - 1) * shown[i + 1];
+  into.z += (scale - 1) * shown[i + 2];
+  return into;
 }
 
 function moveSurface(frame) {
   const geometry = meshes.mesh.geometry;
   const places = geometry.attributes.position;
-  const [to, from, by, scale] = [places.array, data.reference, frame.displacement, current.scale];
+  const [to, from, by, more] = [places.array, data.reference, frame.displacement, current.scale - 1];
+  const shown = shownDisplacement(frame);
   for (let k = 0; k < surface.source.length; ++k) {
     const i = 3 * surface.source[k];
     // All points of a block that is hidden or not there are one: nothing is drawn of it.
     const gone = current.hidden.has(surface.block[k]) || Number.isNaN(by[i]);
-    for (let c = 0; c < 3; ++c) to[3 * k + c] = gone ? from[c] : from[i + c] + scale * by[i + c];
+    for (let c = 0; c < 3; ++c) to[3 * k + c] = gone ? from[c] : from[i + c] + by[i + c] + more * shown[i + c];
   }
   places.needsUpdate = true;
   geometry.computeVertexNormals();
@@ -153,7 +161,7 @@ function enlargement(frame) {
   const maps = data.blocks.map(() => undefined);
   const pointsOf = pointsOfBlocks();
   const mapOf = (block) => {
-    if (maps[block] === undefined) maps[block] = data.blocks[block].fixed ? null : affineMotion(frame, pointsOf[block]);
+    if (maps[block] === undefined) maps[block] = data.blocks[block].fixed && current.relative === null ? null : affineMotion(frame, pointsOf[block]);
     return maps[block];
   };
   return (place, a, b) => {
@@ -174,7 +182,8 @@ function pointsOfBlocks() {
 /// u(x) = mean + G (x - centre) with G of least squares, x being present places. @return function of x, or null
 function affineMotion(frame, points) {
   const centre = new THREE.Vector3(), mean = new THREE.Vector3(), x = new THREE.Vector3(), u = new THREE.Vector3();
-  const displacement = (p) => u.fromArray(frame.displacement, 3 * p);
+  const shown = shownDisplacement(frame);
+  const displacement = (p) => u.fromArray(shown, 3 * p);
   for (const p of points) {
     centre.add(placeOf(frame, p, 1, x));
     mean.add(displacement(p));
