@@ -144,7 +144,8 @@ function tieControls() {
 }
 
 function lookAtView(name) {
-  Object.assign(current, {view: name, from: new THREE.Vector3(...VIEWS[name]), at: null, zoom: 1});
+  Object.assign(current, {view: name, parallel: PARALLEL_VIEWS.includes(name), from: new THREE.Vector3(...VIEWS[name]),
+    at: null, zoom: 1});
   lookFrom(current.from);
   render();
   noteAddress();
@@ -165,7 +166,11 @@ function tieStage() {
     else return;
     event.preventDefault();
   });
-  window.addEventListener("resize", resize);
+  window.addEventListener("resize", () => {
+    resize();
+    lookFrom(current.from);
+    render();
+  });
   window.addEventListener("hashchange", followAddress);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => afterChange("theme"));
   controls.addEventListener("change", renderTurning);
