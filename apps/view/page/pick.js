@@ -91,7 +91,7 @@ function updatePicked() {
   fillTable(element("picked"), rows);
   element("hint").hidden = rows.length > 0;
   element("picked-buttons").hidden = block === undefined;
-  const chosen = block === undefined ? [] : surface.edges.filter((edge) => edge.block === block);
+  const chosen = block === undefined ? [] : [...surface.edges, ...surface.smoothEdges].filter((edge) => edge.block === block);
   meshes.selection.geometry.setIndex(edgeIndex(chosen));
   meshes.selection.visible = chosen.length > 0;
 }

@@ -1,9 +1,27 @@
 // The blocks as three.js draws them: their surfaces and edges.
 
+/// Edges between faces that meet at less than this are not drawn: of a face that is flat but for its rounding, or of a
+/// curved one, all triangles would be.
+const FEATURE_ANGLE = 20;
+
+/// Normal of a cell in its undeformed place, of unit length: the mean one of its triangles.
+function normalOf(cell) {
+  const [normal, p, q] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+  const from = new THREE.Vector3().fromArray(data.reference, 3 * cell.corners[0]);
+  for (let k = 2; k < cell.corners.length; ++k) {
+    p.fromArray(data.reference, 3 * cell.corners[k - 1]).sub(from);
+    q.fromArray(data.reference, 3 * cell.corners[k]).sub(from);
+    normal.add(p.cross(q));
+  }
+  return normal.normalize();
+}
+
 /// Points are split where faces meet, so that shading is smooth inside a curved face and breaks at its rim.
-/// source: point of each render point; triangles, their blocks; edges between faces and inside them.
+/// source: point of each render point; triangles, their blocks; edges between faces, those between faces that hardly
+/// bend there, and those inside faces.
 function buildSurface(cells) {
-  const surface = {source: [], block: [], triangles: [], triangleBlock: [], edges: [], innerEdges: []};
+  const surface = {source: [], block: [], triangles: [], triangleBlock: [], edges: [], smoothEdges: [], innerEdges: []};
+  const smooth = Math.cos(THREE.Math.degToRad(FEATURE_ANGLE));
   const renderPoints = new Map();
   const sides = new Map();
   const points = data.points;
@@ -19,6 +37,7 @@ function buildSurface(cells) {
     return known;
   };
   for (const cell of cells) {
+    const normal = normalOf(cell);
     const corners = Array.from(cell.corners, (point) => renderPoint(cell, point));
     for (let k = 2; k < corners.length; ++k) {
       surface.triangles.push(corners[0], corners[k - 1], corners[k]);
@@ -29,11 +48,12 @@ function buildSurface(cells) {
       const [p, q] = [cell.corners[k], cell.corners[next]];
       const key = Math.min(p, q) * points + Math.max(p, q);
       const known = sides.get(key);
-      if (known) known.inner = known.face === cell.face;
-      else sides.set(key, {ends: [corner, corners[next]], face: cell.face, block: cell.block});
+      if (known) {
+        known.kind = known.face === cell.face ? "innerEdges" : known.normal.dot(normal) > smooth ? "smoothEdges" : "edges";
+      } else sides.set(key, {ends: [corner, corners[next]], face: cell.face, block: cell.block, normal, kind: "edges"});
     });
   }
-  for (const side of sides.values()) (side.inner ? surface.innerEdges : surface.edges).push(side);
+  for (const side of sides.values()) surface[side.kind].push(side);
   return surface;
 }
 
@@ -62,7 +82,7 @@ function buildMeshes(surface) {
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   return {mesh, edges: edgeLines(surface.edges, places, "#222222"),
-    innerEdges: edgeLines(surface.innerEdges, places, "#777777"),
+    innerEdges: edgeLines([...surface.innerEdges, ...surface.smoothEdges], places, "#777777"),
     selection: edgeLines([], places, "#ff00aa")};
 }
 
