@@ -116,3 +116,83 @@ class BlocksTest(PageTest):
             colours[more] = path.read_bytes()
         self.assertEqual(colours[()], colours["--relative-to", "base"])
         self.assertEqual(len(set(colours.values())), 3)
+
+    def test_front_side_and_top_are_parallel(self):
+        self.open("rigid")
+        ends = [f"new THREE.Vector3(-1, {y}, 0.5)" for y in (-3, 3)]
+        for view, parallel in (("front", True), ("start", False)):
+            self.evaluate(f"lookAtView('{view}')")
+            near, far = map(self.on_screen, ends)
+            self.assertEqual(math.dist(near, far) < 0.1, parallel, view)
+        # The scale bar is right for every depth: as long as these points are apart in pixels.
+        self.evaluate("lookAtView('front')")
+        left, right = (self.on_screen(f"new THREE.Vector3({x}, -3, 0.5)") for x in (0, 1))
+        self.assertAlmostEqual((right[0] - left[0]) * self.evaluate("lengthOfPixel()"), 1, delta=1e-6)
+        self.evaluate("noteView()")
+        self.assertAlmostEqual(self.evaluate("current.zoom"), 1, delta=1e-6)
+        # Turned and nearer it is a parallel view still, also for those who get its address.
+        self.browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=250, y=250, deltaX=0, deltaY=-100)
+        self.browser.drag(250, 250, 300, 270)
+        self.wait_for_painting()
+        zoom, place = self.evaluate("current.zoom"), self.on_screen("centreOf(4)")
+        self.assertGreater(zoom, 1)
+        self.open("rigid", "#" + self.evaluate("addressOf()"))
+        self.assertTrue(self.evaluate("camera.isOrthographicCamera"))
+        self.assertAlmostEqual(self.evaluate("current.zoom"), zoom, delta=1e-3)
+        self.assertLess(math.dist(self.on_screen("centreOf(4)"), place), 0.5)
+
+    def test_edges_of_faces_that_hardly_bend_are_not_drawn(self):
+        self.open("rigid")
+        # A prism of 24 sides, 15 degrees each: its side edges are not features, its upper and lower rims are.
+        kinds = self.evaluate("""(() => {
+            const kept = data.reference, count = 24, points = [];
+            for (const z of [0, 1]) for (let k = 0; k < count; ++k)
+              points.push(Math.cos(2 * Math.PI * k / count), Math.sin(2 * Math.PI * k / count), z);
+            const ring = [...Array(count).keys()], cells = ring.map((k) => ({block: 0, order: 1, face: k,
+              corners: [k, (k + 1) % count, count + (k + 1) % count, count + k]}));
+            cells.push({block: 0, order: 1, face: count, corners: ring.map((k) => count + k)},
+              {block: 0, order: 1, face: count + 1, corners: [...ring].reverse()});
+            data.reference = new Float32Array(points);
+            const made = buildSurface(cells);
+            data.reference = kept;
+            return [made.edges.length, made.smoothEdges.length, made.innerEdges.length]; })()""")
+        self.assertEqual(kinds, [48, 24, 0])
+
+    def test_openings_are_coloured_from_zero(self):
+        self.open("arch", "#joints=opening")
+        low, high = self.evaluate("rangeOf(mainField(), currentFrame())")
+        self.assertEqual(low, 0)
+        self.assertGreater(high, 0)
+        self.assertEqual(self.evaluate("stopsOf(mainField()) === SEQUENTIAL"), True)
+
+    def test_legends_say_how_long_a_force_is(self):
+        self.open("rigid", "#chain=yes&contacts=none&from=front")
+        [kind] = self.evaluate("forceKinds(currentFrame()).filter(kind => kind.bar)")
+        number, unit = kind["name"].removeprefix("joint force ").split()
+        newton = float(number) * {"N": 1, "kN": 1e3}[unit]
+        link = self.evaluate("currentFrame().links[0].force.toArray()")
+        metres = self.evaluate("forceLength(new THREE.Vector3(...currentFrame().links[0].force.toArray()), usualForce('links'))")
+        self.assertAlmostEqual(kind["bar"] * self.evaluate("lengthOfPixel()") / newton, metres / math.hypot(*link), delta=1e-9)
+
+    def test_the_answer_of_a_search_comes_first(self):
+        self.open("rigid")
+        rows = self.evaluate("""answerRows({status: "completed", message: "load factor between 1.9 and 2; block a: [1e-17, 0, 1]",
+            load_factor: {lower: 1.915, upper: 2, moving: ["a", "b", "c"]}})""")
+        self.assertEqual(rows, [["load factor", "between 1.915 and 2"], ["moves then", "3 blocks: a, b, c"],
+                                ["status", "completed"]])
+        failed = self.evaluate("answerRows({status: 'failed', message: 'it went too deep'})")
+        self.assertEqual(failed, [["status", "failed"], ["message", "it went too deep"]])
+
+    def test_the_whole_is_seen_after_the_window_has_changed(self):
+        size = lambda width, height: self.browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                                                       deviceScaleFactor=1, mobile=False)
+        before = self.evaluate("[innerWidth, innerHeight]")
+        self.addCleanup(size, *before)
+        size(1400, 500)
+        self.open("rigid")
+        size(1000, 900)
+        self.wait_for_painting()
+        self.wait_for_painting()
+        middle, sides = self.evaluate(DRAWN)
+        self.assertGreater(middle, 0.01)
+        self.assertEqual(sides, 0, "the scene is cut off")

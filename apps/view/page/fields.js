@@ -60,7 +60,7 @@ function fieldsOf(data) {
 
 /// What the faces of joints are coloured by: values by face.
 const JOINT_FIELDS = {
-  opening: {label: "opening", unit: "m", of: (joints) => joints.opening, signed: true},
+  opening: {label: "opening", unit: "m", of: (joints) => joints.opening, fromZero: true},
   slip: {label: "slip", unit: "m", of: (joints) => joints.slip},
   normal: {label: "normal stress, compression +", unit: "Pa", of: (joints) => joints.normal},
   shear: {label: "shear stress", unit: "Pa", of: (joints) => joints.shear},
@@ -76,9 +76,11 @@ const isWhole = (field) => field.category !== undefined;
 
 // ---- ranges -----------------------------------------------------------------------------------------------
 
-/// Least and largest of some values; of signed ones even about zero; never empty.
+/// Least and largest of some values; of signed ones even about zero, of those that count from zero on from there (an
+/// opening below zero is the depth of a closed joint); never empty.
 function roundedOff(field, low, high) {
   if (!(low <= high)) return [0, 1];
+  if (field.fromZero) [low, high] = [0, Math.max(0, high)];
   if (field.signed) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
   return low < high ? [low, high] : [low, low + (Math.abs(low) || 1)];
 }
