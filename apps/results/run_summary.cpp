@@ -5,6 +5,7 @@
 #include <map>
 
 #include "apps/results/program_version.hpp"
+#include "apps/scene/base_motion.hpp"
 #include "apps/scene/scene_json.hpp"
 
 #include "solver/state/automatic.hpp"
@@ -71,6 +72,20 @@ nlohmann::ordered_json moving_blocks_of(const Simulation& simulation) {
                     {"angular_acceleration", array(moving.angular_acceleration)}});
   }
   return list;
+}
+
+nlohmann::ordered_json fixed_blocks_of(const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const BlockModel& block : simulation.blocks())
+    if (block.fixed()) list.push_back(block.name());
+  return list;
+}
+
+/// Null if no base is moved.
+nlohmann::ordered_json base_of(const Scene& scene) {
+  const std::optional<std::size_t> base = moved_base(scene);
+  if (!base) return nullptr;
+  return scene.block[*base].name;
 }
 
 nlohmann::ordered_json json_of(const std::vector<DisplacedBlock>& displaced, const Simulation& simulation) {
@@ -157,6 +172,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   summary["rejected_steps"] = rejections_of(simulation);
   summary["unknowns"] = simulation.unknowns();
   summary["blocks"] = simulation.blocks().size();
+  summary["fixed"] = fixed_blocks_of(simulation);
+  summary["base"] = base_of(scene);
   summary["frames"] = frames;
   const PhaseSeconds& phases = simulation.seconds();
   summary["wall_seconds"] = {{"total", seconds.total},
