@@ -25,6 +25,7 @@
 #include "apps/results/run_clock.hpp"
 #include "apps/results/run_outcome.hpp"
 #include "apps/results/run_status.hpp"
+#include "apps/results/scene_identity.hpp"
 #include "apps/scene/build_simulation.hpp"
 #include "apps/scene/scene_loading.hpp"
 
