@@ -14,7 +14,7 @@ namespace ashlar {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 20;
+constexpr std::uint32_t layout_version = 21;
 
 /// What follows the magic line; then comes the payload, and its hash.
 struct Header {

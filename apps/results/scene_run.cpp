@@ -89,6 +89,7 @@ void SceneRun::begin_next_stage() {
   built_ = std::move(stage);
   ++place_.stage;
   stage_has_ended_ = false;
+  changes_.forget();
   message_.clear();
   const bool resets = scene_->scene.stage[next].reset_displacement;
   if (resets) reset_displacement();
@@ -132,7 +133,10 @@ void SceneRun::take_static_step() {
   } catch (const std::exception& error) {
     fail(fmt::format("iteration {} cannot be taken: {}", simulation.steps() + 1, fault_text(error)));
   }
-  if (simulation.steps() > before) add_row();
+  if (simulation.steps() > before) {
+    changes_.note(simulation);
+    add_row();
+  }
   switch (found) {
     case StaticStatus::balancing:
       break;
@@ -143,9 +147,7 @@ void SceneRun::take_static_step() {
       end(RunStatus::moving, describe_motion(simulation));
       break;
     case StaticStatus::not_converged:
-      end(RunStatus::not_converged,
-          fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
-                      simulation.steps(), simulation.time()));
+      end(RunStatus::not_converged, describe_unconverged(simulation, changes_));
       break;
   }
 }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "apps/results/block_points.hpp"
+#include "apps/results/contact_changes.hpp"
 #include "apps/results/folder_claim.hpp"
 #include "apps/results/measure.hpp"
 #include "apps/results/result_folder.hpp"
@@ -115,6 +116,7 @@ class SceneRun {
   std::vector<FinishedStage> finished_;  ///< stages that have ended well; the last one may be the present one
   bool stage_has_ended_ = false;
   std::vector<std::vector<double>> rows_;
+  ContactChanges changes_;  ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;
   RunClock clock_;

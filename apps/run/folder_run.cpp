@@ -5,6 +5,7 @@
 #include <new>
 #include <ostream>
 
+#include "apps/results/contact_changes.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/scene/added_blocks.hpp"
@@ -161,6 +162,7 @@ RunStatus FolderRun::answered(RunStatus status) {
 RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
+  ContactChanges changes;
   while (!InterruptGuard::interrupted()) {
     const int before = simulation.steps();
     StaticStatus status = StaticStatus::balancing;
@@ -172,7 +174,10 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
     } catch (const std::exception& error) {
       return failed_in_step(error);
     }
-    if (simulation.steps() > before) record_step(schedule, progress);
+    if (simulation.steps() > before) {
+      changes.note(simulation);
+      record_step(schedule, progress);
+    }
     switch (status) {
       case StaticStatus::balancing:
         continue;
@@ -183,8 +188,7 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
         message_ = describe_motion(simulation);
         return RunStatus::moving;
       case StaticStatus::not_converged:
-        message_ = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
-                               simulation.steps(), simulation.time());
+        message_ = describe_unconverged(simulation, changes);
         return RunStatus::not_converged;
     }
   }

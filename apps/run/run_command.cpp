@@ -11,6 +11,7 @@
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/folder_run.hpp"
 #include "apps/run/interrupt_guard.hpp"
+#include "apps/run/kept_trial.hpp"
 #include "apps/run/run_messages.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/fault_text.hpp"
@@ -61,7 +62,9 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
 
 /// Whether a search for a factor was ended before its motion was shown.
 bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
-  return seeks_factor(scene.analysis) && std::filesystem::exists(folder / trials_name) &&
+  return seeks_factor(scene.analysis) &&
+         (std::filesystem::exists(folder / trials_name) ||
+          std::filesystem::exists(folder / trial_state_name)) &&
          !std::filesystem::exists(folder / checkpoint_name);
 }
 
@@ -69,18 +72,27 @@ bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
 FactorBracket seek_factor(const LoadedScene& loaded, std::uint64_t scene, const RunOptions& options,
                           const FolderClaim& claim, std::ostream& err) {
   TrialFile known(claim.folder() / trials_name, scene, options.resume);
+  KeptTrial kept(loaded, scene, claim.folder(),
+                 {std::max(options.threads, 1), options.checkpoint, options.quiet});
+  if (!options.resume) kept.forget();
   const auto attempt = [&](double factor) {
     std::optional<FactorTrial> trial = known.find(factor);
+    std::string reason;
     if (!trial) {
-      trial = run_trial(loaded, std::max(options.threads, 1), factor,
-                        [] { return !InterruptGuard::interrupted(); });
-      if (!trial) return trial;
+      trial = kept.run(
+          factor, [] { return !InterruptGuard::interrupted(); }, err);
+      if (!trial) {
+        err << fmt::format("factor {:.5g}: stopped after {} iterations\n", factor, kept.iterations());
+        return trial;
+      }
+      if (!kept.reason().empty()) reason = ": " + kept.reason();
       claim.check();
       known.add(*trial);
+      kept.forget();
     }
     if (!options.quiet)
-      err << fmt::format("factor {:.5g}: {} ({} iterations)\n", factor, to_string(trial->outcome),
-                         trial->iterations);
+      err << fmt::format("factor {:.5g}: {} ({} iterations){}\n", factor, to_string(trial->outcome),
+                         trial->iterations, reason);
     return trial;
   };
   return find_factor(search_of(loaded.scene.analysis), attempt);
@@ -122,7 +134,9 @@ struct PreparedRun {
 PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnostics, std::ostream& err) {
   PreparedRun run;
   Preparation preparation(options.quiet, err);
-  run.loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
+  run.loaded = options.text ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics,
+                                              &preparation)
+                            : load_scene(options.scene, options.overrides, diagnostics, &preparation);
   if (!run.loaded) return run;
   run.identity = scene_identity(*run.loaded);
   if (!run.loaded->scene.stage.empty()) run.staged = stage_of(*run.loaded, 0);
@@ -179,9 +193,9 @@ bool find_factor_first(PreparedRun& run, const RunOptions& options, const Folder
   bracket = seek_factor(*run.loaded, run.identity.scene, options, claim, err);
   if (bracket->interrupted) {
     err << fmt::format(
-        "ashlar: interrupted after {} static analyses; they are in {}, the same command with "
-        "--resume goes on\n",
-        bracket->trials.size(), claim.folder().string());
+        "ashlar: interrupted after {} static analyses, {}; they and the state of the one that was stopped "
+        "are in {}, the same command with --resume goes on\n",
+        bracket->trials.size(), bracket_so_far(*bracket), claim.folder().string());
     return false;
   }
   Diagnostics ignored;

@@ -318,7 +318,11 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties, scene.absent),
                         std::move(choices),
                         parts.size(),
-                        {}};
+                        {},
+                        loaded.overlaps};
+  std::map<PairKey, double> depths;
+  for (const KnownOverlap& known : loaded.overlaps) depths[known.blocks] = known.overlap.depth;
+  built.simulation.start_overlapping(depths);
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {

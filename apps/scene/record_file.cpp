@@ -66,6 +66,12 @@ class RecordReader {
       std::string_view text = line;
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
       const std::string_view content = trimmed(text);
+      if (const std::size_t ended = content.find('\r'); ended != std::string_view::npos) {
+        fault(
+            static_cast<int>(content.data() - line.data() + static_cast<std::ptrdiff_t>(ended)) + 1,
+            "lines are ended by carriage returns alone (byte 13), line feeds, or both together, are needed");
+        return std::nullopt;
+      }
       if (content.empty() || content.front() == '#') continue;
       if (columns_.empty()) {
         if (!find_columns(text)) return std::nullopt;
@@ -99,6 +105,12 @@ class RecordReader {
   }
 
   bool find_columns(std::string_view line) {
+    if (line.starts_with("PEER ")) {
+      fault(1, fmt::format("a PEER record has no line of column names and no times (\"{}\"), {} and rows of "
+                           "numbers are needed",
+                           trimmed(line), wanted()));
+      return false;
+    }
     separator_ = separator_of(line);
     std::vector<std::string> names;
     for (const Field& field : fields_of(line, separator_)) names.emplace_back(field.text);
@@ -160,7 +172,7 @@ class RecordReader {
   std::optional<double> number(const Field& field) {
     double value = 0.0;
     std::string_view digits = field.text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
     const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc() && stop == digits.data() + digits.size() && std::isfinite(value)) return value;
     constexpr std::size_t longest_shown = 60;

@@ -110,8 +110,12 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   bool augmented = false;
   if (table.read_bool("augmented", augmented)) contact.augmented = augmented;
   table.read_number_or_auto("penetration_tolerance", contact.penetration_tolerance, range::positive);
-  table.read_number("fit", contact.fit, range::not_negative);
   table.read_number_or_auto("allowed_depth", contact.allowed_depth, range::positive);
+  table.read_number("allowed_overlap", contact.allowed_overlap, range::not_negative);
+  table.refuse_former(
+      "fit",
+      "fit is no key any more, blocks stay as they are placed; allowed_overlap accepts blocks that "
+      "overlap by the errors of a survey");
   if (contact.chord_tolerance && contact.subdivisions)
     table.error_at_key("subdivisions",
                        fmt::format("subdivisions beside chord_tolerance ({}), only one of both "

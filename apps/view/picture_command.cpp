@@ -22,6 +22,7 @@
 #include "apps/results/scratch_folder.hpp"
 #include "apps/scene/fault_text.hpp"
 #include "apps/view/headless_browser.hpp"
+#include "apps/view/view_command.hpp"
 #include "apps/view/view_file.hpp"
 
 namespace ashlar {
@@ -154,6 +155,7 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
     ViewOptions wanted;
     wanted.frame = options.frame;
     wanted.points = points_of(options);
+    wanted.relative_to = options.relative_to;
     report = write_view_file(options.folder, view, wanted);
   } catch (const std::bad_alloc&) {
     throw;
@@ -217,6 +219,7 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
   try {
     ViewOptions wanted;
     wanted.points = points_of(options);
+    wanted.relative_to = options.relative_to;
     report = write_view_file(options.folder, view, wanted);
   } catch (const std::bad_alloc&) {
     throw;
@@ -307,6 +310,7 @@ void declare_look(CLI::App& command, PictureOptions& options) {
       ->check(CLI::IsMember({"displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
                              "von_mises", "pressure", "sigma_1", "sigma_3", "stress_xx", "stress_yy",
                              "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order", "stone"}));
+  declare_relative_to(command, options.relative_to);
   command.add_flag("--frame-range", options.frame_range,
                    "Colours over the values of this frame (default: of the whole run)");
   command.add_option("--at", options.at, "Point looked at (default: the middle of all blocks)")

@@ -68,7 +68,7 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
   const CellOverlap& overlap = overlaps[joined.cells.front()];
   // A uniform pressure acts on every function exactly, however coarse the division is.
   const int degree = std::max({2, a.model->order(), b.model->order()});
-  const OverlapPoints make(a, b, overlap, joined.whole, master_is_a, settings.curved);
+  const OverlapPoints make(a, b, overlap, joined.whole, master_is_a, settings);
   const std::vector<Eigen::Vector2d> outline =
       outline_of(make.polygon(), outline_tolerance(*a.placed, *b.placed));
   if (outline.empty()) return;
@@ -107,7 +107,7 @@ void add_point_springs(const Search& search, const FaceOverlap& face,
   const double area = outline.area / static_cast<double>(outline.corners.size());
   for (const FaceOverlapPoint& point : outline.corners) {
     const CellOverlap& overlap = overlaps[at(point.overlap)];
-    points.push_back(OverlapPoints(a, b, overlap, false, master_is_a, search.settings.curved)
+    points.push_back(OverlapPoints(a, b, overlap, false, master_is_a, search.settings)
                          .at_place(overlap.corners[at(point.corner)].place, area));
   }
 }
@@ -140,6 +140,7 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
     point.normal = contact.vertex_of_a ? normal : Vector3(-normal);
   }
   complete(point);
+  count_from_placement(a, b, !contact.vertex_of_a, settings.known_overlap, point);
   points.push_back(point);
 }
 
@@ -181,6 +182,7 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
   point.edge_a = edge_of(a, contact.of_a);
   point.edge_b = edge_of(b, contact.of_b);
   complete(point);
+  count_from_placement_of_edges(a, b, settings.known_overlap, point);
   points.push_back(point);
 }
 

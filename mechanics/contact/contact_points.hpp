@@ -37,6 +37,7 @@ struct ContactPointSettings {
   bool curved = true;
   /// Multipliers leave next to no gap where they press, which then does not tell where pressure ends.
   bool multipliers = false;
+  double known_overlap = 0.0;  ///< m, >= 0: points that were placed so deep start without force
 };
 
 /// An overlap whose points are those of area springs, and what it takes to tell where its pressure ends.

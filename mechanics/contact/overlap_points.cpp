@@ -83,6 +83,12 @@ Corners overlap_of_faces(const ContactBody& a, const ContactBody& b, const CellO
   return polygon;
 }
 
+/// @param normal out of b, reference configuration; zero: edges are parallel
+void count_from(const Vector3& normal, double known, ContactPoint& point) {
+  point.overlap = std::clamp(-normal.dot(point.material_a - point.material_b), 0.0, known);
+  point.gap += point.overlap;
+}
+
 }  // namespace
 
 CellMap::CellMap(const ContactBody& body, int cell, const ViewFrame& frame) {
@@ -122,6 +128,23 @@ Eigen::Vector2d CellMap::place(const Vector3& reference) const {
   return first_ + squares.inverse() * (reference_slope_.transpose() * (reference - reference_));
 }
 
+void count_from_placement(const ContactBody& a, const ContactBody& b, bool master_is_a, double known,
+                          ContactPoint& point) {
+  if (known == 0.0) return;
+  const Vector3 normal = master_is_a ? Vector3(-a.model->solid().faces()[at(point.face_a)].normal)
+                                     : b.model->solid().faces()[at(point.face_b)].normal;
+  count_from(normal, known, point);
+}
+
+void count_from_placement_of_edges(const ContactBody& a, const ContactBody& b, double known,
+                                   ContactPoint& point) {
+  if (known == 0.0) return;
+  const Vector3 across = point.edge_a.cross(point.edge_b).normalized();
+  const Vector3 out_of_b =
+      b.model->solid().faces()[at(point.face_b)].normal - a.model->solid().faces()[at(point.face_a)].normal;
+  count_from(across.dot(out_of_b) < 0.0 ? Vector3(-across) : across, known, point);
+}
+
 bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved) {
   return curved || (is_affine(*a.model) && is_affine(*b.model));
 }
@@ -158,13 +181,14 @@ std::vector<JoinedOverlap> join_whole_faces(const ContactBody& a, const ContactB
 }
 
 OverlapPoints::OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& cells, bool whole,
-                             bool master_is_a, bool curved)
+                             bool master_is_a, const ContactPointSettings& settings)
     : a_(a),
       b_(b),
       cells_(cells),
       whole_(whole),
       master_is_a_(master_is_a),
-      curved_(curved),
+      curved_(settings.curved),
+      known_overlap_(settings.known_overlap),
       frame_(frame_of(a, b, cells, whole)),
       map_a_(a, cells.cell_a, frame_),
       map_b_(b, cells.cell_b, frame_),
@@ -237,6 +261,7 @@ ContactPoint OverlapPoints::at_place(const Eigen::Vector2d& place, double area) 
         master_is_a_ ? Vector3(-a_.placed->normal(cells_.cell_a)) : b_.placed->normal(cells_.cell_b);
   }
   complete(point);
+  count_from_placement(a_, b_, master_is_a_, known_overlap_, point);
   return point;
 }
 

@@ -34,6 +34,14 @@ class CellMap {
   Eigen::Matrix<double, 3, 2> placed_slope_;
 };
 
+/// Counts the gap of a point of a face from where its material points were placed.
+/// @param known how deep the blocks were placed in each other, m, >= 0; 0: the gap stays
+void count_from_placement(const ContactBody& a, const ContactBody& b, bool master_is_a, double known,
+                          ContactPoint& point);
+/// The same of a point of two crossed edges.
+void count_from_placement_of_edges(const ContactBody& a, const ContactBody& b, double known,
+                                   ContactPoint& point);
+
 /// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
 [[nodiscard]] bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved);
 
@@ -55,7 +63,7 @@ class OverlapPoints {
  public:
   /// @param cells that the points are between; of whole faces one of each
   OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& cells, bool whole,
-                bool master_is_a, bool curved);
+                bool master_is_a, const ContactPointSettings& settings);
 
   /// Seen against w of the frame, counter-clockwise; fewer than 3 corners if there is none.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& polygon() const { return polygon_; }
@@ -87,6 +95,7 @@ class OverlapPoints {
   bool whole_;
   bool master_is_a_;
   bool curved_;
+  double known_overlap_;
   ViewFrame frame_;
   CellMap map_a_;
   CellMap map_b_;

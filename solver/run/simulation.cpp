@@ -39,6 +39,15 @@ RunContext Simulation::context() {
   return {system_, state_, contacts_, factors_, audit_, fault_};
 }
 
+void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
+  for (const auto& [blocks, depth] : depths) {
+    if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
+        system_.blocks().at(at(blocks[1])).incremental() != nullptr)
+      throw std::invalid_argument("incremental blocks do not tell where they were placed");
+    state_.pairs[blocks].overlap = depth;
+  }
+}
+
 std::vector<int> Simulation::settle_supported_blocks() {
   const RunContext run = context();
   std::vector<int> settled;

@@ -24,10 +24,11 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
   return rounding > share * std::cbrt(volume);
 }
 
-/// How deep two blocks may be, m. @param share of the smaller one's size
+/// How deep two blocks may be, m: beyond what they were placed in each other. @param share of the smaller one's size
 double allowed_depth(const RunContext& run, int a, int b, double share) {
   const double allowed = run.settings().depth.allowed_depth;
-  return allowed > 0.0 ? allowed : share * run.system.smaller_size({a, b});
+  return history_of(run.state.pairs, {a, b}).overlap +
+         (allowed > 0.0 ? allowed : share * run.system.smaller_size({a, b}));
 }
 
 /// How deep blocks are in each other. @param fine see SimulationSettings::depth::fine_interval
@@ -113,10 +114,10 @@ PresentDepths audit_present(const RunContext& run) {
   const Audit audit = measure_depths(run, run.state.states, true, {});
   for (const PairDepth& pair : audit.depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    const auto noted = run.state.pairs.find({a, b});
     const auto contact = known.find({a, b});
-    const double expected = std::max(noted == run.state.pairs.end() ? 0.0 : noted->second.depth,
-                                     contact == known.end() ? 0.0 : contact->second);
+    const PairHistory& noted = history_of(run.state.pairs, {a, b});
+    const double expected =
+        std::max(noted.depth, noted.overlap + (contact == known.end() ? 0.0 : contact->second));
     present.unexpected = present.unexpected || pair.depth > expected + run.settings().contact_distance;
   }
   note_depths(run, audit.depths);
@@ -127,17 +128,17 @@ PresentDepths audit_present(const RunContext& run) {
 void note_depths(const RunContext& run, const std::vector<PairDepth>& depths) {
   for (auto& [blocks, pair] : run.state.pairs) {
     if (run.system.moving()[at(blocks[0])] || run.system.moving()[at(blocks[1])]) pair.depth = 0.0;
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
+    run.state.report.depth = std::max(run.state.report.depth, pair.depth - pair.overlap);
   }
   for (const PairDepth& pair : depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    double& depth = run.state.pairs[{a, b}].depth;
-    depth = std::max(depth, pair.depth);
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
-    if (pair.depth > run.state.extremes.deepest.depth)
-      run.state.extremes.deepest = {pair.blocks, pair.depth,
-                                    pair.depth / run.system.smaller_size(pair.blocks), run.state.time(),
-                                    pair.place};
+    PairHistory& history = run.state.pairs[{a, b}];
+    history.depth = std::max(history.depth, pair.depth);
+    const double depth = pair.depth - history.overlap;
+    run.state.report.depth = std::max(run.state.report.depth, depth);
+    if (depth > run.state.extremes.deepest.depth)
+      run.state.extremes.deepest = {pair.blocks, depth, depth / run.system.smaller_size(pair.blocks),
+                                    run.state.time(), pair.place};
   }
 }
 
@@ -154,6 +155,13 @@ void reject_unsettled(const RunContext& run, double step, IslandStatus status, c
   // Numbers that overflow settle nowhere.
   if (const auto broken = broken_block(run, problem); broken && broken->reason == RejectionReason::not_finite)
     return reject(run, step, *broken);
+  run.fault.reset();
+  const auto found =
+      std::find_if(problem.results.begin(), problem.results.end(), [](const IslandResult& result) {
+        return result.status == IslandStatus::not_settled && result.alternating[0] >= 0;
+      });
+  if (status == IslandStatus::not_settled && found != problem.results.end())
+    return reject(run, step, StateFault{RejectionReason::open_close_not_settled, found->alternating});
   reject(run, step,
          status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                              : RejectionReason::not_positive_definite);

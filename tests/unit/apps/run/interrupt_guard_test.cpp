@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <optional>
+#include <thread>
+
 namespace ashlar {
 namespace {
+
+void ignore(int) {}
 
 TEST(InterruptGuard, EachSignalToStopIsARequest) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
@@ -12,6 +18,29 @@ TEST(InterruptGuard, EachSignalToStopIsARequest) {
     ::raise(signal);
     EXPECT_TRUE(InterruptGuard::interrupted()) << signal;
   }
+}
+
+// Runs in two threads: the one that began first ends first.
+TEST(InterruptGuard, TheLastOfSeveralPutsBackWhatWasThere) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto old = std::signal(signal, ignore);
+    std::optional<InterruptGuard> first, second;
+    first.emplace();
+    std::thread([&] { second.emplace(); }).join();
+    first.reset();
+    EXPECT_FALSE(InterruptGuard::interrupted());
+    ::raise(signal);
+    EXPECT_TRUE(InterruptGuard::interrupted()) << "one guard is left: " << signal;
+    std::thread([&] { second.reset(); }).join();
+    EXPECT_EQ(std::signal(signal, old), ignore) << "as it was";
+  }
+}
+
+TEST(InterruptGuard, AStartTakesBackNoRequest) {
+  const InterruptGuard first;
+  ::raise(SIGTERM);
+  const InterruptGuard second;
+  EXPECT_TRUE(InterruptGuard::interrupted());
 }
 
 TEST(InterruptGuard, AClosedTerminalStaysIgnoredUnderNohup) {
