@@ -8,24 +8,26 @@
 #include <string>
 
 #include "apps/results/atomic_file.hpp"
+#include "apps/results/stored_layout.hpp"
 
 namespace ashlar {
-
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 21;
+/// To be raised where what is stored means something else, though its members are the same.
+constexpr std::uint64_t meaning_version = 1;
 
 /// What follows the magic line; then comes the payload, and its hash.
 struct Header {
-  std::uint32_t version = layout_version;
+  std::uint32_t layout = checkpoint_layout();
   std::uint64_t scene = 0;
 };
 
 }  // namespace
 
 std::uint32_t checkpoint_layout() {
-  return layout_version;
+  static const auto layout = static_cast<std::uint32_t>(stored_layout<RunCheckpoint>(meaning_version));
+  return layout;
 }
 
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
@@ -33,7 +35,7 @@ std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t
   std::uintmax_t size = 0;
   write_file_atomically(path, Durability::power, [&](OutputFile& file) {
     ByteWriter header;
-    header(layout_version, hash);
+    header(checkpoint_layout(), hash);
     file.write(std::string(magic) + header.take());
     std::uint64_t payload_hash = hash_bytes({});
     ByteWriter payload([&](std::string_view bytes) {
@@ -61,14 +63,14 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
   try {
     Header header;
     ByteReader head(left);
-    head(header.version, header.scene);
-    if (header.version != layout_version) {
+    head(header.layout, header.scene);
+    if (header.layout != checkpoint_layout()) {
       throw CheckpointError(fmt::format(
           "checkpoint of another version of the program (layout {}), layout {} is needed: run with "
           "--force to start anew",
-          header.version, layout_version));
+          header.layout, checkpoint_layout()));
     }
-    left.remove_prefix(sizeof header.version + sizeof header.scene);
+    left.remove_prefix(sizeof header.layout + sizeof header.scene);
     std::uint64_t payload_hash = 0;
     const std::size_t size = left.size() - std::min(left.size(), sizeof payload_hash);
     ByteReader tail(left.substr(size));
