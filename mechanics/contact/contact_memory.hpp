@@ -57,8 +57,8 @@ class ContactMemory {
   /// Lists all members, for a checkpoint.
   template <class Archive>
   friend void visit_members(Archive& archive, ContactMemory& memory) {
-    auto& [entries, cuts, deepest, bulge, held, squared_reach, largest_area, most_dilation] = memory;
-    archive(entries, cuts, deepest, bulge, held, squared_reach, largest_area, most_dilation);
+    auto& [entries, cuts, turning, deepest, bulge, held, squared_reach, largest_area, most_dilation] = memory;
+    archive(entries, cuts, turning, deepest, bulge, held, squared_reach, largest_area, most_dilation);
   }
 
   /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
@@ -99,6 +99,9 @@ class ContactMemory {
   /// Whether there was no contact in the last step.
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
+  /// Faces over which friction turned in the last step: the mean of its unit directions over the area was shorter than
+  /// 0.95 when all of their closed points slid, and has been since. In order.
+  [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
 
  private:
   /// Material coordinates of all entries, (3, #entries).
@@ -123,6 +126,7 @@ class ContactMemory {
 
   std::vector<Entry> entries_;
   std::vector<PressureCut> cuts_;
+  std::vector<FacePair> turning_;
   double deepest_ = 0.0;
   double bulge_ = 0.0;
   SpringEnergy held_;

@@ -41,7 +41,19 @@ struct Search {
   const std::vector<CellOverlap>& overlaps;
   const ContactPointSettings& settings;
   const std::vector<PressureCut>& known;
+  const std::vector<FacePair>& turning;
 };
+
+/// The degree of an overlap's rule. A uniform pressure acts on every function exactly, however coarse the division is.
+/// Friction that turns over two faces has the direction of a vector that vanishes somewhere: no polynomial, and a rule
+/// for the blocks' order is wrong by up to 15 % (notes/turning_friction.md).
+int degree_of(const Search& search, const CellOverlap& cells) {
+  constexpr int least = 2, least_where_friction_turns = 6;
+  const FacePair faces{cell_of(search.a, cells.cell_a).face, cell_of(search.b, cells.cell_b).face};
+  const bool turns = std::find(search.turning.begin(), search.turning.end(), faces) != search.turning.end();
+  return std::max(
+      {turns ? least_where_friction_turns : least, search.a.model->order(), search.b.model->order()});
+}
 
 /// Where an overlap is to be cut, if at all. @param points of the rule on all of it
 std::optional<PressureEnd> cut_of(const JoinedOverlap& joined, const std::vector<Eigen::Vector2d>& outline,
@@ -64,10 +76,9 @@ std::optional<PressureEnd> cut_of(const JoinedOverlap& joined, const std::vector
 /// Area springs: a quadrature rule on every cell overlap, or on both of its parts where pressure ends inside.
 void add_area_springs(const Search& search, const JoinedOverlap& joined, bool master_is_a,
                       ContactPoints& result) {
-  const auto& [a, b, overlaps, settings, known] = search;
+  const auto& [a, b, overlaps, settings, known, turning] = search;
   const CellOverlap& overlap = overlaps[joined.cells.front()];
-  // A uniform pressure acts on every function exactly, however coarse the division is.
-  const int degree = std::max({2, a.model->order(), b.model->order()});
+  const int degree = degree_of(search, overlap);
   const OverlapPoints make(a, b, overlap, joined.whole, master_is_a, settings);
   const std::vector<Eigen::Vector2d> outline =
       outline_of(make.polygon(), outline_tolerance(*a.placed, *b.placed));
@@ -202,8 +213,8 @@ namespace {
 
 ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                         const std::vector<bool>& masters, const ContactPointSettings& settings,
-                        const std::vector<PressureCut>& known) {
-  const Search search{a, b, contacts.overlaps, settings, known};
+                        const std::vector<PressureCut>& known, const std::vector<FacePair>& turning) {
+  const Search search{a, b, contacts.overlaps, settings, known, turning};
   ContactPoints result;
   if (settings.area_springs) {
     for (const JoinedOverlap& joined : join_whole_faces(a, b, contacts.overlaps, settings.curved))
@@ -215,6 +226,7 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
   result.points.shrink_to_fit();  // they may last
+  result.turning = turning;
   return result;
 }
 
@@ -222,12 +234,12 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
 
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                              const std::vector<bool>& masters, const ContactPointSettings& settings,
-                             const std::vector<PressureCut>& known) {
-  if (!settings.curved) return points_of(a, b, contacts, masters, settings, known);
+                             const std::vector<PressureCut>& known, const std::vector<FacePair>& turning) {
+  if (!settings.curved) return points_of(a, b, contacts, masters, settings, known, turning);
   const PlacedBlock of_a(*a.model, a.state->position);
   const PlacedBlock of_b(*b.model, b.state->position);
   return points_of({a.model, a.state, a.placed, &of_a}, {b.model, b.state, b.placed, &of_b}, contacts,
-                   masters, settings, known);
+                   masters, settings, known, turning);
 }
 
 }  // namespace ashlar
