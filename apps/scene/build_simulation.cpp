@@ -17,6 +17,7 @@
 #include "apps/scene/support_history.hpp"
 #include "apps/scene/tied_joints.hpp"
 #include "apps/scene/turned_supports.hpp"
+#include "geometry/boxes/box_pairs.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -272,6 +273,17 @@ class JointLaws {
   std::vector<StiffnessSource> source_;  ///< (#blocks)
 };
 
+/// Up to which depth contacts start without force, m: between all blocks whose boxes meet.
+std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
+  std::map<PairKey, double> depths;
+  const double allowed = loaded.scene.contact.allowed_overlap;
+  if (allowed == 0.0) return depths;
+  std::vector<Box> boxes;
+  for (const Polyhedron& solid : loaded.solids) boxes.push_back(box_of(solid.mesh().points));
+  for (const PairKey& pair : meeting_boxes(boxes)) depths[pair] = allowed;
+  return depths;
+}
+
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
@@ -320,9 +332,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                         parts.size(),
                         {},
                         loaded.overlaps};
-  std::map<PairKey, double> depths;
-  for (const KnownOverlap& known : loaded.overlaps) depths[known.blocks] = known.overlap.depth;
-  built.simulation.start_overlapping(depths);
+  built.simulation.start_overlapping(depths_without_force(loaded));
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {

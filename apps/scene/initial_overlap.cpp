@@ -232,9 +232,9 @@ void warn_of_known_overlaps(const Scene& scene, const std::vector<KnownOverlap>&
   const auto name = [&](int block) { return scene.block[static_cast<std::size_t>(block)].name; };
   diagnostics.warning(
       scene.places.value("contact.allowed_overlap"),
-      fmt::format("{} of blocks overlap as placed, by {}{:.3g} m at most (\"{}\" and \"{}\"); their contacts "
-                  "start without force, and summary.json lists them",
-                  count == 1 ? "1 pair" : fmt::format("{} pairs", count),
+      fmt::format("{} placed in each other, by {}{:.3g} m at the deepest (\"{}\" and \"{}\"); contacts "
+                  "start without force there, and summary.json lists the pairs",
+                  count == 1 ? "1 pair of blocks is" : fmt::format("{} pairs of blocks are", count),
                   deepest->overlap.exact ? "" : "at least ", deepest->overlap.depth, name(deepest->blocks[0]),
                   name(deepest->blocks[1])));
 }

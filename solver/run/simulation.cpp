@@ -1,5 +1,6 @@
 #include "solver/run/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -46,6 +47,18 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
       throw std::invalid_argument("incremental blocks do not tell where they were placed");
     state_.pairs[blocks].overlap = depth;
   }
+  if (depths.empty()) return;
+  // How deep contacts are where blocks are placed tells how deep any may be later without force.
+  std::map<PairKey, double> placed;
+  StepContacts contacts(system_);  // a stage moves blocks before contacts_ looks at any
+  const std::vector<FoundContacts> found = contacts.detect(system_, state_, 0.0);
+  for (const ContactPair& pair : contacts.pairs(system_, state_, found, PairUse::statics)) {
+    double& deepest = placed[{pair.a(), pair.b()}];
+    for (const ContactPoint& point : pair.points()) deepest = std::max(deepest, point.overlap);
+  }
+  state_.pairs.clear();
+  for (const auto& [blocks, deepest] : placed)
+    if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {

@@ -268,9 +268,8 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   const PairHistory& known = history_of(state.pairs, blocks);
   const SimulationSettings& settings = system.settings();
   const bool goes_on = use == PairUse::motion && state.has_begun();
-  // Blocks may be deeper along the normal of a contact than along the shortest way out.
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
-                                            2.0 * known.overlap};
+                                            known.overlap};
   const std::vector<bool> masters = first_is_master(
       body_a, body_b, contacts.overlaps,
       [&covered, a = a, b = b](const RimPlace& rim) {

@@ -54,7 +54,7 @@ TEST_F(DrawnVault, ACrossVaultOf184StonesNeedsAnAllowedOverlap) {
   EXPECT_EQ(check(), 2);
   EXPECT_THAT(faults_, HasSubstr("contact.allowed_overlap accepts more"));
   EXPECT_EQ(check({accepted}), 0) << faults_;
-  EXPECT_THAT(faults_, HasSubstr("pairs of blocks overlap as placed"));
+  EXPECT_THAT(faults_, HasSubstr("pairs of blocks are placed in each other"));
 }
 
 TEST_F(DrawnVault, ABarrelOf400StonesNeedsAnAllowedOverlap) {
@@ -114,8 +114,10 @@ box = { min = [0, 0, -1e-4], max = [1, 1, 0.9999] }
 TEST_F(DrawnVault, AnAllowedOverlapIsListedAndWithoutForce) {
   write_text(scene_, sunk_stone);
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  EXPECT_THAT(faults_,
-              HasSubstr("s.toml:7:19: warning: 1 pair of blocks overlap as placed, by 0.0001 m at most"));
+  EXPECT_THAT(
+      faults_,
+      HasSubstr(
+          "s.toml:7:19: warning: 1 pair of blocks is placed in each other, by 0.0001 m at the deepest"));
   const auto summary = parse_json(text("out/summary.json"));
   ASSERT_EQ(summary["known_overlaps"].size(), 1U);
   EXPECT_EQ(summary["known_overlaps"][0]["blocks"], (nlohmann::ordered_json{"floor", "stone"}));
@@ -150,7 +152,7 @@ add = ["added"]
 name = "rest"
 )");
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  EXPECT_THAT(faults_, HasSubstr("2 pairs of blocks overlap as placed"));
+  EXPECT_THAT(faults_, HasSubstr("2 pairs of blocks are placed in each other"));
   // 48 kN on 1e9 N/m, and 24 kN on as much above.
   EXPECT_NEAR(column("out/history.csv", "lower.uz").back(), -4.8e-5, 1e-9);
   EXPECT_NEAR(column("out/history.csv", "upper.uz").back(), -7.2e-5, 1e-9);

@@ -137,9 +137,9 @@ TEST(InitialOverlap, OfUpToWhatIsAllowedIsAcceptedAndListed) {
   EXPECT_NEAR(known[0].overlap.depth, 1e-4, 1e-15);
   EXPECT_TRUE(known[0].overlap.exact);
   EXPECT_FALSE(known[0].rounding);
-  EXPECT_THAT(
-      told,
-      ElementsAre(HasSubstr("1 pair of blocks overlap as placed, by 0.0001 m at most (\"A\" and \"B\")")));
+  EXPECT_THAT(told,
+              ElementsAre(HasSubstr(
+                  "1 pair of blocks is placed in each other, by 0.0001 m at the deepest (\"A\" and \"B\")")));
   EXPECT_TRUE(overlaps(0.99e-4, 1e-4, told).empty());
   EXPECT_THAT(told, ElementsAre(HasSubstr(
                         "overlap by 0.0001 m, allowed is touching or 9.9e-05 m (contact.allowed_overlap)")));
