@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <new>
 #include <ostream>
+#include <utility>
 
 #include "apps/blocks/blocks_command.hpp"
 #include "apps/check_command.hpp"
@@ -14,6 +16,7 @@
 #include "apps/contacts/integrate_command.hpp"
 #include "apps/results/program_version.hpp"
 #include "apps/run/run_options.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/nearest_name.hpp"
 #include "apps/schema_command.hpp"
 #include "apps/study/study_command.hpp"
@@ -43,9 +46,8 @@ void refuse_unknown_command(const CLI::App& program, const std::vector<std::stri
                         CLI::ExitCodes::InvalidError);
 }
 
-}  // namespace
-
-int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
+/// The same without what is done where something is thrown.
+int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
   CLI::App program("Ashlar: high-order 3-D discontinuous deformation analysis", "ashlar");
   CommandContext context{out, err};
   program.require_subcommand(1);
@@ -68,13 +70,23 @@ int run_command_line(std::vector<std::string> arguments, std::ostream& out, std:
   } catch (const CLI::ParseError& error) {
     // Also how --help and --version end the parsing; those are no faults.
     return program.exit(error, out, err) == 0 ? exit_status::done : exit_status::bad_input;
-  } catch (const std::exception& error) {
-    // No fault of the input ends here; what does is the program's own failure.
-    err << "ashlar: error: " << error.what() << '\n';
-    return exit_status::failed;
   }
   if (out.flush()) return context.status;
   err << "ashlar: error: standard output cannot be written\n";
+  return exit_status::failed;
+}
+
+}  // namespace
+
+int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
+  // No fault of the input ends here; what does is the program's own failure.
+  try {
+    return parse_and_run(std::move(arguments), out, err);
+  } catch (const std::bad_alloc& error) {
+    err << "ashlar: error: " << missing_memory(error) << '\n';
+  } catch (const std::exception& error) {
+    err << "ashlar: error: " << fault_text(error) << '\n';
+  }
   return exit_status::failed;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/program_memory.hpp"
 
 namespace {
 
@@ -19,6 +20,7 @@ void open_closed_streams() {
 }  // namespace
 
 int main(int count, char** arguments) {
+  ashlar::prepare_for_missing_memory();
   open_closed_streams();
   return ashlar::run_command_line(std::vector<std::string>(arguments + 1, arguments + count), std::cout,
                                   std::cerr);

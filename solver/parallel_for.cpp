@@ -26,23 +26,50 @@
 
 namespace ashlar {
 
+namespace {
+
+/// Pieces of work on several threads. The first exception waits here for the caller: TBB would allocate to carry it, and
+/// ends the program where it cannot.
+class Pieces {
+ public:
+  explicit Pieces(const std::function<void(std::size_t)>& work) : work_(work) {}
+
+  /// One piece, unless one has failed.
+  void operator()(std::size_t k) {
+    // Relaxed: a stronger order would put the pieces of a thread before those that another does later, and only
+    // races between pieces that overlap in time would be seen.
+    if (failed_.load(std::memory_order_relaxed)) return;
+    try {
+      work_(k);
+    } catch (...) {
+      failed_.store(true, std::memory_order_relaxed);
+      const std::scoped_lock lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+    }
+  }
+
+  /// @throws what the first piece that failed threw
+  void check() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  const std::function<void(std::size_t)>& work_;
+  std::atomic<bool> failed_ = false;
+  std::mutex mutex_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
 #if defined(ASHLAR_THREAD_SANITIZER)
 
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr error;
-  // Relaxed: a stronger order would put the pieces of a thread before those that another takes later, and
-  // only races between pieces that overlap in time would be seen.
+  Pieces pieces(work);
   const auto take = [&] { return next.fetch_add(1, std::memory_order_relaxed); };
   const auto work_on = [&] {
-    try {
-      for (std::size_t k = take(); k < count; k = take()) work(k);
-    } catch (...) {
-      next.store(count, std::memory_order_relaxed);
-      const std::scoped_lock lock(mutex);
-      if (!error) error = std::current_exception();
-    }
+    for (std::size_t k = take(); k < count; k = take()) pieces(k);
   };
   {
     std::vector<std::jthread> team;
@@ -50,7 +77,7 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
     for (std::size_t k = 1; k < helpers; ++k) team.emplace_back(work_on);
     work_on();
   }
-  if (error) std::rethrow_exception(error);
+  pieces.check();
 }
 
 #else
@@ -60,9 +87,11 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
     for (std::size_t k = 0; k < count; ++k) work(k);
     return;
   }
+  Pieces pieces(work);
   // More than the machine has would make TBB print a warning and go on with fewer.
   tbb::task_arena arena(std::min(threads, available_threads()));
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) { pieces(k); }); });
+  pieces.check();
 }
 
 #endif

@@ -132,6 +132,7 @@ ListedPair split_line(std::string_view line, int number) {
 }
 
 std::vector<ListedPair> read_list(std::istream& file) {
+  file.exceptions(std::ios::badbit);  // missing memory is not the end of the file
   std::vector<ListedPair> pairs;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {

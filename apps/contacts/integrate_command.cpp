@@ -40,6 +40,11 @@ std::string moments_json(int degree, const std::vector<std::array<int, 3>>& expo
 }  // namespace
 
 int integrate_command(const IntegrateOptions& options, std::ostream& out, std::ostream& err) {
+  if (options.degree < 0 || options.degree > most_degree) {
+    err << fmt::format("ashlar: error: degree is out of range ({}), a whole number from 0 to {} is needed\n",
+                       options.degree, most_degree);
+    return exit_status::bad_input;
+  }
   Diagnostics diagnostics;
   const std::optional<Polyhedron> solid = load_solid(options.mesh, options.mesh, diagnostics);
   const auto exponents = monomial_exponents(options.degree);

@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -65,10 +66,13 @@ std::string printed(Command command, const Options& options) {
   return out.str();
 }
 
-py::tuple run_scene(const std::filesystem::path& scene, const std::filesystem::path& out,
-                    const std::vector<std::string>& overrides, int threads, bool resume, bool force) {
+/// @param text of the scene; none: that of the file
+py::tuple run_scene(const std::filesystem::path& scene, const std::optional<std::string>& text,
+                    const std::filesystem::path& out, const std::vector<std::string>& overrides, int threads,
+                    bool resume, bool force) {
   RunOptions options;
   options.scene = scene;
+  options.text = text;
   options.out = out;
   options.overrides = overrides;
   options.threads = threads;
@@ -85,13 +89,13 @@ py::tuple run_scene(const std::filesystem::path& scene, const std::filesystem::p
 }
 
 void bind_scene(py::module_& module) {
-  py::class_<CoreScene>(module, "Scene")
+  py::class_<CoreScene>(module, "Scene", made_here())
       .def_property_readonly("good", [](const CoreScene& scene) { return scene.loaded != nullptr; })
       .def("faults", &faults_of)
-      .def("json", [](const CoreScene& scene) { return json_text(to_json(scene.loaded->scene)); })
+      .def("json", [](const CoreScene& scene) { return json_text(to_json(scene.good()->scene)); })
       .def("blocks_json", [](const CoreScene& scene) {
         const py::gil_scoped_release released;
-        return json_text(report_json(BlockReport(*scene.loaded), nullptr));
+        return json_text(report_json(BlockReport(*scene.good()), nullptr));
       });
   module.def("load", &load_core, py::arg("text"), py::arg("file"), py::arg("overrides"));
 }

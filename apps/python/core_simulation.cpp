@@ -34,7 +34,11 @@ py::array_t<double> array_of(const std::vector<Vector3>& rows) {
 
 using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-std::vector<Vector3> points_of(const Points& array) {
+std::vector<Vector3> points_of(const py::object& given) {
+  const py::array any = py::array::ensure(given);
+  if (any && any.dtype().kind() == 'c') throw py::type_error("points are real numbers, not complex ones");
+  const Points array = any ? Points::ensure(any) : Points();
+  if (!array) throw py::type_error("points are an array of numbers");
   if (array.ndim() != 2 || array.shape(1) != 3) throw py::value_error("points are an array of shape (n, 3)");
   const auto values = array.unchecked<2>();
   std::vector<Vector3> points;
@@ -74,7 +78,7 @@ ContactRow row_of(const PairRecord& pair, std::size_t k) {
 /// A SceneRun with arrays of numpy. A thread that asks waits for the step that another one takes.
 class CoreSimulation {
  public:
-  CoreSimulation(const CoreScene& scene, int threads) : run_(scene.loaded, threads) {}
+  CoreSimulation(const CoreScene& scene, int threads) : run_(scene.good(), threads) {}
 
   /// What a function of the run gives. The interpreter is free while the thread waits, and while the function runs
   /// if it is not to make Python objects.
@@ -143,21 +147,21 @@ struct CoreBlock {
     return of->with_run([&](const SceneRun& run) { return function(run.simulation().blocks()[at(index)]); });
   }
 
-  [[nodiscard]] std::vector<PointMotion> motions(const Points& points, bool extrapolate) const {
+  [[nodiscard]] std::vector<PointMotion> motions(const py::object& points, bool extrapolate) const {
     const std::vector<Vector3> places = points_of(points);
     const auto outside = extrapolate ? OutsidePoints::extrapolated : OutsidePoints::refused;
     return of->without_interpreter([&](const SceneRun& run) { return run.motions(index, places, outside); });
   }
 
   /// @param part of a point's motion that is asked for. @return (n, 3)
-  [[nodiscard]] py::array_t<double> vectors(const Points& points, bool extrapolate,
+  [[nodiscard]] py::array_t<double> vectors(const py::object& points, bool extrapolate,
                                             Vector3 PointMotion::*part) const {
     std::vector<Vector3> rows;
     for (const PointMotion& motion : motions(points, extrapolate)) rows.push_back(motion.*part);
     return array_of(rows);
   }
 
-  [[nodiscard]] py::array_t<double> stress(const Points& points, bool extrapolate) const {
+  [[nodiscard]] py::array_t<double> stress(const py::object& points, bool extrapolate) const {
     const std::vector<PointMotion> found = motions(points, extrapolate);
     std::vector<double> values;
     for (const PointMotion& motion : found)
@@ -203,7 +207,7 @@ auto of_block(Function function) {
 }
 
 auto vectors_of(Vector3 PointMotion::*part) {
-  return [part](const CoreBlock& block, const Points& points, bool extrapolate) {
+  return [part](const CoreBlock& block, const py::object& points, bool extrapolate) {
     return block.vectors(points, extrapolate, part);
   };
 }
@@ -211,7 +215,8 @@ auto vectors_of(Vector3 PointMotion::*part) {
 void bind_block(py::module_& module) {
   const py::arg points("points");
   const py::arg_v extrapolate = py::arg("extrapolate") = false;
-  py::class_<CoreBlock>(module, "Block", R"(A block of a simulation, at the simulation's present time.
+  py::class_<CoreBlock>(module, "Block", made_here(),
+                        R"(A block of a simulation, at the simulation's present time.
 
 Points are those of the placed, undeformed block. A point that is farther from it than a millionth of the diagonal of its
 box raises ValueError, which tells the distance; extrapolate=True evaluates the block's polynomial there all the same. Where the
@@ -259,9 +264,11 @@ std::vector<std::string> names_of(const SceneRun& run) {
 void bind_simulation(py::module_& module) {
   PYBIND11_NUMPY_DTYPE(ContactRow, a, b, place, normal, force, gap, area, type, state);
   using Shared = std::shared_ptr<CoreSimulation>;
-  py::class_<CoreSimulation, Shared>(module, "Simulation")
-      .def(py::init<const CoreScene&, int>(), py::arg("scene"), py::arg("threads"),
-           py::call_guard<py::gil_scoped_release>())
+  module.def(
+      "simulation",
+      [](const CoreScene& scene, int threads) { return std::make_shared<CoreSimulation>(scene, threads); },
+      py::arg("scene"), py::arg("threads"), py::call_guard<py::gil_scoped_release>());
+  py::class_<CoreSimulation, Shared>(module, "Simulation", made_here())
       .def("step",
            [](CoreSimulation& s) { return s.without_interpreter([](SceneRun& run) { return run.step(); }); })
       .def_property_readonly("status", of_run(status_of))

@@ -47,6 +47,7 @@ class FrameOfBlocks {
     grid_.add_cell(type, points);
     block_.push_back(b);
     order_.push_back(block.fixed() || block.rigid() ? 0 : block.order());
+    fixed_.push_back(block.fixed() ? 1 : 0);
   }
 
   UnstructuredGrid take() {
@@ -60,6 +61,7 @@ class FrameOfBlocks {
           {"principal_stress", 3, {"largest", "middle", "least"}, std::move(principal_)});
     grid_.cell_data.push_back({"block", 1, {}, std::move(block_)});
     grid_.cell_data.push_back({"order", 1, {}, std::move(order_)});
+    grid_.cell_data.push_back({"fixed", 1, {}, std::move(fixed_)});
     return std::move(grid_);
   }
 
@@ -68,7 +70,7 @@ class FrameOfBlocks {
   const std::vector<std::vector<Vector3>>& origin_;
   UnstructuredGrid grid_;
   std::vector<double> displacement_, velocity_, stress_, principal_;
-  std::vector<std::int32_t> block_, order_;  ///< of cells
+  std::vector<std::int32_t> block_, order_, fixed_;  ///< of cells
 };
 
 }  // namespace

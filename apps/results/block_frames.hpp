@@ -27,7 +27,7 @@ struct DisplacementOrigin {
 };
 
 /// All blocks that are there, in a state. Point data, as far as asked for: displacement, velocity, stress (xx, yy, zz, xy,
-/// yz, xz), principal_stress (largest first). Cell data: block, order and face.
+/// yz, xz), principal_stress (largest first). Cell data: block, order (0: fixed or rigid), fixed (0, 1) and face.
 /// @param absent by block, or empty
 [[nodiscard]] UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks,
                                            const std::vector<BlockState>& states,

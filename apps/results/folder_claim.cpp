@@ -21,11 +21,21 @@ constexpr const char* marker_name = ".ashlar";
 constexpr std::string_view marker_text = "This folder was made by ashlar; it keeps other runs out.\n";
 
 /// What a run writes beside the folder `frames`.
-constexpr std::array run_files = {"history.csv",        "contacts.csv",           "blocks.pvd",
-                                  "contacts.pvd",       "summary.json",           "checkpoint",
-                                  "view.html",          "summary.json.tmp",       "checkpoint.tmp",
-                                  "factor_trials.json", "factor_trials.json.tmp", "joints.pvd",
-                                  "surfaces.pvd"};
+constexpr std::array run_files = {"history.csv",
+                                  "contacts.csv",
+                                  "blocks.pvd",
+                                  "contacts.pvd",
+                                  "summary.json",
+                                  "checkpoint",
+                                  "view.html",
+                                  "summary.json.tmp",
+                                  "checkpoint.tmp",
+                                  "factor_trials.json",
+                                  "factor_trials.json.tmp",
+                                  "joints.pvd",
+                                  "surfaces.pvd",
+                                  "factor_trial.checkpoint",
+                                  "factor_trial.checkpoint.tmp"};
 
 std::string reason(int code) {
   return std::generic_category().message(code);
@@ -133,7 +143,8 @@ FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
     sign();
   } catch (const std::filesystem::filesystem_error& fault) {
     close();
-    throw ClaimRefused(fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.what()));
+    throw ClaimRefused(
+        fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.code().message()));
   } catch (...) {
     close();
     throw;

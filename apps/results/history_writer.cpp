@@ -48,6 +48,7 @@ HistoryWriter HistoryWriter::resume(const std::filesystem::path& path, std::span
   const std::string header = header_line(columns);
   OutputFile file(path, OutputFile::Start::at_end);
   std::ifstream input(path, std::ios::binary);
+  input.exceptions(std::ios::badbit);  // missing memory is not the end of the file
   std::string start(header.size(), '\0');
   if (!input.read(start.data(), static_cast<std::streamsize>(start.size())) || start != header) {
     throw std::runtime_error("cannot resume " + path.string() + ": its columns are not those of this scene");

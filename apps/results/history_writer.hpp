@@ -30,7 +30,7 @@ class HistoryWriter {
   /// @param values of the columns after the first. @throws std::invalid_argument if their number is wrong.
   void append(std::int64_t step, std::span<const double> values);
 
-  /// @throws std::runtime_error if the file is not there any more
+  /// @throws std::runtime_error if the file is not there any more, or was changed by others
   void check_in_place() const { file_.check_in_place(); }
   /// Waits until all rows are on the disk; before a checkpoint that counts on them.
   void sync() { file_.sync(); }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -75,9 +76,13 @@ void OutputFile::check_in_place() const {
   struct stat held {};
   if (::lstat(path_.c_str(), &named) != 0) fail("find");
   if (::fstat(descriptor_, &held) != 0) fail("find");
-  if (named.st_dev == held.st_dev && named.st_ino == held.st_ino) return;
-  throw std::system_error(std::make_error_code(std::errc::no_such_file_or_directory),
-                          path_.string() + " was replaced while it was being written");
+  if (named.st_dev != held.st_dev || named.st_ino != held.st_ino)
+    throw std::system_error(std::make_error_code(std::errc::no_such_file_or_directory),
+                            path_.string() + " was replaced while it was being written");
+  if (!S_ISREG(held.st_mode) || static_cast<std::uintmax_t>(held.st_size) == size_) return;
+  throw std::runtime_error(path_.string() + " was changed by others while it was being written: it has " +
+                           std::to_string(held.st_size) + " bytes, " + std::to_string(size_) +
+                           " were written");
 }
 
 void OutputFile::close() {

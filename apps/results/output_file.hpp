@@ -33,7 +33,7 @@ class OutputFile {
   void truncate(std::uintmax_t size);
   /// Waits until everything written is on the disk.
   void sync();
-  /// @throws if the path does not name this file any more: it was removed, moved or replaced
+  /// @throws if the path names this file no more (removed, moved, replaced), or others have cut it or added bytes
   void check_in_place() const;
   /// Closes and reports what closing finds (network file systems report a full disk here).
   void close();

@@ -39,8 +39,8 @@ void remove_frames_but(const std::filesystem::path& folder, const std::set<std::
 }
 
 /// Results of an earlier run must not be taken for those of the one that starts. Its checkpoint is replaced
-/// by the first one of this run: until then, tables that are not those of the checkpoint keep it from being
-/// used.
+/// by the first one of this run: until then, tables that are not there or not those of the checkpoint keep it from
+/// being used, so that they go before the frames that it counts on.
 std::filesystem::path emptied(std::filesystem::path folder) {
   std::error_code error;
   std::filesystem::create_directories(folder / "frames", error);
@@ -48,10 +48,10 @@ std::filesystem::path emptied(std::filesystem::path folder) {
     throw std::runtime_error(
         fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
   }
-  remove_frames_but(folder, {});
   // Removed, not emptied: other names of these files keep what they have.
-  for (const char* name : {"summary.json", "view.html", "history.csv", "contacts.csv", "surfaces.pvd"})
+  for (const char* name : {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd"})
     std::filesystem::remove(folder / name);
+  remove_frames_but(folder, {});
   return folder;
 }
 
@@ -198,6 +198,7 @@ DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Mea
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                            const StagePlace& place)
     : folder_(emptied(std::move(folder))),
+      frames_(folder_ / "frames"),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
@@ -220,6 +221,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
 ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                            const ResultFolderState& state)
     : folder_(std::move(folder)),
+      frames_(folder_ / "frames"),
       output_(scene.output),
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
@@ -270,6 +272,7 @@ void ResultFolder::begin_stage(const Simulation& simulation, double elapsed, boo
 void ResultFolder::check_in_place() const {
   history_.check_in_place();
   contact_rows_.check_in_place();
+  frames_.check();
 }
 
 void ResultFolder::add_step(const Simulation& simulation) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/results/block_frames.hpp"
+#include "apps/results/folder_watch.hpp"
 #include "apps/results/history_writer.hpp"
 #include "apps/results/joint_faces.hpp"
 #include "apps/results/largest_values.hpp"
@@ -83,7 +84,7 @@ class ResultFolder {
                const ResultFolderState& state);
 
   /// Called after every accepted step. What fails to be written is not in state() either.
-  /// @throws std::runtime_error also if a table is not there any more
+  /// @throws std::runtime_error also if a table or the folder of frames is not there any more, or was changed by others
   void add_step(const Simulation& simulation);
   /// Of a run in stages: what follows is of another one. To be called when the last one has been added by
   /// add_end().
@@ -112,6 +113,7 @@ class ResultFolder {
   void add_contact_rows(const Simulation& simulation);
 
   std::filesystem::path folder_;
+  FolderWatch frames_;
   SceneOutput output_;
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;

@@ -8,89 +8,26 @@
 #include <string>
 
 #include "apps/results/atomic_file.hpp"
-#include "apps/scene/scene_json.hpp"
+#include "apps/results/stored_layout.hpp"
 
 namespace ashlar {
-
-template <class Archive>
-static void visit_members(Archive& archive, PvdFrame& frame) {
-  archive(frame.time, frame.file);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, DisplacementOrigin& origin) {
-  archive(origin.measures, origin.surfaces, origin.solids);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, ResultProgress& progress) {
-  archive(progress.last_row_step, progress.last_frame_step, progress.intervals_written, progress.stage,
-          progress.elapsed, progress.origin);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, ResultFolderState& state) {
-  archive(state.block_frames, state.surface_frames, state.contact_frames, state.joint_frames,
-          state.contact_bytes, state.progress);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, FinishedStage& stage) {
-  archive(stage.status, stage.message, stage.steps, stage.time);
-}
-
-template <class Archive>
-static void visit_members(Archive& archive, RunSeconds& seconds) {
-  archive(seconds.total, seconds.setup, seconds.output);
-}
-
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-constexpr std::uint32_t layout_version = 19;
+/// To be raised where what is stored means something else, though its members are the same.
+constexpr std::uint64_t meaning_version = 1;
 
 /// What follows the magic line; then comes the payload, and its hash.
 struct Header {
-  std::uint32_t version = layout_version;
+  std::uint32_t layout = checkpoint_layout();
   std::uint64_t scene = 0;
 };
 
 }  // namespace
 
-std::uint64_t scene_hash(const LoadedScene& loaded) {
-  nlohmann::ordered_json json = to_json(loaded.scene);
-  for (const char* key : {"end_time", "memory_limit"}) json["analysis"].erase(key);
-  if (!loaded.scene.stage.empty()) json["stage"].back()["analysis"].erase("end_time");
-  json.erase("title");
-  std::uint64_t hash = hash_bytes(json.dump());
-  for (const Polyhedron& solid : loaded.solids) {
-    ByteWriter writer;
-    writer(solid.mesh().points, solid.mesh().triangles);
-    hash = hash_bytes(writer.take(), hash);
-  }
-  ByteWriter records;
-  const SceneAnalysis& analysis = loaded.scene.analysis;
-  for (std::size_t n = 0; analysis.gravity_file && n < analysis.gravity_history.size(); ++n)
-    records(analysis.gravity_history[n].time, analysis.gravity_history[n].value);
-  const auto add_fix = [&](const SceneFix& fix) {
-    for (std::size_t n = 0; fix.file && n < fix.history.size(); ++n)
-      records(fix.history[n].time, fix.history[n].value);
-  };
-  const auto add_load = [&](const SceneLoad& load) {
-    for (std::size_t n = 0; load.file && n < load.history.size(); ++n)
-      records(load.history[n].time, load.history[n].factor);
-  };
-  for (const SceneBlock& block : loaded.scene.block) {
-    for (const SceneFix& fix : block.fix) add_fix(fix);
-    for (const SceneLoad& load : block.load) add_load(load);
-  }
-  for (const SceneStage& stage : loaded.scene.stage) {
-    for (std::size_t n = 0; stage.analysis.gravity_file && n < stage.analysis.gravity_history.size(); ++n)
-      records(stage.analysis.gravity_history[n].time, stage.analysis.gravity_history[n].value);
-    for (const SceneStage::Fix& entry : stage.fix) add_fix(entry.fix);
-    for (const SceneStage::Load& entry : stage.load) add_load(entry.load);
-  }
-  return hash_bytes(records.take(), hash);
+std::uint32_t checkpoint_layout() {
+  static const auto layout = static_cast<std::uint32_t>(stored_layout<RunCheckpoint>(meaning_version));
+  return layout;
 }
 
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
@@ -98,7 +35,7 @@ std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t
   std::uintmax_t size = 0;
   write_file_atomically(path, Durability::power, [&](OutputFile& file) {
     ByteWriter header;
-    header(layout_version, hash);
+    header(checkpoint_layout(), hash);
     file.write(std::string(magic) + header.take());
     std::uint64_t payload_hash = hash_bytes({});
     ByteWriter payload([&](std::string_view bytes) {
@@ -126,14 +63,14 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
   try {
     Header header;
     ByteReader head(left);
-    head(header.version, header.scene);
-    if (header.version != layout_version) {
+    head(header.layout, header.scene);
+    if (header.layout != checkpoint_layout()) {
       throw CheckpointError(fmt::format(
           "checkpoint of another version of the program (layout {}), layout {} is needed: run with "
           "--force to start anew",
-          header.version, layout_version));
+          header.layout, checkpoint_layout()));
     }
-    left.remove_prefix(sizeof header.version + sizeof header.scene);
+    left.remove_prefix(sizeof header.layout + sizeof header.scene);
     std::uint64_t payload_hash = 0;
     const std::size_t size = left.size() - std::min(left.size(), sizeof payload_hash);
     ByteReader tail(left.substr(size));
@@ -151,6 +88,8 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     reader(checkpoint.stages, checkpoint.folder, checkpoint.seconds);
     return checkpoint;
   } catch (const CheckpointError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     throw CheckpointError(

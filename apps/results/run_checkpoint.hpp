@@ -9,7 +9,6 @@
 
 #include "apps/results/result_folder.hpp"
 #include "apps/results/run_summary.hpp"
-#include "apps/scene/scene_loading.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {
@@ -33,12 +32,11 @@ struct OtherSceneError : CheckpointError {
   using CheckpointError::CheckpointError;
 };
 
-/// Of the scene as used: every key with defaults and overrides, and the points and triangles of every block,
-/// so that a changed mesh file is noticed, and so are records. analysis.end_time is left out, and that of the last
-/// stage, as a run may go on beyond its end, and what no result depends on: title, analysis.memory_limit.
-[[nodiscard]] std::uint64_t scene_hash(const LoadedScene& loaded);
+/// Number of the present layout of the file; another one is refused.
+[[nodiscard]] std::uint32_t checkpoint_layout();
 
-/// Replaces the file as a whole; it outlives a power failure. @return its bytes
+/// Replaces the file as a whole; it outlives a power failure. @param hash of the scene (scene_identity.hpp).
+/// @return its bytes
 /// @throws std::runtime_error with path and reason
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
                                 const RunCheckpoint& checkpoint);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "apps/results/program_version.hpp"
+#include "apps/scene/base_motion.hpp"
 #include "apps/scene/scene_json.hpp"
 
 #include "solver/state/automatic.hpp"
@@ -73,6 +74,20 @@ nlohmann::ordered_json moving_blocks_of(const Simulation& simulation) {
   return list;
 }
 
+nlohmann::ordered_json fixed_blocks_of(const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const BlockModel& block : simulation.blocks())
+    if (block.fixed()) list.push_back(block.name());
+  return list;
+}
+
+/// Null if no base is moved.
+nlohmann::ordered_json base_of(const Scene& scene) {
+  const std::optional<std::size_t> base = moved_base(scene);
+  if (!base) return nullptr;
+  return scene.block[*base].name;
+}
+
 nlohmann::ordered_json json_of(const std::vector<DisplacedBlock>& displaced, const Simulation& simulation) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& [block, distance] : displaced) {
@@ -90,6 +105,21 @@ nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& si
           {"blocks", nlohmann::ordered_json{name(deepest.blocks[0]), name(deepest.blocks[1])}},
           {"time", deepest.time},
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
+}
+
+/// Pairs of blocks that are placed in each other by more than rounding.
+nlohmann::ordered_json known_overlaps_of(const BuiltSimulation& built) {
+  const auto name = [&](int block) {
+    return built.simulation.blocks()[static_cast<std::size_t>(block)].name();
+  };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const KnownOverlap& known : built.overlaps) {
+    if (known.rounding) continue;
+    list.push_back({{"blocks", nlohmann::ordered_json{name(known.blocks[0]), name(known.blocks[1])}},
+                    {"depth", known.overlap.depth},
+                    {"exact", known.overlap.exact}});
+  }
+  return list;
 }
 
 /// Null where there is none.
@@ -126,8 +156,8 @@ BrokenJoints broken_joints(const Simulation& simulation) {
   return broken;
 }
 
-nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
-                                   const RunOutcome& outcome) {
+nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
+                                   const BuiltSimulation& built, const RunOutcome& outcome) {
   const auto& [status, message, seconds, frames, largest, stages] = outcome;
   const Simulation& simulation = built.simulation;
   nlohmann::ordered_json summary;
@@ -142,6 +172,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["rejected_steps"] = rejections_of(simulation);
   summary["unknowns"] = simulation.unknowns();
   summary["blocks"] = simulation.blocks().size();
+  summary["fixed"] = fixed_blocks_of(simulation);
+  summary["base"] = base_of(scene);
   summary["frames"] = frames;
   const PhaseSeconds& phases = simulation.seconds();
   summary["wall_seconds"] = {{"total", seconds.total},
@@ -157,6 +189,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   summary["contact_depth_max"] = simulation.largest_penetration();
   if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
     summary["deepest"] = json_of(deepest, simulation);
+  if (!built.overlaps.empty()) summary["known_overlaps"] = known_overlaps_of(built);
   summary["largest_displacement"] = json_of(largest.displacement, simulation);
   summary["largest_compression"] = json_of(largest.compression, simulation);
   summary["largest_tension"] = json_of(largest.tension, simulation);
@@ -183,6 +216,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& bu
   versions["ashlar"] = program_version();
   for (const auto& [name, version] : tool_versions()) versions[name] = version;
   summary["versions"] = versions;
+  summary["identity"] = to_json(identity);
   summary["scene"] = to_json(scene);
   if (!stages.empty()) summary["stages"] = json_of(stages, scene);
   return summary;

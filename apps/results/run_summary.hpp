@@ -4,13 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/results/run_outcome.hpp"
+#include "apps/results/scene_identity.hpp"
 #include "apps/scene/build_simulation.hpp"
 
 namespace ashlar {
 
-/// @param scene of the whole run
-[[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const BuiltSimulation& built,
-                                                 const RunOutcome& outcome);
+/// @param scene of the whole run. @param identity of the same
+[[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
+                                                 const BuiltSimulation& built, const RunOutcome& outcome);
 
 /// Joints that have lost their strength since the start of the run.
 struct BrokenJoints {

@@ -10,6 +10,7 @@
 #include "apps/results/json_text.hpp"
 #include "apps/results/run_summary.hpp"
 #include "apps/scene/added_blocks.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/initial_state.hpp"
 #include "apps/scene/loose_blocks.hpp"
 #include "apps/scene/scene_stages.hpp"
@@ -47,6 +48,7 @@ std::shared_ptr<const LoadedScene> checked(std::shared_ptr<const LoadedScene> sc
 SceneRun::SceneRun(std::shared_ptr<const LoadedScene> scene, int threads, double setup_start)
     : scene_(checked(std::move(scene), threads)),
       present_(std::make_shared<const LoadedScene>(stage_of(*scene_, 0))),
+      identity_(scene_identity(*scene_)),
       threads_(threads),
       built_(built(*present_, threads, true)),
       measures_(measures_of(scene_->scene, built_.simulation.blocks())),
@@ -87,6 +89,7 @@ void SceneRun::begin_next_stage() {
   built_ = std::move(stage);
   ++place_.stage;
   stage_has_ended_ = false;
+  changes_.forget();
   message_.clear();
   const bool resets = scene_->scene.stage[next].reset_displacement;
   if (resets) reset_displacement();
@@ -106,7 +109,7 @@ void SceneRun::take_step() {
     taken = simulation.step(end_time);
   } catch (const std::exception& error) {
     fail(fmt::format("step {} at t = {:.9g} s cannot be taken: {}", simulation.steps() + 1, simulation.time(),
-                     error.what()));
+                     fault_text(error)));
   }
   if (taken != StepStatus::accepted) {
     const Rejection& last = simulation.rejections().back();
@@ -128,9 +131,12 @@ void SceneRun::take_static_step() {
   try {
     found = simulation.static_step(present_->scene.analysis.end_time);
   } catch (const std::exception& error) {
-    fail(fmt::format("iteration {} cannot be taken: {}", simulation.steps() + 1, error.what()));
+    fail(fmt::format("iteration {} cannot be taken: {}", simulation.steps() + 1, fault_text(error)));
   }
-  if (simulation.steps() > before) add_row();
+  if (simulation.steps() > before) {
+    changes_.note(simulation);
+    add_row();
+  }
   switch (found) {
     case StaticStatus::balancing:
       break;
@@ -141,9 +147,7 @@ void SceneRun::take_static_step() {
       end(RunStatus::moving, describe_motion(simulation));
       break;
     case StaticStatus::not_converged:
-      end(RunStatus::not_converged,
-          fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
-                      simulation.steps(), simulation.time()));
+      end(RunStatus::not_converged, describe_unconverged(simulation, changes_));
       break;
   }
 }
@@ -246,7 +250,7 @@ std::vector<FinishedStage> SceneRun::begun_stages(RunStatus status) const {
 
 void SceneRun::write_summary(const ResultFolder& results) const {
   const RunStatus status = status_.value_or(RunStatus::interrupted);
-  const auto summary = run_summary(scene_->scene, built_,
+  const auto summary = run_summary(scene_->scene, identity_, built_,
                                    {status, message_, clock_.seconds(), results.frames(),
                                     results.largest(simulation()), begun_stages(status)});
   write_file_atomically(results.path() / "summary.json", json_text(summary, 2) + "\n", Durability::process);

@@ -18,12 +18,14 @@
 #include <vector>
 
 #include "apps/results/block_points.hpp"
+#include "apps/results/contact_changes.hpp"
 #include "apps/results/folder_claim.hpp"
 #include "apps/results/measure.hpp"
 #include "apps/results/result_folder.hpp"
 #include "apps/results/run_clock.hpp"
 #include "apps/results/run_outcome.hpp"
 #include "apps/results/run_status.hpp"
+#include "apps/results/scene_identity.hpp"
 #include "apps/scene/build_simulation.hpp"
 #include "apps/scene/scene_loading.hpp"
 
@@ -107,6 +109,7 @@ class SceneRun {
 
   std::shared_ptr<const LoadedScene> scene_;    ///< of all stages
   std::shared_ptr<const LoadedScene> present_;  ///< the present stage
+  SceneIdentity identity_;
   int threads_;
   BuiltSimulation built_;
   std::vector<Measure> measures_;
@@ -114,6 +117,7 @@ class SceneRun {
   std::vector<FinishedStage> finished_;  ///< stages that have ended well; the last one may be the present one
   bool stage_has_ended_ = false;
   std::vector<std::vector<double>> rows_;
+  ContactChanges changes_;  ///< of static iterations of the present stage
   std::optional<RunStatus> status_;
   std::string message_;
   RunClock clock_;

@@ -150,7 +150,7 @@ class GridReader {
     } else if (line.find("</FieldData>") != std::string_view::npos) {
       in_field_data_ = false;
     } else if (in_field_data_) {
-      return;  // the page has time and names from elsewhere
+      read_field_line(line);
     } else if (line.find("<Piece ") != std::string_view::npos) {
       read_piece(line);
     } else if (line.find("<PointData>") != std::string_view::npos) {
@@ -166,7 +166,10 @@ class GridReader {
     }
   }
 
-  UnstructuredGrid take() { return std::move(grid_); }
+  UnstructuredGrid take() {
+    if (names_left_ > 0 || in_names_) fail("names of blocks are cut");
+    return std::move(grid_);
+  }
 
  private:
   enum class Section { none, point_data, cell_data, points, cells };
@@ -176,6 +179,31 @@ class GridReader {
     has_piece_ = true;
     points_ = number<std::size_t>(required_attribute(tag, "NumberOfPoints"));
     cells_ = number<std::size_t>(required_attribute(tag, "NumberOfCells"));
+  }
+
+  /// Names of blocks; the time is that of the .pvd file.
+  void read_field_line(std::string_view line) {
+    if (line.find("<DataArray ") != std::string_view::npos) {
+      in_names_ = xml_attribute(line, "Name") == "block_names";
+      if (in_names_) names_left_ = number<std::size_t>(required_attribute(line, "NumberOfTuples"));
+    } else if (line.find("</DataArray>") != std::string_view::npos) {
+      in_names_ = false;
+    } else if (in_names_) {
+      if (names_left_-- == 0) fail("more names of blocks than it says");
+      grid_.block_names.push_back(name_of_bytes(line));
+    }
+  }
+
+  /// "97 49 0" is a1.
+  static std::string name_of_bytes(std::string_view line) {
+    std::string name;
+    for (;;) {
+      const std::size_t end = std::min(line.find(' '), line.size());
+      const auto byte = number<unsigned char>(line.substr(0, end));
+      if (byte == 0) return name;
+      name += static_cast<char>(byte);
+      line.remove_prefix(std::min(end + 1, line.size()));
+    }
   }
 
   void read_array(std::string_view tag) {
@@ -265,6 +293,8 @@ class GridReader {
   std::map<std::size_t, std::size_t> taken_;  ///< start and end of the arrays read, in the appended data
   Section section_ = Section::none;
   bool in_field_data_ = false;
+  bool in_names_ = false;       ///< of blocks, in the field data
+  std::size_t names_left_ = 0;  ///< of those that the array says it has
   bool has_piece_ = false;
   std::size_t points_ = 0;
   std::size_t cells_ = 0;

@@ -11,7 +11,7 @@
 
 namespace ashlar {
 
-/// The grid whose to_vtu is `bytes`: every number is read back bit for bit. What the file claims of its
+/// The grid whose to_vtu is `bytes`, but for its time: every number is read back bit for bit. What the file claims of its
 /// arrays is held against its bytes before memory is taken: no more than 16 MiB and 256 bytes for each byte.
 /// @throws std::runtime_error saying what is wrong if the file is cut, damaged or of another kind.
 [[nodiscard]] UnstructuredGrid from_vtu(std::string_view bytes);

@@ -91,21 +91,13 @@ std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, doub
     if (!goes_on()) return std::nullopt;
     try {
       status = trial_step(simulation, end_time);
+    } catch (const std::bad_alloc&) {
+      throw;  // another try, with more memory, may tell
     } catch (const std::exception&) {
       status = StaticStatus::not_converged;
     }
   }
   return FactorTrial{factor, outcome_of(status, simulation), simulation.steps()};
-}
-
-std::optional<FactorTrial> run_trial(const LoadedScene& loaded, int threads, double factor,
-                                     const std::function<bool()>& goes_on) {
-  const SceneAnalysis& analysis = loaded.scene.analysis;
-  Diagnostics ignored;  // the same as without a factor
-  std::optional<BuiltSimulation> built =
-      build_simulation(loaded, threads, ignored, nullptr, trial_factors(analysis, factor));
-  if (!built) return FactorTrial{factor, TrialOutcome::unknown, 0};
-  return run_trial(built->simulation, factor, analysis.end_time, goes_on);
 }
 
 TrialFile::TrialFile(std::filesystem::path path, std::uint64_t hash, bool resume)
@@ -138,6 +130,14 @@ double shown_factor(const FactorBracket& bracket, const SceneAnalysis::FactorSea
   if (bracket.upper) return *bracket.upper;
   if (bracket.lower) return *bracket.lower;
   return std::clamp(1.0, search.lower, search.upper);
+}
+
+std::string bracket_so_far(const FactorBracket& bracket) {
+  const auto known = [](const std::optional<double>& factor, const char* outcome, const char* none) {
+    return factor ? fmt::format("{:.5g} {}", *factor, outcome) : std::string(none);
+  };
+  return fmt::format("{}, {}", known(bracket.lower, "stands", "no factor is known to stand"),
+                     known(bracket.upper, "moves", "none to move"));
 }
 
 std::string describe(const FactorBracket& bracket, const SceneAnalysis& analysis) {

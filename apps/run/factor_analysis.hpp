@@ -35,10 +35,6 @@ namespace ashlar {
 [[nodiscard]] std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, double end_time,
                                                    const std::function<bool()>& goes_on);
 
-/// The same of a scene, from where its blocks are placed.
-[[nodiscard]] std::optional<FactorTrial> run_trial(const LoadedScene& loaded, int threads, double factor,
-                                                   const std::function<bool()>& goes_on);
-
 /// Trials that were run before, in `factor_trials.json` of a result folder, so that a search that was ended goes on
 /// after its last whole trial.
 class TrialFile {
@@ -60,6 +56,9 @@ class TrialFile {
 
 /// The factor to show: the least that moves; where none does the largest that stands.
 [[nodiscard]] double shown_factor(const FactorBracket& bracket, const SceneAnalysis::FactorSearch& search);
+
+/// "0.5 stands, 1 moves", "no factor is known to stand, 1 moves": of a search that was stopped.
+[[nodiscard]] std::string bracket_so_far(const FactorBracket& bracket);
 
 /// "factor of safety between 1.09 and 1.1", in words, with what could not be found.
 [[nodiscard]] std::string describe(const FactorBracket& bracket, const SceneAnalysis& analysis);

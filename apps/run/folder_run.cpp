@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <ostream>
 
+#include "apps/results/contact_changes.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/scene/added_blocks.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/scene_stages.hpp"
 
 namespace ashlar {
@@ -41,7 +44,8 @@ FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStar
       scene_(scene_of_stage(loaded.scene, stages_.size())),
       bracket_(std::move(start.bracket)),
       built_(std::move(start.built)),
-      files_(loaded, claim, built_.simulation, start.earlier, start.began) {}
+      files_(loaded, std::move(start.identity), claim, built_.simulation, start.earlier, start.began),
+      saved_(start.earlier != nullptr) {}
 
 RunEnd FolderRun::go(std::ostream& err) {
   files_.note_setup();
@@ -53,11 +57,18 @@ RunEnd FolderRun::go(std::ostream& err) {
       if (!manner_.quiet) err << end_of_stage(status) << '\n';
       status = begin_next_stage(status) ? go_through_stage(err) : RunStatus::failed;
     }
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     status = saved_after(error);
   }
   status = summarised(status);
   return {status, message_, unsaved_};
+}
+
+void FolderRun::save() {
+  files_.save(built_.simulation.snapshot(), stages_);
+  saved_ = true;
 }
 
 RunStatus FolderRun::go_through_stage(std::ostream& err) {
@@ -113,6 +124,8 @@ RunStatus FolderRun::take_steps(ProgressLine& progress) {
     StepStatus status = StepStatus::accepted;
     try {
       status = simulation.step(end_time);
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       return failed_in_step(error);
     }
@@ -149,16 +162,22 @@ RunStatus FolderRun::answered(RunStatus status) {
 RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
+  ContactChanges changes;
   while (!InterruptGuard::interrupted()) {
     const int before = simulation.steps();
     StaticStatus status = StaticStatus::balancing;
     try {
       status = bracket_ ? trial_step(simulation, scene_.analysis.end_time)
                         : simulation.static_step(scene_.analysis.end_time);
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       return failed_in_step(error);
     }
-    if (simulation.steps() > before) record_step(schedule, progress);
+    if (simulation.steps() > before) {
+      changes.note(simulation);
+      record_step(schedule, progress);
+    }
     switch (status) {
       case StaticStatus::balancing:
         continue;
@@ -169,8 +188,7 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
         message_ = describe_motion(simulation);
         return RunStatus::moving;
       case StaticStatus::not_converged:
-        message_ = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
-                               simulation.steps(), simulation.time());
+        message_ = describe_unconverged(simulation, changes);
         return RunStatus::not_converged;
     }
   }
@@ -206,11 +224,11 @@ void FolderRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress
 /// After results could not be written, e.g. on a full disk.
 RunStatus FolderRun::saved_after(const std::exception& error) {
   message_ = fmt::format("results of step {} at t = {:.9g} s could not be written: {}",
-                         built_.simulation.steps(), built_.simulation.time(), error.what());
+                         built_.simulation.steps(), built_.simulation.time(), fault_text(error));
   try {
     files_.save_in_reserve(built_.simulation.snapshot(), stages_);
   } catch (const std::exception& fault) {
-    unsaved_ = fault.what();
+    unsaved_ = fault_text(fault);
   }
   return RunStatus::failed;
 }
@@ -218,13 +236,15 @@ RunStatus FolderRun::saved_after(const std::exception& error) {
 RunStatus FolderRun::summarised(RunStatus status) {
   try {
     files_.write_summary(summary_of(status));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     status = RunStatus::failed;
-    if (message_.empty()) message_ = fmt::format("the summary could not be written: {}", error.what());
+    if (message_.empty()) message_ = fmt::format("the summary could not be written: {}", fault_text(error));
     try {
       files_.write_summary_in_reserve(summary_of(status));
     } catch (const std::exception& fault) {
-      if (unsaved_.empty()) unsaved_ = fault.what();
+      if (unsaved_.empty()) unsaved_ = fault_text(fault);
     }
   }
   return status;
@@ -237,7 +257,7 @@ nlohmann::ordered_json FolderRun::summary_of(RunStatus status) const {
     begun.push_back(finished(status));
   }
   auto summary = run_summary(
-      loaded_.scene, built_,
+      loaded_.scene, files_.identity(), built_,
       {status, message_, files_.seconds(), files_.tables().frames(), largest(), std::move(begun)});
   if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
   return summary;

@@ -25,6 +25,7 @@ struct RunManner {
 struct RunStart {
   BuiltSimulation built;                   ///< of the stage that the run begins or goes on in
   const RunCheckpoint* earlier = nullptr;  ///< the checkpoint that it goes on from; null: none
+  SceneIdentity identity;                  ///< of the whole scene
   std::optional<FactorBracket> bracket;    ///< of a search for a factor, whose motion the run shows
   double began = 0.0;                      ///< seconds_now() when the program began
 };
@@ -39,7 +40,12 @@ class FolderRun {
   FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStart start, const FolderClaim& claim);
 
   /// Steps until the end, an interrupt or a failure; the state and a summary are saved. @param err progress
+  /// @throws std::bad_alloc where memory ends, which may leave half a step behind: the checkpoint saved last stays, and
+  /// there is no summary, so that the run counts as one that did not end
   RunEnd go(std::ostream& err);
+
+  /// Whether the folder has a checkpoint of this run.
+  [[nodiscard]] bool saved() const { return saved_; }
 
   [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }
   [[nodiscard]] LargestValues largest() const { return files_.tables().largest(built_.simulation); }
@@ -56,7 +62,7 @@ class FolderRun {
   RunStatus failed_in_step(const std::exception& error);
   RunStatus interrupted_here();
   void record_step(CheckpointSchedule& schedule, ProgressLine& progress);
-  void save() { files_.save(built_.simulation.snapshot(), stages_); }
+  void save();
   RunStatus saved_after(const std::exception& error);
   RunStatus summarised(RunStatus status);
   [[nodiscard]] nlohmann::ordered_json summary_of(RunStatus status) const;
@@ -68,6 +74,7 @@ class FolderRun {
   std::optional<FactorBracket> bracket_;
   BuiltSimulation built_;
   RunFiles files_;
+  bool saved_ = false;
   std::string message_;  ///< see RunEnd
   std::string unsaved_;
 };

@@ -1,15 +1,16 @@
 // Signals while a run goes on.
 #pragma once
 
-#include <array>
-#include <csignal>
-
 namespace ashlar {
 
-/// As long as it lives, SIGINT, SIGTERM and SIGHUP (a terminal that closes) are requests to stop after the
-/// present step; a second one ends the program at once. SIGHUP stays ignored where it was, as under nohup. A
-/// log that nobody reads any more and a limit on the size of files do not end the program: writing fails
-/// instead, and what fails is told.
+/// As long as one lives, SIGINT, SIGTERM and SIGHUP (a terminal that closes) are requests to stop after the
+/// present step; a second one ends the program at once. SIGHUP stays ignored where it was, as under nohup. So are SIGQUIT,
+/// SIGXCPU (a limit of processor time) and SIGUSR1 (what batch systems announce the end of a job by), where they would
+/// end the process; the system repeats SIGXCPU each second, which is no second request. A log that nobody reads any more
+/// and a limit on the size of files do not end the program: writing fails instead, and what fails is told.
+///
+/// Several may live at a time, in several threads: the first sets the handlers, and the last to end, whichever it is,
+/// puts back those that were there before. A request is to all of them, and is kept until none is left.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -19,10 +20,6 @@ class InterruptGuard {
 
   /// Whether to stop.
   [[nodiscard]] static bool interrupted();
-
- private:
-  static constexpr std::array handled = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
-  std::array<struct sigaction, handled.size()> old_{};
 };
 
 }  // namespace ashlar

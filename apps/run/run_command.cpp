@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <new>
 #include <optional>
 #include <ostream>
 
@@ -10,8 +11,10 @@
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/folder_run.hpp"
 #include "apps/run/interrupt_guard.hpp"
+#include "apps/run/kept_trial.hpp"
 #include "apps/run/run_messages.hpp"
 #include "apps/scene/base_motion.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/initial_state.hpp"
 #include "apps/scene/loose_blocks.hpp"
 #include "apps/scene/scene_stages.hpp"
@@ -20,8 +23,6 @@
 
 namespace ashlar {
 namespace {
-
-constexpr const char* trials_name = "factor_trials.json";
 
 std::filesystem::path result_folder_of(const RunOptions& options) {
   if (options.out) return *options.out;
@@ -46,12 +47,12 @@ int exit_status_of(RunStatus status) {
 
 /// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
-                                             Diagnostics& diagnostics) {
+                                             const SceneIdentity& identity, Diagnostics& diagnostics) {
   const std::filesystem::path path = folder / checkpoint_name;
   try {
-    return read_checkpoint(path, scene_hash(loaded));
+    return read_checkpoint(path, identity.scene);
   } catch (const OtherSceneError& error) {
-    diagnostics.error({path.string()}, error.what() + changed_keys(folder, loaded.scene));
+    diagnostics.error({path.string()}, error.what() + changes_since(folder, loaded.scene, identity));
     return std::nullopt;
   } catch (const CheckpointError& error) {
     diagnostics.error({path.string()}, error.what());
@@ -61,26 +62,37 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
 
 /// Whether a search for a factor was ended before its motion was shown.
 bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
-  return seeks_factor(scene.analysis) && std::filesystem::exists(folder / trials_name) &&
+  return seeks_factor(scene.analysis) &&
+         (std::filesystem::exists(folder / trials_name) ||
+          std::filesystem::exists(folder / trial_state_name)) &&
          !std::filesystem::exists(folder / checkpoint_name);
 }
 
 /// Looks for the scene's factor. What earlier trials in the folder found counts.
-FactorBracket seek_factor(const LoadedScene& loaded, const RunOptions& options, const FolderClaim& claim,
-                          std::ostream& err) {
-  TrialFile known(claim.folder() / trials_name, scene_hash(loaded), options.resume);
+FactorBracket seek_factor(const LoadedScene& loaded, std::uint64_t scene, const RunOptions& options,
+                          const FolderClaim& claim, std::ostream& err) {
+  TrialFile known(claim.folder() / trials_name, scene, options.resume);
+  KeptTrial kept(loaded, scene, claim.folder(),
+                 {std::max(options.threads, 1), options.checkpoint, options.quiet});
+  if (!options.resume) kept.forget();
   const auto attempt = [&](double factor) {
     std::optional<FactorTrial> trial = known.find(factor);
+    std::string reason;
     if (!trial) {
-      trial = run_trial(loaded, std::max(options.threads, 1), factor,
-                        [] { return !InterruptGuard::interrupted(); });
-      if (!trial) return trial;
+      trial = kept.run(
+          factor, [] { return !InterruptGuard::interrupted(); }, err);
+      if (!trial) {
+        err << fmt::format("factor {:.5g}: stopped after {} iterations\n", factor, kept.iterations());
+        return trial;
+      }
+      if (!kept.reason().empty()) reason = ": " + kept.reason();
       claim.check();
       known.add(*trial);
+      kept.forget();
     }
     if (!options.quiet)
-      err << fmt::format("factor {:.5g}: {} ({} iterations)\n", factor, to_string(trial->outcome),
-                         trial->iterations);
+      err << fmt::format("factor {:.5g}: {} ({} iterations){}\n", factor, to_string(trial->outcome),
+                         trial->iterations, reason);
     return trial;
   };
   return find_factor(search_of(loaded.scene.analysis), attempt);
@@ -109,6 +121,7 @@ std::unique_ptr<FolderClaim> claim_folder(const std::filesystem::path& folder, c
 /// What a run begins with.
 struct PreparedRun {
   std::optional<LoadedScene> loaded;     ///< the whole scene
+  SceneIdentity identity;                ///< of that
   std::optional<LoadedScene> staged;     ///< its first stage, if it has any
   std::optional<BuiltSimulation> built;  ///< of the stage that the run begins or goes on in
   std::optional<RunCheckpoint> earlier;  ///< what it goes on from
@@ -121,8 +134,11 @@ struct PreparedRun {
 PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnostics, std::ostream& err) {
   PreparedRun run;
   Preparation preparation(options.quiet, err);
-  run.loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation);
+  run.loaded = options.text ? load_scene_text(*options.text, options.scene, options.overrides, diagnostics,
+                                              &preparation)
+                            : load_scene(options.scene, options.overrides, diagnostics, &preparation);
   if (!run.loaded) return run;
+  run.identity = scene_identity(*run.loaded);
   if (!run.loaded->scene.stage.empty()) run.staged = stage_of(*run.loaded, 0);
   run.built = build_simulation(run.first(), threads, diagnostics, &preparation);
   if (run.built && is_static(run.first().scene.analysis))
@@ -134,7 +150,7 @@ PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnos
 bool go_on_from_checkpoint(PreparedRun& run, const std::filesystem::path& folder, int threads,
                            std::ostream& err) {
   Diagnostics faults;
-  run.earlier = find_checkpoint(folder, *run.loaded, faults);
+  run.earlier = find_checkpoint(folder, *run.loaded, run.identity, faults);
   faults.print(err);
   if (!faults.good()) return false;
   if (!run.earlier->stages.empty())
@@ -174,12 +190,12 @@ std::optional<int> start_statically(PreparedRun& run, std::ostream& err) {
 bool find_factor_first(PreparedRun& run, const RunOptions& options, const FolderClaim& claim,
                        std::optional<FactorBracket>& bracket, std::ostream& err) {
   const SceneAnalysis& analysis = run.loaded->scene.analysis;
-  bracket = seek_factor(*run.loaded, options, claim, err);
+  bracket = seek_factor(*run.loaded, run.identity.scene, options, claim, err);
   if (bracket->interrupted) {
     err << fmt::format(
-        "ashlar: interrupted after {} static analyses; they are in {}, the same command with "
-        "--resume goes on\n",
-        bracket->trials.size(), claim.folder().string());
+        "ashlar: interrupted after {} static analyses, {}; they and the state of the one that was stopped "
+        "are in {}, the same command with --resume goes on\n",
+        bracket->trials.size(), bracket_so_far(*bracket), claim.folder().string());
     return false;
   }
   Diagnostics ignored;
@@ -199,6 +215,16 @@ void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem
   warn_of_hops(run.simulation(), err);
 }
 
+/// Puts no text together: there may be no memory for it.
+void tell_missing_memory(const std::bad_alloc& error, const FolderRun& run,
+                         const std::filesystem::path& folder, std::ostream& err) {
+  err << "ashlar: error: " << missing_memory(error) << " after step " << run.simulation().steps();
+  if (run.saved())
+    err << "; the state saved last is in " << folder.native() << ", the same command with --resume goes on\n";
+  else
+    err << "; nothing was saved\n";
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options, std::ostream& err) {
@@ -210,7 +236,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
   // Where there is nothing to go on from, nothing is made.
   const bool resumes = options.resume && !(prepared.loaded && is_in_search(folder, prepared.loaded->scene));
   if (prepared.built && resumes && !std::filesystem::exists(folder / checkpoint_name))
-    (void)find_checkpoint(folder, *prepared.loaded, diagnostics);
+    (void)find_checkpoint(folder, *prepared.loaded, prepared.identity, diagnostics);
   diagnostics.print(err);
   if (!diagnostics.good()) return exit_status::bad_input;
   const InterruptGuard guard;
@@ -226,21 +252,30 @@ int run_command(const RunOptions& options, std::ostream& err) {
         !find_factor_first(prepared, options, *claim, bracket, err))
       return exit_status::interrupted;
     RunStart start{std::move(*prepared.built), prepared.earlier ? &*prepared.earlier : nullptr,
-                   std::move(bracket), began};
+                   std::move(prepared.identity), std::move(bracket), began};
     run.emplace(*prepared.loaded, RunManner{threads, options.checkpoint, options.quiet}, std::move(start),
                 *claim);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
-    err << "ashlar: error: " << error.what() << '\n';
+    err << "ashlar: error: " << fault_text(error) << '\n';
     return exit_status::bad_input;
   }
-  const RunEnd end = run->go(err);
-  tell_results(*run, end, folder, options.quiet, err);
+  RunStatus status = RunStatus::failed;
+  try {
+    const RunEnd end = run->go(err);
+    status = end.status;
+    tell_results(*run, end, folder, options.quiet, err);
+  } catch (const std::bad_alloc& error) {
+    tell_missing_memory(error, *run, folder, err);
+    return exit_status::failed;
+  }
   if (options.view) {
     (void)write_view_file(folder, folder / "view.html");
     if (!options.quiet) err << fmt::format("view: {}\n", (folder / "view.html").string());
   }
-  return exit_status_of(end.status);
+  return exit_status_of(status);
 }
 
 }  // namespace ashlar

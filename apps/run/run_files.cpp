@@ -1,6 +1,7 @@
 #include "apps/run/run_files.hpp"
 
 #include <chrono>
+#include <utility>
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/json_text.hpp"
@@ -12,11 +13,11 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-RunFiles::RunFiles(const LoadedScene& loaded, const FolderClaim& claim, const Simulation& simulation,
-                   const RunCheckpoint* earlier, double start)
+RunFiles::RunFiles(const LoadedScene& loaded, SceneIdentity identity, const FolderClaim& claim,
+                   const Simulation& simulation, const RunCheckpoint* earlier, double start)
     : claim_(claim),
       start_(start),
-      hash_(scene_hash(loaded)),
+      identity_(std::move(identity)),
       reserve_(claim.folder()),
       tables_(earlier != nullptr ? ResultFolder(claim.folder(), loaded.scene, simulation, earlier->folder)
                                  : ResultFolder(claim.folder(), loaded.scene, simulation)),
@@ -31,7 +32,7 @@ void RunFiles::add_step(const Simulation& simulation) {
 
 void RunFiles::write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
   claim_.check();
-  state_bytes_ = write_checkpoint(tables_.path() / checkpoint_name, hash_,
+  state_bytes_ = write_checkpoint(tables_.path() / checkpoint_name, identity_.scene,
                                   {state, stages, tables_.synced_state(), seconds()});
 }
 

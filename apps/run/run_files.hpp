@@ -15,6 +15,7 @@
 namespace ashlar {
 
 constexpr const char* checkpoint_name = "checkpoint";
+constexpr const char* trials_name = "factor_trials.json";  ///< of a search for a factor
 
 /// Wall time, s, from any moment on.
 [[nodiscard]] double seconds_now();
@@ -23,11 +24,11 @@ constexpr const char* checkpoint_name = "checkpoint";
 /// written.
 class RunFiles {
  public:
-  /// @param loaded the whole scene; outlives this, as does the claim
+  /// @param loaded the whole scene; outlives this, as does the claim. @param identity of the scene
   /// @param simulation at the start of the run, or as the checkpoint has it
   /// @param earlier null: the run is a new one. @param start seconds_now() when the program began
-  RunFiles(const LoadedScene& loaded, const FolderClaim& claim, const Simulation& simulation,
-           const RunCheckpoint* earlier, double start);
+  RunFiles(const LoadedScene& loaded, SceneIdentity identity, const FolderClaim& claim,
+           const Simulation& simulation, const RunCheckpoint* earlier, double start);
 
   /// All is ready for the first step: what went before is the time of setting up.
   void note_setup() { seconds_.setup = seconds_now() - start_; }
@@ -46,6 +47,7 @@ class RunFiles {
 
   /// Of all sessions of the run so far.
   [[nodiscard]] RunSeconds seconds() const;
+  [[nodiscard]] const SceneIdentity& identity() const { return identity_; }
   void add_output_seconds(double seconds) { seconds_.output += seconds; }
 
  private:
@@ -53,7 +55,7 @@ class RunFiles {
 
   const FolderClaim& claim_;
   double start_;
-  std::uint64_t hash_;
+  SceneIdentity identity_;
   SpaceReserve reserve_;
   ResultFolder tables_;
   std::uintmax_t scene_bytes_;      ///< in the summary

@@ -16,7 +16,8 @@
 
 namespace ashlar {
 
-std::string changed_keys(const std::filesystem::path& folder, const Scene& scene) {
+std::string changes_since(const std::filesystem::path& folder, const Scene& scene,
+                          const SceneIdentity& identity) {
   constexpr std::size_t most_shown = 5;
   nlohmann::ordered_json summary;
   try {
@@ -26,6 +27,8 @@ std::string changed_keys(const std::filesystem::path& folder, const Scene& scene
   }
   if (!summary.is_object() || !summary.contains("scene")) return {};
   std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
+  if (summary.contains("identity"))
+    for (std::string& file : changed_files(summary["identity"], identity)) keys.push_back(std::move(file));
   if (keys.empty()) return {};
   const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
   keys.resize(keys.size() - hidden);

@@ -17,9 +17,10 @@ struct RunEnd {
   std::string unsaved;  ///< why the state that it ended in is not saved; empty: it is
 };
 
-/// "; changed: KEY (was A, is B), ..." from the summary of the run before in a result folder; empty if it has
-/// none or says nothing else.
-[[nodiscard]] std::string changed_keys(const std::filesystem::path& folder, const Scene& scene);
+/// "; changed: KEY (was A, is B), mesh FILE has changed, ..." from the summary of the run before in a result folder; empty
+/// if it has none or says nothing else.
+[[nodiscard]] std::string changes_since(const std::filesystem::path& folder, const Scene& scene,
+                                        const SceneIdentity& identity);
 
 /// Numbers that the program chose, and blocks that initial_state left as placed.
 void tell_choices(const BuiltSimulation& built, std::ostream& err);

@@ -12,6 +12,8 @@ namespace ashlar {
 
 struct RunOptions {
   std::filesystem::path scene;  ///< "-": standard input
+  /// The scene itself, instead of what is in the file: paths in it are relative to the file's folder all the same
+  std::optional<std::string> text = {};
   std::optional<std::filesystem::path>
       out;                             ///< result folder; empty: the scene's name + ".out" ("stdin.out")
   std::vector<std::string> overrides;  ///< "key.path=value" each, in order

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "apps/scene/initial_overlap.hpp"
@@ -49,9 +50,10 @@ std::optional<std::string> overlap_of_added(const Simulation& simulation,
   for (const auto& [i, j] : meeting_boxes(added.boxes, others.boxes)) {
     const int a = added.blocks[at(i)], b = others.blocks[at(j)];
     if (simulation.blocks()[at(a)].fixed() && simulation.blocks()[at(b)].fixed()) continue;
-    const double allowed = depth.allowed_depth > 0.0
-                               ? depth.allowed_depth
-                               : depth.unknown_depth_share * system.smaller_size({a, b});
+    const double placed = history_of(simulation.histories(), {std::min(a, b), std::max(a, b)}).overlap;
+    const double allowed =
+        placed + (depth.allowed_depth > 0.0 ? depth.allowed_depth
+                                            : depth.unknown_depth_share * system.smaller_size({a, b}));
     const OverlapDepth overlap = overlap_depth(added.solid(simulation, i), others.solid(simulation, j));
     if (overlap.depth - allowed <= most) continue;
     most = overlap.depth - allowed;

@@ -105,7 +105,7 @@ class Assigner {
     diagnostics_.error(scene_.places.value(fmt::format("assign.{}.blocks", index)),
                        fmt::format("assign names no block (\"{}\"), {}the name of a [[block]] or a glob that "
                                    "matches one is needed",
-                                   pattern, guess(pattern, names, "\"")));
+                                   pattern, guess_block(pattern, names)));
   }
 
   void assign(std::size_t index, std::size_t k) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scene/scene_stages.hpp"
 #include "apps/scene/support_history.hpp"
 
 namespace ashlar {
@@ -53,7 +54,59 @@ Jump largest_jump(const SupportHistory& history, double step, double end_time) {
   return largest;
 }
 
+/// Supports of one block over all stages.
+struct BlockSupports {
+  bool at_rest = false;                   ///< fixed, or held by a support without a history
+  std::vector<SupportHistory> histories;  ///< each once, of supports that move
+};
+
+bool moves(const SupportHistory& history) {
+  return std::any_of(history.values.begin(), history.values.end(),
+                     [](const Vector3& value) { return value != Vector3::Zero(); });
+}
+
+void add(BlockSupports& supports, const SceneFix& fix) {
+  const SupportHistory history = support_history(fix);
+  if (!moves(history))
+    supports.at_rest = true;
+  else if (std::find(supports.histories.begin(), supports.histories.end(), history) ==
+           supports.histories.end())
+    supports.histories.push_back(history);
+}
+
+BlockSupports supports_of(const Scene& scene, std::size_t block) {
+  BlockSupports supports;
+  supports.at_rest = scene.block[block].fixed;
+  for (const SceneFix& fix : scene.block[block].fix) add(supports, fix);
+  for (const SceneStage& stage : scene.stage)
+    for (const auto& [blocks, fix] : stage.fix)
+      if (std::any_of(blocks.begin(), blocks.end(),
+                      [&](const std::string& pattern) { return means_block(scene, pattern, block); }))
+        add(supports, fix);
+  return supports;
+}
+
 }  // namespace
+
+std::optional<std::size_t> moved_base(const Scene& scene) {
+  std::optional<std::size_t> base;
+  std::vector<SupportHistory> histories;
+  for (std::size_t k = 0; k < scene.block.size(); ++k) {
+    const BlockSupports supports = supports_of(scene, k);
+    if (supports.histories.empty()) {
+      if (supports.at_rest) return std::nullopt;
+      continue;
+    }
+    if (!base) {
+      base = k;
+      histories = supports.histories;
+    } else if (!std::is_permutation(histories.begin(), histories.end(), supports.histories.begin(),
+                                    supports.histories.end())) {
+      return std::nullopt;
+    }
+  }
+  return base;
+}
 
 void warn_of_jumping_supports(const Scene& scene, Diagnostics& diagnostics) {
   if (is_static(scene.analysis)) return;

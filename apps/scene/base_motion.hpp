@@ -1,6 +1,7 @@
-// Records of base motion that do not mean what they seem to.
+// Supports that move: records that do not mean what they seem to, and the block that is the base.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,10 @@ void warn_of_jumping_supports(const Scene& scene, Diagnostics& diagnostics);
 /// What velocity and acceleration records leave at their end (that of the analysis, if it comes first), one
 /// line each.
 [[nodiscard]] std::vector<std::string> motion_left(const Scene& scene);
+
+/// Index into scene.block of the base that histories of supports move: the only block with such a history, or the first
+/// of several with the same histories. None if a block or support is held at rest elsewhere (a history then is that of
+/// a jack), or the histories of two blocks differ.
+[[nodiscard]] std::optional<std::size_t> moved_base(const Scene& scene);
 
 }  // namespace ashlar

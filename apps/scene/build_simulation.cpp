@@ -17,6 +17,7 @@
 #include "apps/scene/support_history.hpp"
 #include "apps/scene/tied_joints.hpp"
 #include "apps/scene/turned_supports.hpp"
+#include "geometry/boxes/box_pairs.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -272,6 +273,17 @@ class JointLaws {
   std::vector<StiffnessSource> source_;  ///< (#blocks)
 };
 
+/// Up to which depth contacts start without force, m: between all blocks whose boxes meet.
+std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
+  std::map<PairKey, double> depths;
+  const double allowed = loaded.scene.contact.allowed_overlap;
+  if (allowed == 0.0) return depths;
+  std::vector<Box> boxes;
+  for (const Polyhedron& solid : loaded.solids) boxes.push_back(box_of(solid.mesh().points));
+  for (const PairKey& pair : meeting_boxes(boxes)) depths[pair] = allowed;
+  return depths;
+}
+
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
@@ -294,6 +306,8 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
           fmt::format(
               "order is too high for the shape of block {} in double precision ({}), at most {} is allowed",
               block.name, block.order, error.highest_safe_order));
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
                         fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));
@@ -316,7 +330,9 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties, scene.absent),
                         std::move(choices),
                         parts.size(),
-                        {}};
+                        {},
+                        loaded.overlaps};
+  built.simulation.start_overlapping(depths_without_force(loaded));
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {

@@ -25,6 +25,7 @@ struct BuiltSimulation {
   std::size_t different_blocks;  ///< that share neither basis and stiffness nor supports with others
   /// Moving blocks that an initial_state of equilibrium does not settle.
   std::vector<std::string> as_placed;
+  std::vector<KnownOverlap> overlaps;  ///< of the scene, see LoadedScene
 };
 
 /// What a search for a factor makes of a scene (analysis.safety, analysis.capacity).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace ashlar {
@@ -44,11 +45,22 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   if (!has_multipliers(scene)) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
 }
 
+/// A key may stand for many blocks, of a file or an array: it has an effect where one of them deforms.
+void warn_of_orders(const Scene& scene, IdleKeys& keys) {
+  const auto path = [](std::size_t k) { return fmt::format("block.{}.order", k); };
+  std::set<std::string> in_effect;  // by place
+  for (std::size_t k = 0; k < scene.block.size(); ++k)
+    if (!scene.block[k].fixed && scene.places.contains(path(k)))
+      in_effect.insert(to_string(scene.places.key(path(k))));
+  for (std::size_t k = 0; k < scene.block.size(); ++k)
+    if (scene.block[k].fixed && !in_effect.contains(to_string(scene.places.key(path(k)))))
+      keys.warn(path(k), "a fixed block does not deform");
+}
+
 void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     const auto path = [&](const char* key) { return fmt::format("block.{}.{}", k, key); };
-    if (block.fixed) keys.warn(path("order"), "a fixed block does not deform");
     if (is_static(scene.analysis) && !block.velocity.isZero(0.0))
       keys.warn(path("velocity"), "a static analysis has no motion in time");
     if (is_static(scene.analysis) && !block.angular_velocity.isZero(0.0))
@@ -101,6 +113,7 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
 void warn_of_idle_keys(const Scene& scene, Diagnostics& diagnostics) {
   IdleKeys keys(scene, diagnostics);
   warn_of_analysis(scene, keys);
+  warn_of_orders(scene, keys);
   warn_of_blocks(scene, keys);
   warn_of_ties(scene, keys);
   warn_of_joint_damping(scene, keys);

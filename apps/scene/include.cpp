@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/input_file.hpp"
 #include "apps/scene/toml_faults.hpp"
 #include "apps/scene/toml_reading.hpp"
@@ -62,6 +63,7 @@ class DocumentReader {
   toml::table parse(std::string_view text, const fs::path& file, const fs::path& folder) {
     const std::string name = file.string();
     files_.push_back(name);
+    bytes_ += text.size();
     open_.push_back(fs::weakly_canonical(file, ignored_));
     read_.insert(open_.back());
     toml::table own = parse_toml(text, name);
@@ -131,11 +133,13 @@ class DocumentReader {
                                            const fs::path& file, const fs::path& folder) {
     std::string text;
     try {
-      text = whole_file(path);
+      text = whole_file(path, most_input_bytes);
+      if (bytes_ + text.size() > most_input_bytes)
+        throw std::runtime_error("with all files before it " + too_large(bytes_ + text.size()));
     } catch (const std::runtime_error& reason) {
       error(entry, file,
             fmt::format("included file cannot be read ({}: {}), a readable TOML file is needed",
-                        path.string(), reason.what()));
+                        path.string(), fault_text(reason)));
       return std::nullopt;
     }
     const std::size_t depth = open_.size();
@@ -158,6 +162,7 @@ class DocumentReader {
 
   Diagnostics& diagnostics_;
   std::vector<std::string> files_;
+  std::size_t bytes_ = 0;       ///< of all files
   std::vector<fs::path> open_;  ///< being read, each includes the next
   std::set<fs::path> read_;     ///< or being read
   std::error_code ignored_;

@@ -26,7 +26,7 @@ inline constexpr std::size_t deepest_include = 32;
 /// Parses a document and what it includes. Paths, of includes and of the key `file` anywhere, are relative to
 /// the file that says them; in the tree they are relative to the document's folder. A file that several others
 /// include is read once, where it comes first. Reported at the name of the file: one that cannot be read or is
-/// no regular file, files that include each other in a circle, deeper nesting than deepest_include; in the
+/// no regular file, files in a circle, deeper nesting than deepest_include, more than most_input_bytes in all; in the
 /// included file: malformed TOML.
 /// @param file the document's name. @throws toml::parse_error of the document's own text
 [[nodiscard]] SceneDocument parse_document(std::string_view text, const std::filesystem::path& file,

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "geometry/any_solid/solid_depth.hpp"
 #include "geometry/boxes/box_pairs.hpp"
@@ -148,6 +149,25 @@ OverlapDepth overlap_depth(Candidate& a, Candidate& b) {
   return {contact.relation == Relation::crossing ? std::sqrt(contact.squared_depth) : 0.0, true};
 }
 
+/// How deep two blocks may be in each other, m.
+struct AllowedDepth {
+  double rounding;    ///< in any case
+  double depth;       ///< as the scene has it
+  std::string words;  ///< for a message
+};
+
+AllowedDepth allowed_depth(const Scene& scene, const Polyhedron& a, const Polyhedron& b) {
+  const double size = std::cbrt(std::min(a.volume(), b.volume()));
+  const double rounding = allowed_initial_overlap * size;
+  const double given = scene.contact.allowed_overlap;
+  const double most = most_allowed_overlap * size;
+  if (given > most)
+    return {rounding, most,
+            fmt::format("{:.3g} m, {} of the smaller one's size", most, most_allowed_overlap)};
+  if (given > rounding) return {rounding, given, fmt::format("{:.3g} m (contact.allowed_overlap)", given)};
+  return {rounding, rounding, fmt::format("{:.3g} m; contact.allowed_overlap accepts more", rounding)};
+}
+
 }  // namespace
 
 OverlapDepth overlap_depth(const Polyhedron& a, const Polyhedron& b) {
@@ -155,8 +175,9 @@ OverlapDepth overlap_depth(const Polyhedron& a, const Polyhedron& b) {
   return overlap_depth(first, second);
 }
 
-void check_initial_overlap(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
-                           Diagnostics& diagnostics) {
+std::vector<KnownOverlap> check_initial_overlap(const Scene& scene,
+                                                const std::vector<std::optional<Polyhedron>>& solids,
+                                                Diagnostics& diagnostics) {
   std::vector<std::size_t> blocks;
   std::vector<Box> boxes;
   std::vector<Candidate> candidates;
@@ -167,6 +188,7 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
     candidates.emplace_back(*solids[k]);
   }
   std::size_t found = 0;
+  std::vector<KnownOverlap> known;
   const std::vector<std::array<int, 2>> pairs = meeting_boxes(boxes);
   for (std::size_t n = 0; n < pairs.size(); ++n) {
     const auto& [first, second] = pairs[n];
@@ -174,22 +196,47 @@ void check_initial_overlap(const Scene& scene, const std::vector<std::optional<P
     const SceneBlock& a = scene.block[blocks[i]];
     const SceneBlock& b = scene.block[blocks[j]];
     if (a.fixed && b.fixed) continue;
-    const Polyhedron& solid_a = *solids[blocks[i]];
-    const Polyhedron& solid_b = *solids[blocks[j]];
     const OverlapDepth overlap = overlap_depth(candidates[i], candidates[j]);
-    const double allowed = allowed_initial_overlap * std::cbrt(std::min(solid_a.volume(), solid_b.volume()));
-    if (overlap.depth <= allowed) continue;
+    const AllowedDepth allowed = allowed_depth(scene, *solids[blocks[i]], *solids[blocks[j]]);
+    if (overlap.depth <= allowed.depth) {
+      if (overlap.depth > 0.0 && scene.contact.allowed_overlap > 0.0)
+        known.push_back({{static_cast<int>(blocks[i]), static_cast<int>(blocks[j])},
+                         overlap,
+                         overlap.depth <= allowed.rounding});
+      continue;
+    }
     diagnostics.error(
         scene.places.key(fmt::format("block.{}", blocks[j])),
-        fmt::format("blocks \"{}\" and \"{}\" overlap by {}{:.3g} m, allowed is touching or {:.3g} m", a.name,
-                    b.name, overlap.exact ? "" : "at least ", overlap.depth, allowed));
+        fmt::format("blocks \"{}\" and \"{}\" overlap by {}{:.3g} m, allowed is touching or {}", a.name,
+                    b.name, overlap.exact ? "" : "at least ", overlap.depth, allowed.words));
     if (++found < listed_of_a_kind || n + 1 == pairs.size()) continue;
     diagnostics.error(
         scene.places.key(fmt::format("block.{}", blocks[j])),
         fmt::format("{} pairs of blocks overlap, {} more pairs with boxes that meet were not looked at",
                     found, pairs.size() - n - 1));
-    return;
+    break;
   }
+  return known;
+}
+
+void warn_of_known_overlaps(const Scene& scene, const std::vector<KnownOverlap>& overlaps,
+                            Diagnostics& diagnostics) {
+  const KnownOverlap* deepest = nullptr;
+  std::size_t count = 0;
+  for (const KnownOverlap& known : overlaps) {
+    if (known.rounding) continue;
+    ++count;
+    if (deepest == nullptr || known.overlap.depth > deepest->overlap.depth) deepest = &known;
+  }
+  if (deepest == nullptr) return;
+  const auto name = [&](int block) { return scene.block[static_cast<std::size_t>(block)].name; };
+  diagnostics.warning(
+      scene.places.value("contact.allowed_overlap"),
+      fmt::format("{} placed in each other, by {}{:.3g} m at the deepest (\"{}\" and \"{}\"); contacts "
+                  "start without force there, and summary.json lists the pairs",
+                  count == 1 ? "1 pair of blocks is" : fmt::format("{} pairs of blocks are", count),
+                  deepest->overlap.exact ? "" : "at least ", deepest->overlap.depth, name(deepest->blocks[0]),
+                  name(deepest->blocks[1])));
 }
 
 }  // namespace ashlar

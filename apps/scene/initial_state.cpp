@@ -80,9 +80,19 @@ StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>
     case StaticStatus::not_converged:
       break;
   }
+  std::string why;
+  const auto& fault = simulation.fault();
+  if (fault && fault->reason == RejectionReason::open_close_not_settled) {
+    const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+    why = fmt::format(" (contacts of blocks {} and {} alternate)", name(fault->blocks[0]),
+                      name(fault->blocks[1]));
+  }
   return {StaticStart::End::failed,
-          "error: initial_state (\"static\"): no equilibrium was found under gravity and the loads at t = 0, "
-          "and none was ruled out; run the scene with analysis.type = \"static\" to see how far it gets"};
+          fmt::format(
+              "error: initial_state (\"static\"): no equilibrium was found under gravity and the loads at "
+              "t = 0, and none was ruled out{}; run the scene with analysis.type = \"static\" to see how "
+              "far it gets",
+              why)};
 }
 
 std::string first_names(const std::vector<std::string>& names) {

@@ -1,11 +1,15 @@
 #include "apps/scene/joint_planes.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
+
+#include "geometry/cutting/cut_error.hpp"
 
 namespace ashlar {
 namespace {
@@ -22,26 +26,26 @@ NumberSpan regular_numbers(const SceneCut& cut, const PlaneRange& range) {
           std::min(limit, std::floor(range.high / *cut.spacing))};
 }
 
-JointPlane make_plane(const SceneCut& cut, int number, double height) {
-  const Vector3 normal = plane_normal(cut.dip, cut.dip_direction);
-  if (cut.fisher == 0.0 && !cut.radius) return {number, {normal, cut.point, height}};
-  const Vector3 centre = cut.point + height * normal;
-  if (cut.fisher == 0.0) return {number, {normal, centre}};
-  std::mt19937_64 random = random_stream(cut.seed, RandomStream::orientation, number);
-  return {number, {scattered(normal, cut.fisher, random), centre}};
+/// Ranges from below, those that overlap as one.
+std::vector<PlaneRange> joined(std::vector<PlaneRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(),
+            [](const PlaneRange& a, const PlaneRange& b) { return a.low < b.low; });
+  std::vector<PlaneRange> result;
+  for (const PlaneRange& range : ranges) {
+    if (result.empty() || range.low > result.back().high)
+      result.push_back(range);
+    else
+      result.back().high = std::max(result.back().high, range.high);
+  }
+  return result;
 }
 
-/// Planes on one side at random distances from each other.
-void add_side(const SceneCut& cut, const PlaneRange& range, int way, std::vector<JointPlane>& planes) {
-  std::mt19937_64 random =
-      random_stream(cut.seed, way > 0 ? RandomStream::spacing_above : RandomStream::spacing_below);
-  const int limit = cut.number.value_or(std::numeric_limits<int>::max());
-  double height = 0.0;
-  for (int k = 1; k <= limit; ++k) {
-    height += way * random_spacing(cut, random);
-    if (way > 0 ? height > range.high : height < range.low) return;
-    if (height >= range.low && height <= range.high) planes.push_back(make_plane(cut, way * k, height));
-  }
+/// The same seen from above: planes to the other side go up, too.
+std::vector<PlaneRange> reversed(const std::vector<PlaneRange>& ranges) {
+  std::vector<PlaneRange> result;
+  for (auto range = ranges.rbegin(); range != ranges.rend(); ++range)
+    result.push_back({-range->high, -range->low});
+  return result;
 }
 
 }  // namespace
@@ -95,18 +99,81 @@ double estimate_planes(const SceneCut& cut, const PlaneRange& range) {
   return std::max(0.0, last - first + 1.0);
 }
 
+JointHeights::JointHeights(const SceneCut& cut, const std::vector<PlaneRange>& ranges, double most)
+    : cut_(cut) {
+  if (cut.deviation == 0.0) {
+    for (const PlaneRange& range : ranges) count_ += estimate_planes(cut, range);
+    too_many_ = count_ > most;
+    return;
+  }
+  const std::vector<PlaneRange> all = joined(ranges);
+  draw_side(reversed(all), -1, most);
+  std::reverse(drawn_.begin(), drawn_.end());
+  if (std::any_of(all.begin(), all.end(),
+                  [](const PlaneRange& range) { return range.low <= 0.0 && range.high >= 0.0; }))
+    drawn_.push_back({0, 0.0});
+  draw_side(all, 1, most);
+  for (const PlaneRange& range : ranges) {
+    const auto [first, end] = drawn_in(range);
+    count_ += static_cast<double>(end - first);
+  }
+  too_many_ = too_many_ || count_ > most;
+}
+
+void JointHeights::draw_side(const std::vector<PlaneRange>& ranges, int way, double most) {
+  std::mt19937_64 random =
+      random_stream(cut_.seed, way > 0 ? RandomStream::spacing_above : RandomStream::spacing_below);
+  const int limit = cut_.number.value_or(std::numeric_limits<int>::max());
+  double height = 0.0;
+  auto range = ranges.begin();
+  for (int k = 1; k <= limit && !too_many_; ++k) {
+    height += random_spacing(cut_, random);
+    while (range != ranges.end() && height > range->high) ++range;
+    if (range == ranges.end()) return;
+    if (k > most_drawn_spacings)
+      throw CutError(
+          fmt::format("more than {} spacings lie between its point and the blocks, a point that is "
+                      "nearer to them, or a larger spacing, is needed",
+                      most_drawn_spacings));
+    if (height >= range->low) drawn_.push_back({way * k, way * height});
+    too_many_ = static_cast<double>(drawn_.size()) > most;
+  }
+}
+
+std::pair<std::size_t, std::size_t> JointHeights::drawn_in(const PlaneRange& range) const {
+  const auto first = std::lower_bound(drawn_.begin(), drawn_.end(), range.low,
+                                      [](const JointHeight& at, double low) { return at.height < low; });
+  const auto end = std::upper_bound(first, drawn_.end(), range.high,
+                                    [](double high, const JointHeight& at) { return high < at.height; });
+  return {static_cast<std::size_t>(first - drawn_.begin()), static_cast<std::size_t>(end - drawn_.begin())};
+}
+
+std::vector<JointHeight> JointHeights::in(const PlaneRange& range) const {
+  std::vector<JointHeight> heights;
+  if (cut_.deviation > 0.0) {
+    const auto [first, end] = drawn_in(range);
+    for (std::size_t k = first; k < end; ++k) heights.push_back(drawn_[k]);
+    return heights;
+  }
+  const auto [first, last] = regular_numbers(cut_, range);
+  for (double k = first; k <= last; ++k)
+    heights.push_back({static_cast<int>(k), k * cut_.spacing.value_or(0.0)});
+  return heights;
+}
+
+JointPlane joint_plane(const SceneCut& cut, const JointHeight& at) {
+  const Vector3 normal = plane_normal(cut.dip, cut.dip_direction);
+  if (cut.fisher == 0.0 && !cut.radius) return {at.number, {normal, cut.point, at.height}};
+  const Vector3 centre = cut.point + at.height * normal;
+  if (cut.fisher == 0.0) return {at.number, {normal, centre}};
+  std::mt19937_64 random = random_stream(cut.seed, RandomStream::orientation, at.number);
+  return {at.number, {scattered(normal, cut.fisher, random), centre}};
+}
+
 std::vector<JointPlane> joint_planes(const SceneCut& cut, const PlaneRange& range) {
   std::vector<JointPlane> planes;
-  if (cut.deviation == 0.0) {
-    const auto [first, last] = regular_numbers(cut, range);
-    for (double k = first; k <= last; ++k)
-      planes.push_back(make_plane(cut, static_cast<int>(k), k * cut.spacing.value_or(0.0)));
-    return planes;
-  }
-  add_side(cut, range, -1, planes);
-  std::reverse(planes.begin(), planes.end());
-  if (range.low <= 0.0 && range.high >= 0.0) planes.push_back(make_plane(cut, 0, 0.0));
-  add_side(cut, range, 1, planes);
+  const JointHeights heights(cut, {range}, std::numeric_limits<double>::infinity());
+  for (const JointHeight& at : heights.in(range)) planes.push_back(joint_plane(cut, at));
   return planes;
 }
 

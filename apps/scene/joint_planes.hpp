@@ -4,6 +4,7 @@
 #pragma once
 
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "apps/scene/scene.hpp"
@@ -43,8 +44,43 @@ struct PlaneRange {
 /// Number of planes in a range, before they are made; of drawn spacings the mean number.
 [[nodiscard]] double estimate_planes(const SceneCut& cut, const PlaneRange& range);
 
-/// The planes of a cut in a range, from below. Those of discs and of scattered orientation have their centre
-/// as the point, no offset.
+/// A plane of a set before it is made.
+struct JointHeight {
+  int number;     ///< as JointPlane's
+  double height;  ///< m over the cut's point; no error adds up where spacings do not deviate
+};
+
+/// The heights of a cut's planes in several ranges. Planes are counted before they are listed; spacings that deviate are
+/// drawn once for all ranges, and not further than to the number that is allowed.
+class JointHeights {
+ public:
+  /// @param most planes in all ranges together, >= 0
+  /// @throws CutError if the ranges are beyond most_drawn_spacings
+  JointHeights(const SceneCut& cut, const std::vector<PlaneRange>& ranges, double most);
+  /// Planes of all ranges, one of several ranges as often; where too_many() of drawn spacings, as far as they were drawn.
+  [[nodiscard]] double count() const { return count_; }
+  [[nodiscard]] bool too_many() const { return too_many_; }
+  /// From below. @param range one of those that were given. Not if there are too many
+  [[nodiscard]] std::vector<JointHeight> in(const PlaneRange& range) const;
+
+ private:
+  void draw_side(const std::vector<PlaneRange>& ranges, int way, double most);
+  /// Those that were drawn in a range.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> drawn_in(const PlaneRange& range) const;
+
+  const SceneCut& cut_;
+  std::vector<JointHeight> drawn_;  ///< from below; of spacings that deviate, in any of the ranges
+  double count_ = 0.0;
+  bool too_many_ = false;
+};
+
+/// Random spacings are drawn one after the other from the cut's point, at most so many to each side.
+inline constexpr int most_drawn_spacings = 10000000;
+
+/// One of discs, or of scattered orientation, has its centre as the point, no offset.
+[[nodiscard]] JointPlane joint_plane(const SceneCut& cut, const JointHeight& at);
+
+/// The planes of a cut in a range, from below.
 [[nodiscard]] std::vector<JointPlane> joint_planes(const SceneCut& cut, const PlaneRange& range);
 
 }  // namespace ashlar

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/scene/block_arrays.hpp"
 #include "apps/scene/masonry.hpp"
 #include "apps/scene/masonry_reading.hpp"
 
@@ -99,15 +100,18 @@ class Bricklayer {
     return meets;
   }
 
-  std::vector<WallBox> lay() const {
+  /// Bricks, or the first of them: more than `most` are not laid.
+  std::vector<WallBox> lay(std::size_t most) const {
     std::vector<WallBox> bricks;
     for (std::size_t course = 0; course + 1 < courses_.size(); ++course) {
       const std::vector<double>& joints = joints_[course % 2];
       for (std::size_t leaf = 0; leaf + 1 < leaves_.size(); ++leaf)
-        for (std::size_t k = 0; k + 1 < joints.size(); ++k)
+        for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
           add_rest_of({{joints[k], leaves_[leaf], courses_[course]},
                        {joints[k + 1], leaves_[leaf + 1], courses_[course + 1]}},
-                      bricks);
+                      bricks, most);
+          if (bricks.size() > most) return bricks;
+        }
     }
     return bricks;
   }
@@ -125,9 +129,11 @@ class Bricklayer {
   }
 
   // What holes leave of a brick: left and right of each hole at full height, then below and above it.
-  void add_rest_of(const WallBox& brick, std::vector<WallBox>& bricks) const {
+  // Crossing holes may cut one brick into very many: beyond `most` bricks no further hole is looked at.
+  void add_rest_of(const WallBox& brick, std::vector<WallBox>& bricks, std::size_t most) const {
     std::vector<WallBox> rest = {brick};
     for (const WallBox& hole : holes_) {
+      if (bricks.size() + rest.size() > most) break;
       std::vector<WallBox> smaller;
       for (const WallBox& piece : rest) cut(piece, hole, smaller);
       rest = std::move(smaller);
@@ -262,12 +268,15 @@ std::vector<MasonryPiece> read_wall(TomlTableReader& table) {
   const std::optional<Wall> wall = read_wall_keys(table);
   if (!wall) return {};
   const Vector3 bricks = (wall->size.array() / wall->unit.array() + 1.0).matrix();
-  if (!check_pieces(table, bricks.prod() + 3.0 * static_cast<double>(wall->openings.size()))) return {};
+  const double estimate = bricks.prod() + 3.0 * static_cast<double>(wall->openings.size());
+  if (!check_pieces(table, estimate)) return {};
   Bricklayer bricklayer(*wall);
   if (!check_openings(table, *wall, bricklayer)) return {};
   const auto lintels = place_lintels(table, *wall, bricklayer);
   if (!lintels) return {};
-  const std::vector<WallBox> laid = bricklayer.lay();
+  const std::vector<WallBox> laid = bricklayer.lay(most_laid_blocks);
+  // Openings that cross cut bricks into more than they are estimated to.
+  if (!check_pieces(table, std::max(0.0, static_cast<double>(laid.size()) - estimate))) return {};
   if (laid.empty()) {
     table.error_at_key("openings",
                        "openings leave nothing of the wall (0 bricks), at least one brick is needed");

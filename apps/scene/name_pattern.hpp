@@ -1,13 +1,24 @@
 // Names of a scene meant by a glob.
+//
+// Names are UTF-8, and a glob compares code points: the same in every locale, in the program and in Python. A byte that
+// belongs to no code point is a character of its own, equal to that byte only.
+//   *        any characters, also none
+//   ?        one character
+//   [...]    one character of a set: single ones, ranges by code point (a-z), classes of ASCII ([:alpha:], [:digit:],
+//            ...); a ] that comes first is a member, a - that comes first or last too; [!...] or [^...]: one that is not
+//            in the set
+//   \        takes the meaning from the character after it, also in a set
+// A set that has no end is the character [; a \ at the end matches nothing.
 #pragma once
 
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace ashlar {
 
-/// Whether a name is matched by a shell glob (* ? [...], POSIX fnmatch without flags).
-[[nodiscard]] bool pattern_matches(const std::string& pattern, const std::string& name);
+/// Whether a name is matched by a glob as a whole. At most as many steps as the product of both lengths.
+[[nodiscard]] bool pattern_matches(std::string_view pattern, std::string_view name);
 
 /// The glob that matches one name only.
 [[nodiscard]] std::string pattern_of(const std::string& name);

@@ -1,8 +1,10 @@
 #include "apps/scene/nearest_name.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace ashlar {
@@ -61,6 +63,39 @@ bool contains(std::string_view candidate, std::string_view name) {
          std::search(candidate.begin(), candidate.end(), name.begin(), name.end(), same) != candidate.end();
 }
 
+/// Names that differ in a number at their end.
+struct Family {
+  std::string_view stem, first, last;
+};
+
+std::vector<Family> families_of(std::string_view beginning, const std::vector<std::string>& names) {
+  std::vector<Family> families;
+  std::map<std::string_view, std::size_t> by_stem;
+  for (const std::string& name : names) {
+    if (!std::string_view(name).starts_with(beginning)) continue;
+    const std::size_t end = name.find_last_not_of("0123456789") + 1;
+    const std::string_view stem = end < name.size() ? std::string_view(name).substr(0, end) : name;
+    const auto [found, is_new] = by_stem.emplace(stem, families.size());
+    if (is_new)
+      families.push_back({stem, name, name});
+    else
+      families[found->second].last = name;
+  }
+  return families;
+}
+
+std::string in_words(const std::vector<Family>& families) {
+  constexpr std::size_t most_listed = 4;
+  std::vector<std::string> words;
+  for (const Family& family : families) {
+    if (words.size() == most_listed) break;
+    words.push_back(family.first == family.last ? fmt::format("\"{}\"", family.first)
+                                                : fmt::format("\"{}\" to \"{}\"", family.first, family.last));
+  }
+  const std::size_t hidden = families.size() - words.size();
+  return fmt::format("{}{}", fmt::join(words, ", "), hidden > 0 ? fmt::format(" and {} more", hidden) : "");
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -90,6 +125,17 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::string guess(std::string_view name, const std::vector<std::string>& candidates, std::string_view quote) {
   const std::string nearest = nearest_name(name, candidates);
   return nearest.empty() ? "" : fmt::format("did you mean {}{}{}? ", quote, nearest, quote);
+}
+
+std::string guess_block(std::string_view pattern, const std::vector<std::string>& names) {
+  const std::string near = guess(pattern, names, "\"");
+  for (std::string_view beginning = pattern.substr(0, pattern.find_first_of("*?[\\"));;) {
+    const std::size_t dot = beginning.empty() ? std::string_view::npos : beginning.rfind('.');
+    if (dot == std::string_view::npos) return near;
+    const std::vector<Family> families = families_of(beginning.substr(0, dot + 1), names);
+    if (!families.empty()) return fmt::format("{}{} begin alike; ", near, in_words(families));
+    beginning = beginning.substr(0, dot);
+  }
 }
 
 }  // namespace ashlar

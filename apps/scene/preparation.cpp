@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <ostream>
+#include <system_error>
 
 namespace ashlar {
 
 Preparation::Preparation(bool quiet, std::ostream& err, std::chrono::milliseconds patience) : err_(err) {
-  if (!quiet) teller_ = std::thread([this, patience] { tell(patience); });
+  if (quiet) return;
+  try {
+    teller_ = std::thread([this, patience] { tell(patience); });
+  } catch (const std::
+               system_error&) {  // NOLINT(bugprone-empty-catch): where no thread can be had, nothing is told
+  }
 }
 
 Preparation::~Preparation() {
@@ -30,7 +37,11 @@ void Preparation::tell(std::chrono::milliseconds patience) {
   for (auto wait = patience;; wait *= 2) {
     if (ended_.wait_for(lock, wait, [this] { return over_; })) return;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    err_ << fmt::format("preparing: {} ({:.0f} s)\n", words_, passed.count()) << std::flush;
+    try {
+      err_ << fmt::format("preparing: {} ({:.0f} s)\n", words_, passed.count()) << std::flush;
+    } catch (const std::
+                 bad_alloc&) {  // NOLINT(bugprone-empty-catch): a line that is lost must not end the program
+    }
   }
 }
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "apps/scene/input_file.hpp"
 #include "apps/scene/nearest_name.hpp"
 
 namespace ashlar {
@@ -55,6 +57,8 @@ class RecordReader {
       : record_(record), name_(std::move(name)), diagnostics_(diagnostics) {}
 
   std::optional<std::vector<std::vector<double>>> read(std::istream& stream) {
+    // A line that there is no memory for must not pass for the end of the file.
+    stream.exceptions(std::ios::badbit);
     std::string line;
     std::vector<std::vector<double>> rows;
     while (std::getline(stream, line)) {
@@ -62,6 +66,12 @@ class RecordReader {
       std::string_view text = line;
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
       const std::string_view content = trimmed(text);
+      if (const std::size_t ended = content.find('\r'); ended != std::string_view::npos) {
+        fault(
+            static_cast<int>(content.data() - line.data() + static_cast<std::ptrdiff_t>(ended)) + 1,
+            "lines are ended by carriage returns alone (byte 13), line feeds, or both together, are needed");
+        return std::nullopt;
+      }
       if (content.empty() || content.front() == '#') continue;
       if (columns_.empty()) {
         if (!find_columns(text)) return std::nullopt;
@@ -95,6 +105,12 @@ class RecordReader {
   }
 
   bool find_columns(std::string_view line) {
+    if (line.starts_with("PEER ")) {
+      fault(1, fmt::format("a PEER record has no line of column names and no times (\"{}\"), {} and rows of "
+                           "numbers are needed",
+                           trimmed(line), wanted()));
+      return false;
+    }
     separator_ = separator_of(line);
     std::vector<std::string> names;
     for (const Field& field : fields_of(line, separator_)) names.emplace_back(field.text);
@@ -156,7 +172,7 @@ class RecordReader {
   std::optional<double> number(const Field& field) {
     double value = 0.0;
     std::string_view digits = field.text;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
     const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (status == std::errc() && stop == digits.data() + digits.size() && std::isfinite(value)) return value;
     constexpr std::size_t longest_shown = 60;
@@ -192,13 +208,15 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
                                          path.string(), there ? "is no file" : "there is no such file"));
     return std::nullopt;
   }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    diagnostics.error(
-        place, fmt::format("record cannot be read (\"{}\"), a readable CSV file is needed", path.string()));
+  std::istringstream content;
+  try {
+    content.str(whole_file(path, most_input_bytes));
+  } catch (const std::runtime_error& reason) {
+    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable CSV file is needed",
+                                         path.string(), fault_text(reason)));
     return std::nullopt;
   }
-  return parse_record(record, stream, path.string(), diagnostics);
+  return parse_record(record, content, path.string(), diagnostics);
 }
 
 std::optional<std::vector<std::vector<double>>> parse_record(const SceneRecord& record, std::istream& content,

@@ -14,8 +14,8 @@ namespace ashlar {
 
 /// The rows [time, values...] of a record; values are scaled. Fields are separated by commas, semicolons or
 /// tabs, whichever the line of names has; lines that are blank or begin with # are passed over. Faults are
-/// reported at their line and column of the file, the first 20 and a count; a file that cannot be read, at
-/// `place`.
+/// reported at their line and column of the file, the first 20 and a count; a file that cannot be read, or
+/// has more than most_input_bytes, at `place`.
 /// @param folder that relative paths are relative to. @param place of the file's name in the scene
 /// @return none if there is a fault
 [[nodiscard]] std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& record,

@@ -111,7 +111,7 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
       diagnostics.error(place,
                         fmt::format("joint names no block (\"{}\"), {}the name of a [[block]] or a glob "
                                     "that matches one is needed",
-                                    pattern, guess(pattern, blocks, "\"")));
+                                    pattern, guess_block(pattern, blocks)));
     }
     if (all_match && !table.matches_a_pair(i))
       diagnostics.error(place,
@@ -288,6 +288,10 @@ class PlacementCheck {
 }  // namespace
 
 void check_references(const Scene& scene, Diagnostics& diagnostics) {
+  check_references(scene, diagnostics, diagnostics);
+}
+
+void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks) {
   const SceneAnalysis& analysis = scene.analysis;
   // Zero: not read.
   if (analysis.end_time > 0.0 && analysis.time_step > analysis.end_time)
@@ -316,15 +320,15 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
   check_poisson_ratios(scene, diagnostics);
   for (std::size_t i = 0; i < scene.measure.size(); ++i) {
     const SceneMeasure& measure = scene.measure[i];
-    check_known(scene, entry_key("measure", i, "block"), "block", measure.block, blocks, diagnostics);
+    check_known(scene, entry_key("measure", i, "block"), "block", measure.block, blocks, of_blocks);
     const std::string key = entry_key("measure", i, "pair");
-    for (const std::string& name : measure.pair) check_known(scene, key, "block", name, blocks, diagnostics);
+    for (const std::string& name : measure.pair) check_known(scene, key, "block", name, blocks, of_blocks);
     if (!measure.pair[0].empty() && measure.pair[0] == measure.pair[1])
       diagnostics.error(scene.places.value(key),
                         fmt::format("measure of a block and itself (\"{}\"), two different blocks are needed",
                                     measure.pair[0]));
   }
-  check_joints(scene, blocks, diagnostics);
+  check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
   check_factor_search(scene, diagnostics);
 }

@@ -13,6 +13,8 @@ namespace ashlar {
 /// Names are unique and, where something refers to them, known; every [[joint]] matches a pair;
 /// the step fits the time. A value that the reader has already refused is not complained about again.
 void check_references(const Scene& scene, Diagnostics& diagnostics);
+/// The same. @param of_blocks is told of names in [[joint]] and [[measure]] that no block has
+void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks);
 
 /// Before anything is cut: names of cuts are unique, joints name cuts that there are, and names of blocks are
 /// unique.

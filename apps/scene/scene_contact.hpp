@@ -37,8 +37,8 @@ struct SceneContact {
   std::optional<int> subdivisions;        ///< uniform levels, 0 to 8; excludes chord_tolerance
   std::optional<bool> augmented;          ///< multipliers: no deeper than penetration_tolerance; empty: auto
   std::optional<double> penetration_tolerance;  ///< m, > 0; empty: auto
-  double fit = 0.0;                             ///< m, >= 0; 0: blocks stay as they are placed
   std::optional<double> allowed_depth;          ///< m, > 0; empty: auto, 1e-2 of the smaller block
+  double allowed_overlap = 0.0;  ///< m, >= 0: blocks that are placed so deep in each other start force-free
 };
 
 /// [[joint]]: what differs from [contact] between two blocks; the last entry that matches a pair wins, key by

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "apps/scene/assignments.hpp"
 #include "apps/scene/piece_blocks.hpp"
 #include "apps/scene/scene_cutter.hpp"
 #include "apps/scene/scene_solids.hpp"
@@ -186,7 +185,6 @@ void cut_scene(Scene& scene, Diagnostics& diagnostics, Preparation* preparation)
   rock->find_borders();
   scene.rock = std::move(rock);
   add_ties(scene);
-  apply_assignments_to_pieces(scene, diagnostics);
 }
 
 }  // namespace ashlar

@@ -11,7 +11,8 @@ namespace ashlar {
 /// NAME.2 ... in order; those inside the solid of a cut NAME.inside.1 ... A block that nothing parted stays
 /// as it is. A glob of a cut means a block if it matches the block's name, else those of its pieces whose
 /// names at that time it matches. Measures of a block that was cut move to the piece that has their point.
-/// Everything else that a key can say of blocks is then said of pieces, and places lead to the blocks' keys.
+/// Everything else that a key can say of blocks is then said of pieces, and places lead to the blocks' keys;
+/// [[assign]]s to pieces are still to be made (apply_assignments_to_pieces).
 /// Sets Scene::uncut and Scene::rock, and adds a tied joint for each glued cut. Does nothing without cuts.
 void cut_scene(Scene& scene, Diagnostics& diagnostics, Preparation* preparation = nullptr);
 

@@ -8,18 +8,22 @@
 
 #include "apps/scene/name_pattern.hpp"
 #include "apps/scene/nearest_name.hpp"
+#include "apps/scene/random_points.hpp"
 #include "apps/scene/scene_solids.hpp"
-#include "geometry/boxes/box.hpp"
 #include "geometry/cutting/small_pieces.hpp"
-#include "geometry/solid/solid_location.hpp"
 
 namespace ashlar {
 namespace {
 
 /// Planes are numbered in doubles and kept as int.
 constexpr double largest_plane_number = 1e9;
-/// Random spacings are drawn one after the other.
-constexpr double most_drawn_planes = 1e7;
+/// Each plane is looked at, also where it cuts nothing by chance. So many are always allowed; of a scene that may have
+/// more blocks as many as blocks, up to a list that takes 160 MB.
+constexpr double least_plane_limit = 1e5, greatest_plane_limit = 1e7;
+
+double most_planes(const SceneCut& cut) {
+  return std::clamp(static_cast<double>(cut.most_blocks), least_plane_limit, greatest_plane_limit);
+}
 
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
   return std::any_of(patterns.begin(), patterns.end(),
@@ -50,19 +54,6 @@ double reach_of(const CutSolid& solid, const std::vector<int>& pieces) {
     }
   }
   return 0.5 * (high - low).norm();
-}
-
-/// Points inside a solid, evenly spread: of a box around it, those that are inside.
-std::vector<Vector3> random_points(const Polyhedron& solid, int count, std::mt19937_64& random) {
-  const Box box = box_of(solid.mesh().points);
-  std::vector<Vector3> points;
-  while (static_cast<int>(points.size()) < count) {
-    Vector3 share;
-    for (int axis = 0; axis < 3; ++axis) share[axis] = random_share(random);
-    const Vector3 point = box.low + share.cwiseProduct(box.high - box.low);
-    if (is_inside(solid.mesh(), point)) points.push_back(point);
-  }
-  return points;
 }
 
 /// Pieces that come about in a cut belong to it as those do that it began with.
@@ -165,28 +156,49 @@ void SceneCutter::cut_by_set(std::size_t index, const std::vector<Target>& targe
     }
   }
   if (!check_number(index, added)) return;
+  if (!check_distance(index, ranges)) return;
+  const JointHeights heights(cut, ranges, most_planes(cut));
+  if (!check_planes(index, heights)) return;
+  for (std::size_t k = 0; k < targets.size(); ++k) cut_by_planes(index, targets[k], heights.in(ranges[k]));
+}
+
+bool SceneCutter::check_distance(std::size_t index, const std::vector<PlaneRange>& ranges) {
+  const SceneCut& cut = scene_.cut[index];
+  const bool drawn = cut.deviation > 0.0;
+  const double most = drawn ? most_drawn_spacings : largest_plane_number;
+  if (!cut.spacing || (drawn ? cut.number.value_or(most) < most : cut.number.has_value())) return true;
   for (const PlaneRange& range : ranges) {
     const double farthest = std::max(std::abs(range.low), std::abs(range.high));
-    const bool drawn = cut.deviation > 0.0;
-    const double most = drawn ? most_drawn_planes : largest_plane_number;
-    if (!cut.spacing || (drawn ? cut.number.value_or(most) < most : cut.number.has_value()) ||
-        farthest / *cut.spacing < most)
-      continue;
+    if (farthest / *cut.spacing < most) continue;
     error(
         index, "point",
         fmt::format("point is too far from the blocks for this spacing ({:.3g} m), less than {:.0e} spacings "
                     "are allowed",
                     farthest, most));
-    return;
+    return false;
   }
-  for (std::size_t k = 0; k < targets.size(); ++k) cut_by_planes(index, targets[k], ranges[k]);
+  return true;
 }
 
-void SceneCutter::cut_by_planes(std::size_t index, const Target& target, const PlaneRange& range) {
+bool SceneCutter::check_planes(std::size_t index, const JointHeights& heights) {
+  if (!heights.too_many()) return true;
+  const SceneCut& cut = scene_.cut[index];
+  error(
+      index, "spacing",
+      fmt::format("cut \"{}\" has too many planes ({} {:.6g}), at most {:.0f} are allowed, or most_blocks if "
+                  "that is more, up to {:.0f}; a larger spacing is needed",
+                  cut.name, cut.deviation > 0.0 ? "at least" : "about", heights.count(), most_planes(cut),
+                  greatest_plane_limit));
+  return false;
+}
+
+void SceneCutter::cut_by_planes(std::size_t index, const Target& target,
+                                const std::vector<JointHeight>& heights) {
   const SceneCut& cut = scene_.cut[index];
   CutSolid& solid = solid_of(target.block);
   const CutSolid::Choice chosen = choice_of(target);
-  for (const auto& [number, plane] : joint_planes(cut, range)) {
+  for (const JointHeight& at : heights) {
+    const auto& [number, plane] = joint_plane(cut, at);
     std::mt19937_64 random =
         random_stream(cut.seed, RandomStream::persistence, number, static_cast<int>(target.block));
     solid.cut(plane, add_mark(index, number), [&, &of_plane = plane](int piece) {
@@ -208,6 +220,7 @@ void SceneCutter::cut_by_points(std::size_t index, const std::vector<Target>& ta
   const SceneCut& cut = scene_.cut[index];
   if (!check_number(index, static_cast<double>(targets.size()) * (cut.count - 1.0))) return;
   for (const Target& target : targets) {
+    solid_of(target.block).require_cells();
     std::mt19937_64 random = random_stream(cut.seed, RandomStream::points, 0, static_cast<int>(target.block));
     const std::vector<Vector3> points = random_points(*shapes_[target.block], cut.count, random);
     solid_of(target.block).cut_into_cells(points, add_mark(index, 0));

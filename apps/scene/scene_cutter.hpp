@@ -38,7 +38,10 @@ class SceneCutter {
   [[nodiscard]] CutSolid& solid_of(std::size_t block);
   /// Reports a cut that would make too many blocks. @return whether it may be made
   bool check_number(std::size_t index, double added);
-  void cut_by_planes(std::size_t index, const Target& target, const PlaneRange& range);
+  /// Reports a set whose point is too far from the blocks, and one that has too many planes in them.
+  bool check_distance(std::size_t index, const std::vector<PlaneRange>& ranges);
+  bool check_planes(std::size_t index, const JointHeights& heights);
+  void cut_by_planes(std::size_t index, const Target& target, const std::vector<JointHeight>& heights);
   [[nodiscard]] PlaneRange range_of(const SceneCut& cut, const Target& target);
   void cut_by_set(std::size_t index, const std::vector<Target>& targets);
   void cut_by_solid(std::size_t index, const std::vector<Target>& targets);

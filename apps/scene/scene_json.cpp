@@ -87,8 +87,8 @@ Json to_json(const SceneContact& contact, bool augmented) {
     json["chord_tolerance"] = or_auto(contact.chord_tolerance);
   json["augmented"] = augmented;
   json["penetration_tolerance"] = or_auto(contact.penetration_tolerance);
-  json["fit"] = contact.fit;
   json["allowed_depth"] = or_auto(contact.allowed_depth);
+  json["allowed_overlap"] = contact.allowed_overlap;
   return json;
 }
 

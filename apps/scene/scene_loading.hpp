@@ -10,6 +10,7 @@
 
 #include "apps/scene/cost_estimate.hpp"
 #include "apps/scene/diagnostics.hpp"
+#include "apps/scene/initial_overlap.hpp"
 #include "apps/scene/preparation.hpp"
 #include "apps/scene/scene.hpp"
 #include "geometry/solid/polyhedron.hpp"
@@ -21,15 +22,18 @@ struct LoadedScene {
   std::vector<Polyhedron> solids;  ///< one per scene.block, placed
   /// One per scene.block, before it was translated; equal ones are one.
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
-  CostEstimate cost;  ///< with all blocks of all stages
+  CostEstimate cost;                   ///< with all blocks of all stages
+  std::vector<KnownOverlap> overlaps;  ///< that contact.allowed_overlap accepts, by pair
 };
 
 /// One stage of a scene (scene_stages.hpp), or the scene itself if it has none.
 [[nodiscard]] LoadedScene stage_of(const LoadedScene& whole, std::size_t stage);
 
 enum class LoadPurpose {
-  run,     ///< the cost of a run may refuse the scene
-  blocks,  ///< only its blocks are looked at
+  run,  ///< the cost of a run may refuse the scene
+  /// Only its blocks are looked at: names in stages, assignments, joints and measures that none has are warned of, as the
+  /// names of pieces are known once they are listed.
+  blocks,
 };
 
 /// Reads, overrides, checks and builds; see scene_reader.hpp, scene_checks.hpp, scene_solids.hpp. Warnings:
@@ -47,6 +51,7 @@ enum class LoadPurpose {
 [[nodiscard]] std::optional<LoadedScene> load_scene_text(std::string_view text,
                                                          const std::filesystem::path& file,
                                                          const std::vector<std::string>& overrides,
-                                                         Diagnostics& diagnostics);
+                                                         Diagnostics& diagnostics,
+                                                         Preparation* preparation = nullptr);
 
 }  // namespace ashlar

@@ -30,6 +30,8 @@ class ScenePlaces {
   /// then those of "masonry.0" and its keys, but for those that are recorded under their own path. An origin
   /// may have one of its own; no path is its own origin, over however many.
   void record_origin(const std::string& path, std::string origin) { origins_[path] = std::move(origin); }
+  /// Takes back what record_origin said of a path.
+  void remove_origin(const std::string& path) { origins_.erase(path); }
   /// Moves the places of a list's entries, and their origins: what was recorded as "block.3.box" is from then
   /// on "FOLDER.3.box".
   void move_list(const std::string& list, const std::string& folder);

@@ -8,13 +8,15 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
-#include <sstream>
+#include <stdexcept>
 
 #include "apps/scene/assignments.hpp"
 #include "apps/scene/block_reader.hpp"
 #include "apps/scene/cut_reader.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/history_reader.hpp"
 #include "apps/scene/include.hpp"
+#include "apps/scene/input_file.hpp"
 #include "apps/scene/masonry.hpp"
 #include "apps/scene/parameters.hpp"
 #include "apps/scene/scene_expansion.hpp"
@@ -108,8 +110,12 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
   bool augmented = false;
   if (table.read_bool("augmented", augmented)) contact.augmented = augmented;
   table.read_number_or_auto("penetration_tolerance", contact.penetration_tolerance, range::positive);
-  table.read_number("fit", contact.fit, range::not_negative);
   table.read_number_or_auto("allowed_depth", contact.allowed_depth, range::positive);
+  table.read_number("allowed_overlap", contact.allowed_overlap, range::not_negative);
+  table.refuse_former(
+      "fit",
+      "fit is no key any more, blocks stay as they are placed; allowed_overlap accepts blocks that "
+      "overlap by the errors of a survey");
   if (contact.chord_tolerance && contact.subdivisions)
     table.error_at_key("subdivisions",
                        fmt::format("subdivisions beside chord_tolerance ({}), only one of both "
@@ -301,38 +307,35 @@ void record_keys(std::string_view text, KeyRecorder& recorder) {
   read_tables(TomlTableReader(reading, document, "", ""), scene);
 }
 
+/// All of a scene file, which may be a pipe. @throws std::runtime_error with the reason alone
+static std::string scene_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) throw std::runtime_error("is a folder");
+  // Some devices have no end.
+  if (std::filesystem::is_character_file(file, ignored)) throw std::runtime_error("is a device");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(std::strerror(errno));
+  return whole_stream(stream, most_input_bytes);
+}
+
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  Diagnostics& diagnostics) {
-  std::error_code ignored;
-  std::string reason;
-  if (file == "-") {
-    std::ostringstream input;
-    input << std::cin.rdbuf();
-    if (input.str().empty())
-      diagnostics.error({"(standard input)", 1, 1},
-                        "scene cannot be read (standard input is empty or closed), a "
-                        "scene is needed");
-    return parse_scene(input.str(), "(standard input)", overrides, diagnostics);
-  }
-  if (std::filesystem::is_directory(file, ignored)) reason = "is a folder";
-  // Some devices have no end.
-  if (std::filesystem::is_character_file(file, ignored)) reason = "is a device";
-  std::ifstream stream;
-  std::ostringstream text;
-  if (reason.empty()) {
-    stream.open(file, std::ios::binary);
-    // An empty file sets failbit on the output stream only.
-    if (stream) text << stream.rdbuf();
-    if (!stream.is_open() || stream.bad()) reason = std::strerror(errno);
-  }
-  if (!reason.empty()) {
-    diagnostics.error({file.string(), 1, 1},
-                      fmt::format("scene file cannot be read ({}), a readable TOML file is needed", reason));
+  const bool from_input = file == "-";
+  const std::filesystem::path name = from_input ? "(standard input)" : file;
+  std::string text;
+  try {
+    text = from_input ? whole_stream(std::cin, most_input_bytes) : scene_text(file);
+    if (from_input && text.empty()) throw std::runtime_error("standard input is empty or closed");
+  } catch (const std::runtime_error& reason) {
+    diagnostics.error({name.string(), 1, 1},
+                      fmt::format("scene {}cannot be read ({}), a {} is needed", from_input ? "" : "file ",
+                                  fault_text(reason), from_input ? "scene" : "readable TOML file"));
+    if (from_input) return parse_scene("", name, overrides, diagnostics);
     Scene none;
     none.file = file;
     return none;
   }
-  return parse_scene(text.str(), file, overrides, diagnostics);
+  return parse_scene(text, name, overrides, diagnostics);
 }
 
 }  // namespace ashlar

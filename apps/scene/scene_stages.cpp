@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "apps/scene/cut_rock.hpp"
 #include "apps/scene/name_pattern.hpp"
@@ -61,62 +63,71 @@ void stay(SceneFix& fix) {
   fix.file.reset();
 }
 
-/// Puts together the scene of a stage.
-class StageScene {
+/// The scenes of all stages, each made from the one before.
+class StageScenes {
  public:
-  StageScene(const Scene& whole, std::size_t stage) : whole_(whole), stage_(stage), scene_(whole) {}
-
-  Scene make() {
-    end_block_histories();
-    for (std::size_t s = 0; s <= stage_; ++s) add_changes(s);
-    scene_.analysis = whole_.stage[stage_].analysis;
-    // What comes before the first stage comes before no other.
-    if (stage_ > 0) scene_.analysis.initial_state = SceneAnalysis::InitialState::as_placed;
-    scene_.absent = absent_blocks(whole_, stage_);
-    name_places();
-    return std::move(scene_);
+  /// @param whole has stages and outlives it
+  explicit StageScenes(const Scene& whole)
+      : whole_(whole), scene_(whole), was_there_(whole.block.size(), false) {
+    scene_.absent = held_back(whole);
   }
+
+  /// Goes on to the next stage, the first one to begin with.
+  void advance() {
+    if (stage_) end_histories(*stage_);
+    stage_ = stage_ ? *stage_ + 1 : 0;
+    add_changes(*stage_);
+    scene_.analysis = whole_.stage[*stage_].analysis;
+    // What comes before the first stage comes before no other.
+    if (*stage_ > 0) scene_.analysis.initial_state = SceneAnalysis::InitialState::as_placed;
+    change_presence(whole_, whole_.stage[*stage_], scene_.absent);
+    name_places(*stage_);
+  }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] Scene&& take() { return std::move(scene_); }
 
  private:
-  /// Histories of [[block]] are those of the first stage that it is in.
-  void end_block_histories() {
-    std::vector<std::size_t> first(scene_.block.size(), stage_);
-    for (std::size_t s = stage_; s-- > 0;) {
-      const std::vector<bool> absent = absent_blocks(whole_, s);
-      for (std::size_t k = 0; k < first.size(); ++k)
-        if (!absent[k]) first[k] = s;
+  /// Those of [[block]] are those of the first stage that it is in; those of a stage are over with it.
+  void end_histories(std::size_t ended) {
+    const double end_time = whole_.stage[ended].analysis.end_time;
+    for (std::size_t k = 0; k < scene_.block.size(); ++k) {
+      if (was_there_[k] || scene_.absent[k]) continue;
+      was_there_[k] = true;
+      SceneBlock& block = scene_.block[k];
+      // What stages have added comes after what the block has of its own.
+      for (std::size_t n = 0; n < whole_.block[k].fix.size(); ++n) stay(block.fix[n]);
+      for (std::size_t n = 0; n < whole_.block[k].load.size(); ++n) stay(block.load[n], end_time);
     }
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      if (first[k] == stage_) continue;
-      const double end_time = whole_.stage[first[k]].analysis.end_time;
-      for (SceneFix& fix : scene_.block[k].fix) stay(fix);
-      for (SceneLoad& load : scene_.block[k].load) stay(load, end_time);
-    }
+    for (const auto& [k, n] : added_fixes_) stay(scene_.block[k].fix[n]);
+    for (const auto& [k, n] : added_loads_) stay(scene_.block[k].load[n], end_time);
+    added_fixes_.clear();
+    added_loads_.clear();
   }
+
+  /// Of a block, and its index there.
+  using Added = std::vector<std::pair<std::size_t, std::size_t>>;
 
   void add_changes(std::size_t s) {
     const SceneStage& given = whole_.stage[s];
-    const auto add = [&](const char* list, auto SceneBlock::*member, const auto& entries, const auto& what) {
+    const auto add = [&](const char* list, auto SceneBlock::*member, const auto& entries, const auto& what,
+                         Added& added) {
       for (std::size_t j = 0; j < entries.size(); ++j) {
         for (std::size_t k = 0; k < scene_.block.size(); ++k) {
-          SceneBlock& block = scene_.block[k];
           if (!means_block(whole_, entries[j].blocks, k)) continue;
-          scene_.places.record_origin(fmt::format("block.{}.{}.{}", k, list, (block.*member).size()),
+          auto& of_block = scene_.block[k].*member;
+          scene_.places.record_origin(fmt::format("block.{}.{}.{}", k, list, of_block.size()),
                                       key_of(s, fmt::format("{}.{}", list, j)));
-          (block.*member).push_back(what(entries[j]));
+          added.emplace_back(k, of_block.size());
+          of_block.push_back(what(entries[j]));
         }
       }
     };
-    add("fix", &SceneBlock::fix, given.fix, [&](const SceneStage::Fix& entry) {
-      SceneFix fix = entry.fix;
-      if (s < stage_) stay(fix);
-      return fix;
-    });
-    add("load", &SceneBlock::load, given.load, [&](const SceneStage::Load& entry) {
-      SceneLoad load = entry.load;
-      if (s < stage_) stay(load, given.analysis.end_time);
-      return load;
-    });
+    add(
+        "fix", &SceneBlock::fix, given.fix, [](const SceneStage::Fix& entry) { return entry.fix; },
+        added_fixes_);
+    add(
+        "load", &SceneBlock::load, given.load, [](const SceneStage::Load& entry) { return entry.load; },
+        added_loads_);
     for (std::size_t j = 0; j < given.joint.size(); ++j) {
       scene_.places.record_origin(fmt::format("joint.{}", scene_.joint.size()),
                                   key_of(s, fmt::format("joint.{}", j)));
@@ -131,20 +142,25 @@ class StageScene {
     }
   }
 
-  /// Keys of the stage's analysis are where they are given.
-  void name_places() {
-    const std::string start = key_of(stage_, "analysis.");
-    std::vector<std::string> given;
-    for (auto place = scene_.places.all().lower_bound(start);
-         place != scene_.places.all().end() && place->first.starts_with(start); ++place)
-      given.push_back(place->first);
-    for (const std::string& path : given)
-      scene_.places.record_origin("analysis." + path.substr(start.size()), path);
+  /// Keys of the stage's analysis are where they are given, and no longer where the stage before has them.
+  void name_places(std::size_t s) {
+    for (const std::string& path : named_) scene_.places.remove_origin(path);
+    named_.clear();
+    const std::string start = key_of(s, "analysis.");
+    const auto& given = whole_.places.all();
+    for (auto place = given.lower_bound(start); place != given.end() && place->first.starts_with(start);
+         ++place) {
+      named_.push_back("analysis." + place->first.substr(start.size()));
+      scene_.places.record_origin(named_.back(), place->first);
+    }
   }
 
   const Scene& whole_;
-  std::size_t stage_;
   Scene scene_;
+  std::optional<std::size_t> stage_;  ///< that scene_ is of; empty: before the first
+  std::vector<bool> was_there_;       ///< by block, in a stage that has ended
+  Added added_fixes_, added_loads_;   ///< by the present stage
+  std::vector<std::string> named_;    ///< keys of the present stage's analysis
 };
 
 class StageCheck {
@@ -194,7 +210,7 @@ class StageCheck {
             stage, key,
             fmt::format("stage names no block (\"{}\"), {}the name of a [[block]] or a glob that matches one "
                         "is needed",
-                        pattern, guess(pattern, names_, "\"")));
+                        pattern, guess_block(pattern, names_)));
     }
     return {found.begin(), found.end()};
   }
@@ -288,15 +304,23 @@ bool means_block(const Scene& scene, const std::string& pattern, std::size_t blo
   return scene.rock != nullptr && pattern_matches(pattern, scene.uncut[scene.rock->origin[block].uncut].name);
 }
 
-std::vector<bool> absent_blocks(const Scene& scene, std::size_t stage) {
-  if (scene.stage.empty()) return std::vector<bool>(scene.block.size(), false);
-  std::vector<bool> absent = held_back(scene);
-  for (std::size_t s = 0; s <= stage; ++s) change_presence(scene, scene.stage[s], absent);
-  return absent;
+Scene scene_of_stage(const Scene& whole, std::size_t stage) {
+  if (whole.stage.empty()) return whole;
+  StageScenes scenes(whole);
+  for (std::size_t s = 0; s <= stage; ++s) scenes.advance();
+  return scenes.take();
 }
 
-Scene scene_of_stage(const Scene& whole, std::size_t stage) {
-  return whole.stage.empty() ? whole : StageScene(whole, stage).make();
+void for_each_stage(const Scene& whole, const std::function<void(const Scene&)>& look) {
+  if (whole.stage.empty()) {
+    look(whole);
+    return;
+  }
+  StageScenes scenes(whole);
+  for (std::size_t s = 0; s < whole.stage.size(); ++s) {
+    scenes.advance();
+    look(scenes.scene());
+  }
 }
 
 std::size_t stage_count(const Scene& scene) {

@@ -8,8 +8,8 @@
 // gravity_history of [analysis] is that of every stage that does not give another one.
 #pragma once
 
+#include <functional>
 #include <string>
-#include <vector>
 
 #include "apps/scene/diagnostics.hpp"
 #include "apps/scene/scene.hpp"
@@ -19,13 +19,14 @@ namespace ashlar {
 /// Whether a name or glob of a stage means a block: its name, or that of the block that it is a piece of.
 [[nodiscard]] bool means_block(const Scene& scene, const std::string& pattern, std::size_t block);
 
-/// Which blocks are not there in a stage, by block.
-[[nodiscard]] std::vector<bool> absent_blocks(const Scene& scene, std::size_t stage);
-
 /// The scene of one stage, with the stages of the whole still listed; the scene itself if it has none. Places
 /// lead to the keys of the stages.
 /// @param stage index into whole.stage
 [[nodiscard]] Scene scene_of_stage(const Scene& whole, std::size_t stage);
+
+/// Looks at the scene of each stage in turn; at the scene itself if it has none. Each is made from the one before, so
+/// that the time goes with the number of stages.
+void for_each_stage(const Scene& whole, const std::function<void(const Scene&)>& look);
 
 /// Number of scenes that a scene stands for: that of its stages, or 1.
 [[nodiscard]] std::size_t stage_count(const Scene& scene);

@@ -22,6 +22,12 @@ const toml::node* TomlTableReader::find(std::string_view key) {
   return known_.table->get(key);
 }
 
+void TomlTableReader::refuse_former(std::string_view key, std::string message) {
+  if (!known_.table->contains(key)) return;
+  known_.keys.emplace(key);
+  error_at_key(key, std::move(message));
+}
+
 bool TomlTableReader::holds_infinity(std::string_view key) {
   const toml::node* node = find(key);
   return node != nullptr && node->is_floating_point() &&

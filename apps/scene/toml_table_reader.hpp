@@ -47,6 +47,8 @@ class TomlTableReader {
   void error_at_table(std::string message);
   void error_at_key(std::string_view key, std::string message);
   void error_at_value(std::string_view key, std::string message);
+  /// Reports a key that earlier versions had, where it is given. It is no key of the schema.
+  void refuse_former(std::string_view key, std::string message);
 
   /// Whether the key holds a text. Makes it a known one.
   [[nodiscard]] bool text_at(std::string_view key) {

@@ -13,16 +13,25 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
+#include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/json_text.hpp"
+#include "apps/results/output_stream.hpp"
+#include "apps/results/scene_identity.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/override_option.hpp"
 #include "apps/run/run_command.hpp"
+#include "apps/run/run_files.hpp"
+#include "apps/run/run_messages.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/input_file.hpp"
 #include "apps/scene/scene_json.hpp"
 #include "apps/scene/scene_loading.hpp"
@@ -53,46 +62,91 @@ int exit_status_in(const Json& summary) {
   return status == "failed" || status == "not converged" ? exit_status::failed : exit_status::done;
 }
 
-/// One variant: kept, gone on with, or run. Called in a process of its own.
-int run_variant(RunOptions run, std::ostream& log) {
-  const std::filesystem::path& folder = *run.out;
-  const Json summary = ended_summary(folder);
-  if (!summary.is_null()) {
-    Diagnostics diagnostics;
-    const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, diagnostics);
-    if (loaded && summary.contains("scene") && Json(to_json(loaded->scene)) == summary.at("scene")) {
+/// How the log of a run begins whose results were not of the present files.
+constexpr std::string_view again = "run again: ";
+
+/// A run that has ended: kept, run again where files or the program are others, or refused where the scene is.
+int run_over_results(RunOptions run, const Json& summary, std::ostream& log) {
+  Diagnostics diagnostics;
+  const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, diagnostics);
+  const bool has_scene = loaded && summary.contains("scene");
+  if (has_scene && Json(to_json(loaded->scene)) == summary.at("scene")) {
+    const Json was = summary.contains("identity") ? summary.at("identity") : Json();
+    const std::vector<std::string> differences = identity_differences(was, scene_identity(*loaded));
+    if (differences.empty()) {
       log << "kept: these results are of this scene\n";
       return exit_status_in(summary);
     }
-    if (!run.force) {
-      diagnostics.print(log);
-      log << fmt::format("ashlar: error: results of another scene ({}), --force or another table is needed\n",
-                         folder.string());
-      return exit_status::bad_input;
-    }
-  } else if (std::filesystem::exists(folder / ".ashlar")) {
-    run.resume = true;
-    run.force = false;
+    log << again << fmt::format("{}\n", fmt::join(differences, "; "));
+    run.force = true;
+  }
+  if (!run.force) {
+    diagnostics.print(log);
+    const std::string changes =
+        has_scene ? changes_since(*run.out, loaded->scene, scene_identity(*loaded)) : "";
+    log << fmt::format("ashlar: error: results of another scene ({}), --force or another table is needed{}\n",
+                       run.out->string(), changes);
+    return exit_status::bad_input;
   }
   return run_command(run, log);
 }
 
-/// The same with whatever is thrown in the log. The process ends with its status.
-[[noreturn]] void run_in_child(const RunOptions& run, const std::filesystem::path& log_file) {
+/// Whether a run that did not end left anything to go on from.
+bool has_state(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / checkpoint_name) || std::filesystem::exists(folder / trials_name);
+}
+
+/// Whether a run can go on from the state in its folder. What is wrong with the scene is told when it is run.
+bool is_of_this_scene(const RunOptions& run) {
+  Diagnostics told_later;
+  const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, told_later);
+  if (!loaded || !std::filesystem::exists(*run.out / checkpoint_name)) return loaded.has_value();
+  try {
+    (void)read_checkpoint(*run.out / checkpoint_name, scene_identity(*loaded).scene);
+    return true;
+  } catch (const CheckpointError&) {
+    return false;
+  }
+}
+
+/// One variant: kept, gone on with, or run. Called in a process of its own.
+int run_variant(RunOptions run, std::ostream& log) {
+  const Json summary = ended_summary(*run.out);
+  if (!summary.is_null()) return run_over_results(std::move(run), summary, log);
+  run.resume = has_state(*run.out) && (!run.force || is_of_this_scene(run));
+  run.force = run.force && !run.resume;
+  return run_command(run, log);
+}
+
+/// The same with whatever is thrown in the log.
+int logged_variant(const RunOptions& run, std::ostream& log) {
+  try {
+    return run_variant(run, log);
+  } catch (const std::bad_alloc& error) {
+    log << "ashlar: error: " << missing_memory(error) << '\n';
+  } catch (const std::exception& error) {
+    log << "ashlar: error: " << fault_text(error) << '\n';
+  }
+  return exit_status::failed;
+}
+
+/// The process ends with the status of the run.
+[[noreturn]] void run_in_child(const RunOptions& run, OutputFile log_file) {
   // A signal to the terminal's group is the sweep's to pass on: once.
   (void)setpgid(0, 0);
   // A sweep that is killed leaves no run behind.
   (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
-  int status = exit_status::failed;
-  {
-    std::ofstream log(log_file);
-    try {
-      status = run_variant(run, log);
-    } catch (const std::exception& error) {
-      log << "ashlar: error: " << error.what() << '\n';
-    }
-  }
-  _exit(status);
+  OutputStreamBuffer buffer(std::move(log_file));
+  std::ostream log(&buffer);
+  _exit(logged_variant(run, log));
+}
+
+/// Why results were not kept, as a log tells; empty: they were, or there were none.
+std::string reason_in(const std::filesystem::path& log) {
+  std::ifstream stream(log);
+  std::string line;
+  std::getline(stream, line);
+  return line.starts_with(again) ? line : "";
 }
 
 /// Runs of variants in processes, some at a time.
@@ -125,13 +179,21 @@ class Runs {
   }
 
   void start(std::size_t run) {
+    std::optional<OutputFile> log;
+    try {
+      log.emplace(log_of(runs_[run]), OutputFile::Start::empty);
+    } catch (const std::runtime_error& fault) {
+      err_ << fmt::format("ashlar: error: {}; a plain file is written there\n", fault_text(fault));
+      note(run, exit_status::bad_input);
+      return;
+    }
     const pid_t child = fork();
     if (child < 0) {
       const int reason = errno;
       stop();
       throw std::system_error(reason, std::generic_category(), "a process for a run cannot be made");
     }
-    if (child == 0) run_in_child(runs_[run], log_of(runs_[run]));
+    if (child == 0) run_in_child(runs_[run], std::move(*log));
     children_.emplace(child, run);
   }
 
@@ -163,6 +225,8 @@ class Runs {
                                                             : "refused";
     err_ << fmt::format("{} of {}: {}: {}", done_, runs_.size(), names_[run], word);
     if (status != exit_status::done) err_ << fmt::format(", see {}", log_of(runs_[run]).string());
+    if (const std::string reason = reason_in(log_of(runs_[run])); !reason.empty())
+      err_ << fmt::format(" ({})", reason);
     err_ << std::endl;
   }
 

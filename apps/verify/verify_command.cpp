@@ -13,6 +13,7 @@
 #include <ostream>
 
 #include "apps/results/json_text.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/nearest_name.hpp"
 #include "apps/verify/verification.hpp"
 
@@ -59,7 +60,7 @@ Outcome run(const VerificationCase& chosen) {
     outcome.checks = chosen.run();
   } catch (const std::exception& error) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    outcome.checks = {{fmt::format("could not be run: {}", error.what()), nan, nan, nan, 0.0}};
+    outcome.checks = {{fmt::format("could not be run: {}", fault_text(error)), nan, nan, nan, 0.0}};
   }
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;

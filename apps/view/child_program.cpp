@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -55,6 +57,42 @@ class OwnGroup {
   posix_spawnattr_t attributes_{};
 };
 
+constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
+std::atomic<pid_t> group_to_end = 0;
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+
+extern "C" void end_with_child(int signal) {
+  if (const pid_t group = group_to_end; group > 0) ::kill(-group, SIGKILL);
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+/// As long as it lives, a signal that would end this program ends the child's group with it, which the terminal's signals
+/// do not reach. Signals that something else handles are left to that.
+class EndsTogether {
+ public:
+  EndsTogether() {
+    for (std::size_t k = 0; k < ending_signals.size(); ++k) {
+      sigaction(ending_signals[k], nullptr, &old_[k]);
+      if (old_[k].sa_handler != SIG_DFL) continue;
+      struct sigaction action {};
+      action.sa_handler = end_with_child;
+      sigaction(ending_signals[k], &action, nullptr);
+    }
+  }
+  ~EndsTogether() {
+    group_to_end = 0;
+    for (std::size_t k = 0; k < ending_signals.size(); ++k) sigaction(ending_signals[k], &old_[k], nullptr);
+  }
+  EndsTogether(const EndsTogether&) = delete;
+  EndsTogether& operator=(const EndsTogether&) = delete;
+
+  void set_group(pid_t group) { group_to_end = group; }
+
+ private:
+  std::array<struct sigaction, ending_signals.size()> old_{};
+};
+
 /// @return the status of waitpid; empty if the limit passed, and then the program's whole group is ended.
 std::optional<int> wait_for(pid_t child, std::chrono::duration<double> limit) {
   constexpr std::chrono::milliseconds pause(10);
@@ -95,11 +133,13 @@ std::optional<int> run_program(const std::vector<std::string>& command, const st
   arguments.push_back(nullptr);
   pid_t child = 0;
   const OwnGroup group;
+  EndsTogether ends_together;
   const int error = ::posix_spawn(&child, command.front().c_str(), redirections.get(), group.get(),
                                   arguments.data(), environ);
   if (error != 0) {
     throw std::runtime_error(fmt::format("cannot start {}: {}", command.front(), std::strerror(error)));
   }
+  ends_together.set_group(child);
   return wait_for(child, limit);
 }
 

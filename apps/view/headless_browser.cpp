@@ -36,6 +36,29 @@ std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(input), {}};
 }
 
+/// How a browser ended, and what it wrote on its standard error.
+struct BrowserRun {
+  int status = 0;  ///< of waitpid
+  std::string errors;
+  [[nodiscard]] bool good() const { return WIFEXITED(status) && WEXITSTATUS(status) == 0; }
+};
+
+/// @throws std::runtime_error if it does not finish within the limit
+BrowserRun run_browser(std::vector<std::string> command, bool sandbox, const std::string& address,
+                       const std::filesystem::path& folder, std::chrono::duration<double> limit) {
+  if (!sandbox) command.emplace_back("--no-sandbox");
+  command.push_back(address);
+  const std::filesystem::path errors = folder / "errors";
+  const std::optional<int> status = run_program(command, folder / "page", errors, limit);
+  if (!status)
+    throw std::runtime_error(
+        fmt::format("{} did not finish within {} s and was ended", command.front(), limit.count()));
+  return {*status, read_file(errors)};
+}
+
+/// Chromium's own words where neither user namespaces nor its helper with the rights of root are there.
+constexpr std::string_view no_sandbox_there = "No usable sandbox";
+
 }  // namespace
 
 std::optional<std::filesystem::path> find_browser() {
@@ -49,29 +72,27 @@ std::optional<std::filesystem::path> find_browser() {
 std::string loaded_page(const std::filesystem::path& browser, const std::filesystem::path& folder,
                         const std::filesystem::path& page, const std::string& fragment,
                         std::chrono::duration<double> limit) {
-  std::vector<std::string> command = {browser.string(),
-                                      "--headless",
-                                      "--use-angle=swiftshader",
-                                      "--enable-unsafe-swiftshader",
-                                      "--disable-dev-shm-usage",
-                                      "--no-first-run",
-                                      "--disable-background-networking",
-                                      "--user-data-dir=" + (folder / "profile").string(),
-                                      "--dump-dom"};
-  // Chromium refuses to build its sandbox as root; the page is this program's own.
-  if (::geteuid() == 0) command.emplace_back("--no-sandbox");
-  command.push_back(file_url(page) + "#" + fragment);
-  const std::filesystem::path errors = folder / "errors";
-  const std::optional<int> status = run_program(command, folder / "page", errors, limit);
-  if (!status) {
-    throw std::runtime_error(
-        fmt::format("{} did not finish within {} s and was ended", browser.string(), limit.count()));
-  }
-  if (!WIFEXITED(*status) || WEXITSTATUS(*status) != 0) {
+  const std::vector<std::string> command = {browser.string(),
+                                            "--headless",
+                                            "--use-angle=swiftshader",
+                                            "--enable-unsafe-swiftshader",
+                                            "--disable-dev-shm-usage",
+                                            "--no-first-run",
+                                            "--disable-background-networking",
+                                            "--user-data-dir=" + (folder / "profile").string(),
+                                            "--dump-dom"};
+  const std::string address = file_url(page) + "#" + fragment;
+  // The page is this program's own, its data may be a stranger's: the sandbox is kept where it can be had. Chromium
+  // has none for root.
+  const bool sandbox = ::geteuid() != 0;
+  BrowserRun run = run_browser(command, sandbox, address, folder, limit);
+  if (sandbox && !run.good() && run.errors.find(no_sandbox_there) != std::string::npos)
+    run = run_browser(command, false, address, folder, limit);
+  if (!run.good()) {
     constexpr std::size_t shown = 1000;
-    const std::string text = read_file(errors);
-    throw std::runtime_error(fmt::format("{} failed: {}", browser.string(),
-                                         text.substr(text.size() - std::min(text.size(), shown))));
+    throw std::runtime_error(
+        fmt::format("{} failed: {}", browser.string(),
+                    run.errors.substr(run.errors.size() - std::min(run.errors.size(), shown))));
   }
   return read_file(folder / "page");
 }

@@ -12,6 +12,7 @@
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/scratch_folder.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/scene/input_file.hpp"
 #include "apps/view/child_program.hpp"
 
@@ -92,7 +93,7 @@ int movie_command(const MovieOptions& options, std::ostream& out, std::ostream& 
   } catch (const std::invalid_argument& error) {
     return refuse(error.what(), exit_status::bad_input);
   } catch (const std::runtime_error& error) {
-    return refuse(error.what(), exit_status::failed);
+    return refuse(fault_text(error), exit_status::failed);
   }
   return exit_status::done;
 }

@@ -20,7 +20,9 @@
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/scratch_folder.hpp"
 #include "apps/scene/base64.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/view/headless_browser.hpp"
+#include "apps/view/view_command.hpp"
 #include "apps/view/view_file.hpp"
 
 namespace ashlar {
@@ -153,9 +155,12 @@ int make_picture(const PictureOptions& options, const std::filesystem::path& bro
     ViewOptions wanted;
     wanted.frame = options.frame;
     wanted.points = points_of(options);
+    wanted.relative_to = options.relative_to;
     report = write_view_file(options.folder, view, wanted);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    return complain(error.what(), exit_status::bad_input);
+    return complain(fault_text(error), exit_status::bad_input);
   }
   const std::size_t frame = options.frame.value_or(report.frames - 1);
   const std::string page =
@@ -214,9 +219,12 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
   try {
     ViewOptions wanted;
     wanted.points = points_of(options);
+    wanted.relative_to = options.relative_to;
     report = write_view_file(options.folder, view, wanted);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    throw std::invalid_argument(error.what());
+    throw std::invalid_argument(fault_text(error));
   }
   const std::size_t last = report.frames - 1;
   std::vector<std::size_t> range = {0, last};
@@ -302,6 +310,7 @@ void declare_look(CLI::App& command, PictureOptions& options) {
       ->check(CLI::IsMember({"displacement", "displacement_x", "displacement_y", "displacement_z", "velocity",
                              "von_mises", "pressure", "sigma_1", "sigma_3", "stress_xx", "stress_yy",
                              "stress_zz", "stress_xy", "stress_yz", "stress_xz", "block", "order", "stone"}));
+  declare_relative_to(command, options.relative_to);
   command.add_flag("--frame-range", options.frame_range,
                    "Colours over the values of this frame (default: of the whole run)");
   command.add_option("--at", options.at, "Point looked at (default: the middle of all blocks)")

@@ -40,7 +40,8 @@ struct PictureOptions {
   double zoom = 1.0;              ///< > 0; 1 shows all blocks
   double scale = 1.0;             ///< > 0; of displacements
   std::string color = "displacement";
-  bool frame_range = false;  ///< colours over the values of this frame, else of the whole run
+  std::optional<std::string> relative_to;  ///< as ViewOptions::relative_to
+  bool frame_range = false;                ///< colours over the values of this frame, else of the whole run
   PictureParts parts;
   double time_limit = 120.0;  ///< s, > 0: after that a browser that makes no picture is ended
   std::optional<std::string>

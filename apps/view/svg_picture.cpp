@@ -8,6 +8,7 @@
 #include "apps/results/atomic_file.hpp"
 #include "apps/results/scratch_folder.hpp"
 #include "apps/scene/base64.hpp"
+#include "apps/scene/fault_text.hpp"
 #include "apps/view/headless_browser.hpp"
 
 namespace ashlar {
@@ -53,7 +54,7 @@ std::string write_png(const std::string& svg, const std::filesystem::path& pictu
     write_file_atomically(picture, png_of_svg(*browser, svg, width, height), Durability::process);
     return "picture: " + picture.string();
   } catch (const std::exception& error) {
-    return fmt::format("no PNG beside it: {}", error.what());
+    return fmt::format("no PNG beside it: {}", fault_text(error));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <string>
 
 #include "apps/command_line.hpp"
 
@@ -12,12 +13,16 @@ namespace ashlar {
 struct ViewCommandOptions {
   std::filesystem::path folder;               ///< result folder
   std::optional<std::filesystem::path> page;  ///< empty: view.html in the folder
+  std::optional<std::string> relative_to;     ///< as ViewOptions::relative_to
   bool all_points = false;                    ///< contact points of frames with many of them too
 };
 
 /// Writes the page and says where it is and what is in it.
 /// @return exit status; bad_input if the folder cannot be read.
 [[nodiscard]] int view_command(const ViewCommandOptions& options, std::ostream& out, std::ostream& err);
+
+/// Declares --relative-to, which pictures and films have too.
+void declare_relative_to(CLI::App& command, std::optional<std::string>& block);
 
 void declare_view_command(CLI::App& program, CommandContext& context);
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -14,6 +16,7 @@
 #include "apps/results/json_text.hpp"
 #include "apps/results/thinned_series.hpp"
 #include "apps/scene/input_file.hpp"
+#include "apps/scene/nearest_name.hpp"
 #include "apps/view/packed_numbers.hpp"
 #include "apps/view/view_assets.hpp"
 #include "apps/view/view_frames.hpp"
@@ -54,26 +57,90 @@ Json analysis_of(const Json& scene) {
   return type_in(scene["stage"].front());
 }
 
-/// What the page needs of the scene: the kind of analysis, names and materials of blocks. The scene itself may
-/// hold long histories. @param summary from which the scene is taken out
-void move_scene(Json& summary, Json& page) {
-  page["analysis"] = nullptr;
-  page["blocks"] = Json::array();
-  if (!summary.is_object() || !summary.contains("scene")) return;
-  const Json scene = std::move(summary["scene"]);
-  summary.erase("scene");
-  if (!scene.is_object()) return;
-  page["analysis"] = analysis_of(scene);
-  if (!scene.contains("block") || !scene["block"].is_array()) return;
-  for (const Json& block : scene["block"]) {
-    Json kept = Json::object();
-    for (const char* key : {"name", "material"})
-      if (block.is_object() && block.contains(key)) kept[key] = block[key];
-    page["blocks"].push_back(std::move(kept));
-  }
+/// The entries of `block` of a scene.
+std::vector<Json> blocks_of(const Json& scene) {
+  std::vector<Json> blocks;
+  if (!scene.is_object() || !scene.contains("block") || !scene["block"].is_array()) return blocks;
+  for (const Json& block : scene["block"]) blocks.push_back(block.is_object() ? block : Json::object());
+  return blocks;
 }
 
-Json scene_json(const std::filesystem::path& folder, const ViewSurface& surface) {
+/// A text of a block, empty if there is none.
+std::string text_of(const Json& block, const char* key) {
+  const auto value = block.find(key);
+  return value != block.end() && value->is_string() ? value->get<std::string>() : "";
+}
+
+/// Materials of the blocks of a scene by name. A piece NAME.3 of a block that was cut has that of NAME.
+class Materials {
+ public:
+  explicit Materials(const std::vector<Json>& blocks) {
+    for (const Json& block : blocks) known_[text_of(block, "name")] = text_of(block, "material");
+  }
+  [[nodiscard]] std::string of(std::string name) const {
+    for (;;) {
+      if (const auto found = known_.find(name); found != known_.end()) return found->second;
+      const std::size_t dot = name.find_last_of('.');
+      if (dot == std::string::npos) return "";
+      name.resize(dot);
+    }
+  }
+
+ private:
+  std::map<std::string, std::string> known_;
+};
+
+/// What the page needs of the scene: the kind of analysis, names and materials of blocks. The scene itself may
+/// hold long histories. @param summary from which the scene is taken out
+/// @param names of the blocks of frames; empty: those of the scene
+void move_scene(Json& summary, std::vector<std::string> names, Json& page) {
+  Json scene;
+  if (summary.is_object() && summary.contains("scene")) {
+    scene = std::move(summary["scene"]);
+    summary.erase("scene");
+  }
+  page["analysis"] = scene.is_object() ? analysis_of(scene) : Json(nullptr);
+  const std::vector<Json> blocks = blocks_of(scene);
+  if (names.empty())
+    for (const Json& block : blocks) names.push_back(text_of(block, "name"));
+  const Materials materials(blocks);
+  page["blocks"] = Json::array();
+  for (const std::string& name : names)
+    page["blocks"].push_back({{"name", name}, {"material", materials.of(name)}});
+}
+
+/// Number of the block called `name`, or of that number where no block is called so.
+/// @throws std::invalid_argument if there is none
+std::size_t number_called(const std::string& name, const Json& blocks) {
+  std::vector<std::string> names;
+  for (const Json& block : blocks) names.push_back(text_of(block, "name"));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error == std::errc{} && end == name.data() + name.size() && number < names.size()) return number;
+  throw std::invalid_argument(fmt::format(
+      "the run has no block \"{}\" that displacements can be relative to; {}a block by name or number, "
+      "or none is allowed",
+      name, guess(name, names, "\"")));
+}
+
+/// Number of the block that displacements are relative to; null: none.
+Json relative_to(const std::optional<std::string>& wanted, const Json& summary, const Json& blocks) {
+  const auto is_called = [&](const std::string& name) {
+    return std::any_of(blocks.begin(), blocks.end(),
+                       [&](const Json& block) { return text_of(block, "name") == name; });
+  };
+  if (wanted) {
+    if (*wanted == "none" && !is_called("none")) return nullptr;
+    return number_called(*wanted, blocks);
+  }
+  const std::string base = summary.is_object() ? text_of(summary, "base") : "";
+  return base.empty() || !is_called(base) ? Json(nullptr) : Json(number_called(base, blocks));
+}
+
+Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, const ViewOptions& options) {
+  const ViewSurface& surface = reader.surface();
   PackedNumbers reference;
   for (const Vector3& point : surface.reference)
     for (int k = 0; k < 3; ++k) reference.add_float(point[k]);
@@ -82,12 +149,14 @@ Json scene_json(const std::filesystem::path& folder, const ViewSurface& surface)
                {"reference", reference.base64()},
                {"cells", deflated_base64({reinterpret_cast<const char*>(surface.cells.data()),
                                           surface.cells.size() * sizeof(std::int32_t)})},
+               {"fixed", surface.fixed},
                {"velocity", surface.velocity},
                {"stress", surface.stress},
                {"few_points", most_few_points},
                {"history", history_json(folder)}};
   Json summary = summary_json(folder);
-  move_scene(summary, page);
+  move_scene(summary, reader.block_names(), page);
+  page["relative_to"] = relative_to(options.relative_to, summary, page["blocks"]);
   page["summary"] = std::move(summary);
   return page;
 }
@@ -143,7 +212,7 @@ ViewReport write_view_file(const std::filesystem::path& folder, const std::files
   if (options.frame && *options.frame >= reader.count())
     throw std::out_of_range(
         fmt::format("no frame {}, the last one is {}", *options.frame, reader.count() - 1));
-  Json scene = scene_json(folder, reader.surface());
+  Json scene = scene_json(folder, reader, options);
   const ViewAssets assets = view_assets();
   const std::string libraries = libraries_text(assets);
   const std::size_t fixed_bytes = assets.page.size() + assets.style.size() + assets.script.size() +

@@ -19,6 +19,9 @@ struct ViewOptions {
   std::size_t most_bytes = 50'000'000;
   ViewPoints points = ViewPoints::few;
   std::optional<std::size_t> frame;  ///< index of a frame that is kept whatever the others do
+  /// Name or number of the block that displacements are shown relative to, "none": as they are; empty: the base of the
+  /// run (`base` of summary.json), if it has one. A name comes before a number, and before "none".
+  std::optional<std::string> relative_to;
 };
 
 /// What went into the page.
@@ -31,7 +34,8 @@ struct ViewReport {
 /// Reads the result folder and writes the page to `page`. A folder without summary.json (a run that goes on
 /// or was killed) is shown with block numbers for names.
 /// @throws std::runtime_error with path and reason if the folder has no frames, or a file cannot be read, is
-/// not what a run writes or cannot be written; std::out_of_range if there is no frame `options.frame`.
+/// not what a run writes or cannot be written; std::out_of_range if there is no frame `options.frame`;
+/// std::invalid_argument with the nearest name if there is no block `options.relative_to`.
 ViewReport write_view_file(const std::filesystem::path& folder, const std::filesystem::path& page,
                            const ViewOptions& options = {});
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -49,6 +51,32 @@ ViewSurface surface_of(const UnstructuredGrid& grid) {
   surface.velocity = find_values<double>(grid.point_data, "velocity", 3) != nullptr;
   surface.stress = find_values<double>(grid.point_data, "stress", 6) != nullptr;
   return surface;
+}
+
+/// Numbers of fixed blocks; none: the frame is of a version that wrote no array "fixed".
+std::optional<std::vector<std::int32_t>> fixed_blocks_in(const UnstructuredGrid& grid) {
+  const auto* fixed = find_values<std::int32_t>(grid.cell_data, "fixed", 1);
+  if (fixed == nullptr) return std::nullopt;
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
+  std::set<std::int32_t> numbers;
+  for (std::size_t c = 0; c < block.size(); ++c)
+    if ((*fixed)[c] != 0) numbers.insert(block[c]);
+  return std::vector(numbers.begin(), numbers.end());
+}
+
+/// Places of the points of each block of order 0.
+std::map<std::int32_t, std::vector<Vector3>> places_of_order_zero(const UnstructuredGrid& grid) {
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
+  const auto& order = required_values<std::int32_t>(grid.cell_data, "order", 1);
+  std::map<std::int32_t, std::vector<Vector3>> places;
+  int start = 0;
+  for (std::size_t c = 0; c < grid.offsets.size(); ++c) {
+    const int end = grid.offsets[c];
+    for (int k = start; order[c] == 0 && k < end; ++k)
+      places[block[c]].push_back(grid.points[at(grid.connectivity[at(k)])]);
+    start = end;
+  }
+  return places;
 }
 
 void pack_blocks(PackedNumbers& numbers, const UnstructuredGrid& grid, const ViewSurface& surface) {
@@ -175,6 +203,8 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
   if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
   const std::filesystem::path path = folder_ / blocks_.front().file;
   UnstructuredGrid first = read_vtu(path);
+  block_names_ = first.block_names;
+  std::optional<std::vector<std::int32_t>> fixed;
   if (has_stages(folder)) {
     for (std::size_t k = 0; k < count_; ++k) {
       const std::filesystem::path frame = folder_ / blocks_[k].file;
@@ -184,9 +214,30 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
     first = all_blocks_.whole();
   }
   naming_the_file(path, [&] {
+    fixed = fixed_blocks_in(first);
     curved_ = std::make_unique<CurvedCells>(first);
     surface_ = surface_of(curved_->divided(std::move(first)));
   });
+  surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
+}
+
+std::vector<std::int32_t> ViewFrames::blocks_that_never_move() const {
+  std::map<std::int32_t, std::vector<Vector3>> first;
+  std::set<std::int32_t> moved;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const std::filesystem::path path = folder_ / blocks_[k].file;
+    const UnstructuredGrid grid = read_vtu(path);
+    naming_the_file(path, [&] {
+      for (auto& [block, places] : places_of_order_zero(grid)) {
+        const auto [known, is_new] = first.try_emplace(block, std::move(places));
+        if (!is_new && known->second != places) moved.insert(block);
+      }
+    });
+  }
+  std::vector<std::int32_t> still;
+  for (const auto& [block, places] : first)
+    if (!moved.contains(block)) still.push_back(block);
+  return still;
 }
 
 ViewFrameData ViewFrames::read(std::size_t index) const {

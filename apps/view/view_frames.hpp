@@ -20,6 +20,7 @@ struct ViewSurface {
   std::vector<Vector3> reference;   ///< places less displacements, m
   std::vector<int> block_of_point;  ///< -1: no cell uses it
   std::vector<std::int32_t> cells;  ///< block, order, face, number of corners, corners; cell after cell
+  std::vector<std::int32_t> fixed;  ///< numbers of fixed blocks, increasing
   bool velocity = false;
   bool stress = false;
 };
@@ -44,6 +45,8 @@ class ViewFrames {
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const ViewSurface& surface() const { return surface_; }
+  /// By number, of all blocks that any frame may have; empty: a version that wrote none.
+  [[nodiscard]] const std::vector<std::string>& block_names() const { return block_names_; }
 
   /// Packed one after the other, #p points of the surface:
   ///   displacements; velocities and stresses (xx, yy, zz, xy, yz, xz) if the run has them
@@ -56,6 +59,9 @@ class ViewFrames {
   [[nodiscard]] ViewFrameData read(std::size_t index) const;
 
  private:
+  /// Of versions that wrote no array "fixed": blocks of order 0, fixed or rigid, with the same places in all frames.
+  [[nodiscard]] std::vector<std::int32_t> blocks_that_never_move() const;
+
   std::filesystem::path folder_;
   ViewPoints points_;
   std::vector<PvdFrame> blocks_;
@@ -65,6 +71,7 @@ class ViewFrames {
   BlockUnion all_blocks_;  ///< empty unless blocks come and go
   std::unique_ptr<const CurvedCells> curved_;
   ViewSurface surface_;
+  std::vector<std::string> block_names_;
 };
 
 }  // namespace ashlar

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "geometry/any_solid/solid_features.hpp"
-#include "geometry/boxes/box_tree.hpp"
 #include "geometry/exact/direction_constructions.hpp"
 #include "geometry/exact/rounding_mode.hpp"
 
@@ -86,6 +85,7 @@ class ClosestPointFinder::Surface {
     }
   }
   [[nodiscard]] const Polyhedron& solid() const { return solid_; }
+  [[nodiscard]] const BoxTree& tree() const { return tree_; }
 
   // Apart from find() so that no arithmetic moves across the change of the rounding mode.
   [[gnu::noinline]] [[nodiscard]] ClosestPoint find_to_nearest(const Vector3& x, bool any) const {
@@ -307,6 +307,10 @@ ClosestPointFinder& ClosestPointFinder::operator=(ClosestPointFinder&&) noexcept
 
 const Polyhedron& ClosestPointFinder::solid() const {
   return surface_->solid();
+}
+
+const BoxTree& ClosestPointFinder::triangle_boxes() const {
+  return surface_->tree();
 }
 
 ClosestPoint ClosestPointFinder::find(const Vector3& x) const {

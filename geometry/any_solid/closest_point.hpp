@@ -8,6 +8,7 @@
 
 #include <memory>
 
+#include "geometry/boxes/box_tree.hpp"
 #include "geometry/convex/contact_region.hpp"
 #include "geometry/solid/polyhedron.hpp"
 
@@ -35,6 +36,8 @@ class ClosestPointFinder {
   ClosestPointFinder& operator=(ClosestPointFinder&&) noexcept;
 
   [[nodiscard]] const Polyhedron& solid() const;
+  /// Boxes of the triangles of the solid's mesh, one a leaf.
+  [[nodiscard]] const BoxTree& triangle_boxes() const;
   /// @param x finite. @throws std::invalid_argument if it is not.
   [[nodiscard]] ClosestPoint find(const Vector3& x) const;
   /// The same without rational numbers: of features that are as near but for rounding any one may be the

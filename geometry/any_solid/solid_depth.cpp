@@ -37,12 +37,67 @@ SolidDepth depth_of(const Polyhedron& solid, const Vector3& x, double depth, con
   return {depth, x, way.squaredNorm() > 0.0 ? way.normalized() : solid.faces()[at(face)].normal, face};
 }
 
+/// Shares of a segment.
+using Stretch = std::array<double, 2>;
+
+/// The stretch of a segment with all points that are within a reach of a triangle, and maybe others.
+class NearStretch {
+ public:
+  NearStretch(const Vector3& start, const Vector3& end, double reach)
+      : start_(start), along_(end - start), reach_(reach) {}
+
+  [[nodiscard]] std::optional<Stretch> of(const std::array<Vector3, 3>& corners) const {
+    const auto part = part_within(box_of(corners).grown(reach_), start_, start_ + along_);
+    if (!part) return std::nullopt;
+    Stretch stretch = *part;
+    const Vector3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    if (!keep_below(stretch, normal, corners[0]) || !keep_below(stretch, -normal, corners[0]))
+      return std::nullopt;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3 out = (corners[(k + 1) % 3] - corners[k]).cross(normal).normalized();
+      if (!keep_below(stretch, out, corners[k])) return std::nullopt;
+    }
+    return stretch;
+  }
+  [[nodiscard]] Vector3 at_share(double share) const { return start_ + share * along_; }
+
+ private:
+  /// Leaves out what is more than the reach above a plane. @return whether anything is left
+  [[nodiscard]] bool keep_below(Stretch& stretch, const Vector3& normal, const Vector3& point) const {
+    const double room = reach_ - normal.dot(start_ - point), rise = normal.dot(along_);
+    if (rise > 0.0) stretch[1] = std::min(stretch[1], room / rise);
+    if (rise < 0.0) stretch[0] = std::max(stretch[0], room / rise);
+    return (rise != 0.0 || room >= 0.0) && stretch[0] <= stretch[1];
+  }
+
+  Vector3 start_, along_;
+  double reach_;
+};
+
+/// Calls visit(item) for all boxes of a tree that a segment may come within a reach of.
+template <class Visit>
+void for_each_along(const BoxTree& tree, const Vector3& start, const Vector3& end, double reach,
+                    Visit visit) {
+  std::vector<int> open = {0};
+  while (!open.empty()) {
+    const BoxTree::Node& node = tree.nodes()[at(open.back())];
+    open.pop_back();
+    if (!part_within(node.box.grown(reach), start, end)) continue;
+    if (node.children >= 0) {
+      open.insert(open.end(), {node.children, node.children + 1});
+      continue;
+    }
+    for (int i = node.begin; i < node.end; ++i) visit(tree.items()[at(i)]);
+  }
+}
+
 }  // namespace
 
 /// A part of a segment that may have deeper points than are known.
 struct SolidDepthFinder::Part {
   Vector3 start;
   Vector3 end;
+  bool one_sided = false;  ///< the surface does not cross it: all of it is inside, or outside
 };
 
 SolidDepthFinder::SolidDepthFinder(const Polyhedron& solid) {
@@ -120,18 +175,15 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment_in_convex(const Vector3& 
   return first.depth >= last.depth ? answer(low, first) : answer(high, last);
 }
 
-std::optional<SolidDepth> SolidDepthFinder::of_point(const Vector3& x) const {
+std::optional<SolidDepth> SolidDepthFinder::of_point(const Vector3& x, double* clearance) const {
+  if (clearance != nullptr) *clearance = 0.0;
   if (convex()) return of_point_in_convex(x);
   const ClosestPoint nearest = closest_->find_any(x);
-  if (nearest.place != PointPlace::inside) return std::nullopt;
   const double depth = std::sqrt(nearest.squared_distance);
+  if (clearance != nullptr && nearest.place == PointPlace::outside) *clearance = depth;
+  if (nearest.place != PointPlace::inside) return std::nullopt;
   if (!(depth > 0.0)) return std::nullopt;
   return depth_of(closest_->solid(), x, depth, nearest);
-}
-
-double SolidDepthFinder::clear_radius(const Vector3& x) const {
-  const ClosestPoint nearest = closest_->find_any(x);
-  return nearest.place == PointPlace::outside ? std::sqrt(nearest.squared_distance) : 0.0;
 }
 
 /// No point of the part is deeper: none is deeper than its distance to any triangle of the surface, and the
@@ -160,6 +212,30 @@ double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const Cl
   return farther_end(triangle_of(solid, triangle));
 }
 
+/// Whatever is within the reach of a triangle lies in that triangle's stretch; a stretch whose ends are no farther than
+/// twice the reach from its triangle is not deeper than that anywhere, as the distance to a triangle is convex along it.
+void SolidDepthFinder::divide(const Vector3& start, const Vector3& end, double reach,
+                              std::vector<Part>& parts) const {
+  const NearStretch near(start, end, reach);
+  std::vector<Stretch> stretches;
+  for_each_along(closest_->triangle_boxes(), start, end, reach, [&](int triangle) {
+    const auto corners = triangle_of(closest_->solid(), triangle);
+    const auto stretch = near.of(corners);
+    if (!stretch) return;
+    stretches.push_back(*stretch);
+    const Vector3 first = near.at_share((*stretch)[0]), last = near.at_share((*stretch)[1]);
+    if (std::max(distance_to_triangle(first, corners), distance_to_triangle(last, corners)) > 2.0 * reach)
+      parts.push_back({first, last});
+  });
+  std::sort(stretches.begin(), stretches.end());
+  double done = 0.0;
+  for (const Stretch& stretch : stretches) {
+    if (stretch[0] > done) parts.push_back({near.at_share(done), near.at_share(stretch[0]), true});
+    done = std::max(done, stretch[1]);
+  }
+  if (done < 1.0) parts.push_back({near.at_share(done), end, true});
+}
+
 std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, const Vector3& end,
                                                        double resolution, double known,
                                                        double* clearance) const {
@@ -168,9 +244,12 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     auto depth = of_segment_in_convex(start, end);
     return depth && depth->depth > known ? depth : std::nullopt;
   }
+  const double reach = 0.5 * resolution;
+  std::vector<Part> parts;
+  divide(start, end, reach, parts);
+  const bool whole =
+      parts.size() == 1 && parts[0].one_sided && parts[0].start == start && parts[0].end == end;
   std::optional<SolidDepth> deepest;
-  double least_clear = std::numeric_limits<double>::infinity();
-  std::vector<Part> parts = {{start, end}};
   while (!parts.empty()) {
     const Part part = parts.back();
     parts.pop_back();
@@ -179,20 +258,20 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     const ClosestPoint nearest = closest_->find_any(middle);
     const double distance = std::sqrt(nearest.squared_distance);
     const bool inside = nearest.place == PointPlace::inside;
+    if (!inside && part.one_sided) {
+      if (whole && clearance != nullptr) *clearance = std::max(reach, distance - half);
+      continue;
+    }
     if (inside && distance > (deepest ? deepest->depth : known)) {
       deepest = depth_of(closest_->solid(), middle, distance, nearest);
     }
     const double deeper = (deepest ? deepest->depth : known) + resolution;
     // Outside, a part goes in only beyond its nearest surface; inside, its ends are at most `half` deeper.
     const double most = std::min(inside ? half + distance : half - distance, bound(part, middle, nearest));
-    if (most <= deeper) {
-      least_clear = std::min(least_clear, inside ? 0.0 : std::max(distance - half, 0.0));
-      continue;
-    }
-    parts.push_back({middle, part.end});
-    parts.push_back({part.start, middle});
+    if (most <= deeper) continue;
+    parts.push_back({middle, part.end, part.one_sided});
+    parts.push_back({part.start, middle, part.one_sided});
   }
-  if (clearance != nullptr) *clearance = least_clear;
   return deepest;
 }
 

@@ -3,13 +3,16 @@
 // It knows nothing of contacts: it is the measure that they are held against. A solid that is convex but for
 // the rounding of its coordinates is the common part of the half spaces of its faces: the depth of a point is
 // the least of its depths below them, a concave function along a segment. Of other solids the closest point
-// of the surface is found exactly (closest_point.hpp); along a segment the depth is bounded above on every
-// part of it by the distance to the triangle that is nearest at the part's middle, which is convex along the
-// segment, so that parts without a deeper point are left out for certain.
+// of the surface is found exactly (closest_point.hpp). A segment is divided where it comes within the asked
+// resolution of a triangle: stretches nearer than that to the surface are not deeper, and each of the others lies
+// on one side of the surface, which its middle decides. Within the solid the depth on a part of the segment is
+// bounded above by the distance to the triangle that is nearest at the part's middle, which is convex along
+// the segment, so that parts without a deeper point are left out for certain.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "geometry/any_solid/closest_point.hpp"
 #include "geometry/solid/polyhedron.hpp"
@@ -29,12 +32,15 @@ class SolidDepthFinder {
  public:
   explicit SolidDepthFinder(const Polyhedron& solid);
 
-  /// @param x m, finite. @return none: not inside
-  [[nodiscard]] std::optional<SolidDepth> of_point(const Vector3& x) const;
+  /// @param x m, finite
+  /// @param clearance of solids that are not convex: set to the distance to the solid, m; 0: the point is not outside;
+  /// null: not wanted
+  /// @return none: not inside
+  [[nodiscard]] std::optional<SolidDepth> of_point(const Vector3& x, double* clearance = nullptr) const;
   /// The deepest point of a segment; of equally deep ones any.
   /// @param start,end m, finite
-  /// @param resolution m, > 0: solids that are not convex are searched until no other point is deeper than
-  /// the answer by more than this
+  /// @param resolution m, > 0, above the rounding of coordinates: solids that are not convex are searched until no
+  /// other point is deeper than the answer by more than this
   /// @param known m, >= 0: only points deeper than this are of interest
   /// @param clearance of solids that are not convex: set to how far the segment is from the solid at least,
   /// m; 0: not known; null: not wanted
@@ -43,9 +49,6 @@ class SolidDepthFinder {
                                                      double resolution, double known = 0.0,
                                                      double* clearance = nullptr) const;
   [[nodiscard]] bool convex() const { return closest_ == nullptr; }
-  /// Radius of a ball around a point that has nothing of a solid that is not convex, m; 0: the point is in
-  /// it.
-  [[nodiscard]] double clear_radius(const Vector3& x) const;
 
  private:
   struct Plane {
@@ -53,6 +56,8 @@ class SolidDepthFinder {
     Vector3 point;
   };
   struct Part;
+  /// Appends the parts of a segment that may have points deeper than a reach, m.
+  void divide(const Vector3& start, const Vector3& end, double reach, std::vector<Part>& parts) const;
   [[nodiscard]] std::optional<SolidDepth> of_point_in_convex(const Vector3& x) const;
   [[nodiscard]] std::optional<SolidDepth> of_segment_in_convex(const Vector3& start,
                                                                const Vector3& end) const;

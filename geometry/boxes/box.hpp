@@ -2,8 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "geometry/triangle_mesh.hpp"
 
@@ -16,6 +19,9 @@ struct Box {
 
   [[nodiscard]] bool meets(const Box& other) const {
     return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  [[nodiscard]] bool contains(const Vector3& point) const {
+    return (low.array() <= point.array()).all() && (point.array() <= high.array()).all();
   }
   void include(const Vector3& point) {
     low = low.cwiseMin(point);
@@ -30,6 +36,27 @@ struct Box {
     return {low - Vector3::Constant(margin), high + Vector3::Constant(margin)};
   }
 };
+
+/// The part of a segment within a box, rounded. @return shares of the segment, 0 to 1 in order; none: it misses the box
+[[nodiscard]] inline std::optional<std::array<double, 2>> part_within(const Box& box, const Vector3& start,
+                                                                      const Vector3& end) {
+  double first = 0.0, last = 1.0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double rise = end[k] - start[k];
+    double enter = box.low[k] - start[k], leave = box.high[k] - start[k];
+    if (rise == 0.0) {
+      if (enter > 0.0 || leave < 0.0) return std::nullopt;
+      continue;
+    }
+    enter /= rise;
+    leave /= rise;
+    if (enter > leave) std::swap(enter, leave);
+    first = std::max(first, enter);
+    last = std::min(last, leave);
+  }
+  if (first > last) return std::nullopt;
+  return std::array{first, last};
+}
 
 [[nodiscard]] inline Box box_of(std::span<const Vector3> points) {
   Box box;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 
 #include "geometry/boxes/box_pairs.hpp"
 #include "geometry/exact/rounding_mode.hpp"
@@ -345,9 +346,11 @@ void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& ve
 }  // namespace
 
 double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cells) {
+  std::set<int> faces;
+  for (const int cell : cells) faces.insert(surface.cells[at(cell)].face);
   double sum = 0.0;
-  for (const int cell : cells) sum += surface.face_share[at(surface.cells[at(cell)].face)];
-  return sum / static_cast<double>(cells.size());
+  for (const int face : faces) sum += surface.face_share[at(face)];
+  return sum / static_cast<double>(faces.size());
 }
 
 PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b, const ContactLimits& limits,

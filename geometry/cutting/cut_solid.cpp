@@ -118,9 +118,13 @@ struct CutSolid::State {
     }
   }
 
-  [[gnu::noinline]] void cut_into_cells(const std::vector<Vector3>& points, int mark) {
+  void require_cells() const {
     if (pieces.size() != 1 || pieces[0].cells.size() != 1 || !complex.convex(pieces[0].cells[0]))
       throw CutError("cells around points need a block that is convex and was not cut before");
+  }
+
+  [[gnu::noinline]] void cut_into_cells(const std::vector<Vector3>& points, int mark) {
+    require_cells();
     complex = voronoi_complex(complex, points, mark);
     measures.reset();
     pieces.clear();
@@ -293,6 +297,10 @@ void CutSolid::cut(const CutPlane& plane, int mark, const Choice& chosen) {
 void CutSolid::cut_along(const Polyhedron& surface, int mark, int label, const Choice& chosen) {
   const NearestRounding nearest;
   state_->cut_along(surface, mark, label, chosen);
+}
+
+void CutSolid::require_cells() const {
+  state_->require_cells();
 }
 
 void CutSolid::cut_into_cells(const std::vector<Vector3>& points, int mark) {

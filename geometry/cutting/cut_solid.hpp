@@ -64,10 +64,12 @@ class CutSolid {
   /// Parts pieces along the surface of a solid. @param label of what is inside
   /// @throws CutError if that takes too many cells
   void cut_along(const Polyhedron& surface, int mark, int label, const Choice& chosen);
+  /// @throws CutError unless the solid is convex and was not cut before
+  void require_cells() const;
   /// Parts the whole into the Voronoi cells of points: all that is nearer to one of them than to any other.
   /// Cells follow the order of the points; those that do not meet the solid are left out. @param mark as of
   /// cut()
-  /// @throws CutError if the solid is not convex or was cut before, or two points are one
+  /// @throws CutError as require_cells(), or if two points are one
   void cut_into_cells(const std::vector<Vector3>& points, int mark);
   /// Makes two pieces one. @param into keeps its number
   void glue(int piece, int into);

@@ -1,4 +1,5 @@
-// MSH files of Gmsh as text, of versions 2.2 and 4.1. Of both the sections MeshFormat, PhysicalNames, Nodes and
+// MSH files of Gmsh as text, of versions 2.0 to 2.2 and 4.1. Those from 2.0 to 2.2 differ in one thing that is read: 2.0
+// names physical groups without their dimension. Of all the sections MeshFormat, PhysicalNames, Nodes and
 // Elements are read, of 4.1 also Entities, which gives the physical groups of its surfaces and volumes.
 #include <algorithm>
 #include <array>
@@ -84,7 +85,10 @@ class MshReader {
     scan_.expect({"$MeshFormat"});
     scan_.require_line("the version of the format");
     const std::string_view version = scan_.require_word("version");
-    if (version != "2.2" && version != "4.1") scan_.fail("version of the format", "must be 2.2 or 4.1");
+    const bool first = version == "2" || version == "2.0";
+    if (!first && version != "2.1" && version != "2.2" && version != "4.1")
+      scan_.fail("version of the format", "must be 2.0, 2.1, 2.2 or 4.1");
+    names_have_dimension_ = !first;
     blocks_ = version == "4.1";
     const std::string_view kind = scan_.require_word("kind of file");
     if (kind != "0") scan_.fail("kind of file", "must be 0: text; gmsh -format msh41 -bin 0 writes it");
@@ -120,9 +124,12 @@ class MshReader {
     const int names = count("number of names");
     for (int k = 0; k < names; ++k) {
       scan_.require_line("name of a physical group");
-      const long long dimension = scan_.integer("dimension", 0, 3);
+      const long long dimension = names_have_dimension_ ? scan_.integer("dimension", 0, volume_dimension) : 0;
       const long long tag = scan_.integer("number of a physical group", -most, most);
-      if (dimension >= surface_dimension) names_[{dimension, tag}] = quoted_name();
+      if (names_have_dimension_ && dimension < surface_dimension) continue;
+      const std::string name = quoted_name();
+      for (const long long of : {surface_dimension, volume_dimension})
+        if (!names_have_dimension_ || of == dimension) names_[{of, tag}] = name;
     }
     end_section("$PhysicalNames");
   }
@@ -330,8 +337,9 @@ class MshReader {
 
   TextScanner scan_;
   VolumeMesh mesh_;
-  VolumeMesh surfaces_;         ///< triangles
-  bool blocks_ = false;         ///< version 4.1
+  VolumeMesh surfaces_;  ///< triangles
+  bool blocks_ = false;  ///< version 4.1
+  bool names_have_dimension_ = true;
   bool entities_read_ = false;  ///< there is a list of them
   bool elements_read_ = false;
   std::map<Tag, std::string> names_;

@@ -132,6 +132,60 @@ class EarClipper {
   std::size_t& tests_left_;
 };
 
+bool less(const Vector3& x, const Vector3& y) {
+  return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
+}
+
+/// A ring of corners read from one of them, forwards or backwards.
+class Reading {
+ public:
+  Reading(const std::vector<Vector3>& points, std::span<const int> ring, bool backwards)
+      : points_(points), ring_(ring), backwards_(backwards) {}
+
+  [[nodiscard]] int corner(std::size_t k) const {
+    const std::size_t place = (start_ + k) % ring_.size();
+    return ring_[backwards_ ? ring_.size() - 1 - place : place];
+  }
+  /// Starts where the sequence of places is least, in time linear in the corners: of two candidates with k places
+  /// in common, the one that is greater there excludes itself and the next k.
+  void start_at_least() {
+    const std::size_t count = ring_.size();
+    std::size_t best = 0, other = 1, common = 0;
+    while (best < count && other < count && common < count) {
+      const Vector3& x = points_[corner(best + common)];
+      const Vector3& y = points_[corner(other + common)];
+      if (x == y) {
+        ++common;
+        continue;
+      }
+      (less(y, x) ? best : other) += common + 1;
+      if (best == other) ++other;
+      common = 0;
+    }
+    start_ = std::min(best, other);
+  }
+  [[nodiscard]] bool is_less_than(const Reading& reading) const {
+    for (std::size_t k = 0; k < ring_.size(); ++k) {
+      const Vector3& x = points_[corner(k)];
+      const Vector3& y = points_[reading.corner(k)];
+      if (x != y) return less(x, y);
+    }
+    return false;
+  }
+  [[nodiscard]] std::vector<int> corners() const {
+    std::vector<int> result;
+    result.reserve(ring_.size());
+    for (std::size_t k = 0; k < ring_.size(); ++k) result.push_back(corner(k));
+    return result;
+  }
+
+ private:
+  const std::vector<Vector3>& points_;
+  std::span<const int> ring_;
+  bool backwards_;
+  std::size_t start_ = 0;
+};
+
 }  // namespace
 
 void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int> corners,
@@ -143,7 +197,14 @@ void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int
   const bool finite =
       std::all_of(corners.begin(), corners.end(), [&points](int c) { return points[c].allFinite(); });
   if (finite) {
-    EarClipper(points, corners, tests_left).run(triangles);
+    Reading forwards(points, corners, false), backwards(points, corners, true);
+    forwards.start_at_least();
+    backwards.start_at_least();
+    const bool turned = backwards.is_less_than(forwards);
+    const std::size_t first = triangles.size();
+    EarClipper(points, (turned ? backwards : forwards).corners(), tests_left).run(triangles);
+    for (std::size_t k = first; turned && k < triangles.size(); ++k)
+      std::swap(triangles[k][1], triangles[k][2]);
     return;
   }
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {

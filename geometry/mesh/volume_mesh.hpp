@@ -1,4 +1,4 @@
-// Meshes of tetrahedra: Gmsh's MSH files, as text of versions 2.2 and 4.1, and the surfaces of what they hold. Files
+// Meshes of tetrahedra: Gmsh's MSH files, as text of versions 2.0 to 2.2 and 4.1, and the surfaces of what they hold. Files
 // without tetrahedra are those surfaces themselves.
 #pragma once
 

@@ -1,6 +1,7 @@
 #include "geometry/subfaces/sub_face_forest.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -74,6 +75,29 @@ void SubFaceForest::join(const std::vector<BernsteinTriangle>& of_roots) {
   }
 }
 
+std::vector<std::uint64_t> SubFaceForest::cuts() const {
+  std::vector<std::uint64_t> cuts((nodes_.size() - at(root_count_)) / 2);
+  // Halves are made together, and one cut after the other.
+  for (const Node& node : nodes_)
+    if (node.children[0] >= 0) cuts[at((node.children[0] - root_count_) / 2)] = node.path;
+  return cuts;
+}
+
+void SubFaceForest::cut_again(const std::vector<std::uint64_t>& cuts) {
+  join({});
+  std::map<std::uint64_t, int> leaves;
+  for (int root = 0; root < root_count_; ++root) leaves.emplace(nodes_[at(root)].path, root);
+  for (const std::uint64_t path : cuts) {
+    const auto leaf = leaves.find(path);
+    if (leaf == leaves.end()) throw std::invalid_argument("a triangle that is cut is none of the surface");
+    if (nodes_[at(leaf->second)].bisections >= max_bisections)
+      throw std::invalid_argument("a triangle is cut too often");
+    cut(leaf->second);
+    for (const int child : nodes_[at(leaf->second)].children) leaves.emplace(nodes_[at(child)].path, child);
+    leaves.erase(leaf);
+  }
+}
+
 /// A side can only be cut where it is the longest one on both its sides: longer ones beyond it go first.
 void SubFaceForest::cut_with_neighbours(int node) {
   std::vector<int> path = {node};
@@ -115,8 +139,10 @@ void SubFaceForest::cut(int index) {
                              node.bisections + 1));
   nodes_.push_back(make_node(node.face, {corner(0), middle, corner(2)}, {rim(0), -1, rim(2)}, child_path(1),
                              node.bisections + 1));
-  auto halves = patches_[at(index)].halves(node.longest);
-  for (BernsteinTriangle& half : halves) patches_.push_back(std::move(half));
+  if (!patches_.empty()) {
+    auto halves = patches_[at(index)].halves(node.longest);
+    for (BernsteinTriangle& half : halves) patches_.push_back(std::move(half));
+  }
   leaf_of_side_.erase({corner(0), corner(1)});
   for (const int child : nodes_[at(index)].children) {
     const auto& corners = nodes_[at(child)].corners;

@@ -51,6 +51,12 @@ class SubFaceForest {
 
   /// Back to the roots, of which none is wanted.
   void join(const std::vector<BernsteinTriangle>& of_roots);
+  /// Names of the nodes that were cut since the last join, in order.
+  [[nodiscard]] std::vector<std::uint64_t> cuts() const;
+  /// Joins, and makes the cuts of another forest of the same surface, so that nodes and points have its numbers. There
+  /// are no patches then until set_patches().
+  /// @throws std::invalid_argument if a name is that of no leaf
+  void cut_again(const std::vector<std::uint64_t>& cuts);
   /// Cuts a leaf, after neighbours whose longer sides are in the way.
   void cut_with_neighbours(int node);
   /// Nodes in the order of the trees.

@@ -109,12 +109,22 @@ double AdaptiveSurface::chord_bound() const {
 }
 
 std::vector<std::uint64_t> AdaptiveSurface::wanted() const {
-  // What was set counts until it has been used.
-  std::set<std::uint64_t> result = remembered_;
+  std::vector<std::uint64_t> result;
   for (const SubFaceForest::Node& node : forest_.nodes()) {
-    if (node.wanted) result.insert(node.path);
+    if (node.wanted) result.push_back(node.path);
   }
-  return {result.begin(), result.end()};
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void AdaptiveSurface::restore(const SurfaceDivision& division) {
+  forest_.cut_again(division.cuts);
+  const std::set<std::uint64_t> wanted(division.wanted.begin(), division.wanted.end());
+  for (int node = 0; node < static_cast<int>(forest_.nodes().size()); ++node)
+    if (wanted.contains(forest_.nodes()[at(node)].path)) forest_.want(node);
+  root_patches_.clear();
+  cell_shapes_.clear();
+  take_leaves(forest_.leaves());
 }
 
 double AdaptiveSurface::bound_of(const SubFaceForest::Node& node, const BernsteinTriangle& patch) {
@@ -133,7 +143,7 @@ bool AdaptiveSurface::needs_division(const SubFaceForest::Node& node, const Bern
 /// Whether the division may stay. Triangles that were cut for a neighbour and now would be for their own sake
 /// are noted as such, so that what is wanted follows from the shape alone.
 bool AdaptiveSurface::division_fits(const DivisionDemand& demand) {
-  bool fits = remembered_.empty();
+  bool fits = true;
   for (std::size_t n = 0; n < forest_.nodes().size(); ++n) {
     const SubFaceForest::Node& node = forest_.nodes()[n];
     const bool leaf = node.children[0] < 0;

@@ -25,6 +25,12 @@ struct DivisionDemand {
   std::span<const Box> neighbours;  ///< along AdaptiveSurface's axes: only cells that meet one are divided
 };
 
+/// A division as it was made: all that the next one depends on beside the shape and the demand.
+struct SurfaceDivision {
+  std::vector<std::uint64_t> cuts;    ///< names of the triangles that are cut, in order (SubFaceForest::cuts)
+  std::vector<std::uint64_t> wanted;  ///< of them those that are cut for their own sake
+};
+
 /// A cell's true, curved shape.
 struct CellShape {
   Box box;             ///< contains the curved patch
@@ -76,10 +82,12 @@ class AdaptiveSurface {
   /// @param values (#domain_points, k) of k polynomials. @return (k)
   [[nodiscard]] Eigen::RowVectorXd largest_values(const Eigen::MatrixXd& values) const;
 
-  /// The triangles that are divided for their own sake: all that a division depends on beside the shape and
-  /// the demand. To be given to another surface of the same solid, order and levels before its next division.
+  /// The triangles that are divided for their own sake, in the order of their names.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
-  void set_wanted(const std::vector<std::uint64_t>& wanted) { remembered_ = {wanted.begin(), wanted.end()}; }
+  [[nodiscard]] SurfaceDivision division() const { return {forest_.cuts(), wanted()}; }
+  /// Takes over the division of another surface of the same solid, order and levels: cells and points have the same
+  /// numbers then. To be called before move(). @throws std::invalid_argument if it is of no such surface
+  void restore(const SurfaceDivision& division);
 
  private:
   [[nodiscard]] bool needs_division(const SubFaceForest::Node& node, const BernsteinTriangle& patch,
@@ -99,7 +107,7 @@ class AdaptiveSurface {
   std::vector<Vector3> domain_points_;
   std::vector<BernsteinTriangle> root_patches_;
   std::vector<int> leaves_;             ///< in the order of the cells
-  std::set<std::uint64_t> remembered_;  ///< wanted nodes of the division before
+  std::set<std::uint64_t> remembered_;  ///< wanted nodes of the division before, while a new one is made
   SubFaceSurface surface_;
   SubFaceForest forest_;
   std::vector<CellShape> cell_shapes_;

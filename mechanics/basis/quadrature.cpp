@@ -105,7 +105,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 using Corners = std::vector<Eigen::Vector2d>;
 
-/// Takes the flattest corner out of a polygon if it is nearly straight. @return it between its neighbours
+/// Takes the flattest corner out of a polygon if it is nearly straight. @return it, the next one and the last one
 std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon) {
   constexpr double nearly_straight = 1e-3;  // height of a corner over the line between its neighbours
   // Corners that are as flat but for rounding: the first.
@@ -123,12 +123,14 @@ std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon)
     flattest = k;
   }
   if (!flattest) return std::nullopt;
-  const std::array<Eigen::Vector2d, 3> corner{polygon[(*flattest + corners - 1) % corners],
-                                              polygon[*flattest], polygon[(*flattest + 1) % corners]};
+  const std::array<Eigen::Vector2d, 3> corner{polygon[*flattest], polygon[(*flattest + 1) % corners],
+                                              polygon[(*flattest + corners - 1) % corners]};
   polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(*flattest));
   return corner;
 }
 
+/// The rule of a triangle has an apex, the first corner, and is the same to both sides of it: with the flat corner
+/// there, a polygon that is seen from behind has the same points.
 void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, PolygonRule& rule) {
   const double area = 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
   if (!(area > 0.0)) return;

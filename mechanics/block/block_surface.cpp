@@ -36,8 +36,7 @@ BlockSurface::BlockSurface(const BlockModel& model, int levels, const Eigen::Mat
         twin != nullptr
             ? twin->domain_phi_
             : std::make_shared<const Eigen::MatrixXd>(model.basis().values(adaptive_->domain_points()));
-    point_phi_ = model.basis().values(adaptive_->surface().points);
-    middle_phi_ = values_at_middles(model, adaptive_->surface());
+    take_division();
     largest_phi_ = twin != nullptr ? twin->largest_phi_ : adaptive_->largest_values(*domain_phi_);
   } else {
     whole_ = whole_surface(model.solid());
@@ -98,8 +97,7 @@ double BlockSurface::largest_speed(const BlockState& state) const {
 
 bool BlockSurface::divide(const DivisionDemand& demand) {
   if (!adaptive_ || !adaptive_->divide(demand)) return false;
-  point_phi_ = model_->basis().values(adaptive_->surface().points);
-  middle_phi_ = values_at_middles(*model_, adaptive_->surface());
+  take_division();
   points_ = points(state_);
   return true;
 }
@@ -113,8 +111,20 @@ std::vector<std::uint64_t> BlockSurface::wanted() const {
   return adaptive_ ? adaptive_->wanted() : std::vector<std::uint64_t>{};
 }
 
-void BlockSurface::set_wanted(const std::vector<std::uint64_t>& wanted) {
-  if (adaptive_) adaptive_->set_wanted(wanted);
+SurfaceDivision BlockSurface::division() const {
+  return adaptive_ ? adaptive_->division() : SurfaceDivision{};
+}
+
+void BlockSurface::restore(const SurfaceDivision& division) {
+  if (!adaptive_) return;
+  adaptive_->restore(division);
+  take_division();
+}
+
+/// Values of the functions where the adaptive surface has points and edges now.
+void BlockSurface::take_division() {
+  point_phi_ = model_->basis().values(adaptive_->surface().points);
+  middle_phi_ = values_at_middles(*model_, adaptive_->surface());
 }
 
 }  // namespace ashlar

@@ -51,10 +51,14 @@ class BlockSurface {
 
   /// See AdaptiveSurface::wanted; empty for blocks that stay affine.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
-  void set_wanted(const std::vector<std::uint64_t>& wanted);
+  /// How it is divided now; nothing of blocks that stay affine. To be given to the surface of an equal block, before
+  /// move(). @throws std::invalid_argument if it is of another surface
+  [[nodiscard]] SurfaceDivision division() const;
+  void restore(const SurfaceDivision& division);
 
  private:
   [[nodiscard]] Eigen::Matrix3Xd domain_values(const BlockState& state) const;
+  void take_division();
 
   const BlockModel* model_;
   Eigen::Matrix3d axes_;

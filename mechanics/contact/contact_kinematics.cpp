@@ -141,7 +141,7 @@ ContactPoint moved_to(const ContactPoint& point, const PlacedBlock& a, const Pla
   const auto turn = Eigen::Quaterniond::FromTwoVectors(point.normal, moved.normal);
   moved.tangent_1 = turn * point.tangent_1;
   moved.tangent_2 = moved.normal.cross(moved.tangent_1);
-  moved.gap = moved.normal.dot(moved.place_a - moved.place_b);
+  moved.gap = moved.normal.dot(moved.place_a - moved.place_b) + moved.overlap;
   return moved;
 }
 

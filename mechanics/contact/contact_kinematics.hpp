@@ -10,6 +10,13 @@
 //   g = n . (x_a - x_b),   dg = n . (dx_a - dx_b)
 //
 // since the derivatives by the foot and by n vanish there: the rows of a point are the gradient of its gap.
+//
+// Blocks may be placed in each other by a known depth. With N the normal in the reference configuration, the gap
+// of such blocks counts from there:
+//
+//   g = n . (x_a - x_b) + r,   r = -N . (X_a - X_b), between 0 and a bound
+//
+// r belongs to the two material points, so that the points touch without force where they were placed.
 #pragma once
 
 #include <vector>
@@ -41,11 +48,12 @@ struct ContactPoint {
   Vector3 normal;     ///< unit, out of b
   Vector3 tangent_1;  ///< with normal and tangent_2 a right-handed orthonormal frame
   Vector3 tangent_2;
-  double gap;   ///< n . (x_a - x_b), m
+  double gap;   ///< n . (x_a - x_b) + overlap, m
   double area;  ///< m^2
   NormalSource source = NormalSource::as_found;
   Vector3 edge_a = Vector3::Zero();  ///< of crossed edges, from end to end, reference coordinates, m
   Vector3 edge_b = Vector3::Zero();
+  double overlap = 0.0;  ///< m, >= 0: how deep the two material points were placed in each other
 };
 
 /// A vector by its components along normal, tangent 1 and tangent 2 of a point, and back.

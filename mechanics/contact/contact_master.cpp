@@ -139,21 +139,25 @@ class DeepEndSearch {
   double tolerance_;
 };
 
-/// Whether block a is the master where rims do not tell.
-bool is_first_by_kind(const ContactBody& a, const ContactBody& b) {
+/// Whether block a is the master where rims do not tell. @param otherwise of blocks of one kind and size
+bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise) {
   if (a.model->fixed() != b.model->fixed()) return a.model->fixed();
   const bool divided_a = a.placed->surface().divided;
   const bool divided_b = b.placed->surface().divided;
   if (divided_a != divided_b) return !divided_a;
   // Volumes of equal blocks in different places differ by rounding, which must not choose the master.
   constexpr double equal_volumes = 1.0 + 1e-9;
-  return a.model->basis().volume() > equal_volumes * b.model->basis().volume();
+  const double volume_a = a.model->basis().volume();
+  const double volume_b = b.model->basis().volume();
+  if (volume_a > equal_volumes * volume_b) return true;
+  return volume_b > equal_volumes * volume_a ? false : otherwise;
 }
 
 }  // namespace
 
 std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
-                                  const std::vector<CellOverlap>& overlaps, const GoesOn& goes_on) {
+                                  const std::vector<CellOverlap>& overlaps, const GoesOn& goes_on,
+                                  bool otherwise) {
   std::map<std::array<int, 2>, std::vector<std::size_t>> of_faces;
   for (std::size_t n = 0; n < overlaps.size(); ++n) {
     of_faces[{a.placed->surface().cells[at(overlaps[n].cell_a)].face,
@@ -161,7 +165,7 @@ std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
         .push_back(n);
   }
   const DeepEndSearch search(*a.placed, *b.placed, overlaps, goes_on);
-  std::vector<bool> result(overlaps.size(), is_first_by_kind(a, b));
+  std::vector<bool> result(overlaps.size(), is_first_by_kind(a, b, otherwise));
   for (const auto& [faces, cells] : of_faces) {
     const DeepEnd end = search.of(cells);
     if (end.of_a == end.of_b) continue;

@@ -29,11 +29,12 @@ using GoesOn = std::function<bool(const RimPlace&)>;
 /// Whether block a is the master in each of the overlaps: for all overlaps of two faces, the block whose face
 /// does not end at their deep end: its surface turns away from the other one there, and nothing goes on
 /// behind it. Rims of both, or of none, and gaps that vary by no more than rounding (outline_tolerance) do
-/// not tell; then fixed blocks are before others, undivided surfaces before divided ones, larger volumes
-/// before what is smaller by more than rounding, and b before a.
+/// not tell; then fixed blocks are before others, undivided surfaces before divided ones, and larger volumes
+/// before what is smaller by more than rounding.
+/// @param otherwise whether a is the master of equal blocks: nothing in the pair tells
 /// @return (#overlaps)
 [[nodiscard]] std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
                                                 const std::vector<CellOverlap>& overlaps,
-                                                const GoesOn& goes_on);
+                                                const GoesOn& goes_on, bool otherwise = false);
 
 }  // namespace ashlar

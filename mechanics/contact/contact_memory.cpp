@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -24,6 +25,43 @@ double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
   double most = 0.0;
   for (const ContactMemory::Entry& entry : entries) most = std::max(most, entry.memory.dilation);
   return most;
+}
+
+/// Directions of friction over two faces.
+struct FrictionDirections {
+  Vector3 sum = Vector3::Zero();  ///< of unit vectors times areas, m^2
+  double area = 0.0;              ///< of points with friction, m^2
+  bool all_slide = true;          ///< all points that are closed
+};
+
+std::map<FacePair, FrictionDirections> friction_directions(const std::vector<ContactMemory::Entry>& entries) {
+  std::map<FacePair, FrictionDirections> by_faces;
+  for (const ContactMemory::Entry& entry : entries) {
+    const PointMemory& memory = entry.memory;
+    if (memory.state == ContactState::open) continue;
+    FrictionDirections& directions = by_faces[{entry.face_a, entry.face_b}];
+    directions.all_slide = directions.all_slide && memory.state == ContactState::sliding;
+    // Of springs the elastic slip is along the force; multipliers have it in full, or take it over from slip.
+    const Vector3& along =
+        memory.shear_multiplier.squaredNorm() > 0.0 ? memory.shear_multiplier : memory.slip;
+    const double length = along.norm();
+    if (!(length > 0.0)) continue;
+    directions.sum += entry.area / length * along;
+    directions.area += entry.area;
+  }
+  return by_faces;
+}
+
+/// Faces over which friction turns. @param before in the step before, in order
+std::vector<FacePair> turning_faces(const std::vector<ContactMemory::Entry>& entries,
+                                    const std::vector<FacePair>& before) {
+  constexpr double aligned = 0.95;
+  std::vector<FacePair> turning;
+  for (const auto& [faces, directions] : friction_directions(entries)) {
+    const bool may_turn = directions.all_slide || std::binary_search(before.begin(), before.end(), faces);
+    if (may_turn && directions.sum.norm() < aligned * directions.area) turning.push_back(faces);
+  }
+  return turning;
 }
 
 /// A tangential vector in another tangent plane, its length kept.
@@ -187,6 +225,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
                         points[k].normal, points[k].area, memory[k]});
   }
   cuts_ = std::move(cuts);
+  turning_ = turning_faces(entries_, turning_);
   deepest_ = deepest;
   bulge_ = bulge;
   held_ = held;

@@ -54,6 +54,13 @@ class ContactMemory {
   ContactMemory(std::vector<Entry> entries, std::vector<PressureCut> cuts, double deepest,
                 const SpringEnergy& held, double bulge);
 
+  /// Lists all members, for a checkpoint.
+  template <class Archive>
+  friend void visit_members(Archive& archive, ContactMemory& memory) {
+    auto& [entries, cuts, turning, deepest, bulge, held, squared_reach, largest_area, most_dilation] = memory;
+    archive(entries, cuts, turning, deepest, bulge, held, squared_reach, largest_area, most_dilation);
+  }
+
   /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
   /// old points of the same faces, or, if none of those is as near as the whole contact was wide, of any
   /// faces whose normals are within 60 degrees. Points without one start open, without slip, bonded by the
@@ -92,6 +99,9 @@ class ContactMemory {
   /// Whether there was no contact in the last step.
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
+  /// Faces over which friction turned in the last step: the mean of its unit directions over the area was shorter than
+  /// 0.95 when all of their closed points slid, and has been since. In order.
+  [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
 
  private:
   /// Material coordinates of all entries, (3, #entries).
@@ -116,6 +126,7 @@ class ContactMemory {
 
   std::vector<Entry> entries_;
   std::vector<PressureCut> cuts_;
+  std::vector<FacePair> turning_;
   double deepest_ = 0.0;
   double bulge_ = 0.0;
   SpringEnergy held_;

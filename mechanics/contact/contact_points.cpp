@@ -7,6 +7,7 @@
 #include "geometry/index.hpp"
 #include "mechanics/basis/quadrature.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
+#include "mechanics/contact/overlap_points.hpp"
 
 namespace ashlar {
 namespace {
@@ -19,138 +20,43 @@ const Vector3& reference_point(const ContactBody& body, int point) {
   return body.placed->surface().points[at(point)];
 }
 
-/// The affine map from places seen along a direction to reference points of a flat cell.
-class CellMap {
- public:
-  CellMap(const ContactBody& body, int cell, const ViewFrame& frame) {
-    const auto& corners = cell_of(body, cell).corners;
-    const auto place = [&](std::size_t k) { return frame.project(body.placed->point(corners[k])); };
-    // The widest of the triangles at the first corner spans the cell's plane best.
-    double widest = 0.0;
-    const Eigen::Vector2d first = place(0);
-    std::size_t best = 1;
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
-      const Eigen::Vector2d u = place(k) - first;
-      const Eigen::Vector2d v = place(k + 1) - first;
-      const double area = std::abs(u.x() * v.y() - u.y() * v.x());
-      if (area > widest) {
-        widest = area;
-        best = k;
-      }
-    }
-    Eigen::Matrix2d sides;
-    sides << place(best) - first, place(best + 1) - first;
-    Eigen::Matrix<double, 3, 2> reference_sides;
-    reference_sides << reference_point(body, corners[best]) - reference_point(body, corners[0]),
-        reference_point(body, corners[best + 1]) - reference_point(body, corners[0]);
-    Eigen::Matrix<double, 3, 2> placed_sides;
-    placed_sides << body.placed->point(corners[best]) - body.placed->point(corners[0]),
-        body.placed->point(corners[best + 1]) - body.placed->point(corners[0]);
-    const Eigen::Matrix2d inverse = sides.inverse();
-    first_ = first;
-    reference_ = reference_point(body, corners[0]);
-    reference_slope_ = reference_sides * inverse;
-    placed_ = body.placed->point(corners[0]);
-    placed_slope_ = placed_sides * inverse;
-  }
-  [[nodiscard]] Vector3 reference(const Eigen::Vector2d& place) const {
-    return reference_ + reference_slope_ * (place - first_);
-  }
-  [[nodiscard]] Vector3 placed(const Eigen::Vector2d& place) const {
-    return placed_ + placed_slope_ * (place - first_);
-  }
-  /// Where the point of the cell's plane that is nearest to a reference point is seen.
-  [[nodiscard]] Eigen::Vector2d place(const Vector3& reference) const {
-    const Eigen::Matrix2d squares = reference_slope_.transpose() * reference_slope_;
-    return first_ + squares.inverse() * (reference_slope_.transpose() * (reference - reference_));
-  }
-
- private:
-  Eigen::Vector2d first_;
-  Vector3 reference_;
-  Vector3 placed_;
-  Eigen::Matrix<double, 3, 2> reference_slope_;
-  Eigen::Matrix<double, 3, 2> placed_slope_;
-};
-
-/// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
-bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved) {
-  return curved || (is_affine(*a.model) && is_affine(*b.model));
-}
-
-/// Makes the contact points of two cells that face each other.
-class OverlapPoints {
- public:
-  OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& overlap, bool master_is_a,
-                bool curved)
-      : a_(a),
-        b_(b),
-        overlap_(overlap),
-        master_is_a_(master_is_a),
-        curved_(curved),
-        map_a_(a, overlap.cell_a, overlap.frame),
-        map_b_(b, overlap.cell_b, overlap.frame) {}
-
-  [[nodiscard]] ContactPoint at_place(const Eigen::Vector2d& place, double area) const {
-    ContactPoint point{};
-    point.type = ContactPointType::face_face;
-    point.face_a = cell_of(a_, overlap_.cell_a).face;
-    point.face_b = cell_of(b_, overlap_.cell_b).face;
-    point.material_a = map_a_.reference(place);
-    point.material_b = map_b_.reference(place);
-    point.area = area;
-    if (has_true_places(a_, b_, curved_))
-      point.source = master_is_a_ ? NormalSource::face_of_a : NormalSource::face_of_b;
-    if (curved_) {
-      point.place_a = a_.configuration->place(point.material_a);
-      point.place_b = b_.configuration->place(point.material_b);
-      set_foot(point, *(master_is_a_ ? a_ : b_).configuration, master_is_a_ ? point.face_a : point.face_b,
-               master_is_a_);
-    } else {
-      point.place_a = map_a_.placed(place);
-      point.place_b = map_b_.placed(place);
-      point.normal =
-          master_is_a_ ? Vector3(-a_.placed->normal(overlap_.cell_a)) : b_.placed->normal(overlap_.cell_b);
-    }
-    complete(point);
-    return point;
-  }
-  /// The map of the cell of a, or of b.
-  [[nodiscard]] const CellMap& map(bool of_a) const { return of_a ? map_a_ : map_b_; }
-
- private:
-  const ContactBody& a_;
-  const ContactBody& b_;
-  const CellOverlap& overlap_;
-  bool master_is_a_;
-  bool curved_;
-  CellMap map_a_;
-  CellMap map_b_;
-};
-
-/// A remembered cut as seen in an overlap. @param map of the block's cell that it is remembered in
-PressureEnd seen(const PressureCut& cut, const CellMap& map) {
-  const Eigen::Vector2d start = map.place(cut.start);
-  const Eigen::Vector2d along = map.place(cut.end) - start;
+/// A remembered cut as seen in an overlap.
+PressureEnd seen(const PressureCut& cut, const OverlapPoints& make) {
+  const Eigen::Vector2d start = make.place(cut.of_a, cut.start);
+  const Eigen::Vector2d along = make.place(cut.of_a, cut.end) - start;
   return {start, {-along.y(), along.x()}};
 }
 
-PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool of_a, const CellMap& map,
-                       double length) {
+PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool of_a,
+                       const OverlapPoints& make, double length) {
   const Eigen::Vector2d along = length * Eigen::Vector2d(end.open.y(), -end.open.x()).normalized();
-  return {overlap.cell_a, overlap.cell_b, of_a, map.reference(end.point), map.reference(end.point + along)};
+  return {overlap.cell_a, overlap.cell_b, of_a, make.reference(of_a, end.point),
+          make.reference(of_a, end.point + along)};
 }
 
 /// Two blocks whose points are made.
 struct Search {
   const ContactBody& a;
   const ContactBody& b;
+  const std::vector<CellOverlap>& overlaps;
   const ContactPointSettings& settings;
   const std::vector<PressureCut>& known;
+  const std::vector<FacePair>& turning;
 };
 
+/// The degree of an overlap's rule. A uniform pressure acts on every function exactly, however coarse the division is.
+/// Friction that turns over two faces has the direction of a vector that vanishes somewhere: no polynomial, and a rule
+/// for the blocks' order is wrong by up to 15 % (notes/turning_friction.md).
+int degree_of(const Search& search, const CellOverlap& cells) {
+  constexpr int least = 2, least_where_friction_turns = 6;
+  const FacePair faces{cell_of(search.a, cells.cell_a).face, cell_of(search.b, cells.cell_b).face};
+  const bool turns = std::find(search.turning.begin(), search.turning.end(), faces) != search.turning.end();
+  return std::max(
+      {turns ? least_where_friction_turns : least, search.a.model->order(), search.b.model->order()});
+}
+
 /// Where an overlap is to be cut, if at all. @param points of the rule on all of it
-std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<Eigen::Vector2d>& outline,
+std::optional<PressureEnd> cut_of(const JoinedOverlap& joined, const std::vector<Eigen::Vector2d>& outline,
                                   const PolygonRule& rule, const std::vector<ContactPoint>& points,
                                   const OverlapPoints& make, const Search& search) {
   const double rounding = coordinate_rounding(*search.a.placed, *search.b.placed);
@@ -158,22 +64,25 @@ std::optional<PressureEnd> cut_of(const CellOverlap& overlap, const std::vector<
   gaps.reserve(points.size());
   for (const ContactPoint& point : points) gaps.push_back(point.gap);
   const auto cut = std::find_if(search.known.begin(), search.known.end(), [&](const PressureCut& one) {
-    return one.cell_a == overlap.cell_a && one.cell_b == overlap.cell_b;
+    return std::any_of(joined.cells.begin(), joined.cells.end(), [&](std::size_t n) {
+      return one.cell_a == search.overlaps[n].cell_a && one.cell_b == search.overlaps[n].cell_b;
+    });
   });
   std::optional<PressureEnd> last;
-  if (cut != search.known.end()) last = seen(*cut, make.map(cut->of_a));
+  if (cut != search.known.end()) last = seen(*cut, make);
   return end_of_pressure(outline, rule, gaps, rounding, last);
 }
 
 /// Area springs: a quadrature rule on every cell overlap, or on both of its parts where pressure ends inside.
-void add_area_springs(const Search& search, const CellOverlap& overlap, bool master_is_a,
+void add_area_springs(const Search& search, const JoinedOverlap& joined, bool master_is_a,
                       ContactPoints& result) {
-  const auto& [a, b, settings, known] = search;
-  // A uniform pressure acts on every function exactly, however coarse the division is.
-  const int degree = std::max({2, a.model->order(), b.model->order()});
+  const auto& [a, b, overlaps, settings, known, turning] = search;
+  const CellOverlap& overlap = overlaps[joined.cells.front()];
+  const int degree = degree_of(search, overlap);
+  const OverlapPoints make(a, b, overlap, joined.whole, master_is_a, settings);
   const std::vector<Eigen::Vector2d> outline =
-      outline_of(places_of(overlap), outline_tolerance(*a.placed, *b.placed));
-  const OverlapPoints make(a, b, overlap, master_is_a, settings.curved);
+      outline_of(make.polygon(), outline_tolerance(*a.placed, *b.placed));
+  if (outline.empty()) return;
   std::vector<ContactPoint> points;
   const auto add_points = [&](const PolygonRule& rule) {
     for (std::size_t k = 0; k < rule.points.size(); ++k)
@@ -185,7 +94,7 @@ void add_area_springs(const Search& search, const CellOverlap& overlap, bool mas
   const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
   std::optional<PressureEnd> end;
   if (true_gaps) {
-    end = cut_of(overlap, outline, whole, points, make, search);
+    end = cut_of(joined, outline, whole, points, make, search);
     result.overlaps.push_back({outline, degree, result.points.size(), points.size(), end, {}});
   }
   if (end) {
@@ -193,8 +102,7 @@ void add_area_springs(const Search& search, const CellOverlap& overlap, bool mas
     points.clear();
     add_points(polygon_rule(part_under_pressure(outline, *end), degree));
     add_points(polygon_rule(part_without_pressure(outline, *end), degree));
-    result.cuts.push_back(
-        remembered(*end, overlap, !master_is_a, make.map(!master_is_a), std::sqrt(area_of(outline))));
+    result.cuts.push_back(remembered(*end, overlap, !master_is_a, make, std::sqrt(area_of(outline))));
   }
   result.points.insert(result.points.end(), points.begin(), points.end());
 }
@@ -210,7 +118,7 @@ void add_point_springs(const Search& search, const FaceOverlap& face,
   const double area = outline.area / static_cast<double>(outline.corners.size());
   for (const FaceOverlapPoint& point : outline.corners) {
     const CellOverlap& overlap = overlaps[at(point.overlap)];
-    points.push_back(OverlapPoints(a, b, overlap, master_is_a, search.settings.curved)
+    points.push_back(OverlapPoints(a, b, overlap, false, master_is_a, search.settings)
                          .at_place(overlap.corners[at(point.corner)].place, area));
   }
 }
@@ -243,6 +151,7 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
     point.normal = contact.vertex_of_a ? normal : Vector3(-normal);
   }
   complete(point);
+  count_from_placement(a, b, !contact.vertex_of_a, settings.known_overlap, point);
   points.push_back(point);
 }
 
@@ -284,6 +193,7 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
   point.edge_a = edge_of(a, contact.of_a);
   point.edge_b = edge_of(b, contact.of_b);
   complete(point);
+  count_from_placement_of_edges(a, b, settings.known_overlap, point);
   points.push_back(point);
 }
 
@@ -303,12 +213,12 @@ namespace {
 
 ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                         const std::vector<bool>& masters, const ContactPointSettings& settings,
-                        const std::vector<PressureCut>& known) {
-  const Search search{a, b, settings, known};
+                        const std::vector<PressureCut>& known, const std::vector<FacePair>& turning) {
+  const Search search{a, b, contacts.overlaps, settings, known, turning};
   ContactPoints result;
   if (settings.area_springs) {
-    for (std::size_t n = 0; n < contacts.overlaps.size(); ++n)
-      add_area_springs(search, contacts.overlaps[n], masters[n], result);
+    for (const JoinedOverlap& joined : join_whole_faces(a, b, contacts.overlaps, settings.curved))
+      add_area_springs(search, joined, masters[joined.cells.front()], result);
   } else {
     for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
       add_point_springs(search, face, contacts.overlaps, masters[at(face.cells.front())], result.points);
@@ -316,6 +226,7 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
   result.points.shrink_to_fit();  // they may last
+  result.turning = turning;
   return result;
 }
 
@@ -323,12 +234,12 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
 
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
                              const std::vector<bool>& masters, const ContactPointSettings& settings,
-                             const std::vector<PressureCut>& known) {
-  if (!settings.curved) return points_of(a, b, contacts, masters, settings, known);
+                             const std::vector<PressureCut>& known, const std::vector<FacePair>& turning) {
+  if (!settings.curved) return points_of(a, b, contacts, masters, settings, known, turning);
   const PlacedBlock of_a(*a.model, a.state->position);
   const PlacedBlock of_b(*b.model, b.state->position);
   return points_of({a.model, a.state, a.placed, &of_a}, {b.model, b.state, b.placed, &of_b}, contacts,
-                   masters, settings, known);
+                   masters, settings, known, turning);
 }
 
 }  // namespace ashlar

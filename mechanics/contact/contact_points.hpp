@@ -11,6 +11,7 @@
 // that x_a - x_b is along the normal; with flat surfaces both points stay on their sub-face planes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -37,7 +38,11 @@ struct ContactPointSettings {
   bool curved = true;
   /// Multipliers leave next to no gap where they press, which then does not tell where pressure ends.
   bool multipliers = false;
+  double known_overlap = 0.0;  ///< m, >= 0: points that were placed so deep start without force
 };
+
+/// A face of a, then one of b.
+using FacePair = std::array<int, 2>;
 
 /// An overlap whose points are those of area springs, and what it takes to tell where its pressure ends.
 struct RuledOverlap {
@@ -59,14 +64,17 @@ struct ContactPoints {
   std::vector<ContactPoint> points;
   std::vector<PressureCut> cuts;       ///< of overlaps that are in part open
   std::vector<RuledOverlap> overlaps;  ///< where cuts are looked for, others are left out
+  std::vector<FacePair> turning;       ///< as they were made for, see contact_points()
 };
 
 /// All contact points of a pair, in a fixed order. @param masters whether a is the master, on whose surface
 /// feet and normals are taken, in each of the overlaps (contact_master.hpp). @param known cuts of the step
 /// before
+/// @param turning faces over which friction turned in the step before (ContactMemory::turning): their rules are finer
 [[nodiscard]] ContactPoints contact_points(const ContactBody& a, const ContactBody& b,
                                            const PairContacts& contacts, const std::vector<bool>& masters,
                                            const ContactPointSettings& settings,
-                                           const std::vector<PressureCut>& known);
+                                           const std::vector<PressureCut>& known,
+                                           const std::vector<FacePair>& turning = {});
 
 }  // namespace ashlar

@@ -362,14 +362,14 @@ void ContactFinder::renew(int block, const BlockModel& model, PairHistories& his
 
 FinderState ContactFinder::state() const {
   FinderState state{tracks_, {}, counts_};
-  for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.wanted());
+  for (const BlockSurface& surface : surfaces_) state.divisions.push_back(surface.division());
   return state;
 }
 
 void ContactFinder::restore(const FinderState& state) {
   tracks_ = state.tracks;
   for (std::size_t k = 0; k < surfaces_.size() && k < state.divisions.size(); ++k)
-    surfaces_[k].set_wanted(state.divisions[k]);
+    surfaces_[k].restore(state.divisions[k]);
   counts_ = state.counts;
 }
 

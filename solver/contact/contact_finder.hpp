@@ -70,8 +70,8 @@ struct BlockTrack {
 
 /// What a finder has beyond its blocks (checkpoint.hpp).
 struct FinderState {
-  std::vector<BlockTrack> tracks;                     ///< by block
-  std::vector<std::vector<std::uint64_t>> divisions;  ///< BlockSurface::wanted
+  std::vector<BlockTrack> tracks;          ///< by block
+  std::vector<SurfaceDivision> divisions;  ///< of surfaces, by block
   FinderCounts counts;
 };
 
@@ -146,6 +146,7 @@ class ContactFinder {
   [[nodiscard]] const FinderCounts& counts() const { return counts_; }
 
   [[nodiscard]] FinderState state() const;
+  /// @throws std::invalid_argument if surfaces cannot be divided so
   void restore(const FinderState& state);
 
  private:

@@ -123,7 +123,8 @@ WaysOut::WaysOut(const PairHistories& histories, const std::vector<bool>& moving
     if (!moving[at(blocks[0])] && !moving[at(blocks[1])]) continue;
     if (!(pair.memory.deepest() > 0.0)) continue;
     for (const ContactMemory::Entry& entry : pair.memory.entries())
-      if (entry.memory.state != ContactState::open) add(blocks, entry.normal, pair.memory.deepest());
+      if (entry.memory.state != ContactState::open)
+        add(blocks, entry.normal, pair.overlap + pair.memory.deepest());
   }
 }
 

@@ -48,10 +48,9 @@ bool ends_as_before(const LastingContacts& lasting, const ContactBody& a, const 
 
 RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a, const ContactBody& b) {
   RelativeMotion motion{{change_since(lasting.positions[0], a), change_since(lasting.positions[1], b)}};
-  const std::size_t moving = b.model->fixed() ? 0 : 1;
-  const ContactBody& body = moving == 1 ? b : a;
   if (a.model->fixed() || b.model->fixed()) return motion;
-  motion.shift = constant_function(*body.model) * motion.changes[moving].row(0).transpose();
+  motion.shift = 0.5 * (constant_function(*a.model) * motion.changes[0].row(0).transpose() +
+                        constant_function(*b.model) * motion.changes[1].row(0).transpose());
   return motion;
 }
 

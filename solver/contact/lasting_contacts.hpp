@@ -37,6 +37,13 @@ struct LastingContacts {
   std::shared_ptr<const PairRows::Values> rows;  ///< of the points; null: not made yet (a checkpoint's)
 };
 
+/// Lists what a checkpoint stores (run/byte_archive.hpp); rows follow from it, see with_rows().
+template <class Archive>
+void visit_members(Archive& archive, LastingContacts& lasting) {
+  auto& [contacts, positions, divisions, reach, law, found, rows] = lasting;
+  archive(contacts, positions, divisions, reach, law, found);
+}
+
 /// Contacts as they are at a later state.
 struct KeptContacts {
   std::shared_ptr<const LastingContacts> lasting;
@@ -47,7 +54,7 @@ struct KeptContacts {
 /// The motion of a and of b since their contacts were found.
 struct RelativeMotion {
   std::array<Eigen::MatrixX3d, 2> changes;  ///< of the positions, (p, 3)
-  Vector3 shift = Vector3::Zero();  ///< translation of b's centroid; of a's if b is fixed, 0 if both are
+  Vector3 shift = Vector3::Zero();          ///< mean translation of both centroids, m; 0 if a block is fixed
 };
 [[nodiscard]] RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a,
                                           const ContactBody& b);

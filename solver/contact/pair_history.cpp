@@ -16,7 +16,7 @@ void drop_empty(PairHistories& histories) {
   std::erase_if(histories, [](const auto& entry) {
     const PairHistory& pair = entry.second;
     return pair.memory.empty() && !pair.lasting && !pair.clearance && !pair.entrance && pair.work == 0.0 &&
-           pair.taken == 0.0 && pair.depth == 0.0 && pair.bonded == 0.0;
+           pair.taken == 0.0 && pair.depth == 0.0 && pair.bonded == 0.0 && pair.overlap == 0.0;
   });
 }
 
@@ -32,7 +32,7 @@ void validate(const PairHistories& histories, int blocks) {
     demand(std::isfinite(pair.work), "work is not finite");
     demand(is_size(pair.taken), "work of multipliers is negative or not finite");
     demand(is_size(pair.bonded) && is_size(pair.broken), "an area of bonds is negative or not finite");
-    demand(is_size(pair.depth), "depth is negative or not finite");
+    demand(is_size(pair.depth) && is_size(pair.overlap), "depth is negative or not finite");
     demand(is_size(pair.memory.deepest()) && is_size(pair.memory.bulge()), "depth of contacts is none");
     demand(!pair.lasting || pair.lasting->found.points.empty() ||
                pair.lasting->found.points.size() == pair.memory.entries().size(),

@@ -1,6 +1,6 @@
 // All that is known of a pair of blocks from step to step: what its contacts remember, when it was last found
 // apart, through which facets it was entered, what its contact forces have done, how deep the blocks are in
-// each other.
+// each other and how deep they were placed.
 #pragma once
 
 #include <algorithm>
@@ -31,15 +31,18 @@ struct PairHistory {
   std::shared_ptr<const LastingContacts> lasting;
   std::optional<Clearance> clearance;    ///< unless the last search found contacts
   std::optional<EntranceName> entrance;  ///< of convex pairs that were near each other at the last search
-  double work = 0.0;    ///< of the contact forces on both blocks since the start of the run, J
-  double taken = 0.0;   ///< what multipliers have taken from the blocks and not given back, J, >= 0
-  double bonded = 0.0;  ///< m^2, the largest area that had strength to lose, and what of it has
-  double broken = 0.0;  ///< m^2, lost it since the start of the run
-  double depth = 0.0;   ///< true depth at the end of the last step, m, >= 0 (depth_audit.hpp)
+  double work = 0.0;     ///< of the contact forces on both blocks since the start of the run, J
+  double taken = 0.0;    ///< what multipliers have taken from the blocks and not given back, J, >= 0
+  double bonded = 0.0;   ///< m^2, the largest area that had strength to lose, and what of it has
+  double broken = 0.0;   ///< m^2, lost it since the start of the run
+  double depth = 0.0;    ///< true depth at the end of the last step, m, >= 0 (depth_audit.hpp)
+  double overlap = 0.0;  ///< m, >= 0: how deep the blocks were placed in each other; gaps count from there
 
   /// How deep contacts may be that the next search has to find, m, >= 0: as contacts were, and between their
   /// points, or, where contacts did not know of it, as the blocks truly were.
-  [[nodiscard]] double depth_to_search() const { return std::max(memory.deepest() + memory.bulge(), depth); }
+  [[nodiscard]] double depth_to_search() const {
+    return std::max(overlap + memory.deepest() + memory.bulge(), depth);
+  }
 };
 
 /// By pair, in the order of block numbers. A pair has an entry from the first time that it is searched.

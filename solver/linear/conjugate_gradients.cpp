@@ -88,11 +88,12 @@ FactorStatus ConjugateGradients::factorize(const SymmetricMatrix& matrix) {
   const bool same_pattern = matrix.size == self.matrix.size &&
                             matrix.column_start == self.matrix.column_start &&
                             matrix.rows == self.matrix.rows;
+  // Also with the same matrix: which systems a factor solves must not depend on what was solved long ago.
+  self.instead.reset();
   if (self.ready && same_pattern && matrix.values == self.matrix.values) {
     ++self.counts.factorizations_reused;
     return FactorStatus::success;
   }
-  self.instead.reset();
   self.matrix = matrix;
   self.sparse = Eigen::Map<const Eigen::SparseMatrix<double>>(
       matrix.size, matrix.size, static_cast<Eigen::Index>(matrix.values.size()),

@@ -9,7 +9,8 @@
 
 namespace ashlar {
 
-/// A system that does not converge within `most_iterations` is solved by a factor, and so are all with its matrix.
+/// A system that does not converge within `most_iterations` is solved by a factor, and so are all until the next
+/// factorize().
 class ConjugateGradients final : public LinearSolver {
  public:
   static constexpr int most_iterations = 3000;

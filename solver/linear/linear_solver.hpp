@@ -23,7 +23,6 @@ struct SymmetricMatrix {
 enum class FactorStatus {
   success,
   not_positive_definite,  ///< a block is free of inertia and stiffness, or the step is far too large
-  out_of_memory,
 };
 
 /// How often each stage ran and was skipped.

@@ -3,8 +3,12 @@
 #include <cholmod.h>
 
 #include <mutex>
+#include <new>
+#include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "solver/linear/blas_memory.hpp"
 
 // OpenBLAS would use all cores for small fronts and change the order of sums with their number. CHOLMOD would
 // start four threads for each of its loops, which take less time than that.
@@ -62,12 +66,19 @@ struct SparseCholesky::Implementation {
     dense.x = const_cast<double*>(right_side.data());
     dense.xtype = CHOLMOD_REAL;
     dense.dtype = CHOLMOD_DOUBLE;
+    const auto use = blas_use();
     cholmod_dense* solution = cholmod_solve(CHOLMOD_A, factor, &dense, &common);
     if (solution == nullptr) throw std::bad_alloc();
-    Eigen::VectorXd result =
-        Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(solution->x), right_side.size());
-    cholmod_free_dense(&solution, &common);
-    return result;
+    const auto freed = [&](cholmod_dense* dense_solution) { cholmod_free_dense(&dense_solution, &common); };
+    const std::unique_ptr<cholmod_dense, decltype(freed)> owner(solution, freed);
+    return Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(solution->x), right_side.size());
+  }
+
+  /// Simplicial factors do without BLAS.
+  [[nodiscard]] std::optional<BlasUse> blas_use() const {
+    std::optional<BlasUse> use;
+    if (factor->is_super != 0) use.emplace();
+    return use;
   }
 };
 
@@ -91,14 +102,17 @@ FactorStatus SparseCholesky::factorize(const SymmetricMatrix& matrix) {
   if (!same_pattern) {
     cholmod_free_factor(&self.factor, &self.common);
     self.factor = cholmod_analyze(&view, &self.common);
-    if (self.factor == nullptr) return FactorStatus::out_of_memory;
+    if (self.factor == nullptr) throw std::bad_alloc();
     self.cost_in_solves = self.common.fl / (4.0 * self.common.lnz);
     ++self.counts.analyses;
   }
-  cholmod_factorize(&view, self.factor, &self.common);
+  {
+    const auto use = self.blas_use();
+    cholmod_factorize(&view, self.factor, &self.common);
+  }
   ++self.counts.factorizations;
   if (self.common.status == CHOLMOD_NOT_POSDEF) return FactorStatus::not_positive_definite;
-  if (self.common.status < 0) return FactorStatus::out_of_memory;
+  if (self.common.status < 0) throw std::bad_alloc();
   self.factored = true;
   return FactorStatus::success;
 }

@@ -17,7 +17,7 @@ class SparseCholesky final : public LinearSolver {
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
   /// Brings the factor to a matrix; analyses only if the pattern changed, factorises only if the values
-  /// changed.
+  /// changed. @throws std::bad_alloc
   [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override;
 
   /// Solves with the last factorised matrix, `refined` with one step of iterative refinement.

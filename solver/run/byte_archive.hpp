@@ -1,8 +1,14 @@
 // Plain values as bytes and back, every number in full: what a checkpoint is made of.
 //
-// A struct takes part by one function template that lists its members for both directions, in its namespace:
+// A plain struct takes part by its declaration: all of its members are stored (struct_members.hpp). A class with
+// constructors or private members, and a struct with members that follow from the others, lists what is stored by a
+// function template beside it. The structured binding names every member, so that one that is added does not compile
+// before somebody has decided about it:
 //   template <class Archive>
-//   void visit_members(Archive& archive, Ledger& ledger) { archive(ledger.kinetic, ledger.elastic); }
+//   void visit_members(Archive& archive, ViewFrame& frame) {
+//     auto& [origin, e1, e2, w] = frame;
+//     archive(origin, e1, e2, w);
+//   }
 // Numbers are stored as they lie in memory, little-endian; containers as their size and their elements.
 #pragma once
 
@@ -22,12 +28,20 @@
 #include <utility>
 #include <vector>
 
+#include "solver/run/struct_members.hpp"
+
 namespace ashlar {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
 template <class T>
 concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// A class with a list of its own.
+template <class T, class Archive>
+concept ListsItsMembers = requires(Archive& archive, T& value) {
+  visit_members(archive, value);
+};
 
 /// Values as bytes, in a string or, as they come, in the hands of a sink: what is stored need not be in memory twice.
 class ByteWriter {
@@ -91,8 +105,12 @@ class ByteWriter {
   template <class T>
   requires std::is_class_v<T>
   void write(const T& value) {
-    // One list of members serves both directions; this direction only reads them.
-    visit_members(*this, const_cast<T&>(value));
+    if constexpr (ListsItsMembers<T, ByteWriter>) {
+      // One list of members serves both directions; this direction only reads them.
+      visit_members(*this, const_cast<T&>(value));
+    } else {
+      with_members(value, *this);
+    }
   }
   void write_size(std::size_t size) { write(static_cast<std::uint64_t>(size)); }
   void append(const void* data, std::size_t size) {
@@ -180,7 +198,13 @@ class ByteReader {
   }
   template <class T>
   requires std::is_class_v<T>
-  void read(T& value) { visit_members(*this, value); }
+  void read(T& value) {
+    if constexpr (ListsItsMembers<T, ByteReader>) {
+      visit_members(*this, value);
+    } else {
+      with_members(value, *this);
+    }
+  }
 
   /// A number of elements that take at least so many bytes each.
   std::size_t read_size(std::size_t least_bytes) {

@@ -1,5 +1,6 @@
 #include "solver/run/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -37,6 +38,27 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 
 RunContext Simulation::context() {
   return {system_, state_, contacts_, factors_, audit_, fault_};
+}
+
+void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
+  for (const auto& [blocks, depth] : depths) {
+    if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
+        system_.blocks().at(at(blocks[1])).incremental() != nullptr)
+      throw std::invalid_argument("incremental blocks do not tell where they were placed");
+    state_.pairs[blocks].overlap = depth;
+  }
+  if (depths.empty()) return;
+  // How deep contacts are where blocks are placed tells how deep any may be later without force.
+  std::map<PairKey, double> placed;
+  StepContacts contacts(system_);  // a stage moves blocks before contacts_ looks at any
+  const std::vector<FoundContacts> found = contacts.detect(system_, state_, 0.0);
+  for (const ContactPair& pair : contacts.pairs(system_, state_, found, PairUse::statics)) {
+    double& deepest = placed[{pair.a(), pair.b()}];
+    for (const ContactPoint& point : pair.points()) deepest = std::max(deepest, point.overlap);
+  }
+  state_.pairs.clear();
+  for (const auto& [blocks, deepest] : placed)
+    if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {
@@ -126,7 +148,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
 }
 
 std::optional<StateFault> Simulation::audit() {
-  return audit_present(context());
+  return audit_present(context()).fault;
 }
 
 Vector3 Simulation::momentum() const {

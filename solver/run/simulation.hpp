@@ -5,6 +5,7 @@
 // together (dynamic_step.hpp; static_analysis.hpp: iterations towards equilibrium).
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,12 @@ class Simulation {
   Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
+
+  /// Takes pairs of blocks to touch without force where they are placed in each other
+  /// (notes/known_overlaps.md). To be called before the first step.
+  /// @param depths by pair, m, >= 0. @throws std::invalid_argument if a block is incremental: its material
+  /// points do not tell where they were placed
+  void start_overlapping(const std::map<PairKey, double>& depths);
 
   /// Moves every block whose supports leave no rigid motion to its equilibrium under gravity and the loads at
   /// time 0, contacts off, at rest. To be called before the first step. Incremental blocks go there in steps,

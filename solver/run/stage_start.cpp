@@ -34,7 +34,8 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
   for (const auto& [place, factor] : end.load_factors)
     if (at(place[1]) < run.blocks()[at(place[0])].loads().size())
       run.system.set_load_factor(place[0], place[1], factor);
-  state.pairs.clear();
+  // Pairs with a block that is added keep what they are placed with.
+  std::erase_if(state.pairs, [&](const auto& pair) { return stays(pair.first[0]) && stays(pair.first[1]); });
   for (const auto& [blocks, pair] : end.run.pairs) {
     if (!stays(blocks[0]) || !stays(blocks[1])) continue;
     PairHistory& kept = state.pairs.emplace(blocks, pair).first->second;

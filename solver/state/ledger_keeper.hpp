@@ -46,10 +46,11 @@ class LedgerKeeper {
   /// Measures the end of a step whose energies have been booked, and what the balance lacks.
   void close_step(const BlockSystem& system, const std::vector<BlockState>& states);
 
-  /// Lists what a checkpoint stores; elastic energies of blocks follow from their states.
+  /// Lists what a checkpoint stores (run/byte_archive.hpp); elastic energies of blocks follow from their states.
   template <class Archive>
   friend void visit_members(Archive& archive, LedgerKeeper& keeper) {
-    archive(keeper.ledger_, keeper.start_balance_, keeper.largest_step_residual_, keeper.largest_energy_);
+    auto& [ledger, start_balance, largest_step_residual, largest_energy, elastic_energies] = keeper;
+    archive(ledger, start_balance, largest_step_residual, largest_energy);
   }
 
  private:

@@ -39,8 +39,10 @@ struct Rejection {
 
 /// Why a state is no state that a step may end in.
 struct StateFault {
-  RejectionReason reason;           ///< not_finite, inside_out or too_deep
-  std::array<int, 2> blocks;        ///< of one block: the same twice; too_deep: the first is in the second
+  RejectionReason reason;  ///< not_finite, inside_out, too_deep or open_close_not_settled
+  /// Of one block: the same twice; too_deep: the first is in the second; open_close_not_settled: those whose contact
+  /// points have changed their states most often
+  std::array<int, 2> blocks;
   double depth = 0.0;               ///< m, of too_deep
   double allowed = 0.0;             ///< m
   Vector3 place = Vector3::Zero();  ///< m
@@ -79,13 +81,14 @@ struct StepReport {
   int locked = 0;
   int sliding = 0;
   double penetration = 0.0;  ///< largest of any contact point, m, >= 0
-  double depth = 0.0;        ///< true depth of the deepest point of any block in another one, m, >= 0
+  /// True depth of the deepest point of any block in another one, beyond what they were placed, m, >= 0
+  double depth = 0.0;
 };
 
 /// The deepest that any block has been in another one.
 struct DeepestPoint {
   std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: none has been
-  double depth = 0.0;                    ///< m
+  double depth = 0.0;                    ///< m, beyond what the blocks were placed
   double share = 0.0;                    ///< depth over the size of the smaller block
   double time = 0.0;                     ///< s
   Vector3 place = Vector3::Zero();       ///< m

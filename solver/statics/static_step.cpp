@@ -149,12 +149,12 @@ class StaticIteration {
       raise = meet(step, passing);
       return std::nullopt;
     }
-    const auto deep = audit_depths(run_, problem_, true);
+    const auto deep = audit_depths(run_, problem_, false);
     if (deep && !has_set_off(run_)) {
       reject(run_, step, *deep);
       return std::nullopt;
     }
-    return take(scheme, motion, deep);
+    return take(scheme, motion);
   }
 
   /// Blocks that would pass through each other. @return by how much inertia has to be raised
@@ -173,8 +173,8 @@ class StaticIteration {
     return raise;
   }
 
-  /// Accepts the iteration. @param motion in block sizes. @param deep blocks that are too deep in each other
-  StaticStatus take(const TimeScheme& scheme, double motion, const std::optional<StateFault>& deep) {
+  /// Accepts the iteration. @param motion in block sizes
+  StaticStatus take(const TimeScheme& scheme, double motion) {
     StaticState& statics = run_.state.statics;
     const std::array<int, 3> before = contact_states(run_.state.report);
     const bool balanced = note_balance(run_, scheme, problem_);
@@ -202,10 +202,17 @@ class StaticIteration {
         still && (repeat || statics.multiplier_iterations > run_.settings().statics.multiplier_iterations);
     statics.still_iterations = settled ? statics.still_iterations + 1 : 0;
     statics.balanced = statics.still_iterations >= 2;
-    if (statics.balanced && deep) {
-      // Blocks that have set off are followed only roughly; where they come to rest is an answer.
-      reject(run_, step_of(scheme), *deep);
-      return give_up(run_);
+    // Iterations are audited where blocks went far, and roughly where they have set off: an equilibrium as a whole.
+    if (statics.balanced) {
+      const PresentDepths present = audit_present(run_);
+      if (present.fault) {
+        reject(run_, step_of(scheme), *present.fault);
+        return give_up(run_);
+      }
+      if (present.unexpected) {
+        statics.balanced = false;
+        statics.still_iterations = 0;
+      }
     }
     if (statics.balanced)
       return run_.state.reached(run_.settings().time_step, end_time_) ? StaticStatus::equilibrium

@@ -24,17 +24,26 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
   return rounding > share * std::cbrt(volume);
 }
 
+/// How deep two blocks may be, m: beyond what they were placed in each other. @param share of the smaller one's size
+double allowed_depth(const RunContext& run, int a, int b, double share) {
+  const double allowed = run.settings().depth.allowed_depth;
+  return history_of(run.state.pairs, {a, b}).overlap +
+         (allowed > 0.0 ? allowed : share * run.system.smaller_size({a, b}));
+}
+
 /// How deep blocks are in each other. @param fine see SimulationSettings::depth::fine_interval
 /// @param known of earlier audits
 Audit measure_depths(const RunContext& run, const std::vector<BlockState>& states, bool fine,
                      const KnownDepths& known) {
   const SimulationSettings& settings = run.settings();
-  const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
-                         run.system.moving(),
-                         (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
-                         settings.threads,
-                         settings.lasting_motion(),
-                         fine};
+  const AuditScope scope{
+      [&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
+      [&run](int a, int b) { return allowed_depth(run, a, b, run.settings().depth.unknown_depth_share); },
+      run.system.moving(),
+      (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
+      settings.threads,
+      settings.lasting_motion(),
+      fine};
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
 }
 
@@ -50,14 +59,12 @@ std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<P
   };
   for (const PairDepth& pair : depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    const auto allowed = [&, size = run.system.smaller_size({a, b})](double share) {
-      return run.settings().depth.allowed_depth > 0.0 ? run.settings().depth.allowed_depth : share * size;
-    };
     const auto contact = known.find({a, b});
-    hold_against(pair, allowed(run.settings().depth.unknown_depth_share) +
+    hold_against(pair, allowed_depth(run, a, b, run.settings().depth.unknown_depth_share) +
                            (contact == known.end() ? 0.0 : contact->second));
     // A joint of given stiffness gives way as its user has asked for.
-    if (run.system.law(a, b).rigid) hold_against(pair, allowed(run.settings().depth.allowed_depth_share));
+    if (run.system.law(a, b).rigid)
+      hold_against(pair, allowed_depth(run, a, b, run.settings().depth.allowed_depth_share));
   }
   return fault;
 }
@@ -96,32 +103,42 @@ std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& probl
   return too_deep_of(run, problem.audit.depths, known);
 }
 
-std::optional<StateFault> audit_present(const RunContext& run) {
+PresentDepths audit_present(const RunContext& run) {
   const Stopwatch watch(run.state.log.seconds.depth_audit);
   std::map<PairKey, double> known;
   for (const PairRecord& pair : run.state.records) {
     double& deepest = known[{pair.a, pair.b}];
     for (const double gap : pair.gaps) deepest = std::max(deepest, -gap);
   }
-  const std::vector<PairDepth> depths = measure_depths(run, run.state.states, true, {}).depths;
-  note_depths(run, depths);
-  return too_deep_of(run, depths, known);
+  PresentDepths present;
+  const Audit audit = measure_depths(run, run.state.states, true, {});
+  for (const PairDepth& pair : audit.depths) {
+    const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
+    const auto contact = known.find({a, b});
+    const PairHistory& noted = history_of(run.state.pairs, {a, b});
+    const double expected =
+        std::max(noted.depth, noted.overlap + (contact == known.end() ? 0.0 : contact->second));
+    present.unexpected = present.unexpected || pair.depth > expected + run.settings().contact_distance;
+  }
+  note_depths(run, audit.depths);
+  present.fault = too_deep_of(run, audit.depths, known);
+  return present;
 }
 
 void note_depths(const RunContext& run, const std::vector<PairDepth>& depths) {
   for (auto& [blocks, pair] : run.state.pairs) {
     if (run.system.moving()[at(blocks[0])] || run.system.moving()[at(blocks[1])]) pair.depth = 0.0;
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
+    run.state.report.depth = std::max(run.state.report.depth, pair.depth - pair.overlap);
   }
   for (const PairDepth& pair : depths) {
     const auto [a, b] = std::minmax(pair.blocks[0], pair.blocks[1]);
-    double& depth = run.state.pairs[{a, b}].depth;
-    depth = std::max(depth, pair.depth);
-    run.state.report.depth = std::max(run.state.report.depth, pair.depth);
-    if (pair.depth > run.state.extremes.deepest.depth)
-      run.state.extremes.deepest = {pair.blocks, pair.depth,
-                                    pair.depth / run.system.smaller_size(pair.blocks), run.state.time(),
-                                    pair.place};
+    PairHistory& history = run.state.pairs[{a, b}];
+    history.depth = std::max(history.depth, pair.depth);
+    const double depth = pair.depth - history.overlap;
+    run.state.report.depth = std::max(run.state.report.depth, depth);
+    if (depth > run.state.extremes.deepest.depth)
+      run.state.extremes.deepest = {pair.blocks, depth, depth / run.system.smaller_size(pair.blocks),
+                                    run.state.time(), pair.place};
   }
 }
 
@@ -138,6 +155,13 @@ void reject_unsettled(const RunContext& run, double step, IslandStatus status, c
   // Numbers that overflow settle nowhere.
   if (const auto broken = broken_block(run, problem); broken && broken->reason == RejectionReason::not_finite)
     return reject(run, step, *broken);
+  run.fault.reset();
+  const auto found =
+      std::find_if(problem.results.begin(), problem.results.end(), [](const IslandResult& result) {
+        return result.status == IslandStatus::not_settled && result.alternating[0] >= 0;
+      });
+  if (status == IslandStatus::not_settled && found != problem.results.end())
+    return reject(run, step, StateFault{RejectionReason::open_close_not_settled, found->alternating});
   reject(run, step,
          status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
                                              : RejectionReason::not_positive_definite);

@@ -16,8 +16,15 @@ namespace ashlar {
 /// Measures how deep blocks would be in each other at the end of a problem, which keeps the depths.
 /// @param fine see SimulationSettings::depth::fine_interval. @return the pair that is too deep by most
 [[nodiscard]] std::optional<StateFault> audit_depths(const RunContext& run, StepProblem& problem, bool fine);
-/// The same of the present state, finely; the depths are noted.
-[[nodiscard]] std::optional<StateFault> audit_present(const RunContext& run);
+/// Depths of the present state.
+struct PresentDepths {
+  std::optional<StateFault> fault;  ///< the pair that is too deep by most
+  /// a pair is deeper than its contacts and earlier audits knew by more than the contact distance: contacts that are
+  /// detected from now on know of it
+  bool unexpected = false;
+};
+/// Measures the depths of the present state, finely, and notes them.
+[[nodiscard]] PresentDepths audit_present(const RunContext& run);
 /// Takes note of depths at the present time.
 void note_depths(const RunContext& run, const std::vector<PairDepth>& depths);
 

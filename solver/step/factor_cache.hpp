@@ -7,7 +7,7 @@
 namespace ashlar {
 
 struct FactorCache {
-  explicit FactorCache(LinearMethod method = LinearMethod::cholesky) : islands(method) {}
+  explicit FactorCache(LinearMethod method) : islands(method) {}
 
   IslandSolvers islands;
   LoneBodyFactors lone;

@@ -2,6 +2,7 @@
 // (open_close.hpp).
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -67,6 +68,8 @@ struct IslandResult {
   std::vector<std::vector<PointLaw>> laws;  ///< of their points: broken joints, multipliers
   /// Pairs whose rows were taken anew, by index: those that responses are of
   std::vector<std::pair<int, ContactPair>> followed;
+  /// Of what did not settle: blocks of the pair whose points have changed their states most often; -1: none did
+  std::array<int, 2> alternating = {-1, -1};
 };
 
 /// A factor that later steps may use, by what it takes to make it again.
@@ -89,7 +92,7 @@ class IslandSolvers {
     bool used = true;
     double inertia = 0.0;  ///< TimeScheme::inertia of the factor; 0: it is of no use in another step
   };
-  explicit IslandSolvers(LinearMethod method = LinearMethod::cholesky) : method_(method) {}
+  explicit IslandSolvers(LinearMethod method) : method_(method) {}
 
   /// The solver of an island. @param key role, block indices, then pairs
   [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,

@@ -1,6 +1,7 @@
 #include "solver/step/open_close.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -29,6 +30,14 @@ class OpenClose {
         augmentation_(problem),
         settings_(problem.settings()),
         result_(result) {}
+
+  /// Blocks of the pair whose points have changed their states most often; -1: none did.
+  [[nodiscard]] std::array<int, 2> alternating() const {
+    const auto most = std::max_element(changes_.begin(), changes_.end());
+    if (most == changes_.end() || *most == 0) return {-1, -1};
+    const ContactPair& pair = problem_.pair(static_cast<std::size_t>(most - changes_.begin()));
+    return {pair.a(), pair.b()};
+  }
 
   Outcome run() {
     known_balance_ = take_best_guess(problem_);
@@ -126,7 +135,11 @@ class OpenClose {
         nearest_ = {balance.sum, balance.largest_part, problem_.guess()};
       std::vector<ContactState> states = problem_.states();
       const bool as_before = !seen.empty() && states == seen.back();
-      if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) return Outcome::stalled;
+      if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) {
+        note_changes(seen.back(), states);
+        return Outcome::stalled;
+      }
+      if (!seen.empty()) note_changes(seen.back(), states);
       seen.push_back(std::move(states));
       // The last system will do for what is left.
       const bool falls = balance.worst < most_of_it * last;
@@ -147,6 +160,16 @@ class OpenClose {
       }
     }
     return Outcome::stalled;
+  }
+
+  /// Counts the points of each pair that are in another state than before.
+  void note_changes(const std::vector<ContactState>& before, const std::vector<ContactState>& states) {
+    changes_.resize(problem_.pairs(), 0);
+    if (before.size() != states.size()) return;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < changes_.size(); ++k)
+      for (std::size_t point = 0; point < problem_.responses()[k].points.size(); ++point, ++n)
+        changes_[k] += before[n] == states[n] ? 0 : 1;
   }
 
   /// Bounds of the shear forces that the last responses imply.
@@ -280,6 +303,7 @@ class OpenClose {
   bool followed_ = false;                 ///< rows were taken anew since newton() was called
   std::optional<Balance> known_balance_;  ///< of the present guess, where it was found before it is asked for
   double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
+  std::vector<int> changes_;              ///< by pair: of states of its points, from guess to guess
   std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()
   struct {
     double sum = std::numeric_limits<double>::infinity();
@@ -291,7 +315,9 @@ class OpenClose {
 }  // namespace
 
 void iterate_open_close(IslandProblem& problem, IslandResult& result) {
-  const Outcome outcome = OpenClose(problem, result).run();
+  OpenClose iteration(problem, result);
+  const Outcome outcome = iteration.run();
+  if (outcome != Outcome::settled) result.alternating = iteration.alternating();
   problem.hand_over(result);
   result.status = outcome == Outcome::settled    ? IslandStatus::settled
                   : outcome == Outcome::singular ? IslandStatus::not_positive_definite

@@ -59,7 +59,7 @@ SimulationSnapshot snapshot_of(const RunContext& run) {
 
 void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
   const std::map<int, int> orders = changed_orders(run, snapshot);
-  FactorCache factors;
+  FactorCache factors(run.settings().linear_method);
   factors.islands.restore(snapshot.factors);
   for (const auto& [k, order] : orders) replace_model(run, k, run.blocks()[at(k)].with_order(order));
   for (const auto& [place, factor] : run.system.load_factors())

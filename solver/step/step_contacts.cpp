@@ -139,7 +139,8 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
 }
 
 StepContacts::StepContacts(const BlockSystem& system)
-    : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()) {}
+    : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()),
+      order_(system.blocks(), system.settings().gravity_at(0.0)) {}
 
 std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockSystem& system,
                                                                     const RunState& state,
@@ -153,7 +154,10 @@ std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockS
   parallel_for(settings.threads, near.size(), [&](std::size_t n) {
     if (!laws[n]) return;
     const auto& [blocks, reach] = near[n];
-    const std::shared_ptr<const LastingContacts>& lasting = history_of(state.pairs, blocks).lasting;
+    const PairHistory& history = history_of(state.pairs, blocks);
+    const std::shared_ptr<const LastingContacts>& lasting = history.lasting;
+    // Of blocks that were apart nothing was made.
+    if (!lasting->found.points.empty() && lasting->found.turning != history.memory.turning()) return;
     for (std::size_t k = 0; k < 2; ++k)
       if (finder_.surfaces()[at(blocks[k])].wanted() != lasting->divisions[k]) return;
     const auto bound_of = [this](int block) {
@@ -264,12 +268,16 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   const PairHistory& known = history_of(state.pairs, blocks);
   const SimulationSettings& settings = system.settings();
   const bool goes_on = use == PairUse::motion && state.has_begun();
-  const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented};
-  const std::vector<bool> masters =
-      first_is_master(body_a, body_b, contacts.overlaps, [&covered, a = a, b = b](const RimPlace& rim) {
+  const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
+                                            known.overlap};
+  const std::vector<bool> masters = first_is_master(
+      body_a, body_b, contacts.overlaps,
+      [&covered, a = a, b = b](const RimPlace& rim) {
         return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
-      });
-  ContactPoints made = contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts());
+      },
+      order_.is_before(a, b));
+  ContactPoints made = contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts(),
+                                      known.memory.turning());
   std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.
   if (points.empty()) return std::nullopt;

@@ -11,6 +11,7 @@
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/contact_pair.hpp"
 #include "solver/contact/internal_edges.hpp"
+#include "solver/contact/reference_order.hpp"
 #include "solver/contact/surface_continuation.hpp"
 #include "solver/state/block_system.hpp"
 #include "solver/state/run_state.hpp"
@@ -75,6 +76,7 @@ class StepContacts {
       const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
 
   ContactFinder finder_;
+  ReferenceOrder order_;
   std::optional<WaysOut> ways_out_;  ///< of the step
 };
 

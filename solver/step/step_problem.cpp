@@ -22,7 +22,11 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
     if (block.fixed()) continue;
     body.change = Eigen::VectorXd::Zero(block.unknowns());
     if (!system.moving()[k]) continue;
-    if (scheme.stiffness_share > 0.0) body.note_start_force();
+    if (scheme.stiffness_share > 0.0) {
+      body.note_start_force();
+      // internal_force(): elasticity at the end once and k times, at the start k times.
+      body.roundoff_force *= 1.0 + 2.0 * scheme.stiffness_share;
+    }
     const Eigen::MatrixX3d still = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     body.free_change = block.space().restrict(scheme.free_change(
         still, state.states[k].velocity, state.accelerations.empty() ? still : state.accelerations[k]));

@@ -20,6 +20,7 @@ class Pages:
         for name, scene, more in (("falling", falling, ["--set", "analysis.end_time=0.56"]),
                                   ("curved", falling, curved),
                                   ("slope", HERE / "slope.toml", []), ("column", HERE / "column.toml", []),
+                                  ("moved", HERE / "moved_base.toml", []), ("rigid", HERE / "rigid_arch.toml", []),
                                   ("arch", scenes / "arch_stands.toml", stress),
                                   ("wall", scenes / "wall.toml", ["--set", "analysis.end_time=0.02", *stress])):
             out = folder / name

@@ -8,10 +8,11 @@ import sys
 import tempfile
 import unittest
 
+from blocks_test import BlocksTest  # run with those below
 from browser import Browser, Picture, find_chromium
 from legibility import DRAWN, TOO_FAINT, TOO_WIDE
 from pages import Pages, PageTest
-from picture_test import PictureTest  # run with those below
+from picture_test import PictureTest  # the same
 
 WIDTH, HEIGHT = 900, 520
 

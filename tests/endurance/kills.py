@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Kills runs at random moments and lets them go on: the results must be those of a run that never stopped, bit for bit.
 
-    python3 tests/endurance/kills.py --program build/release/apps/ashlar --count 1000 --seed 1
+    python3 tests/endurance/kills.py --program build/release/apps/ashlar --count 1600 --seed 1
+    python3 tests/endurance/kills.py --kinds 'solver_*' 'demo_*' --count 200
 
-Every run of the scene is ended several times, by SIGKILL or, one time in five, by a signal that asks it to stop, and
-goes on from its checkpoint; where it was killed before the first one it starts again. One time in ten it is started
-anew by --force, and killed again. Moments are random shares of the time that a whole run takes. Exit status: 0 all
-results are the same, 1 some are not, 2 wrong usage.
+The runs are those of kinds.json, one after the other: every demo scene, a scene for each key of contact and joints, each
+solver and integrator, statics, stages, searches for a factor. A run is ended several times, by SIGKILL or, one time in
+five, by a signal that asks it to stop, and goes on from its checkpoint; where it was killed before the first one it
+starts again. One time in ten it is started anew by --force, and killed again. Moments are random shares of the time that
+a whole run takes. Each kind comes up at least once. Exit status: 0 all results are the same, 1 some are not, 2 wrong
+usage.
 """
 import argparse
 import filecmp
+import fnmatch
 import json
 import pathlib
 import random
@@ -22,33 +26,47 @@ import time
 
 HERE = pathlib.Path(__file__).parent
 TABLES = ["history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd", "joints.pvd"]
-VARIANTS = [["--checkpoint", "0"], ["--checkpoint", "0.02"], [],
-            ["--checkpoint", "0", "--set", "output.history_every=7"],
-            ["--checkpoint", "0.01", "--set", "output.interval=0.0137", "--threads", "2"],
-            ["--checkpoint", "0", "--set", "analysis.integrator=generalized-alpha"]]
+# How a run is taken on: no result depends on it.
+MANNERS = [["--checkpoint", "0"], ["--checkpoint", "0.02"], [], ["--checkpoint", "0.01", "--threads", "2"]]
+# Of the summary: clocks, memory, and work that a run which goes on has to do again.
+MEASURED = ["wall_seconds", "peak_memory_bytes"]
+REPEATED = ["symbolic_factorizations", "numeric_factorizations", "numeric_factorizations_reused", "linear_solves",
+            "conjugate_gradient_iterations", "predicates_by_filter", "predicates_exact", "share_of_exact_predicates"]
 STOPPED = 130
 REFUSED = 2
-PROGRESS = 50
 
 
 class Failure(Exception):
     """Results or an exit status that must not be."""
 
 
-def command(options, out, variant, more=()):
-    return [options.program, "run", str(HERE / "bounce.toml"), "--out", str(out), "--quiet", *variant, *more]
+class Kind:
+    """A run of kinds.json, and what it comes to when nothing stops it."""
+
+    def __init__(self, program, name, entry, folder):
+        self.name = name
+        self.command = [program, "run", str(HERE / entry["scene"]), "--quiet",
+                        *(word for key in entry["set"] for word in ("--set", key))]
+        self.reference = folder / f"{name}.straight"
+        begin = time.monotonic()
+        status, errors = self.run(self.reference, MANNERS[0])
+        self.seconds = time.monotonic() - begin
+        if status != 0:
+            raise Failure(f"exit status {status} of a run that is not stopped: {errors}")
+
+    def arguments(self, out, manner):
+        return [*self.command, "--out", str(out), *manner]
+
+    def run(self, out, manner):
+        """Runs to the end; returns the exit status and what was said."""
+        done = subprocess.run(self.arguments(out, manner), capture_output=True, text=True, check=False)
+        return done.returncode, done.stderr
 
 
-def run(options, out, variant, more=()):
-    """Runs to the end; returns the exit status and what was said."""
-    done = subprocess.run(command(options, out, variant, more), capture_output=True, text=True, check=False)
-    return done.returncode, done.stderr
-
-
-def end_at(options, out, variant, more, moment, ending):
+def end_at(kind, out, manner, moment, ending):
     """Runs until a signal ends it after some seconds; returns "ended", "done" if it was faster, or "unfit" where the
     checkpoint fits to no table."""
-    with subprocess.Popen(command(options, out, variant, more), stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(kind.arguments(out, manner), stderr=subprocess.PIPE, text=True) as process:
         try:
             process.wait(moment)
         except subprocess.TimeoutExpired:
@@ -70,79 +88,91 @@ def differences(a, b):
         return ["the list of frames"]
     files = TABLES + ["frames/" + name for name in names]
     found = [name for name in files if not filecmp.cmp(a / name, b / name, shallow=False)]
-    summaries = [json.loads((folder / "summary.json").read_text()) for folder in (a, b)]
-    for key in ("status", "steps", "time", "frames", "penetration_max", "energy_residual", "energy_max"):
-        if summaries[0][key] != summaries[1][key]:
-            found.append("summary.json: " + key)
-    return found
+    summaries = [told_by(folder / "summary.json") for folder in (a, b)]
+    keys = summaries[0].keys() | summaries[1].keys()
+    return found + [f"summary.json: {key}" for key in sorted(keys) if summaries[0].get(key) != summaries[1].get(key)]
+
+
+def told_by(path):
+    """What a summary says of the results."""
+    summary = json.loads(path.read_text())
+    for key in MEASURED:
+        del summary[key]
+    for key in REPEATED:
+        del summary["counts"][key]
+    return summary
 
 
 def goes_on(out):
-    return ["--resume"] if (out / "checkpoint").exists() else []
+    return ["--resume"] if (out / "checkpoint").exists() or (out / "factor_trials.json").exists() else []
 
 
-def trial(options, chance, variant, reference, seconds, out):
+def trial(kind, chance, most, out):
     """Ends a run several times and lets it end by itself; returns how many times it was ended."""
     ended = 0
     forced = False
-    for _ in range(chance.randint(1, 6)):
+    manner = chance.choice(MANNERS)
+    for _ in range(chance.randint(1, most)):
         how = ["--force"] if chance.random() < 0.1 else goes_on(out)
         ending = chance.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP]) if chance.random() < 0.2 \
             else signal.SIGKILL
-        moment = chance.uniform(0.0, 1.1 * seconds)
-        result = end_at(options, out, variant, how, moment, ending)
+        moment = chance.uniform(0.0, 1.1 * kind.seconds)
+        result = end_at(kind, out, manner + how, moment, ending)
         if result == "unfit" and forced:
             # Killed between its new tables and its first checkpoint: the old one is told to fit to nothing.
             how = ["--force"]
-            result = end_at(options, out, variant, how, moment, ending)
+            result = end_at(kind, out, manner + how, moment, ending)
         if result == "unfit":
             raise Failure("a checkpoint that does not fit to its tables")
         ended += result == "ended"
         forced = how == ["--force"] or (forced and result == "ended")
-    status, errors = run(options, out, variant, goes_on(out))
+    status, errors = kind.run(out, manner + goes_on(out))
     if status == REFUSED and forced and "cannot resume" in errors:
-        status, errors = run(options, out, variant, ["--force"])
+        status, errors = kind.run(out, manner + ["--force"])
     if status != 0:
         raise Failure(f"exit status {status}: {errors}")
-    wrong = differences(reference, out)
+    wrong = differences(kind.reference, out)
     if wrong:
-        raise Failure(f"{' '.join(variant)}: other results after {ended} kills: {', '.join(wrong)}")
+        raise Failure(f"{' '.join(manner)}: other results after {ended} kills: {', '.join(wrong)}")
     return ended
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default="build/release/apps/ashlar")
-    parser.add_argument("--count", type=int, default=50, help="kills")
+    parser.add_argument("--kinds", nargs="+", default=["*"], help="names or globs of kinds.json")
+    parser.add_argument("--count", type=int, default=0, help="kills, at least; every kind has its turn")
+    parser.add_argument("--most", type=int, default=6, help="kills of one run")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder", help="where results are written; one in memory is faster")
     options = parser.parse_args()
+    entries = {name: entry for name, entry in json.loads((HERE / "kinds.json").read_text()).items()
+               if any(fnmatch.fnmatchcase(name, pattern) for pattern in options.kinds)}
+    if not entries:
+        parser.error("no kind has such a name")
     chance = random.Random(options.seed)
     folder = pathlib.Path(tempfile.mkdtemp(prefix="ashlar-kills-", dir=options.folder))
-    references = []
-    for k, variant in enumerate(VARIANTS):
-        begin = time.monotonic()
-        status, errors = run(options, folder / f"straight{k}", variant)
-        if status != 0:
-            print(errors)
-            return 2
-        references.append((folder / f"straight{k}", time.monotonic() - begin))
-    kills = trials = 0
-    try:
-        while kills < options.count:
-            k = trials % len(VARIANTS)
-            out = folder / "out"
-            shutil.rmtree(out, ignore_errors=True)
-            before = kills
-            kills += trial(options, chance, VARIANTS[k], *references[k], out)
-            trials += 1
-            if kills // PROGRESS > before // PROGRESS:
-                print(f"{kills} kills", flush=True)
-    except Failure as failure:
-        print(f"run {trials + 1}, after {kills} kills before: {failure}\nresults are left in {folder}")
+    kinds = {}
+    kills = trials = failures = 0
+    while trials < len(entries) or (kills < options.count and failures < len(entries)):
+        name = list(entries)[trials % len(entries)]
+        trials += 1
+        out = folder / f"{name}.{trials}"
+        try:
+            if name not in kinds:
+                kinds[name] = Kind(options.program, name, entries[name], folder)
+            kills += trial(kinds[name], chance, options.most, out)
+            shutil.rmtree(out)
+        except Failure as failure:
+            failures += 1
+            print(f"{name}: {failure}", flush=True)
+        if trials % len(entries) == 0:
+            print(f"{kills} kills", flush=True)
+    if failures > 0:
+        print(f"{failures} of {trials} runs of {len(kinds)} kinds are wrong, results are left in {folder}")
         return 1
     shutil.rmtree(folder)
-    print(f"{kills} kills in {trials} runs: all results are those of runs that never stopped")
+    print(f"{kills} kills in {trials} runs of {len(kinds)} kinds: all results are those of runs that never stopped")
     return 0
 
 

@@ -3,6 +3,7 @@
 
     python3 tests/mutants/mutants.py --layer geometry --count 20 --seed 1 --folder /tmp/mutants
     python3 tests/mutants/mutants.py --layer mechanics --count 20 --seed 1 --files 'mechanics/contact/*' --list
+    python3 tests/mutants/mutants.py --layer apps --count 10 --seed 1 --files 'apps/scene/*'
     python3 tests/mutants/mutants.py --self-test
 
 The sources are copied to FOLDER/source and built there: the working copy is never changed. A second call with the same
@@ -28,7 +29,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LAYERS = ["geometry", "mechanics", "solver"]
+LAYERS = ["geometry", "mechanics", "solver", "apps"]
+# No part of the libraries that a layer's test program has: what is tested from outside only.
+OUTSIDE = ["apps/main.cpp", "apps/python/*"]
 MEMORY = 8 << 30  # bytes that a test program may take
 # Binary operators stand between spaces, which those of templates, references and pointers do not.
 OPERATORS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ",
@@ -188,7 +191,7 @@ def choose(layer, pattern, seed, count):
     candidates = []
     for path in sorted((ROOT / layer).rglob("*.cpp")):
         file = str(path.relative_to(ROOT))
-        if fnmatch.fnmatch(file, pattern):
+        if fnmatch.fnmatch(file, pattern) and not any(fnmatch.fnmatch(file, outside) for outside in OUTSIDE):
             candidates += mutants_of(file, path.read_text())
     random.Random(seed).shuffle(candidates)
     return candidates[:count]
@@ -261,6 +264,11 @@ def self_test():
         assert (pathlib.Path(folder) / "sample.cpp").read_text() == SAMPLE
     assert other_number("0.0") == "1.0" and other_number("1e-3") == "0.002" and other_number("7") == "8"
     assert test_filter(ROOT, "geometry", "geometry/exact/double_double.cpp").startswith("DoubleDouble.*:")
+    assert test_filter(ROOT, "apps", "apps/sweep/variants.cpp").startswith("Variants")
+    for folder in ("scene", "results", "sweep", "run"):
+        files = {mutant.file for mutant in choose("apps", f"apps/{folder}/*", 1, 10 ** 6)}
+        assert files and all(test_filter(ROOT, "apps", file) for file in files), folder
+    assert not choose("apps", "apps/python/*", 1, 1) and not choose("apps", "apps/main.cpp", 1, 1)
     print("as expected")
     return 0
 

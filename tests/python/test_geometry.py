@@ -22,6 +22,12 @@ def test_moments_of_a_box():
     assert len(moments) == 10
 
 
+@pytest.mark.parametrize("degree", [-1, 61, 1000])
+def test_degrees_of_moments_are_bounded(degree):
+    with pytest.raises(ValueError, match="degree is out of range"):
+        ashlar.integrate(box(), degree)
+
+
 def test_contacts_of_cubes():
     touching = ashlar.contacts(box(), box(move=(0.25, 0.0, 1.0)))
     assert touching["relation"] == "touching" and touching["type"] == "F-F"

@@ -271,3 +271,73 @@ def test_ctrl_c_ends_a_run_between_two_steps():
     steps = len(sim.history["time"])
     sim.step()
     assert len(sim.history["time"]) == steps + 1
+
+
+def test_a_scene_runs_where_nothing_can_be_written(tmp_path):
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "s.toml").write_text(ashlar.Scene.from_dict(CUBE).text)
+    loaded = ashlar.Scene.load(tmp_path / "scenes" / "s.toml", ["analysis.end_time=0.002"])
+    summary = ashlar.run(loaded, tmp_path / "out")
+    assert summary["status"] == "completed" and summary["steps"] == 2
+    # Nothing is written beside the scene, which may be in a folder of the system's.
+    assert os.listdir(tmp_path / "scenes") == ["s.toml"]
+
+
+def test_a_scene_keeps_its_text_when_its_file_changes(tmp_path):
+    loaded = ashlar.Scene.from_dict(dict(CUBE, title="mine"), folder=tmp_path)
+    (tmp_path / "scene.toml").write_text("no scene")
+    assert ashlar.run(loaded, tmp_path / "out", ["analysis.end_time=0.002"])["title"] == "mine"
+
+
+def test_a_dash_is_a_file_not_the_standard_input_of_the_interpreter(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match="cannot|no such"):
+        ashlar.run("-", tmp_path / "out")
+    (tmp_path / "-").write_text(scene(end_time=0.002).text)
+    assert ashlar.run("-", tmp_path / "out")["status"] == "completed"
+
+
+@pytest.mark.parametrize("threads", [0, -5])
+def test_threads_are_one_or_more(tmp_path, threads):
+    with pytest.raises(ValueError, match="threads"):
+        ashlar.run(scene(), tmp_path / "out", threads=threads)
+    with pytest.raises(ValueError, match="threads"):
+        scene().simulation(threads=threads)
+
+
+def test_what_is_no_time_and_no_point_is_refused():
+    sim = scene().simulation()
+    with pytest.raises(ValueError, match="nan"):
+        sim.run(until=float("nan"))
+    assert sim.steps == 0
+    with pytest.raises(TypeError, match="complex"):
+        sim.blocks["cube"].positions(np.array([[0.5 + 1j, 0.5, 0.5]]))
+    with pytest.raises(ValueError, match="shape"):
+        sim.blocks["cube"].positions([1.0, 2.0, 3.0])
+    assert sim.blocks["cube"].positions([(0, 0, 1)]).tolist() == [[0, 0, 1]]
+
+
+def test_objects_of_the_extension_are_made_by_it_alone():
+    sim = scene().simulation()
+    for made in (ashlar.Block, type(sim._core), type(scene()._core)):
+        with pytest.raises(TypeError, match="made by ashlar"):
+            made.__new__(made)
+    bad = ashlar._core.load("nonsense", "s.toml", [])
+    with pytest.raises(ValueError, match="errors"):
+        bad.json()
+
+
+def test_runs_in_threads_give_signals_back(tmp_path):
+    caught = []
+    before = signal.signal(signal.SIGTERM, lambda number, frame: caught.append(number))
+    short, long = scene(end_time=0.01), scene(end_time=0.1)
+    threads = [threading.Thread(target=ashlar.run, args=(of, tmp_path / str(k)))
+               for k, of in enumerate((short, long))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(0.01)
+    signal.signal(signal.SIGTERM, before)
+    assert caught == [signal.SIGTERM]

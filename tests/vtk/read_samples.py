@@ -261,7 +261,7 @@ class Samples(unittest.TestCase):
             self.assertAlmostEqual(section_area(grid, x), area, delta=1e-6)
         for x, below in ((0.5, 1), (4.5, 4 + 1.5), (5.5, 4 + 3 + 1)):
             self.assertAlmostEqual(volume(grid, x), below, delta=1e-5)
-        self.assertEqual(set(arrays(grid.GetCellData())), {"block", "order"})
+        self.assertEqual(set(arrays(grid.GetCellData())), {"block", "order", "fixed"})
         principal = arrays(grid.GetPointData())["principal_stress"]
         self.assertEqual(principal.GetNumberOfComponents(), 3)
 

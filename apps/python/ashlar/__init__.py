@@ -123,7 +123,7 @@ class Simulation:
     """A run, step by step. Made by Scene.simulation."""
 
     def __init__(self, scene, threads=1):
-        self._core = _core.Simulation(scene._core, threads)
+        self._core = _core.simulation(scene._core, threads)
 
     def step(self):
         """Takes one step, or one iteration of a static analysis. Returns whether there is more to do.
@@ -136,6 +136,8 @@ class Simulation:
     def run(self, until=None, callback=None):
         """Steps until a time (s), or to the end. callback(simulation) is called after each step; if it returns False
         the run stops there. Returns the status. Raises RuntimeError as step does."""
+        if until is not None and until != until:
+            raise ValueError(f"until is no time ({until}), s are needed")
         if self.status == "failed":
             self._core.step()
         while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
@@ -207,13 +209,14 @@ def run(scene, out, overrides=(), threads=1, resume=False, force=False):
 
     Raises ValueError for bad input, RuntimeError for a run that failed (its summary is in the folder), KeyboardInterrupt.
     """
+    if threads < 1:
+        raise ValueError(f"threads are too few ({threads}), 1 or more are needed")
+    file, text = scene, None
     if isinstance(scene, Scene):
-        folder = _os.path.dirname(scene._file) or "."
-        with _tempfile.NamedTemporaryFile("w", suffix=".toml", dir=folder, encoding="utf-8") as file:
-            file.write(scene._text)
-            file.flush()
-            return run(file.name, out, [*scene._overrides, *overrides], threads, resume, force)
-    status, told = _core.run(str(scene), str(out), list(overrides), threads, resume, force)
+        file, text, overrides = scene._file, scene._text, [*scene._overrides, *overrides]
+    # To the program "-" is standard input.
+    file = _os.path.join(".", "-") if str(file) == "-" else str(file)
+    status, told = _core.run(file, text, str(out), list(overrides), threads, resume, force)
     if status == 2:
         raise ValueError(told)
     if status == 130:

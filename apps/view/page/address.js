@@ -6,7 +6,7 @@
 const YES = ["yes", "no"];
 const ADDRESS_KEYS = [
   ["range", "range", ["run", "frame", "percentile", "own"]], ["low", "low", "number"], ["high", "high", "number"],
-  ["units", "units", ["engineering", "si"]], ["scale", "scale", "positive"], ["edges", "edges", YES],
+  ["units", "units", ["engineering", "si"]], ["scale", "scale", "positive"], ["parallel", "parallel", YES], ["edges", "edges", YES],
   ["subfaces", "subFaces", YES], ["glass", "seeThrough", YES],
   ["joints", "joints", ["none", "opening", "slip", "state", "normal", "shear"]],
   ["contacts", "points", ["state", "type", "none"]], ["open", "openContacts", YES], ["arrows", "arrows", [...YES, "none"]],
@@ -20,7 +20,7 @@ const ADDRESS_KEYS = [
 function usualState() {
   const few = !isCrowded();
   return {frame: data.isStatic ? data.frames.length - 1 : 0, field: "displacement", range: "run", low: null, high: null,
-    units: "engineering", scale: 1, edges: true, subFaces: false, seeThrough: false, joints: "none",
+    units: "engineering", scale: 1, relative: data.relative_to, parallel: false, edges: true, subFaces: false, seeThrough: false, joints: "none",
     points: few ? "state" : "none", openContacts: false, arrows: false, chain: few, thrust: false, forceScale: 1,
     vectors: "none", crosses: false, section: "none", sectionAt: 0, hidden: new Set(), theme: "auto", marks: true,
     from: null, at: null, zoom: 1, picked: {}, timer: null};
@@ -58,6 +58,13 @@ function readHidden(wishes) {
   current.hidden = new Set(data.blocks.map((_, k) => k).filter((k) => !only.has(k)));
 }
 
+/// What displacements are relative to: a block by name or number, or "none".
+function readRelative(text) {
+  if (text === null) return;
+  const block = blockCalled(text);
+  if (block >= 0 || text === "none") current.relative = block >= 0 ? block : null;
+}
+
 /// Brings `current` in line with the address. @return its keys
 function readAddress() {
   const wishes = new URLSearchParams(location.hash.slice(1));
@@ -72,6 +79,8 @@ function readAddress() {
   if (!wishes.has("chain") && (wishes.get("arrows") === "none" || wishes.get("contacts") === "none")) current.chain = false;
   const from = wishes.get("from") in VIEWS ? new THREE.Vector3(...VIEWS[wishes.get("from")]) : vectorOf(wishes.get("from"));
   if (from && from.lengthSq() > 0) current.from = from;
+  if (!wishes.has("parallel")) current.parallel = PARALLEL_VIEWS.includes(wishes.get("from"));
+  readRelative(wishes.get("relative"));
   current.at = vectorOf(wishes.get("at")) || current.at;
   if (Number(wishes.get("zoom")) > 0) current.zoom = Number(wishes.get("zoom"));
   readSection(wishes.get("section"));
@@ -92,6 +101,7 @@ function addressOf() {
     if (value !== usual[member] && value !== null)
       address.set(key, kind === YES || key === "arrows" ? (value ? "yes" : "no") : value);
   }
+  if (current.relative !== usual.relative) address.set("relative", current.relative === null ? "none" : current.relative);
   if (current.points === "none" && current.chain) address.set("chain", "yes");
   if (current.section !== "none") address.set("section", current.section + "," + Number(current.sectionAt.toPrecision(6)));
   const hidden = [...current.hidden];

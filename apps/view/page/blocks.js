@@ -58,5 +58,6 @@ function tieBlockList() {
   element("show-all").addEventListener("click", () => isolate(data.blocks.map((_, k) => k)));
   element("isolate-picked").addEventListener("click", () => isolate([current.picked.block]));
   element("hide-picked").addEventListener("click", () => hide([current.picked.block], true));
+  element("relative-picked").addEventListener("click", () => showRelativeTo(current.picked.block));
   showBlockList();
 }

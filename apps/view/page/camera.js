@@ -15,6 +15,9 @@ const VIEWS = {
   top: [0, -1e-4, 1], iso: [1, -1, 0.82],
 };
 
+/// Views in which parallel lines stay parallel, so that lengths can be measured; the others are perspectives.
+const PARALLEL_VIEWS = ["front", "back", "left", "right", "top"];
+
 /// Points around all that is to be seen: those of fixed blocks, the corners of a box around the way of each other one
 /// that does not fly off to more than half the scene's own size.
 function outlineOfScene() {
@@ -46,14 +49,36 @@ function cornersOf(box) {
     k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z));
 }
 
+const FIT_MARGIN = 0.94;
+
+/// Pixels across and upwards that legend, heading and player leave free.
+function freePixels() {
+  const {width, height, left, top, bottom} = frameSize;
+  return [Math.max(width - left - 12, 40), Math.max(height - top - bottom, 40)];
+}
+
+/// The same of a parallel view. @return half of the height of the picture, m, in place of the distance
+function fittedParallel(right, up) {
+  const [horizontal, vertical] = freePixels();
+  const extent = (axis) => outline.reduce(([low, high], point) => {
+    const at = point.dot(axis);
+    return [Math.min(low, at), Math.max(high, at)];
+  }, [Infinity, -Infinity]);
+  const [across, upward] = [extent(right), extent(up)];
+  const target = sceneBox.getCenter(new THREE.Vector3());
+  const shift = ([low, high], axis) => target.addScaledVector(axis, 0.5 * (low + high) - target.dot(axis));
+  shift(across, right);
+  shift(upward, up);
+  const metresOfPixel = Math.max((across[1] - across[0]) / horizontal, (upward[1] - upward[0]) / vertical) / FIT_MARGIN;
+  return {target, half: 0.5 * metresOfPixel * frameSize.height};
+}
+
 /// Where to look and from how far so that the scene fills what legend, heading and player leave free.
 /// @param toEye unit vector; right, up those of the picture
 function fitted(toEye, right, up) {
-  const margin = 0.94;
-  const tangent = margin * Math.tan(0.5 * THREE.Math.degToRad(camera.fov));
-  const {width, height, left, top, bottom} = frameSize;
-  const free = [Math.max(width - left - 12, 40), Math.max(height - top - bottom, 40)];
-  const [horizontal, vertical] = free.map((pixels) => tangent * pixels / height);
+  const {height} = frameSize;
+  const tangent = FIT_MARGIN * Math.tan(0.5 * THREE.Math.degToRad(camera.fov));
+  const [horizontal, vertical] = freePixels().map((pixels) => tangent * pixels / height);
   const target = sceneBox.getCenter(new THREE.Vector3());
   let distance = 0;
   // What is near looks larger: its middle in the picture is not that of the box. Each round moves the target there.
@@ -76,22 +101,38 @@ function fitted(toEye, right, up) {
   return {target, distance};
 }
 
-/// The distance from which all is seen from the present direction.
-function wholeDistance(toEye) {
+/// How all is seen from the present direction: {target, distance}, in a parallel view {target, half}.
+function wholeView(toEye) {
   const [right, up] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, k));
-  return fitted(toEye, right, up);
+  return camera.isOrthographicCamera ? fittedParallel(right, up) : fitted(toEye, right, up);
 }
+
+/// Takes the camera of the kind that `current` asks for.
+function chooseCamera() {
+  const wanted = current.parallel ? cameras.parallel : cameras.perspective;
+  wanted.add(cameras.lamp);
+  if (wanted === camera) return;
+  camera = wanted;
+  controls.object = camera;
+  setFrame(frameSize);
+}
+
+/// Radii of the scene to the eye of a parallel view, where the distance has no influence on sizes.
+const PARALLEL_DISTANCE = 20;
 
 /// Looks at the middle of the scene, or at `current.at`, `current.zoom` times as near as to see all.
 function lookFrom(direction) {
   const toEye = direction.clone().normalize();
+  chooseCamera();
   camera.position.copy(toEye);
   camera.lookAt(0, 0, 0);
   camera.updateMatrixWorld();
-  const view = wholeDistance(toEye);
-  const distance = view.distance / current.zoom;
+  const view = wholeView(toEye);
+  const distance = view.half ? PARALLEL_DISTANCE * sceneRadius : view.distance / current.zoom;
   camera.near = 0.01 * Math.min(sceneRadius, distance);
   camera.far = distance + 100 * sceneRadius;
+  if (view.half) Object.assign(camera, {half: view.half, zoom: current.zoom});
+  if (view.half) setFrame(frameSize);
   controls.target.copy(current.at || view.target);
   camera.position.copy(controls.target).addScaledVector(toEye, distance);
   camera.updateProjectionMatrix();
@@ -105,7 +146,8 @@ function noteView() {
   current.from = toEye.divideScalar(distance);
   current.at = controls.target.clone();
   camera.updateMatrixWorld();
-  current.zoom = wholeDistance(current.from).distance / distance;
+  const whole = wholeView(current.from);
+  current.zoom = whole.half ? whole.half * camera.zoom / camera.half : whole.distance / distance;
 }
 
 /// The scene is drawn in the middle of what is left free.
@@ -113,7 +155,10 @@ function noteView() {
 function setFrame(size) {
   Object.assign(frameSize, size);
   const {width, height, left, top, bottom} = frameSize;
-  camera.aspect = width / height;
+  if (camera.isOrthographicCamera) {
+    const [across, upward] = [camera.half * width / height, camera.half];
+    Object.assign(camera, {left: -across, right: across, bottom: -upward, top: upward});
+  } else camera.aspect = width / height;
   camera.setViewOffset(width, height, -0.5 * left, 0.5 * (bottom - top), width, height);
 }
 
@@ -127,14 +172,20 @@ function framing(width, height, {heading, player}) {
     bottom: player + 28};
 }
 
+function buildCameras() {
+  const lamp = new THREE.DirectionalLight("#ffffff", 0.4);
+  lamp.position.set(-0.4, 0.6, 1);
+  const cameras = {perspective: new THREE.PerspectiveCamera(35, 1, 0.1, 1000), parallel: new THREE.OrthographicCamera(), lamp};
+  cameras.parallel.half = 1;
+  for (const kind of ["perspective", "parallel"]) cameras[kind].up.set(0, 0, 1);
+  return cameras;
+}
+
 function buildStage() {
   const stage = new THREE.Scene();
   stage.background = new THREE.Color(theme().background);
   stage.add(new THREE.HemisphereLight("#ffffff", "#b0b0b8", 0.85));
-  const lamp = new THREE.DirectionalLight("#ffffff", 0.4);
-  lamp.position.set(-0.4, 0.6, 1);
-  camera.add(lamp);
-  stage.add(camera, meshes.mesh, meshes.edges, meshes.innerEdges, meshes.selection, joints.faces, joints.rims,
+  stage.add(cameras.perspective, cameras.parallel, meshes.mesh, meshes.edges, meshes.innerEdges, meshes.selection, joints.faces, joints.rims,
     section.caps, section.outlines, ...forces.arrows, ...forces.bars, ...forces.ties, forces.thrust, forces.points,
     ...vectors.arrows, ...vectors.pressed, ...vectors.pulled);
   return stage;

@@ -85,6 +85,7 @@ function syncControls() {
     element("plot-" + number + "-group").value = current["y" + number];
     element("plot-" + number + "-x").value = current["x" + number];
   }
+  fillRelative();
   syncSection();
 }
 
@@ -100,7 +101,7 @@ function syncSection() {
 
 function afterChange(member) {
   // Limits are those of what was coloured when they were typed.
-  if (member === "field" || member === "joints") Object.assign(current, {low: null, high: null});
+  if (["field", "joints", "relative"].includes(member)) Object.assign(current, {low: null, high: null});
   if (member === "section") {
     const [low, high] = sectionWay();
     current.sectionAt = 0.5 * (low + high);
@@ -108,7 +109,7 @@ function afterChange(member) {
   if (member.startsWith("section")) syncSection();
   if (member === "theme") setTheme();
   if (member === "units" || member === "theme") for (const number of [1, 2]) showPlot(number);
-  if (member === "units") showSummary();
+  if (member === "units" || member === "relative") showSummary();
   updatePicked();
   show();
 }
@@ -130,6 +131,8 @@ function tieControls() {
     control.addEventListener("change", change);
     if (control.type === "range") control.addEventListener("input", change);
   }
+  element("relative").addEventListener("change", ({target}) =>
+    showRelativeTo(target.value === "none" ? null : Number(target.value)));
   for (const [id, member] of [["low", "low"], ["high", "high"]]) {
     element(id).addEventListener("change", ({target}) => {
       const value = Number(target.value) * Number(target.dataset.factor || 1);
@@ -141,7 +144,8 @@ function tieControls() {
 }
 
 function lookAtView(name) {
-  Object.assign(current, {view: name, from: new THREE.Vector3(...VIEWS[name]), at: null, zoom: 1});
+  Object.assign(current, {view: name, parallel: PARALLEL_VIEWS.includes(name), from: new THREE.Vector3(...VIEWS[name]),
+    at: null, zoom: 1});
   lookFrom(current.from);
   render();
   noteAddress();
@@ -162,7 +166,11 @@ function tieStage() {
     else return;
     event.preventDefault();
   });
-  window.addEventListener("resize", resize);
+  window.addEventListener("resize", () => {
+    resize();
+    lookFrom(current.from);
+    render();
+  });
   window.addEventListener("hashchange", followAddress);
   window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => afterChange("theme"));
   controls.addEventListener("change", renderTurning);

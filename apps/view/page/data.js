@@ -109,12 +109,14 @@ function spansOf(blockOfPoint) {
   return spans;
 }
 
-function blocksOf(cells, given) {
+/// @param fixed numbers of the blocks that never move; others of order 0 are rigid
+function blocksOf(cells, given, fixed) {
   const blocks = [];
+  const still = new Set(fixed);
   for (const {block, order} of cells) {
     if (blocks[block]) continue;
-    const {name = "block " + block, material = ""} = given[block] || {};
-    blocks[block] = {name, material, order, fixed: order === 0};
+    const {name, material = ""} = given[block] || {};
+    blocks[block] = {name: name || "block " + block, material, order, fixed: still.has(block)};
   }
   // Blocks that no frame has, of a run in stages.
   for (let k = 0; k < blocks.length; ++k)
@@ -131,7 +133,7 @@ async function loadData() {
   for (const {block, corners} of data.cells) for (const point of corners) data.blockOfPoint[point] = block;
   data.spans = spansOf(data.blockOfPoint);
   data.history = decodeHistory(scene.history, history);
-  data.blocks = blocksOf(data.cells, scene.blocks);
+  data.blocks = blocksOf(data.cells, scene.blocks, scene.fixed);
   data.isStatic = ["static", "factor-of-safety", "capacity"].includes(scene.analysis);
   const lines = element("frames").textContent.trim().split("\n");
   const bytes = await Promise.all(lines.map(inflated));

@@ -38,9 +38,10 @@ function principal(s, p) {
 function fieldsOf(data) {
   const fields = {};
   const add = (key, label, unit, at, signed = false) => { fields[key] = {label, unit, at, signed}; };
-  add("displacement", "displacement", "m", (f, p) => lengthAt(f.displacement, p));
+  add("displacement", "displacement", "m", (f, p) => lengthAt(shownDisplacement(f), p));
   ["x", "y", "z"].forEach((axis, k) =>
-    add("displacement_" + axis, "displacement " + axis, "m", (f, p) => f.displacement[3 * p + k], true));
+    add("displacement_" + axis, "displacement " + axis, "m", (f, p) => shownDisplacement(f)[3 * p + k], true));
+  for (const field of Object.values(fields)) field.isDisplacement = true;
   if (data.velocity) add("velocity", "velocity", "m/s", (f, p) => lengthAt(f.velocity, p));
   if (data.stress) {
     add("von_mises", "von Mises stress", "Pa", (f, p) => vonMises(f.stress, p));
@@ -50,15 +51,16 @@ function fieldsOf(data) {
     STRESS_NAMES.forEach((name, k) => add("stress_" + name, "stress " + name, "Pa", (f, p) => f.stress[6 * p + k], true));
   }
   fields.block = {label: "block", category: (block) => block, name: (block) => data.blocks[block].name};
-  fields.order = {label: "order", category: (block) => data.blocks[block].order,
-    name: (order) => (order === 0 ? "fixed" : "order " + order)};
+  // Kind 0 is that of fixed blocks, 1 that of rigid ones.
+  fields.order = {label: "order", category: (block) => (data.blocks[block].fixed ? 0 : data.blocks[block].order + 1),
+    name: (kind) => (kind === 0 ? "fixed" : kind === 1 ? "order 0 (rigid)" : "order " + (kind - 1))};
   fields.stone = {label: "stone", category: (block) => (data.blocks[block].fixed ? 1 : 0), plain: true};
   return fields;
 }
 
 /// What the faces of joints are coloured by: values by face.
 const JOINT_FIELDS = {
-  opening: {label: "opening", unit: "m", of: (joints) => joints.opening, signed: true},
+  opening: {label: "opening", unit: "m", of: (joints) => joints.opening, fromZero: true},
   slip: {label: "slip", unit: "m", of: (joints) => joints.slip},
   normal: {label: "normal stress, compression +", unit: "Pa", of: (joints) => joints.normal},
   shear: {label: "shear stress", unit: "Pa", of: (joints) => joints.shear},
@@ -74,9 +76,11 @@ const isWhole = (field) => field.category !== undefined;
 
 // ---- ranges -----------------------------------------------------------------------------------------------
 
-/// Least and largest of some values; of signed ones even about zero; never empty.
+/// Least and largest of some values; of signed ones even about zero, of those that count from zero on from there (an
+/// opening below zero is the depth of a closed joint); never empty.
 function roundedOff(field, low, high) {
   if (!(low <= high)) return [0, 1];
+  if (field.fromZero) [low, high] = [0, Math.max(0, high)];
   if (field.signed) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
   return low < high ? [low, high] : [low, low + (Math.abs(low) || 1)];
 }
@@ -116,7 +120,8 @@ function percentileRange(field, frame) {
 function rangeOf(field, frame) {
   if (field.kinds || isWhole(field)) return null;
   const run = () => {
-    if (!field.range) field.range = rangeOver(field, data.frames);
+    if (!field.range || field.rangeRelative !== current.relative)
+      Object.assign(field, {range: rangeOver(field, data.frames), rangeRelative: current.relative});
     return field.range;
   };
   if (current.range === "frame") return rangeOver(field, [frame]);

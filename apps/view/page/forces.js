@@ -112,6 +112,15 @@ function forceLength(force, usual) {
   return Math.min(sceneRadius / 3 * current.forceScale * force.length() / usual, 2 / 3 * sceneRadius);
 }
 
+/// A round force and the pixels that its bar or arrow is long at the middle of the scene: what lengths mean.
+/// @param most pixels
+function forceScaleBar(usual, most) {
+  const pixelsOfNewton = sceneRadius / 3 * current.forceScale / usual / lengthOfPixel();
+  if (!(pixelsOfNewton > 0) || !Number.isFinite(pixelsOfNewton)) return null;
+  const force = roundBelow(most / pixelsOfNewton);
+  return {force, pixels: force * pixelsOfNewton};
+}
+
 /// The force on the first block of a contact.
 function arrowOf(force, place) {
   const length = forceLength(force, usualForce("contacts"));
@@ -194,6 +203,13 @@ function forceKinds(frame) {
         kinds.push({name: name + " contacts", colour: colours[k]});
     });
   }
+  const lengths = (usual, what, colour) => {
+    const bar = forceScaleBar(usual, 100);
+    if (bar) kinds.push({name: what + quantity(bar.force, "N"), colour, bar: bar.pixels});
+  };
+  if (current.arrows && forces.arrows[0].count > 0) lengths(usualForce("contacts"), "contact force ", FORCE_COLOUR);
+  if (current.chain && frame.links.length > 0)
+    lengths(usualForce("links"), "joint force ", forces.bars[0].count > 0 ? FORCE_COLOUR : TENSION_COLOUR);
   if (current.chain && forces.bars[0].count > 0) kinds.push({name: "pressing joints", colour: FORCE_COLOUR});
   if (current.chain && forces.ties[0].count > 0) kinds.push({name: "pulling joints", colour: TENSION_COLOUR});
   if (current.thrust && forces.thrust.visible) kinds.push({name: "line of thrust", colour: THRUST_COLOUR});
@@ -211,6 +227,7 @@ function forceNote(frame) {
     const force = current.arrows && visible.length > 0 ? ", largest force " + quantity(largest(visible), "N") : "";
     notes.push(visible.length + (visible.length === 1 ? " contact point" : " contact points") + force);
   }
+  if (current.thrust && !forces.thrust.visible) notes.push("no line of thrust: no free block has forces in two joints");
   if (current.chain && frame.links.length > 0) notes.push("largest joint force " + quantity(largest(frame.links), "N"));
   return notes.join("; ");
 }

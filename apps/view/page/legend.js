@@ -50,7 +50,7 @@ function scaleOf(field, range, about) {
   return {unit: unit.name, ticks: ticks.map((tick) => ({share: (tick - low) / (high - low), text: tickText(tick, ticks)}))};
 }
 
-const scaleTitle = (field, range) => field.label + (field.unit ? " (" + scaleOf(field, range, 5).unit + ")" : "");
+const scaleTitle = (field, range) => labelOf(field, currentFrame()) + (field.unit ? " (" + scaleOf(field, range, 5).unit + ")" : "");
 
 function drawUprightScale(context, field, range, {x, y, width, height}) {
   const below = drawWrapped(context, scaleTitle(field, range), x, y + 12, width);
@@ -79,9 +79,21 @@ function drawFlatScale(context, field, range, {x, y, width}) {
   context.textAlign = "left";
 }
 
+/// A bar of a colour and what its length stands for, below it. @return where the next thing may be
+function drawLengthKind(context, {name, colour, bar}, {x, y}) {
+  context.fillStyle = colour;
+  context.fillRect(x, y + 4, bar, 4);
+  drawText(context, name, x, y + 22);
+  return y + 32;
+}
+
 /// Names with a mark of their colour, one below the other. @return where the next thing may be
 function drawKinds(context, kinds, {x, y, width}) {
-  for (const {name, colour} of kinds) {
+  for (const {name, colour, bar} of kinds) {
+    if (bar) {
+      y = drawLengthKind(context, {name, colour, bar}, {x, y});
+      continue;
+    }
     if (colour) {
       context.fillStyle = colour;
       context.fillRect(x, y + 2, 12, 12);
@@ -94,15 +106,16 @@ function drawKinds(context, kinds, {x, y, width}) {
 /// The same side by side, in as many lines as are needed.
 function drawKindsInLines(context, kinds, {x, y, width}) {
   let at = x;
-  for (const {name, colour} of kinds) {
-    const text = fittingText(context, name, width - 18);
-    const size = context.measureText(text).width + (colour ? 16 : 0);
+  for (const {name, colour, bar} of kinds) {
+    const mark = bar || 12;
+    const text = fittingText(context, name, width - mark - 6);
+    const size = context.measureText(text).width + (colour ? mark + 4 : 0);
     if (at > x && at + size > x + width) [at, y] = [x, y + 18];
     if (colour) {
       context.fillStyle = colour;
-      context.fillRect(at, y + 2, 12, 12);
+      context.fillRect(at, y + (bar ? 6 : 2), mark, bar ? 4 : 12);
     }
-    drawText(context, text, at + (colour ? 16 : 0), y + 13);
+    drawText(context, text, at + (colour ? mark + 4 : 0), y + 13);
     at += size + 12;
   }
 }
@@ -144,7 +157,8 @@ function drawLegend(context, frame, area) {
     drawKindsInLines(context, kinds, {...area, y: area.y + (scale ? 48 : 0)});
     return;
   }
-  const height = Math.min(area.height - Math.min(22 * kinds.length, 0.5 * area.height), 300);
+  const below = kinds.reduce((sum, {bar}) => sum + (bar ? 32 : 22), 0);
+  const height = Math.min(area.height - Math.min(below, 0.5 * area.height), 300);
   if (scale) drawUprightScale(context, scale.field, scale.range, {...area, height});
   drawKinds(context, kinds, {...area, y: area.y + (scale ? height + 4 : 0)});
 }

@@ -24,10 +24,16 @@ function drawAxes(context, {width, height}) {
   context.textAlign = "left";
 }
 
+/// Metres that a pixel is wide, in a perspective at the middle of the scene.
+function lengthOfPixel() {
+  if (camera.isOrthographicCamera) return 2 * camera.half / camera.zoom / frameSize.height;
+  const distance = camera.position.distanceTo(controls.target);
+  return 2 * distance * Math.tan(0.5 * THREE.Math.degToRad(camera.fov)) / frameSize.height;
+}
+
 /// A round length, as long as it looks at the middle of the scene: nearer things look larger.
 function drawScaleBar(context, {width, height}) {
-  const distance = camera.position.distanceTo(controls.target);
-  const metresOfPixel = 2 * distance * Math.tan(0.5 * THREE.Math.degToRad(camera.fov)) / height;
+  const metresOfPixel = lengthOfPixel();
   const length = roundBelow(metresOfPixel * Math.min(140, 0.3 * width));
   const pixels = length / metresOfPixel;
   const [x, y] = [width - 84 - pixels, height - frameSize.bottom + 4];

@@ -1,7 +1,7 @@
 // The page of `ashlar view`, first part: numbers as packed_numbers.cpp packs them.
 //
 // The parts of the page are one script. In reading order: numbers, data (what the page holds), units, fields and their
-// colours, surface (blocks), legend, joints, forces, vectors, section, camera, marks (axes and scale bar), blocks (their
+// colours, surface (blocks), relative (displacements relative to one), legend, joints, forces, vectors, section, camera, marks (axes and scale bar), blocks (their
 // list), pick, plots, summary, address, controls, picture, start. `current` (address.js) is all that the user can change;
 // show() (controls.js) brings the picture in line with it.
 "use strict";

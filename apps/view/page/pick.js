@@ -41,14 +41,16 @@ function jointAt(caster) {
   return null;
 }
 
+const orderText = ({fixed, order}) => (fixed ? "fixed" : order === 0 ? "0 (rigid)" : String(order));
+
 function rowsOfBlock(index) {
   const block = data.blocks[index];
-  const rows = [["block", block.name], ["order", block.fixed ? "fixed" : block.order], ["material", block.material || "-"]];
+  const rows = [["block", block.name], ["order", orderText(block)], ["material", block.material || "-"]];
   if (!current.hidden.has(index) && surface.triangleBlock.includes(index)) rows.push(["centre (m)", vectorText(centreOf(index))]);
   if (current.picked.place) rows.push(["clicked at (m)", vectorText(current.picked.place)]);
   const field = blockField();
   if (!isWhole(field) && current.picked.face)
-    rows.push([field.label + " near", quantity(field.at(currentFrame(), surface.source[current.picked.face.a]), field.unit)]);
+    rows.push([labelOf(field, currentFrame()) + " near", quantity(field.at(currentFrame(), surface.source[current.picked.face.a]), field.unit)]);
   return rows;
 }
 
@@ -89,7 +91,7 @@ function updatePicked() {
   fillTable(element("picked"), rows);
   element("hint").hidden = rows.length > 0;
   element("picked-buttons").hidden = block === undefined;
-  const chosen = block === undefined ? [] : surface.edges.filter((edge) => edge.block === block);
+  const chosen = block === undefined ? [] : [...surface.edges, ...surface.smoothEdges].filter((edge) => edge.block === block);
   meshes.selection.geometry.setIndex(edgeIndex(chosen));
   meshes.selection.visible = chosen.length > 0;
 }

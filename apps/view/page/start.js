@@ -1,7 +1,7 @@
 // Last part: libraries and data are unpacked, everything is built and shown. Names that all parts share are set here.
 
 let data, fields, surface, meshes, joints, forces, vectors, section, outline, sceneBox, sceneRadius;
-let camera, controls, renderer, stage;
+let camera, cameras, controls, renderer, stage;
 const current = {};
 const plots = [];
 const frameSize = {width: 1, height: 1, left: 0, top: 0, bottom: 0, legend: {x: 0, y: 0, width: 1, height: 1, flat: false}};
@@ -35,8 +35,8 @@ function complain(text) {
 
 function build() {
   fields = fieldsOf(data);
-  camera = new THREE.PerspectiveCamera(35, 1, 0.1, 1000);
-  camera.up.set(0, 0, 1);
+  cameras = buildCameras();
+  camera = cameras.perspective;
   outline = outlineOfScene();
   sceneBox = new THREE.Box3().setFromPoints(outline);
   sceneRadius = 0.5 * sceneBox.getSize(new THREE.Vector3()).length();

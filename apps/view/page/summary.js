@@ -26,23 +26,37 @@ function factorText({lower, upper}) {
   return "between " + short(lower) + " and " + short(upper);
 }
 
-/// Rows of what is asked first.
+/// "3 blocks: a, b, c"
+const countedNames = (names) => (names.length === 0 ? ""
+  : names.length + (names.length === 1 ? " block: " : " blocks: ") + namesText(names));
+
+/// Whether the status is the answer, or only says that there is one in the summary: its message then repeats it.
+const isAnswered = ({status}) => ["completed", "equilibrium", "moving"].includes(status);
+
+/// Rows of what is asked first: the factor of a search, else whether the model stands.
 function answerRows(summary) {
   if (!summary) return [["status", "not finished: no summary.json"]];
-  const rows = [["status", STATUS_WORDS[summary.status] || String(summary.status)]];
+  const rows = [];
   const add = (name, value) => { if (value !== null && value !== undefined && value !== "") rows.push([name, value]); };
-  add("message", summary.message);
   const moving = summary.moving || [];
   for (const [key, name] of [["factor_of_safety", "factor of safety"], ["load_factor", "load factor"]]) {
     if (!summary[key]) continue;
     add(name, factorText(summary[key]));
-    add("moves then", namesText((summary[key].moving || []).map((block) => block.block || block)));
+    add("moves then", countedNames((summary[key].moving || []).map((block) => block.block || block)));
   }
-  if (moving.length > 0) add("moves", namesText(moving.map(({block}) => block)));
+  add("status", STATUS_WORDS[summary.status] || String(summary.status));
+  if (!isAnswered(summary)) add("message", summary.message);
+  add("moves", countedNames(moving.map(({block}) => block)));
   const displaced = summary.displaced || [];
   if (displaced.length > 0)
     add("went far", namesText(displaced.map(({block, distance}) => block + " (" + quantity(distance, "m") + ")")));
-  for (const [key, name, unit] of [["largest_displacement", "largest displacement", "m"],
+  if (current.relative !== null) {
+    const last = data.frames[data.frames.length - 1];
+    const largest = largestShownDisplacement(last);
+    if (largest) add("largest displacement" + relativeWords(last), placedText(largest, "m"));
+  }
+  const absolute = current.relative === null ? "" : ", absolute";
+  for (const [key, name, unit] of [["largest_displacement", "largest displacement" + absolute, "m"],
     ["largest_compression", "largest compression", "Pa"], ["largest_tension", "largest tension", "Pa"]])
     if (key in summary) add(name, summary[key] ? placedText(summary[key], unit) : "none");
   const broken = summary.broken;
@@ -59,7 +73,7 @@ const ANSWERED = ["scene", "title", "status", "message", "moving", "displaced", 
 
 /// All other numbers and texts as rows, tables of them as groups.
 function counterRows(summary) {
-  const rows = [];
+  const rows = summary && isAnswered(summary) && summary.message ? [["message", summary.message]] : [];
   const groups = [];
   for (const [key, value] of Object.entries(summary || {})) {
     if (ANSWERED.includes(key)) continue;

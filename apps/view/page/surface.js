@@ -1,9 +1,27 @@
 // The blocks as three.js draws them: their surfaces and edges.
 
+/// Edges between faces that meet at less than this are not drawn: of a face that is flat but for its rounding, or of a
+/// curved one, all triangles would be.
+const FEATURE_ANGLE = 20;
+
+/// Normal of a cell in its undeformed place, of unit length: the mean one of its triangles.
+function normalOf(cell) {
+  const [normal, p, q] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+  const from = new THREE.Vector3().fromArray(data.reference, 3 * cell.corners[0]);
+  for (let k = 2; k < cell.corners.length; ++k) {
+    p.fromArray(data.reference, 3 * cell.corners[k - 1]).sub(from);
+    q.fromArray(data.reference, 3 * cell.corners[k]).sub(from);
+    normal.add(p.cross(q));
+  }
+  return normal.normalize();
+}
+
 /// Points are split where faces meet, so that shading is smooth inside a curved face and breaks at its rim.
-/// source: point of each render point; triangles, their blocks; edges between faces and inside them.
+/// source: point of each render point; triangles, their blocks; edges between faces, those between faces that hardly
+/// bend there, and those inside faces.
 function buildSurface(cells) {
-  const surface = {source: [], block: [], triangles: [], triangleBlock: [], edges: [], innerEdges: []};
+  const surface = {source: [], block: [], triangles: [], triangleBlock: [], edges: [], smoothEdges: [], innerEdges: []};
+  const smooth = Math.cos(THREE.Math.degToRad(FEATURE_ANGLE));
   const renderPoints = new Map();
   const sides = new Map();
   const points = data.points;
@@ -19,6 +37,7 @@ function buildSurface(cells) {
     return known;
   };
   for (const cell of cells) {
+    const normal = normalOf(cell);
     const corners = Array.from(cell.corners, (point) => renderPoint(cell, point));
     for (let k = 2; k < corners.length; ++k) {
       surface.triangles.push(corners[0], corners[k - 1], corners[k]);
@@ -29,11 +48,12 @@ function buildSurface(cells) {
       const [p, q] = [cell.corners[k], cell.corners[next]];
       const key = Math.min(p, q) * points + Math.max(p, q);
       const known = sides.get(key);
-      if (known) known.inner = known.face === cell.face;
-      else sides.set(key, {ends: [corner, corners[next]], face: cell.face, block: cell.block});
+      if (known) {
+        known.kind = known.face === cell.face ? "innerEdges" : known.normal.dot(normal) > smooth ? "smoothEdges" : "edges";
+      } else sides.set(key, {ends: [corner, corners[next]], face: cell.face, block: cell.block, normal, kind: "edges"});
     });
   }
-  for (const side of sides.values()) (side.inner ? surface.innerEdges : surface.edges).push(side);
+  for (const side of sides.values()) surface[side.kind].push(side);
   return surface;
 }
 
@@ -62,27 +82,35 @@ function buildMeshes(surface) {
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   return {mesh, edges: edgeLines(surface.edges, places, "#222222"),
-    innerEdges: edgeLines(surface.innerEdges, places, "#777777"),
+    innerEdges: edgeLines([...surface.innerEdges, ...surface.smoothEdges], places, "#777777"),
     selection: edgeLines([], places, "#ff00aa")};
 }
 
-/// @return place of a point of a frame with displacements enlarged
+/// @return place of a point of a frame; displacements as they are shown are enlarged, so that what they are relative to
+/// stays in its place
 function placeOf(frame, point, scale, into) {
   const i = 3 * point;
-  const {displacement} = frame;
-  return into.set(data.reference[i] + scale * displacement[i], data.reference[i + 1] + scale * displacement[i + 1],
-    data.reference[i + 2] + scale * displacement[i + 2]);
+  const {reference} = data;
+  const {displacement: by} = frame;
+  into.set(reference[i] + by[i], reference[i + 1] + by[i + 1], reference[i + 2] + by[i + 2]);
+  if (scale === 1) return into;
+  const shown = shownDisplacement(frame);
+  into.x += (scale - 1) * shown[i];
+  into.y += (scale - 1) * shown[i + 1];
+  into.z += (scale - 1) * shown[i + 2];
+  return into;
 }
 
 function moveSurface(frame) {
   const geometry = meshes.mesh.geometry;
   const places = geometry.attributes.position;
-  const [to, from, by, scale] = [places.array, data.reference, frame.displacement, current.scale];
+  const [to, from, by, more] = [places.array, data.reference, frame.displacement, current.scale - 1];
+  const shown = shownDisplacement(frame);
   for (let k = 0; k < surface.source.length; ++k) {
     const i = 3 * surface.source[k];
     // All points of a block that is hidden or not there are one: nothing is drawn of it.
     const gone = current.hidden.has(surface.block[k]) || Number.isNaN(by[i]);
-    for (let c = 0; c < 3; ++c) to[3 * k + c] = gone ? from[c] : from[i + c] + scale * by[i + c];
+    for (let c = 0; c < 3; ++c) to[3 * k + c] = gone ? from[c] : from[i + c] + by[i + c] + more * shown[i + c];
   }
   places.needsUpdate = true;
   geometry.computeVertexNormals();
@@ -153,7 +181,7 @@ function enlargement(frame) {
   const maps = data.blocks.map(() => undefined);
   const pointsOf = pointsOfBlocks();
   const mapOf = (block) => {
-    if (maps[block] === undefined) maps[block] = data.blocks[block].fixed ? null : affineMotion(frame, pointsOf[block]);
+    if (maps[block] === undefined) maps[block] = data.blocks[block].fixed && current.relative === null ? null : affineMotion(frame, pointsOf[block]);
     return maps[block];
   };
   return (place, a, b) => {
@@ -174,7 +202,8 @@ function pointsOfBlocks() {
 /// u(x) = mean + G (x - centre) with G of least squares, x being present places. @return function of x, or null
 function affineMotion(frame, points) {
   const centre = new THREE.Vector3(), mean = new THREE.Vector3(), x = new THREE.Vector3(), u = new THREE.Vector3();
-  const displacement = (p) => u.fromArray(frame.displacement, 3 * p);
+  const shown = shownDisplacement(frame);
+  const displacement = (p) => u.fromArray(shown, 3 * p);
   for (const p of points) {
     centre.add(placeOf(frame, p, 1, x));
     mean.add(displacement(p));

@@ -57,7 +57,8 @@ function visibleSeats(frame) {
 }
 
 function placeVectors(frame, seats) {
-  const values = current.vectors === "none" ? null : frame[current.vectors];
+  const values = current.vectors === "none" ? null
+    : current.vectors === "displacement" ? shownDisplacement(frame) : frame.velocity;
   if (!values) return placeCopies(vectors.arrows, []);
   const list = seats.map(({points, place}) => ({from: place, along: new THREE.Vector3(...meanOver(points, values, 3))}));
   const largest = list.reduce((most, {along}) => Math.max(most, along.length()), 0);
@@ -118,7 +119,8 @@ function vectorKinds() {
   const kinds = [];
   if (vectors.arrows[0].count > 0) {
     const unit = current.vectors === "velocity" ? "m/s" : "m";
-    kinds.push({name: current.vectors + ", longest " + quantity(vectors.largest, unit), colour: theme().vector});
+    const words = current.vectors === "displacement" ? relativeWords(currentFrame()) : "";
+    kinds.push({name: current.vectors + words + ", longest " + quantity(vectors.largest, unit), colour: theme().vector});
   }
   if (vectors.pressed[0].count + vectors.pulled[0].count > 0) {
     kinds.push({name: "principal compression", colour: PRESSED_COLOUR}, {name: "principal tension", colour: PULLED_COLOUR},

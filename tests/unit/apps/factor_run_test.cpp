@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/results/scene_identity.hpp"
+#include "apps/run/kept_trial.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
@@ -171,6 +173,28 @@ TEST_F(FactorRun, ResumeKeepsTrialsAndEndsAlike) {
   std::filesystem::remove(folder_ / "half/summary.json");
   write_text(folder_ / "half/factor_trials.json", trials.dump(1) + "\n");
   EXPECT_NE(run("half", {"--resume"}), 0);
+}
+
+TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
+  write_text(scene_, plate_on_a_slope(safety, "friction_angle = 40"));
+  ASSERT_EQ(run("whole"), 0) << faults_;
+  ASSERT_EQ(run("half"), 0) << faults_;
+  // As if it had been stopped in its first trial.
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "half"))
+    if (entry.path().filename() != ".ashlar") std::filesystem::remove_all(entry.path());
+  Diagnostics diagnostics;
+  const std::optional<LoadedScene> loaded = load_scene(scene_, {}, diagnostics);
+  ASSERT_TRUE(loaded);
+  KeptTrial stopped(*loaded, scene_identity(*loaded).scene, folder_ / "half", {1, std::nullopt, true});
+  std::ostringstream told;
+  int asked = 0;
+  ASSERT_FALSE(stopped.run(
+      1.0, [&] { return ++asked <= 2; }, told));
+  ASSERT_EQ(stopped.iterations(), 2);
+  ASSERT_EQ(run("half", {"--resume"}), 0) << faults_;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "half" / trial_state_name));
+  EXPECT_EQ(summary("half").at("factor_of_safety"), summary("whole").at("factor_of_safety"));
+  expect_same_results("whole", "half");
 }
 
 TEST_F(FactorRun, FaultsHaveTheirPlace) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <new>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -44,6 +45,17 @@ TEST(ParallelFor, ThrowsOnWhatAPieceThrows) {
                                 if (k == 500) throw std::out_of_range("500");
                               }),
                  std::out_of_range);
+  }
+}
+
+// As where memory ends: nearly all pieces throw, on all threads.
+TEST(ParallelFor, ThrowsOnceWhereManyPiecesDo) {
+  for (const int threads : {1, 2, 8}) {
+    EXPECT_THROW(parallel_for(threads, 5000,
+                              [](std::size_t k) {
+                                if (k % 10 != 0) throw std::bad_alloc();
+                              }),
+                 std::bad_alloc);
   }
 }
 

@@ -38,8 +38,8 @@ point = [1, 0, 0]
 
 class BlocksCommand : public ::testing::Test {
  protected:
-  int run(BlocksOptions options) {
-    write_text(folder_ / "bar.toml", bar);
+  int run(BlocksOptions options, const std::string& more = "") {
+    write_text(folder_ / "bar.toml", bar + more);
     options.scene = folder_ / "bar.toml";
     out_.str("");
     err_.str("");
@@ -71,6 +71,27 @@ TEST_F(BlocksCommand, JsonHasTheContract) {
   EXPECT_EQ(one.at("neighbours").at(1).at("area"), 1.0);
   EXPECT_EQ(one.at("neighbours").at(1).at("cut"), "middle");
   EXPECT_FALSE(one.contains("key"));
+}
+
+// Stages, assignments and joints are written with the names that it lists.
+TEST_F(BlocksCommand, ListsTheBlocksWhereNamesOfPiecesAreWrong) {
+  BlocksOptions options;
+  options.json = true;
+  const std::string stage = "[[stage]]\nname = \"one\"\nremove = [\"bar.1.inside*\"]\n";
+  const std::string joint = "[[joint]]\nblocks = [\"bar.left\", \"slab\"]\nfriction_angle = 20\n";
+  const std::string assign = "[[assign]]\nblocks = [\"bar.x\"]\nfixed = true\n";
+  ASSERT_EQ(run(options, stage + joint + assign), exit_status::done) << err_.str();
+  const auto json = nlohmann::json::parse(out_.str());
+  EXPECT_EQ(json.at("blocks").at(1).at("name"), "bar.1");
+  const std::string alike =
+      "\"bar.1\" to \"bar.2\" begin alike; the name of a [[block]] or a glob that matches one is needed";
+  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:19:10: warning: stage names no block (\"bar.1.inside*\"), "));
+  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:21:10: warning: joint names no block (\"bar.left\"), "));
+  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:24:10: warning: assign names no block (\"bar.x\"), "));
+  EXPECT_THAT(err_.str(), HasSubstr(alike));
+  EXPECT_EQ(err_.str().find("error"), std::string::npos) << err_.str();
+  // Other faults are errors as ever.
+  EXPECT_EQ(run(options, "[[stage]]\nname = 3\n"), exit_status::bad_input);
 }
 
 TEST_F(BlocksCommand, RemovableByItsForce) {

@@ -77,6 +77,19 @@ TEST(OutputFile, LinksAreNotFollowedAndPipesDoNotWait) {
   EXPECT_EQ(read_text(folder / "mine"), "mine");
 }
 
+TEST(OutputFile, WhatOthersCutOrAddIsNoticed) {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "a", Start::empty);
+  file.write("abcdef");
+  EXPECT_NO_THROW(file.check_in_place());
+  for (const std::uintmax_t bytes : {0U, 5U, 7U}) {
+    std::filesystem::resize_file(folder / "a", bytes);
+    EXPECT_THAT([&] { file.check_in_place(); },
+                ThrowsMessage<std::runtime_error>(
+                    HasSubstr("it has " + std::to_string(bytes) + " bytes, 6 were written")));
+  }
+}
+
 TEST(OutputFile, CreatedOnlyWhereNothingIs) {
   const TemporaryFolder folder;
   OutputFile(folder / "a", Start::created).write("a");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -185,6 +186,41 @@ TEST(SceneRun, ThreadsAndLoadsHaveNumbers) {
 TEST(SceneRun, ABlockThatNothingHoldsIsNoStaticAnalysis) {
   EXPECT_THROW(SceneRun(loaded(pushed_cube("type = \"static\", gravity = [0, 0, 0]"))),
                std::invalid_argument);
+}
+
+/// A run that is recorded with a frame for each step, after its first step.
+SceneRun recorded(const std::filesystem::path& folder) {
+  SceneRun run(loaded(pushed_cube("end_time = 0.02, time_step = 1e-3") + "[output]\nevery = 1\n"));
+  run.record(folder);
+  EXPECT_TRUE(run.step());
+  return run;
+}
+
+TEST(SceneRun, FramesDoNotGoThroughALinkThatTakesThePlaceOfTheirFolder) {
+  const TemporaryFolder folder;
+  SceneRun run = recorded(folder / "out");
+  std::filesystem::rename(folder / "out/frames", folder / "moved");
+  std::filesystem::create_directory(folder / "elsewhere");
+  std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "out/frames");
+  EXPECT_THROW((void)run.step(), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "elsewhere"));
+}
+
+TEST(SceneRun, AnotherFolderOfFramesIsNoticed) {
+  const TemporaryFolder folder;
+  SceneRun run = recorded(folder / "out");
+  std::filesystem::rename(folder / "out/frames", folder / "moved");
+  std::filesystem::create_directory(folder / "out/frames");
+  EXPECT_THROW((void)run.step(), std::runtime_error);
+}
+
+TEST(SceneRun, TablesThatOthersCutAreNoticed) {
+  for (const char* table : {"out/history.csv", "out/contacts.csv"}) {
+    const TemporaryFolder folder;
+    SceneRun run = recorded(folder / "out");
+    std::filesystem::resize_file(folder / table, 3);
+    EXPECT_THROW((void)run.step(), std::runtime_error) << table;
+  }
 }
 
 }  // namespace

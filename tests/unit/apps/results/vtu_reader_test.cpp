@@ -50,6 +50,25 @@ TEST(VtuReader, ReadsBackWhatWasWritten) {
   EXPECT_EQ(to_vtu(read), to_vtu(written));
 }
 
+TEST(VtuReader, ReadsTheNamesOfBlocks) {
+  UnstructuredGrid grid = sample();
+  grid.time = 0.5;
+  grid.block_names = {"a < b & c", "", "K\u00e4mpfer 1"};
+  const std::string frame = to_vtu(grid);
+  EXPECT_EQ(from_vtu(frame).block_names, grid.block_names);
+  const auto with = [&](const std::string& old, const std::string& other) {
+    std::string text = frame;
+    text.replace(text.find(old), old.size(), other);
+    return text;
+  };
+  const std::string count = "\"block_names\" NumberOfTuples=\"3\"";
+  for (const std::string& damaged :
+       {with(count, "\"block_names\" NumberOfTuples=\"4\""),
+        with(count, "\"block_names\" NumberOfTuples=\"2\""), with("97 32 60", "97 x 60"),
+        with("97 32 60", "97 256 60"), with(" 99 0\n", " 99\n")})
+    EXPECT_THROW((void)from_vtu(damaged), std::runtime_error);
+}
+
 TEST(VtuReader, ReadsAnEmptyGrid) {
   UnstructuredGrid empty;
   empty.point_data.push_back({"force", 3, {}, std::vector<double>{}});

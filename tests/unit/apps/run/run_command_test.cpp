@@ -317,7 +317,7 @@ TEST_F(RunCommand, NewRunRemovesTheResultsOfAnEarlierOne) {
 }
 
 TEST_F(RunCommand, InterruptedRunSavesItsStateAndGoesOn) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
     const std::string name = "out" + std::to_string(signal);
     // Sent as soon as some steps are written, whenever that is.
     std::thread sender([&] {

@@ -86,6 +86,49 @@ TEST(BaseMotion, WhatRecordsLeaveIsTold) {
           "0] m, velocity [0.5, 0, 0] m/s"));
 }
 
+/// The name of the base of a scene of blocks A, B, ... with these supports, "none" if there is none.
+std::string base_with(const std::vector<std::string>& supports, const std::string& more = "") {
+  std::string text =
+      "[analysis]\nend_time = 1\ntime_step = 0.1\n[[material]]\nname = \"rock\"\ndensity = 2500\n"
+      "young_modulus = 1e9\npoisson_ratio = 0.2\n";
+  for (std::size_t k = 0; k < supports.size(); ++k)
+    text += fmt::format(
+        "[[block]]\nname = \"{}\"\nmaterial = \"rock\"\nbox = {{ min = [{}, 0, 0], max = [{}, 1, 1] }}\n{}\n",
+        static_cast<char>('A' + k), 2 * k, 2 * k + 1, supports[k]);
+  const TemporaryFolder folder;
+  write_text(folder / "s.toml", text + more);
+  Diagnostics diagnostics;
+  const auto loaded = load_scene(folder / "s.toml", {}, diagnostics);
+  if (!loaded) return printed(diagnostics).front();
+  const auto base = moved_base(loaded->scene);
+  return base ? loaded->scene.block[*base].name : "none";
+}
+
+TEST(BaseMotion, TheBaseIsTheBlockThatHistoriesMove) {
+  const auto fix = [](int block, const std::string& history) {
+    return fmt::format("fix = [{{ plane = {{ point = [{}, 0, 0], normal = [0, 0, 1] }}{} }}]", 2 * block,
+                       history);
+  };
+  const std::string push = ", displacement_history = [[0, 0, 0, 0], [1, 0.1, 0, 0]]";
+  const std::string shake = ", acceleration_history = [[0, 0, 0, 0], [1, 1, 0, 0]]";
+  const std::string still = ", velocity_history = [[0, 0, 0, 0], [1, 0, 0, 0]]";
+  EXPECT_EQ(base_with({"", ""}), "none");
+  EXPECT_EQ(base_with({"", fix(1, push), ""}), "B");
+  EXPECT_EQ(base_with({fix(0, shake), "", fix(2, shake)}), "A") << "the same motion";
+  EXPECT_EQ(base_with({fix(0, shake), fix(1, push)}), "none") << "two motions";
+  EXPECT_EQ(base_with({"fixed = true", fix(1, push)}), "none")
+      << "what is pushed while others are held is no base";
+  EXPECT_EQ(base_with({fix(0, ""), fix(1, push)}), "none") << "held by a support at rest";
+  EXPECT_EQ(base_with({fix(0, still), fix(1, push)}), "none") << "a history of zeros is at rest";
+  const std::string assigned = "[[assign]]\nblocks = [\"B\"]\nfixed = true\n";
+  EXPECT_EQ(base_with({fix(0, push), ""}, assigned), "none") << "fixed by an assignment";
+  const std::string stage =
+      "[[stage]]\nname = \"build\"\n[[stage]]\nname = \"shake\"\n[[stage.fix]]\nblocks = [\"B\"]\n"
+      "plane = { point = [2, 0, 0], normal = [0, 0, 1] }\n" +
+      shake.substr(2) + "\n";
+  EXPECT_EQ(base_with({"", ""}, stage), "B") << "moved in a stage";
+}
+
 // A slab that is carried along by both of its faces.
 std::string slab(const std::string& history) {
   std::string text = R"([analysis]
@@ -177,6 +220,16 @@ TEST_F(RunCommand, FaultsOfRecordsHaveTheirPlace) {
       {"t,a,t\n0,1,2\n", "r.csv:1:1: error: record has several columns \"t\" (2), one is needed"},
       {"t,a\n0, 1e999\n", "r.csv:2:4: error: no number (\"1e999\"), a finite number is needed"},
       {"t,a\n0, nan\n", "r.csv:2:4: error: no number (\"nan\"), a finite number is needed"},
+      {"t,a\n0,+-1\n", "r.csv:2:3: error: no number (\"+-1\"), a finite number is needed"},
+      {"t,a\n0,++1\n", "r.csv:2:3: error: no number (\"++1\"), a finite number is needed"},
+      {"t,a\r0,1\r1,2\r",
+       "r.csv:1:4: error: lines are ended by carriage returns alone (byte 13), line feeds, or both together, "
+       "are "
+       "needed"},
+      {"t,a\r\n0,1\r1,2\r\n", "r.csv:2:4: error: lines are ended by carriage returns alone (byte 13)"},
+      {"PEER NGA STRONG MOTION DATABASE RECORD\nA SINE\nACCELERATION TIME SERIES IN UNITS OF G\n",
+       "r.csv:1:1: error: a PEER record has no line of column names and no times (\"PEER NGA STRONG MOTION "
+       "DATABASE RECORD\"), columns \"t\", \"a\" and rows of numbers are needed"},
       {"t;a\n0;1,5\n",
        "r.csv:2:3: error: no number (\"1,5\"), a finite number with a decimal point, not a comma, is"}};
   for (const auto& [content, fault] : cases) {

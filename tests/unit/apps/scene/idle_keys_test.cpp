@@ -90,6 +90,21 @@ TEST(IdleKeys, FixedBlocksHaveNoOrder) {
               ElementsAre("s.toml:15:1: warning: order has no effect: a fixed block does not deform"));
 }
 
+TEST(IdleKeys, AnOrderOfManyBlocksIsThatOfTheFreeOnes) {
+  const std::string stones = sample_with(
+      16,
+      "order = 0\nbox = { min = [0, 0, 1], max = [1, 1, 2] }\narray = { count = [2], step = [[0, 0, 1]] }");
+  const std::string fixed = "[[assign]]\nblocks = [\"A.1\"]\nfixed = true\n";
+  EXPECT_THAT(warnings(stones + fixed), IsEmpty());
+  const std::string both = "[[assign]]\nblocks = [\"A.*\"]\nfixed = true\n";
+  EXPECT_THAT(warnings(stones + both),
+              ElementsAre("s.toml:16:1: warning: order has no effect: a fixed block does not deform"));
+  // Of two keys the one that stands for fixed blocks alone.
+  const std::string ordered = "[[assign]]\nblocks = [\"A.1\"]\nfixed = true\norder = 2\n";
+  EXPECT_THAT(warnings(stones + ordered),
+              ElementsAre("s.toml:37:1: warning: order has no effect: a fixed block does not deform"));
+}
+
 TEST(IdleKeys, TiedBlocksDoNotSlide) {
   const std::string given =
       sample_with(7, "blocks = [\"A\", \"B\"]\ntied = true\nfriction_angle = 20\ntensile_strength = 1e5");

@@ -103,7 +103,7 @@ TEST(InitialOverlap, IsReportedAtTheSecondBlockOfAPair) {
   EXPECT_THAT(
       printed(diagnostics),
       ElementsAre("s.toml:17:1: error: blocks \"A\" and \"B\" overlap by 0.25 m, allowed is touching or "
-                  "1e-06 m"));
+                  "1e-06 m; contact.allowed_overlap accepts more"));
 }
 
 TEST(InitialOverlap, RoundingOfPlacedBlocksIsAllowedAndNoMore) {
@@ -115,6 +115,53 @@ TEST(InitialOverlap, RoundingOfPlacedBlocksIsAllowedAndNoMore) {
   EXPECT_THAT(printed(diagnostics), IsEmpty());
   check_initial_overlap(scene, {box({0, 0, 8 - 1.1e-6}, {1, 1, 9 - 1.1e-6}), below}, diagnostics);
   EXPECT_EQ(printed(diagnostics).size(), 1U);
+}
+
+// A of 1 m^3 lies 1e-4 m deep in B, of 4 m^3.
+std::vector<KnownOverlap> overlaps(double allowed, double depth, std::vector<std::string>& told) {
+  Diagnostics diagnostics;
+  Scene scene = parse_scene(sample(), "s.toml", {}, diagnostics);
+  scene.contact.allowed_overlap = allowed;
+  const std::vector<KnownOverlap> known = check_initial_overlap(
+      scene, {box({0, 0, 1 - depth}, {1, 1, 2 - depth}), box({0, 0, 0}, {4, 1, 1})}, diagnostics);
+  warn_of_known_overlaps(scene, known, diagnostics);
+  told = printed(diagnostics);
+  return known;
+}
+
+TEST(InitialOverlap, OfUpToWhatIsAllowedIsAcceptedAndListed) {
+  std::vector<std::string> told;
+  const std::vector<KnownOverlap> known = overlaps(2e-4, 1e-4, told);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].blocks, (std::array{0, 1}));
+  EXPECT_NEAR(known[0].overlap.depth, 1e-4, 1e-15);
+  EXPECT_TRUE(known[0].overlap.exact);
+  EXPECT_FALSE(known[0].rounding);
+  EXPECT_THAT(told,
+              ElementsAre(HasSubstr(
+                  "1 pair of blocks is placed in each other, by 0.0001 m at the deepest (\"A\" and \"B\")")));
+  EXPECT_TRUE(overlaps(0.99e-4, 1e-4, told).empty());
+  EXPECT_THAT(told, ElementsAre(HasSubstr(
+                        "overlap by 0.0001 m, allowed is touching or 9.9e-05 m (contact.allowed_overlap)")));
+}
+
+TEST(InitialOverlap, OfRoundingStartsWithoutForceTooButIsNotWarnedOf) {
+  std::vector<std::string> told;
+  const std::vector<KnownOverlap> known = overlaps(2e-4, 0x1p-30, told);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_TRUE(known[0].rounding);
+  EXPECT_THAT(told, IsEmpty());
+  // Without the key nothing is known, and springs start as they always did.
+  EXPECT_TRUE(overlaps(0.0, 0x1p-30, told).empty());
+  EXPECT_THAT(told, IsEmpty());
+}
+
+TEST(InitialOverlap, OfATenthOfTheSmallerBlockIsRefusedWhateverIsAllowed) {
+  std::vector<std::string> told;
+  EXPECT_EQ(overlaps(0.5, 0.0999, told).size(), 1U);
+  EXPECT_TRUE(overlaps(0.5, 0.1001, told).empty());
+  EXPECT_THAT(told, ElementsAre(HasSubstr(
+                        "overlap by 0.1 m, allowed is touching or 0.1 m, 0.1 of the smaller one's size")));
 }
 
 TEST(InitialOverlap, TwoFixedBlocksMayOverlap) {

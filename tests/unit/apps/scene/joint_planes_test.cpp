@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "geometry/cutting/cut_error.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -38,6 +40,40 @@ TEST(JointPlanes, NumberAndMissingSpacingLimitThem) {
   EXPECT_TRUE(joint_planes(cut, {1, 9}).empty());
   EXPECT_EQ(estimate_planes(cut, {1, 9}), 0.0);
   EXPECT_EQ(estimate_planes(cut, {-1, 9}), 1.0);
+}
+
+TEST(JointPlanes, AreCountedInAllRanges) {
+  SceneCut cut = bedding();
+  const std::vector<PlaneRange> ranges = {{-0.25, 0.31}, {0.12, 0.18}, {0.2, 0.9}};
+  const JointHeights regular(cut, ranges, 13);
+  EXPECT_EQ(regular.count(), 6 + 0 + 8);
+  EXPECT_TRUE(regular.too_many());
+  EXPECT_FALSE(JointHeights(cut, ranges, 14).too_many());
+  cut.deviation = 0.02;
+  const JointHeights drawn(cut, ranges, 100);
+  EXPECT_FALSE(drawn.too_many());
+  double count = 0.0;
+  for (const PlaneRange& range : ranges) {
+    const std::vector<JointHeight> here = drawn.in(range);
+    const std::vector<JointHeight> alone = JointHeights(cut, {range}, 100).in(range);
+    ASSERT_EQ(here.size(), alone.size());
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      EXPECT_EQ(here[k].number, alone[k].number);
+      EXPECT_EQ(here[k].height, alone[k].height);
+      EXPECT_TRUE(k == 0 || here[k - 1].height < here[k].height);
+    }
+    count += static_cast<double>(here.size());
+  }
+  EXPECT_EQ(drawn.count(), count);
+  EXPECT_TRUE(JointHeights(cut, ranges, count - 1).too_many());
+  EXPECT_FALSE(JointHeights(cut, ranges, count).too_many());
+}
+
+TEST(JointPlanes, NoDrawGoesOnForEver) {
+  SceneCut cut = bedding();
+  cut.deviation = 0.02;
+  EXPECT_TRUE(JointHeights(cut, {{0, 1e150}}, 1000).too_many());
+  EXPECT_THROW(JointHeights(cut, {{1e149, 1e150}}, 1000), CutError);
 }
 
 // What planes there are does not depend on where they are looked at.

@@ -128,6 +128,29 @@ TEST(MasonryWall, HasLintels) {
   EXPECT_EQ(result.volume(), (5 * 2.5 - 1.0) * 0.25);
 }
 
+// Slits in both directions leave (n + 1)^2 pieces of one brick: of 600 of each 361,201.
+TEST(MasonryWall, PiecesBetweenCrossingOpeningsAreCounted) {
+  const auto crossing = [](int slits, int side) {
+    std::string openings;
+    for (int k = 0; k < slits; ++k) {
+      const double low = k + 0.5, high = k + 0.75;
+      openings += fmt::format(
+          "{{ box = {{ min = [{0}, 0, -1], max = [{1}, 1, {2}] }} }}, {{ box = {{ min = [-1, 0, {0}], max = "
+          "[{2}, "
+          "1, {1}] }} }}, ",
+          low, high, side + 1);
+    }
+    return fmt::format(
+        "kind = \"wall\"\nlength = {0}\nheight = {0}\nbrick = [{0}, 1, {0}]\nopenings = [{1}]\n", side,
+        openings);
+  };
+  EXPECT_THAT(built(crossing(3, 4)).scene.block, SizeIs(16));
+  EXPECT_THAT(
+      faults_of(crossing(600, 1000)),
+      ElementsAre(StartsWith("s.toml:7:1: error: masonry is too large (about 2e+04 pieces up to this one), "
+                             "at most 20000 are allowed")));
+}
+
 TEST(MasonryWall, StandsInAnyDirection) {
   // Along y: across goes to -x, and a quarter turn is exact.
   const Built result = built(wall + "origin = [1, 2, 3]\ndirection = [0, 2, 0]\n");

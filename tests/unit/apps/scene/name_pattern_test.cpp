@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <clocale>
+#include <string>
+
 namespace ashlar::test {
 namespace {
 
@@ -15,6 +18,63 @@ TEST(NamePattern, KnowsTheGlobsOfTheShell) {
   EXPECT_FALSE(pattern_matches("row?", "row12"));
   EXPECT_TRUE(pattern_matches("row[1-3]", "row2"));
   EXPECT_FALSE(pattern_matches("row[1-3]", "row4"));
+}
+
+TEST(NamePattern, CountsCodePoints) {
+  EXPECT_TRUE(pattern_matches("?", "é"));
+  EXPECT_TRUE(pattern_matches("?", "\xF0\x9F\xA7\xB1"));  // a brick, four bytes
+  EXPECT_FALSE(pattern_matches("??", "é"));
+  EXPECT_TRUE(pattern_matches("[é]", "é"));
+  EXPECT_TRUE(pattern_matches("[à-ï]?", "éa"));
+  EXPECT_FALSE(pattern_matches("[à-ï]", "ð"));
+  EXPECT_TRUE(pattern_matches("*石?", "石石1"));
+  EXPECT_FALSE(pattern_matches("[!é]", "é"));
+}
+
+TEST(NamePattern, BytesOfNoCodePointAreCharacters) {
+  // A continuation alone, an overlong slash, half a surrogate pair, a lead without what follows, beyond the last plane.
+  EXPECT_TRUE(pattern_matches("a?b",
+                              "a\x80"
+                              "b"));
+  EXPECT_TRUE(pattern_matches("??", "\xC0\xAF"));
+  EXPECT_TRUE(pattern_matches("???", "\xED\xA0\x80"));
+  EXPECT_TRUE(pattern_matches("?", "\xE9"));
+  EXPECT_TRUE(pattern_matches("????", "\xF4\x90\x80\x80"));
+  EXPECT_TRUE(pattern_matches("\xE9*", "\xE9t"));
+  EXPECT_FALSE(pattern_matches("\xE9", "é"));
+}
+
+TEST(NamePattern, KnowsSets) {
+  EXPECT_TRUE(pattern_matches("[]a]", "]"));
+  EXPECT_TRUE(pattern_matches("[!]a]", "b"));
+  EXPECT_FALSE(pattern_matches("[^]a]", "]"));
+  EXPECT_TRUE(pattern_matches("[a-]", "-"));
+  EXPECT_TRUE(pattern_matches("[-a]", "-"));
+  EXPECT_TRUE(pattern_matches("[\\]]", "]"));
+  EXPECT_FALSE(pattern_matches("[\\]]", "\\"));
+  EXPECT_FALSE(pattern_matches("[c-a]", "b"));
+  EXPECT_TRUE(pattern_matches("[[:digit:]x][[:upper:]]", "7Q"));
+  EXPECT_FALSE(pattern_matches("[[:alpha:]]", "é"));  // of ASCII only, in every locale
+  EXPECT_FALSE(pattern_matches("[[:none:]]", "n"));
+  EXPECT_TRUE(pattern_matches("[ab", "[ab"));  // no end: no set
+  EXPECT_FALSE(pattern_matches("a\\", "a\\"));
+}
+
+TEST(NamePattern, ManyStarsCostAProductAtMost) {
+  std::string pattern;
+  for (int k = 0; k < 200; ++k) pattern += "*a";
+  EXPECT_FALSE(pattern_matches(pattern + "b", std::string(2000, 'a')));
+  EXPECT_TRUE(pattern_matches(pattern, std::string(2000, 'a')));
+}
+
+TEST(NamePattern, SaysTheSameInEveryLocale) {
+  const std::string before = std::setlocale(LC_CTYPE, nullptr);
+  const bool changed = std::setlocale(LC_CTYPE, "C.UTF-8") != nullptr;
+  const bool one_letter = pattern_matches("?", "é");
+  std::setlocale(LC_CTYPE, before.c_str());
+  EXPECT_TRUE(changed);
+  EXPECT_TRUE(one_letter);
+  EXPECT_TRUE(pattern_matches("?", "é"));
 }
 
 TEST(NamePattern, PatternOfANameMatchesNoOther) {

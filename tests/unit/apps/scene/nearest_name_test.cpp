@@ -54,5 +54,19 @@ TEST(NearestName, NothingIsGuessedBeyondAThirdOfTheLetters) {
   EXPECT_EQ(guess("foo", keys), "");
 }
 
+TEST(NearestName, BlocksThatBeginAlikeAreListedBySeries) {
+  const std::vector<std::string> names = {"floor",         "rock.1",        "rock.2",    "rock.inside.1",
+                                          "rock.inside.2", "rock.inside.3", "rocky.7.a", "wall.top"};
+  EXPECT_EQ(guess_block("rock.1.inside*", names),
+            "\"rock.1\" to \"rock.2\", \"rock.inside.1\" to \"rock.inside.3\" begin alike; ");
+  EXPECT_EQ(guess_block("rock.inside.9.?", names), "\"rock.inside.1\" to \"rock.inside.3\" begin alike; ");
+  EXPECT_EQ(guess_block("wall.tip", names), "did you mean \"wall.top\"? \"wall.top\" begin alike; ");
+  EXPECT_EQ(guess_block("flor", names), "did you mean \"floor\"? ");
+  EXPECT_EQ(guess_block("dam.1", names), "");
+  std::vector<std::string> many;
+  for (const char* row : {"a", "b", "c", "d", "e", "f"}) many.push_back(std::string("w.") + row);
+  EXPECT_EQ(guess_block("w.x.*", many), "\"w.a\", \"w.b\", \"w.c\", \"w.d\" and 2 more begin alike; ");
+}
+
 }  // namespace
 }  // namespace ashlar::test

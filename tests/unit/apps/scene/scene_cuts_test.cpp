@@ -235,6 +235,43 @@ TEST(SceneCuts, NamesThePlanesOfWhatIsLostInRounding) {
   EXPECT_THAT(outcome.text, HasSubstr("min_volume"));
 }
 
+TEST(SceneCuts, PlanesThatCutNothingAreCountedToo) {
+  // 2 m of rock at 2e-9 m: 1e9 planes from 0 to 2, of which one in 1e5 cuts.
+  const std::string rare = along_z + "persistence = 1e-5\npoint = [0, 0, 1]\nmost_blocks = 20000\n";
+  EXPECT_THAT(
+      load(rare + "spacing = 4e-9\n").text,
+      HasSubstr("s.toml:25:11: error: cut \"z\" has too many planes (about 5e+08), at most 100000 are "
+                "allowed, or most_blocks if that is more, up to 10000000; a larger spacing is needed"));
+  // No draw of this seed goes on for long: it ends at the first plane that is not allowed.
+  EXPECT_THAT(load(rare + "spacing = { mean = 1e-6, deviation = 1e-7 }\n").text,
+              HasSubstr("cut \"z\" has too many planes (at least 100001), at most 100000 are allowed"));
+  const Outcome fewer = load(along_z + "persistence = 0\npoint = [0, 0, 1]\nspacing = 1e-3\n");
+  EXPECT_TRUE(fewer.loaded) << fewer.text;
+}
+
+TEST(SceneCuts, DrawnPlanesOfManyBlocksAreDrawnOnce) {
+  // 9e6 spacings lie below each of 400 blocks: 4e9 draws, were it block by block.
+  std::string scene = "array = { count = [20, 20], step = [[3, 0, 0], [0, 3, 0]] }\n";
+  scene +=
+      "[[cut]]\nname = \"c\"\nblocks = [\"rock*\"]\ndip = 0\ndip_direction = 0\npoint = [0, 0, -900001]\n";
+  scene += "spacing = { mean = 0.1, deviation = 0.01 }\npersistence = 0\n";
+  const Outcome outcome = load(scene);
+  EXPECT_TRUE(outcome.loaded) << outcome.text;
+}
+
+TEST(SceneCuts, CellsAreMadeInTurnedNeedlesAndSlabs) {
+  // Of the needle's bounding box one point in 2e7 would be inside.
+  for (const char* size : {"1e4, 1, 1", "1e5, 1e5, 0.1"}) {
+    const Outcome outcome = load(
+        fmt::format("[[block]]\nname = \"n\"\nmaterial = \"rock\"\nbox = {{ min = [0, 0, 0], max = [{}] }}\n"
+                    "rotate = {{ axis = [1, -2, 3], angle = 50 }}\ntranslate = [0, 0, 1e6]\n"
+                    "[[cut]]\nname = \"c\"\nblocks = [\"n\"]\nvoronoi = {{ count = 5 }}\n",
+                    size));
+    ASSERT_TRUE(outcome.loaded) << outcome.text;
+    EXPECT_EQ(outcome.loaded->scene.block.size(), 7U) << size;  // ground, rock and five cells
+  }
+}
+
 TEST(SceneCuts, FaultsHaveTheirPlaces) {
   struct Case {
     std::string scene;

@@ -26,7 +26,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
     "contact": {"springs": "area", "surface": "curved", "normal_stiffness": "auto", "shear_stiffness": "auto",
                 "friction_angle": 30.0, "cohesion": 0.0, "tensile_strength": 0.0, "distance": "auto",
                 "angle": "auto", "chord_tolerance": "auto", "augmented": false, "penetration_tolerance": "auto",
-                "fit": 0.0, "allowed_depth": "auto", "dilation_angle": 0.0, "damping": 0.0},
+                "allowed_overlap": 0.0, "allowed_depth": "auto", "dilation_angle": 0.0, "damping": 0.0},
     "joint": [{"blocks": ["A", "B*"]}],
     "material": [{"name": "rock", "density": 2500.0, "young_modulus": 1e9, "poisson_ratio": 0.25,
                   "elasticity": "linear"}],

@@ -208,6 +208,11 @@ INSTANTIATE_TEST_SUITE_P(
             5, "friction_angle = 90",
             "s.toml:5:18: error: friction_angle is out of range (90), a number of degrees >= 0 and < 90"},
         FaultCase{5, "cohesion = -1", "s.toml:5:12: error: cohesion is out of range (-1)"},
+        FaultCase{5, "allowed_overlap = -1e-4",
+                  "s.toml:5:19: error: allowed_overlap is out of range (-0.0001)"},
+        FaultCase{
+            5, "fit = 2e-4",
+            "s.toml:5:1: error: fit is no key any more, blocks stay as they are placed; allowed_overlap"},
         FaultCase{
             5, "normal_stiffness = 0",
             "s.toml:5:20: error: normal_stiffness is out of range (0), a number > 0 or \"auto\" is needed"},

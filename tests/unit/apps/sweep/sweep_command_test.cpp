@@ -129,6 +129,55 @@ TEST_F(Sweep, KeepsWhatHasRunAndAddsWhatIsNew) {
   EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1", "--force"}), 0);
 }
 
+TEST_F(Sweep, RunsAgainWhereAMeshOrTheProgramIsAnother) {
+  // A tetrahedron of volume h / 6 that falls from its centroid at h / 4.
+  const auto write_stone = [&](int height) {
+    write_text(folder_ / "stone.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 " + std::to_string(height) +
+                                          "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  };
+  std::string scene = text("s.toml");
+  scene.replace(scene.find("box ="), scene.find("max") + 18 - scene.find("box ="),
+                "mesh = { file = \"stone.off\" }\n");
+  write_text(scene_, scene.substr(0, scene.find("[[measure]]")));
+  const std::vector<std::string> options = {"--vary", "material.0.density=2000", "--value", "energy.gravity"};
+  const auto energy = [&] {
+    return std::stod(lines("t.csv").at(1).substr(lines("t.csv").at(1).rfind(',') + 1));
+  };
+  constexpr double fall = 9.81 * 0.1 * 0.1 / 2.0;
+
+  write_stone(1);
+  ASSERT_EQ(sweep(options), 0) << faults_;
+  EXPECT_NEAR(energy(), 2000.0 / 6.0 * 9.81 * (0.25 - fall), 1e-6);
+  write_stone(3);
+  ASSERT_EQ(sweep(options), 0) << faults_;
+  EXPECT_THAT(faults_, HasSubstr("(run again: mesh stone.off has changed)"));
+  EXPECT_NEAR(energy(), 2000.0 / 2.0 * 9.81 * (0.75 - fall), 1e-6);
+  ASSERT_EQ(sweep(options), 0) << faults_;
+  EXPECT_THAT(text("t.runs/material.0.density=2000.log"), StartsWith("kept"));
+
+  const std::filesystem::path summary = runs() / "material.0.density=2000/summary.json";
+  std::string of_other = read_text(summary);
+  const std::size_t identity = of_other.find("\"identity\"");
+  const std::size_t version = of_other.find("\"version\": \"", identity);
+  ASSERT_NE(version, std::string::npos);
+  of_other.insert(version + 12, "0.");
+  write_text(summary, of_other);
+  ASSERT_EQ(sweep(options), 0) << faults_;
+  EXPECT_THAT(faults_, HasSubstr("(run again: the program has changed (was 0."));
+}
+
+TEST_F(Sweep, LogsDoNotFollowLinks) {
+  write_text(folder_ / "mine", "mine");
+  std::filesystem::create_directory(runs());
+  std::filesystem::create_symlink(folder_ / "mine", runs() / "analysis.end_time=0.1.log");
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1,0.2"}), exit_status::bad_input);
+  EXPECT_THAT(
+      faults_,
+      HasSubstr("end_time=0.1.log: Too many levels of symbolic links; a plain file is written there"));
+  EXPECT_EQ(text("mine"), "mine");
+  EXPECT_THAT(lines("t.csv").at(2), HasSubstr(",completed,")) << "the other run is made";
+}
+
 TEST_F(Sweep, GoesOnWithWhatWasInterrupted) {
   ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0);
   const std::string whole = text("t.csv");
@@ -136,6 +185,26 @@ TEST_F(Sweep, GoesOnWithWhatWasInterrupted) {
   std::filesystem::remove(runs() / "analysis.end_time=0.1/summary.json");
   ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0) << faults_;
   EXPECT_EQ(text("t.csv"), whole);
+}
+
+TEST_F(Sweep, ForceReplacesTheStateOfAnotherSceneAndGoesOnWithItsOwn) {
+  const std::filesystem::path summary = runs() / "analysis.end_time=0.1/summary.json";
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0);
+  const std::string whole = text("t.csv");
+  std::filesystem::remove(summary);
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1"}), 2) << "not unasked";
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--force"}), 0) << faults_;
+  EXPECT_EQ(text("t.csv"), whole);
+  std::filesystem::remove(summary);
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1", "--force"}), 0)
+      << faults_;
+}
+
+// As a run leaves it that ended before its first state was saved.
+TEST_F(Sweep, BeginsAgainWhereNothingWasSaved) {
+  std::filesystem::create_directories(runs() / "analysis.end_time=0.1");
+  write_text(runs() / "analysis.end_time=0.1/.ashlar", "");
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1"}), 0) << faults_;
 }
 
 TEST_F(Sweep, RefusesWhatItCannotRunOrWouldOverwrite) {

@@ -180,15 +180,16 @@ TEST_F(ViewCommand, LongRunsAreThinned) {
   simulate();
   const auto bytes_with = [&](std::size_t most) {
     return write_view_file(folder / "out", folder / "v.html",
-                           {.most_bytes = most, .points = ViewPoints::few, .frame = {}});
+                           {.most_bytes = most, .points = ViewPoints::few, .frame = {}, .relative_to = {}});
   };
   const ViewReport all = bytes_with(50'000'000);
   EXPECT_EQ(all.frames_kept, 5U);
   const ViewReport fewer = bytes_with(all.bytes - 1);
   EXPECT_EQ(fewer.frames_kept, 3U);
   EXPECT_LT(fewer.bytes, all.bytes);
-  const ViewReport least = write_view_file(folder / "out", folder / "v.html",
-                                           {.most_bytes = 0, .points = ViewPoints::few, .frame = 3});
+  const ViewReport least =
+      write_view_file(folder / "out", folder / "v.html",
+                      {.most_bytes = 0, .points = ViewPoints::few, .frame = 3, .relative_to = {}});
   EXPECT_EQ(least.frames_kept, 3U);
   std::vector<int> indices;
   const auto scene = nlohmann::json::parse(scene_of(read_text(folder / "v.html")));

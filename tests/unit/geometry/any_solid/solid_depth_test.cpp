@@ -63,12 +63,10 @@ TEST(SolidDepth, TheWayOutOfWhatRoundingPutsOnAFaceIsItsNormal) {
       {{2, 3, 4}, {2, 4, 5}, {2, 5, 6}, {2, 6, 0}, {2, 0, 1}}, {{0, 1, 2, 3, 4, 5, 6}}, 1.0)));
   ASSERT_FALSE(finder.convex());
   const Vector3 x(1.0, 1.0 / 3.0, 0.5);
-  const Vector3 along(0.0, 0.0, 0.25);
-  for (const auto& depth : {finder.of_point(x), finder.of_segment(x - along, x + along, resolution)}) {
-    ASSERT_TRUE(depth);
-    EXPECT_NEAR(depth->depth, 0x1p-54 / std::sqrt(10.0), 1e-30);
-    EXPECT_NEAR((depth->way_out - Vector3(-1, 3, 0).normalized()).norm(), 0.0, 1e-15);
-  }
+  const auto depth = finder.of_point(x);
+  ASSERT_TRUE(depth);
+  EXPECT_NEAR(depth->depth, 0x1p-54 / std::sqrt(10.0), 1e-30);
+  EXPECT_NEAR((depth->way_out - Vector3(-1, 3, 0).normalized()).norm(), 0.0, 1e-15);
 }
 
 TEST(SolidDepth, ASegmentThroughAnEdgeOfABoxIsDeepestWhereBothFacesAreAsNear) {
@@ -133,9 +131,45 @@ TEST(SolidDepth, NoPointOfASegmentIsDeeperThanTheAnswer) {
   }
 }
 
+TEST(SolidDepth, SegmentsAlongAFaceAreAsDeepAsTheyWereMovedIn) {
+  // Between two points of each face, moved in or out by less and by more than the resolution. Of the samples only those
+  // whose faces are wider than what they are moved by count.
+  std::mt19937_64 random(5);
+  int tried = 0;
+  for (const auto& [name, solid] : test_support::sample_solids()) {
+    const SolidDepthFinder finder(solid);
+    if (finder.convex()) continue;
+    const Box box = box_of(solid.mesh().points);
+    const double size = (box.high - box.low).norm();
+    const double fine = 1e-5 * size;
+    for (const PolyhedronFace& face : solid.faces()) {
+      const auto& [i, j, k] = solid.mesh().triangles[static_cast<std::size_t>(face.triangles.front())];
+      const auto corner = [&](int index) { return solid.mesh().points[static_cast<std::size_t>(index)]; };
+      const Vector3 middle = (corner(i) + corner(j) + corner(k)) / 3.0;
+      const Vector3 start = 0.5 * (middle + corner(i));
+      const Vector3 end = 0.5 * (middle + corner(j));
+      for (const double share : {-100.0, -10.0, -0.1, 0.1, 10.0, 100.0}) {
+        const Vector3 in = -share * fine * face.normal;
+        const auto depth = finder.of_segment(start + in, end + in, fine);
+        const auto expected = finder.of_point(0.5 * (start + end) + in);
+        const double least = share > 0.0 && expected ? expected->depth : 0.0;
+        EXPECT_GE((depth ? depth->depth : 0.0) + fine, least) << name << ' ' << share;
+        if (share < 0.0) {
+          EXPECT_FALSE(depth && depth->depth > fine && !expected) << name << ' ' << share;
+        }
+        ++tried;
+      }
+    }
+  }
+  EXPECT_GT(tried, 100);
+}
+
 TEST(SolidDepth, NothingIsInABallThatIsClear) {
-  EXPECT_EQ(ell().clear_radius({0.5, 0.5, 0.5}), 0.0);
-  EXPECT_NEAR(ell().clear_radius({1.5, 1.25, 0.5}), 0.25, 1e-15);
+  double clearance = -1.0;
+  EXPECT_TRUE(ell().of_point({0.5, 0.5, 0.5}, &clearance));
+  EXPECT_EQ(clearance, 0.0);
+  EXPECT_FALSE(ell().of_point({1.5, 1.25, 0.5}, &clearance));
+  EXPECT_NEAR(clearance, 0.25, 1e-15);
 }
 
 }  // namespace

@@ -300,5 +300,13 @@ TEST(ContactSearch, BehindAHiddenSideTheFaceBesideItHolds) {
   EXPECT_NEAR(behind.vertices[0].gap, -0.008, 1e-15);
 }
 
+TEST(ContactSearch, TheAreaOfACornerDoesNotDependOnTheTrianglesOfItsFaces) {
+  // Faces of 2, 3 and 6 m^2, a quarter of each at each of its corners; some corners are on a diagonal.
+  const Body body(box({0, 0, 0}, {1, 2, 3}), 0);
+  ASSERT_EQ(body.surface.vertices.size(), 8U);
+  for (const SurfaceVertex& vertex : body.surface.vertices)
+    EXPECT_DOUBLE_EQ(tributary_area(body.surface, vertex.cells), (0.5 + 0.75 + 1.5) / 3.0);
+}
+
 }  // namespace
 }  // namespace ashlar

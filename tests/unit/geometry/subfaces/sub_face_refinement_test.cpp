@@ -204,22 +204,46 @@ TEST(AdaptiveSurface, NonConvexFacesAndUniformLevelsAreConforming) {
   }
 }
 
-TEST(AdaptiveSurface, TheDivisionGoesOnFromWhatWasWanted) {
+void expect_same_cells(const SubFaceSurface& a, const SubFaceSurface& b) {
+  EXPECT_EQ(a.points, b.points);
+  ASSERT_EQ(a.cells.size(), b.cells.size());
+  for (std::size_t k = 0; k < a.cells.size(); ++k) EXPECT_EQ(a.cells[k].corners, b.cells[k].corners) << k;
+}
+
+// Bent less and less: what a division keeps depends on what it was.
+TEST(AdaptiveSurface, ADivisionThatIsTakenOverGoesOnAsItWould) {
   const Polyhedron solid(make_box({0, 0, 0}, {4, 2, 0.5}));
   AdaptiveSurface first(solid, 2, 0);
-  first.move(bent(first, 0.1));
-  EXPECT_TRUE(first.divide({1e-2, everywhere}));
-  first.move(bent(first, 0.08));
-  (void)first.divide({1e-2, everywhere});
+  for (const double bow : {0.3, 0.1, 0.08}) {
+    first.move(bent(first, bow));
+    (void)first.divide({1e-2, everywhere});
+  }
+  ASSERT_GT(first.surface().cells.size(), divide_surface(solid, 0).cells.size());
   AdaptiveSurface second(solid, 2, 0);
-  second.set_wanted(first.wanted());
-  EXPECT_EQ(second.wanted(), first.wanted()) << "before it has been used";
-  second.move(bent(second, 0.08));
-  (void)second.divide({1e-2, everywhere});
-  EXPECT_EQ(first.wanted(), second.wanted());
-  ASSERT_EQ(first.surface().points.size(), second.surface().points.size());
-  for (std::size_t k = 0; k < first.surface().points.size(); ++k)
-    EXPECT_EQ(first.surface().points[k], second.surface().points[k]);
+  second.restore(AdaptiveSurface(solid, 2, 0).division());
+  expect_same_cells(AdaptiveSurface(solid, 2, 0).surface(), second.surface());
+  second.restore(first.division());
+  expect_same_cells(first.surface(), second.surface());
+  EXPECT_EQ(second.division().cuts, first.division().cuts);
+  EXPECT_EQ(second.wanted(), first.wanted());
+  for (const double bow : {0.08, 0.05, 0.2, 0.0}) {
+    first.move(bent(first, bow));
+    second.move(bent(second, bow));
+    EXPECT_EQ(first.divide({1e-2, everywhere}), second.divide({1e-2, everywhere})) << bow;
+    expect_same_cells(first.surface(), second.surface());
+  }
+}
+
+TEST(AdaptiveSurface, ADivisionOfAnotherSurfaceIsRefused) {
+  const Polyhedron solid(make_box({0, 0, 0}, {4, 2, 0.5}));
+  AdaptiveSurface surface(solid, 2, 0);
+  EXPECT_THROW(surface.restore({{12345}, {}}), std::invalid_argument) << "no triangle of this name";
+  surface.move(bent(surface, 0.1));
+  (void)surface.divide({1e-2, everywhere});
+  SurfaceDivision division = surface.division();
+  division.cuts.push_back(division.cuts.front());
+  AdaptiveSurface other(solid, 2, 0);
+  EXPECT_THROW(other.restore(division), std::invalid_argument) << "cut twice";
 }
 
 TEST(AdaptiveSurface, AToleranceBelowRoundingEndsAtTheLargestDivision) {

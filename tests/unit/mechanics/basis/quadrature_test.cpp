@@ -102,6 +102,28 @@ TEST(Quadrature, NearlyStraightCornersKeepARuleExact) {
 
 // Where two sides that almost lie on each other cross is known badly: a rule is not exact for pressures with
 // a kink, but its error may not jump with that place.
+TEST(Quadrature, APolygonSeenFromBehindHasTheSamePoints) {
+  // The second corner is nearly straight: 1.5e-4 of the line between its neighbours high.
+  const std::vector<Eigen::Vector2d> polygon = {{0, 0}, {1.2, -3e-4}, {2, 0}, {2, 1}, {0, 1.5}};
+  std::vector<Eigen::Vector2d> behind;
+  for (const Eigen::Vector2d& corner : polygon) behind.insert(behind.begin(), {-corner.x(), corner.y()});
+  for (const int degree : {1, 2, 3, 6}) {
+    const PolygonRule rule = polygon_rule(polygon, degree);
+    const PolygonRule other = polygon_rule(behind, degree);
+    ASSERT_EQ(rule.points.size(), other.points.size());
+    for (std::size_t k = 0; k < rule.points.size(); ++k) {
+      const Eigen::Vector2d there(-rule.points[k].x(), rule.points[k].y());
+      const auto same = [&](std::size_t n) {
+        return (other.points[n] - there).norm() < 1e-14 &&
+               std::abs(other.weights[n] - rule.weights[k]) < 1e-15;
+      };
+      bool found = false;
+      for (std::size_t n = 0; n < other.points.size(); ++n) found = found || same(n);
+      EXPECT_TRUE(found) << degree << ": " << rule.points[k].transpose();
+    }
+  }
+}
+
 TEST(Quadrature, WhereSidesAlmostOnEachOtherCrossDoesNotMatter) {
   const auto kinked = [](const Eigen::Vector2d& p) { return std::max(0.0, p.x() + 0.3 * p.y() - 0.55); };
   const double square = integrate(polygon_rule({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 2), kinked);

@@ -133,5 +133,18 @@ TEST(ContactMaster, EndsOfFacesCountWhereTheSurfaceTurnsAway) {
   }
 }
 
+TEST(ContactMaster, OfEqualBlocksIsWhatIsSaid) {
+  const Body a(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})));
+  const Body b(Polyhedron(make_box({0.25, 0, 1}, {1.25, 1, 2})));
+  const Body larger(Polyhedron(make_box({0, 0, 1}, {1, 1, 3})));
+  const ContactLimits limits{0.1, 0.1, 10.0 * std::numbers::pi / 180.0};
+  const std::vector<CellOverlap> equal = find_contacts(a.placed, b.placed, limits).overlaps;
+  const std::vector<CellOverlap> unequal = find_contacts(a.placed, larger.placed, limits).overlaps;
+  for (const bool said : {false, true}) {
+    EXPECT_EQ(first_is_master(a.contact(), b.contact(), equal, nothing, said), std::vector{said});
+    EXPECT_EQ(first_is_master(a.contact(), larger.contact(), unequal, nothing, said), std::vector{false});
+  }
+}
+
 }  // namespace
 }  // namespace ashlar

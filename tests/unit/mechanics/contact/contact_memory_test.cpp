@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 namespace ashlar {
 namespace {
@@ -173,6 +176,56 @@ TEST(ContactMemory, NewPointsAreBondedByTheirGap) {
   const auto points = std::vector{point_at({0, 0, 1}, {0, 0, 0}, 7, {0, 0, 1})};
   EXPECT_TRUE(ContactMemory().recall(points, 1e-3)[0].intact);
   EXPECT_FALSE(ContactMemory().recall(points, never)[0].intact);
+}
+
+/// Four points around the origin, with friction along the given directions.
+void store_around(ContactMemory& memory, const std::array<Vector3, 4>& directions, ContactState state,
+                  ContactState state_of_last) {
+  const std::array<Vector3, 4> places{Vector3(1, 0, 0), Vector3(0, 1, 0), Vector3(-1, 0, 0),
+                                      Vector3(0, -1, 0)};
+  std::vector<ContactPoint> points;
+  std::vector<PointMemory> memories;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    points.push_back(point_at(places[k], places[k], 7, {0, 0, 1}));
+    memories.push_back(slipped(1e-6 * directions[k]));
+    memories.back().state = k == 3 ? state_of_last : state;
+  }
+  memory.store(points, memories, 0.0, {});
+}
+
+TEST(ContactMemory, FrictionTurnsOverAFaceThatTwistsOnceAllOfItSlides) {
+  const std::array<Vector3, 4> around{Vector3(0, 1, 0), Vector3(-1, 0, 0), Vector3(0, -1, 0),
+                                      Vector3(1, 0, 0)};
+  const std::array<Vector3, 4> along{Vector3(1, 0, 0), Vector3(1, 0, 0), Vector3(1, 0, 0), Vector3(1, 0, 0)};
+  ContactMemory memory;
+  store_around(memory, around, ContactState::sliding, ContactState::locked);
+  EXPECT_TRUE(memory.turning().empty());
+  store_around(memory, around, ContactState::sliding, ContactState::sliding);
+  EXPECT_EQ(memory.turning(), (std::vector<FacePair>{{3, 7}}));
+  // It goes on while directions differ, whatever slides.
+  store_around(memory, around, ContactState::locked, ContactState::locked);
+  EXPECT_EQ(memory.turning().size(), 1U);
+  store_around(memory, along, ContactState::sliding, ContactState::sliding);
+  EXPECT_TRUE(memory.turning().empty());
+  // Points that are open do not count.
+  store_around(memory, around, ContactState::sliding, ContactState::open);
+  EXPECT_EQ(memory.turning().size(), 1U);
+}
+
+TEST(ContactMemory, FrictionOfTwoFacesDoesNotTurnBecauseTheirPlanesDiffer) {
+  // A wedge that slides along y in a groove, and one that twists by as little as 10 degrees to both sides.
+  ContactMemory memory;
+  std::vector<PointMemory> sliding{slipped({0, 1e-6, 0}), slipped({0, -1e-6, 0})};
+  for (PointMemory& one : sliding) one.state = ContactState::sliding;
+  memory.store({point_at({0, 0, 0}, {0, 0, 0}, 7, {1, 0, 1}), point_at({1, 0, 0}, {1, 0, 0}, 8, {-1, 0, 1})},
+               sliding, 0.0, {});
+  EXPECT_TRUE(memory.turning().empty());
+  const double angle = 10.0 * 3.141592653589793 / 180.0;
+  sliding[0].slip = 1e-6 * Vector3(std::cos(angle), std::sin(angle), 0);
+  sliding[1].slip = 1e-6 * Vector3(std::cos(angle), -std::sin(angle), 0);
+  memory.store({point_at({0, 0, 0}, {0, 0, 0}, 7, {0, 0, 1}), point_at({1, 0, 0}, {1, 0, 0}, 7, {0, 0, 1})},
+               sliding, 0.0, {});
+  EXPECT_TRUE(memory.turning().empty());  // the mean has the length cos 10 = 0.985
 }
 
 }  // namespace

@@ -79,6 +79,14 @@ TEST_F(TwoCubes, LastWhileBothMoveAlike) {
   EXPECT_NEAR(now->points[0].gap, -1e-7, 1e-14);
 }
 
+TEST_F(TwoCubes, ShiftByTheMeanOfBothWhicheverIsFirst) {
+  move(above_, of_a_, {3e-8, 0, 0});
+  move(below_, of_b_, {0, 1e-8, 0});
+  const auto now = kept();
+  ASSERT_TRUE(now);
+  EXPECT_NEAR((now->shift - Vector3(1.5e-8, 0.5e-8, 0)).norm(), 0.0, 1e-15);
+}
+
 TEST_F(TwoCubes, AreFoundAnewWhereTheyMoveMoreThanTheLimit) {
   move(above_, of_a_, {1.1 * limit, 0, 0});
   EXPECT_FALSE(kept());

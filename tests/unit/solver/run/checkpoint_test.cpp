@@ -13,7 +13,8 @@ namespace ashlar {
 namespace {
 
 /// A bending block on an elastic one that is clamped at an end; it slides, and both are dented.
-Simulation make_simulation() {
+Simulation make_simulation(LinearMethod method = LinearMethod::cholesky,
+                           double chord_tolerance = SearchSettings().chord_tolerance) {
   const Material material{2000.0, 2e7, 0.25};
   std::vector<BlockModel> blocks;
   blocks.emplace_back(test_support::block_of(
@@ -25,6 +26,8 @@ Simulation make_simulation() {
   const JointLaw law{1e9, 1e9, 0.2, 0.0, 0.0, true};
   SimulationSettings settings;
   settings.time_step = 1e-3;
+  settings.linear_method = method;
+  settings.search.chord_tolerance = chord_tolerance;
   return {std::move(blocks),
           {{Vector3(0.4, 0.0, -0.3), Vector3::Zero()}, {Vector3::Zero(), Vector3::Zero()}},
           test_support::same_law(law),
@@ -91,14 +94,16 @@ TEST(Checkpoint, FactorsOfLoadsGoAlong) {
   EXPECT_NEAR(resumed.states()[0].velocity(0, 0), 1e-3, 1e-15);
 }
 
-TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
-  Simulation straight = make_simulation();
+class CheckpointOfSolver : public ::testing::TestWithParam<LinearMethod> {};
+
+TEST_P(CheckpointOfSolver, ResumedSimulationGoesOnBitForBit) {
+  Simulation straight = make_simulation(GetParam());
   take_steps(straight, steps_before);
   ASSERT_GT(straight.report().locked + straight.report().sliding, 0) << "not cut in the middle of contact";
   const std::string bytes = to_bytes(straight.snapshot());
   take_steps(straight, steps_after);
 
-  Simulation resumed = make_simulation();
+  Simulation resumed = make_simulation(GetParam());
   resumed.restore(snapshot_from_bytes(bytes));
   EXPECT_EQ(to_bytes(resumed.snapshot()), bytes);
   take_steps(resumed, steps_after);
@@ -110,6 +115,27 @@ TEST(Checkpoint, ResumedSimulationGoesOnBitForBit) {
   expected.run.log.counts.factors = reached.run.log.counts.factors;
   EXPECT_EQ(to_bytes(reached), to_bytes(expected));
 }
+INSTANTIATE_TEST_SUITE_P(All, CheckpointOfSolver,
+                         ::testing::Values(LinearMethod::cholesky, LinearMethod::conjugate_gradients));
+
+// A run that goes on from its end takes no step before depths are measured.
+TEST(Checkpoint, FacesThatCurveAreDividedAsTheyWere) {
+  constexpr double chord_tolerance = 1e-4;  // m
+  Simulation straight = make_simulation(LinearMethod::cholesky, chord_tolerance);
+  take_steps(straight, steps_before);
+  Simulation resumed = make_simulation(LinearMethod::cholesky, chord_tolerance);
+  const auto points = [](const Simulation& simulation) {
+    return simulation.finder().surfaces()[1].surface().points;
+  };
+  ASSERT_GT(points(straight).size(), points(resumed).size()) << "the beam is not divided";
+  resumed.restore(straight.snapshot());
+  EXPECT_EQ(points(resumed), points(straight));
+  EXPECT_FALSE(straight.audit());
+  EXPECT_FALSE(resumed.audit());
+  EXPECT_EQ(resumed.deepest().depth, straight.deepest().depth);
+  EXPECT_EQ(resumed.deepest().place, straight.deepest().place);
+}
+
 /// Three cubes of order 4 on each other: a new factor costs 40 solutions with it.
 Simulation make_stack() {
   std::vector<BlockModel> blocks;

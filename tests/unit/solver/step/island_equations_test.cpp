@@ -24,7 +24,7 @@ TEST(IslandProblem, ContactsAreFollowedOnceUntilBlocksMoveOn) {
     body.free_change = body.external_force = body.change = Eigen::VectorXd::Zero(body.model->unknowns());
   }
   const Island island{{0}, {0}};
-  IslandSolvers solvers;
+  IslandSolvers solvers{LinearMethod::cholesky};
   SimulationSettings settings;
   IslandProblem problem(island, bodies, pairs, time_scheme(settings, 1e-3), settings,
                         solver_of(island, bodies, pairs, SystemRole::step, solvers));

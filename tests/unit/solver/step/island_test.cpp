@@ -79,7 +79,7 @@ TEST(Island, SetsThatCannotBeAreRefused) {
 }
 
 TEST(IslandSolvers, KeepAFactorAsLongAsItComesUp) {
-  IslandSolvers solvers;
+  IslandSolvers solvers{LinearMethod::cholesky};
   const std::vector<int> key = {0, 3, 4};
   const auto* first = &solvers.find(key, {12, 12}, {{0, 1}});
   solvers.drop_unused();

@@ -24,7 +24,7 @@ void expect_same(const BlockModel& block, LoneBodyFactors& factors, const Vector
   body.free_change = block.space().restrict(Eigen::MatrixX3d(scheme.step * state.velocity));
   body.external_force = block.space().restrict(block.external_force({0, 0, -9.81}, 0.0));
   std::vector<BodyStep> bodies = {body};
-  IslandSolvers solvers;
+  IslandSolvers solvers{LinearMethod::cholesky};
   ASSERT_EQ(solve_island({{0}, {}}, bodies, {}, scheme, settings, solvers).status, IslandStatus::settled);
   const auto result = solve_lone_body(body, scheme, settings, factors);
   ASSERT_TRUE(result.has_value());

@@ -41,7 +41,7 @@ TEST(StepProblem, BlocksInTheAirFallWithTheirVelocity) {
   const BlockSystem system = two_cubes(settings);
   RunState state = at_rest(system);
   state.states[1].velocity = system.blocks()[1].rigid_velocity({4, 0, 2}, Vector3::Zero());
-  FactorCache factors;
+  FactorCache factors(settings.linear_method);
   StepProblem problem;
   ASSERT_EQ(solve(system, state, time_scheme(settings, 0.125), factors, problem), IslandStatus::settled);
   EXPECT_EQ(problem.islands.size(), 2U);
@@ -57,7 +57,7 @@ TEST(StepProblem, NothingOfTheRunChangesBeforeAStepIsAccepted) {
   const BlockSystem system = two_cubes(settings);
   RunState state = at_rest(system);
   const std::vector<BlockState> before = state.states;
-  FactorCache factors;
+  FactorCache factors(settings.linear_method);
   StepProblem problem;
   ASSERT_EQ(solve(system, state, time_scheme(settings, 1e-2), factors, problem), IslandStatus::settled);
   for (std::size_t k = 0; k < before.size(); ++k) {

@@ -74,6 +74,32 @@ TEST_P(StiffnessDamping, ABlockThatSpinsIsNotHeldBack) {
   EXPECT_NEAR(simulation.ledger().kinetic, before, 1e-6 * before);
 }
 
+// A damper of 300 time steps and more: its force is that of the rounding of places times beta / dt, far beyond what elastic
+// forces are known to, and no step may wait for better. The weight of two cubes compresses the lower one as a damper and
+// a spring side by side do: by sigma / E (1 - exp(-t / beta)), sigma in its middle.
+TEST(HeavyStiffnessDamping, CubesInContactSettleAsDampersDo) {
+  for (const double beta : {0.3, 3.0}) {
+    const Material material{2000.0, 1e9, 0.0};
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(test_support::fixed_box({-2, -2, -1}, {2, 2, 0}));
+    blocks.emplace_back(test_support::block_of("a", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), material, 1));
+    blocks.emplace_back(test_support::block_of("b", Polyhedron(make_box({0, 0, 1}, {1, 1, 2})), material, 1));
+    SimulationSettings settings;
+    settings.gravity = {0, 0, -10};
+    settings.time_step = 1e-3;
+    settings.stiffness_damping = beta;
+    Simulation simulation(std::move(blocks), {{}, {}, {}},
+                          test_support::same_law({1e12, 1e12, 0.5, 0.0, 0.0, true}), settings);
+    ASSERT_TRUE(test_support::run_until(simulation, 0.03));
+    EXPECT_TRUE(simulation.rejections().empty()) << simulation.rejections().size();
+    const double length = test_support::place_of(simulation, 1, {0.5, 0.5, 1.0}).z() -
+                          test_support::place_of(simulation, 1, {0.5, 0.5, 0.0}).z();
+    const double expected = 1.5 * 2000.0 * 10.0 / 1e9 * -std::expm1(-0.03 / beta);
+    // The dda step is of first order: dt / (2 t).
+    EXPECT_NEAR(1.0 - length, expected, 0.05 * expected) << beta;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Of, StiffnessDamping,
     testing::Combine(testing::Values(Elasticity::linear, Elasticity::st_venant_kirchhoff),

@@ -1,0 +1,96 @@
+// operator new of the program: mimalloc's memory, and std::bad_alloc where there is none. Debian builds mimalloc as C, and
+// its own operator new then calls abort(). Only the program links this file, and nothing else may: a process has one.
+#include <mimalloc.h>
+
+#include <cstddef>
+#include <new>
+
+namespace {
+
+/// @param get of a number of bytes; null: there are none. As the standard asks: the new-handler may make room.
+template <class Get>
+void* allocated(std::size_t bytes, Get get) {
+  while (true) {
+    if (void* place = get(bytes)) return place;
+    const std::new_handler handler = std::get_new_handler();
+    if (handler == nullptr) throw std::bad_alloc();
+    handler();
+  }
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+  if (void* place = mi_malloc(bytes)) return place;
+  return allocated(bytes, mi_malloc);
+}
+
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return allocated(bytes,
+                   [&](std::size_t n) { return mi_malloc_aligned(n, static_cast<std::size_t>(alignment)); });
+}
+
+void* operator new[](std::size_t bytes) {
+  return operator new(bytes);
+}
+
+void* operator new[](std::size_t bytes, std::align_val_t alignment) {
+  return operator new(bytes, alignment);
+}
+
+void* operator new(std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+  return mi_malloc(bytes);
+}
+
+void* operator new[](std::size_t bytes, const std::nothrow_t& /*tag*/) noexcept {
+  return mi_malloc(bytes);
+}
+
+void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t& /*tag*/) noexcept {
+  return mi_malloc_aligned(bytes, static_cast<std::size_t>(alignment));
+}
+
+void* operator new[](std::size_t bytes, std::align_val_t alignment, const std::nothrow_t& /*tag*/) noexcept {
+  return mi_malloc_aligned(bytes, static_cast<std::size_t>(alignment));
+}
+
+// mimalloc knows size and alignment of what it frees.
+void operator delete(void* place) noexcept {
+  mi_free(place);
+}
+
+void operator delete[](void* place) noexcept {
+  mi_free(place);
+}
+
+void operator delete(void* place, std::size_t /*bytes*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete[](void* place, std::size_t /*bytes*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete(void* place, std::align_val_t /*alignment*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete[](void* place, std::align_val_t /*alignment*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete(void* place, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete[](void* place, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete(void* place, const std::nothrow_t& /*tag*/) noexcept {
+  mi_free(place);
+}
+
+void operator delete[](void* place, const std::nothrow_t& /*tag*/) noexcept {
+  mi_free(place);
+}

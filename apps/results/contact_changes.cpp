@@ -1,0 +1,62 @@
+#include "apps/results/contact_changes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "apps/results/run_status.hpp"
+
+namespace ashlar {
+
+void ContactChanges::note(const Simulation& simulation) {
+  ++iteration_;
+  for (auto& [blocks, pair] : pairs_)
+    while (!pair.changes.empty() && pair.changes.front() <= iteration_ - window) pair.changes.pop_front();
+  std::map<std::array<int, 2>, std::array<int, 3>> now;
+  for (const PairRecord& record : simulation.contacts()) {
+    std::array<int, 3>& states = now[{record.a, record.b}];
+    for (const PointResponse& point : record.responses) ++states[static_cast<std::size_t>(point.state)];
+  }
+  // A pair that has no contacts any more has parted.
+  for (const auto& [blocks, pair] : pairs_) now.try_emplace(blocks);
+  for (const auto& [blocks, states] : now) {
+    const auto [found, is_new] = pairs_.try_emplace(blocks);
+    Pair& pair = found->second;
+    if (!is_new && pair.states != states) pair.changes.push_back(iteration_);
+    pair.states = states;
+  }
+}
+
+std::optional<ContactChanges::Alternating> ContactChanges::most() const {
+  const auto found = std::max_element(pairs_.begin(), pairs_.end(), [](const auto& a, const auto& b) {
+    return a.second.changes.size() < b.second.changes.size();
+  });
+  if (found == pairs_.end() || found->second.changes.empty()) return std::nullopt;
+  return Alternating{found->first, static_cast<int>(found->second.changes.size()),
+                     std::min(iteration_, window)};
+}
+
+std::string describe_unconverged(const Simulation& simulation, const ContactChanges& changes) {
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  std::string text = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
+                                 simulation.steps(), simulation.time());
+  if (simulation.steps() == 0 && !simulation.rejections().empty()) {
+    text += fmt::format(": the first iteration was tried {} times; {}", simulation.rejections().size(),
+                        reason_of(simulation.rejections().back(), simulation));
+  } else if (const auto pair = changes.most()) {
+    text += fmt::format(": contacts of blocks {} and {} changed in {} of the last {}", name(pair->blocks[0]),
+                        name(pair->blocks[1]), pair->changes, pair->iterations);
+  }
+  std::vector<const char*> remedies;
+  const auto& blocks = simulation.blocks();
+  if (std::any_of(blocks.begin(), blocks.end(),
+                  [](const BlockModel& block) { return block.rigid() && !block.fixed(); }))
+    remedies.push_back("order = 1 in place of 0");
+  if (simulation.system().settings().augmented) remedies.push_back("springs (contact.augmented = false)");
+  if (remedies.empty()) remedies.push_back("stiffer joints");
+  return text + fmt::format("; {} may converge", fmt::join(remedies, ", or "));
+}
+
+}  // namespace ashlar

@@ -1,0 +1,46 @@
+// Which contacts keep a static analysis from coming to rest: those that open, close, stick or slide anew in iteration
+// after iteration.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+class ContactChanges {
+ public:
+  /// Iterations that are looked back on.
+  static constexpr int window = 50;
+
+  /// To be told after each iteration of a static analysis.
+  void note(const Simulation& simulation);
+  void forget() { *this = ContactChanges(); }
+
+  struct Alternating {
+    std::array<int, 2> blocks;
+    int changes;     ///< in which it had other numbers of open, locked and sliding points
+    int iterations;  ///< that were looked at, at most `window`
+  };
+  /// The pair whose contacts changed most often; empty if none did in the last iterations.
+  [[nodiscard]] std::optional<Alternating> most() const;
+
+ private:
+  struct Pair {
+    std::array<int, 3> states = {};  ///< points by ContactState, in the last iteration
+    std::deque<int> changes;         ///< iterations of the window in which they were others than before
+  };
+  std::map<std::array<int, 2>, Pair> pairs_;
+  int iteration_ = 0;
+};
+
+/// Why a static analysis has ended without an answer, and what to try: "no equilibrium was found in 500 iterations under
+/// the loads at t = 1 s: contacts of blocks a and b changed in 48 of the last 50; order = 1 in place of 0, or
+/// contact.augmented = false, may converge".
+[[nodiscard]] std::string describe_unconverged(const Simulation& simulation, const ContactChanges& changes);
+
+}  // namespace ashlar

@@ -1,0 +1,18 @@
+// Exceptions in the words of messages.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+namespace ashlar {
+
+/// What a message says of an exception: "out of memory"; "cannot open directory PATH: REASON" of what the library for
+/// file systems throws, and the reason alone where a stream failed; what() of all others.
+[[nodiscard]] std::string fault_text(const std::exception& error);
+
+/// That of an allocation that failed, without another one: "out of memory", and what was needed where that is known.
+[[nodiscard]] std::string_view missing_memory(const std::bad_alloc& error);
+
+}  // namespace ashlar

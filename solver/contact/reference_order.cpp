@@ -1,0 +1,37 @@
+#include "solver/contact/reference_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+
+ReferenceOrder::ReferenceOrder(const std::vector<BlockModel>& blocks, const Vector3& gravity) {
+  Vector3 middle = Vector3::Zero();
+  double volume = 0.0;
+  for (const BlockModel& block : blocks) {
+    middle += block.basis().volume() * block.basis().centroid();
+    volume += block.basis().volume();
+  }
+  middle /= volume;
+  const Vector3 up = -gravity.normalized();
+  double farthest = 0.0;
+  for (const BlockModel& block : blocks) {
+    const Vector3 from_middle = block.basis().centroid() - middle;
+    heights_.push_back(up.dot(from_middle));
+    distances_.push_back(from_middle.norm());
+    farthest = std::max({farthest, distances_.back(), std::cbrt(block.basis().volume())});
+  }
+  constexpr double rounding = 1e-9;
+  rounding_ = rounding * farthest;
+}
+
+bool ReferenceOrder::is_before(int a, int b) const {
+  const double higher = heights_[at(a)] - heights_[at(b)];
+  if (std::abs(higher) > rounding_) return higher > 0.0;
+  const double farther = distances_[at(a)] - distances_[at(b)];
+  return std::abs(farther) > rounding_ ? farther > 0.0 : a > b;
+}
+
+}  // namespace ashlar

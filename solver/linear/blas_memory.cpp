@@ -1,0 +1,88 @@
+// A buffer, once mapped, stays with OpenBLAS for whichever thread calls it next. So as many must be mapped as threads can
+// be inside at a time: threads are counted, and for each that is new one buffer more is mapped while no other thread is
+// inside, when exactly the buffers that are there are free.
+#include "solver/linear/blas_memory.hpp"
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <mutex>
+#include <vector>
+
+// Exported by OpenBLAS; null with another implementation.
+extern "C" void* blas_memory_alloc(int position) __attribute__((weak));
+extern "C" void blas_memory_free(void* buffer) __attribute__((weak));
+
+namespace ashlar {
+namespace {
+
+/// Bytes of a buffer (OpenBLAS's BUFFER_SIZE is 128 MiB or less) and what other threads may take in the meantime.
+constexpr std::size_t asked_bytes = (std::size_t{128} + 16) << 20U;
+
+/// Threads that have called BLAS and live, and the buffers that are mapped.
+struct Threads {
+  std::shared_mutex mutex;  ///< shared by all that are inside BLAS
+  std::size_t counted = 0;
+  std::size_t mapped = 0;
+};
+
+// Never destroyed: threads may end after static objects have.
+Threads& threads() {
+  static auto& all = *new Threads;
+  return all;
+}
+
+/// Whether the system would give one more buffer.
+bool has_room() {
+  void* place = mmap(nullptr, asked_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (place == MAP_FAILED) return false;
+  munmap(place, asked_bytes);
+  return true;
+}
+
+/// Has OpenBLAS map one buffer more than there are. @throws BlasMemoryError
+void map_one_more(std::size_t mapped) {
+  std::vector<void*> buffers;
+  buffers.reserve(mapped + 1);
+  if (!has_room()) throw BlasMemoryError();
+  while (buffers.size() <= mapped) buffers.push_back(blas_memory_alloc(0));
+  for (void* buffer : buffers) blas_memory_free(buffer);
+}
+
+/// One for each thread that calls BLAS.
+class CountedThread {
+ public:
+  ~CountedThread() {
+    if (!counted_) return;
+    const std::unique_lock lock(threads().mutex);
+    --threads().counted;
+  }
+  void count() {
+    if (counted_ || blas_memory_alloc == nullptr || blas_memory_free == nullptr) return;
+    Threads& all = threads();
+    const std::unique_lock lock(all.mutex);
+    if (all.counted == all.mapped) {
+      map_one_more(all.mapped);
+      ++all.mapped;
+    }
+    ++all.counted;
+    counted_ = true;
+  }
+
+ private:
+  bool counted_ = false;
+};
+
+}  // namespace
+
+const char* BlasMemoryError::what() const noexcept {
+  return "out of memory: 128 MiB of address space are needed for each thread that factorises";
+}
+
+BlasUse::BlasUse() {
+  thread_local CountedThread thread;
+  thread.count();
+  lock_ = std::shared_lock(threads().mutex);
+}
+
+}  // namespace ashlar
