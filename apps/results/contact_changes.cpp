@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/results/run_status.hpp"
+#include "solver/state/static_state.hpp"
 
 namespace ashlar {
 
@@ -38,6 +39,18 @@ std::optional<ContactChanges::Alternating> ContactChanges::most() const {
                      std::min(iteration_, window)};
 }
 
+static std::optional<DisplacedBlock> farthest_block(const Simulation& simulation) {
+  std::optional<DisplacedBlock> farthest;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    if (block.fixed()) continue;
+    const double distance =
+        mean_motion(block, simulation.states()[k].position - block.initial_state().position);
+    if (!farthest || distance > farthest->distance) farthest = {static_cast<int>(k), distance};
+  }
+  return farthest;
+}
+
 std::string describe_unconverged(const Simulation& simulation, const ContactChanges& changes) {
   const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
   std::string text = fmt::format("no equilibrium was found in {} iterations under the loads at t = {} s",
@@ -48,6 +61,10 @@ std::string describe_unconverged(const Simulation& simulation, const ContactChan
   } else if (const auto pair = changes.most()) {
     text += fmt::format(": contacts of blocks {} and {} changed in {} of the last {}", name(pair->blocks[0]),
                         name(pair->blocks[1]), pair->changes, pair->iterations);
+  } else if (const auto farthest = farthest_block(simulation)) {
+    text +=
+        fmt::format(": contacts no longer changed, and blocks went on moving, block {} by {:.3g} m in all",
+                    name(farthest->block), farthest->distance);
   }
   std::vector<const char*> remedies;
   const auto& blocks = simulation.blocks();

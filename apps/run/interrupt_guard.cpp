@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <mutex>
 #include <string_view>
 
@@ -13,10 +14,20 @@ namespace {
 
 constexpr std::array handled = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGPIPE, SIGXFSZ};
 
+/// s. `timeout` and others send a signal to a program and to its group: what comes twice so fast is one request.
+constexpr double one_request = 0.25;
+
 // Handlers read and write these; guards of other threads do, too.
 std::atomic<bool> stop_wanted = false;
 std::atomic<bool> on_terminal = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<double> first_request = 0.0;  ///< monotonic time, s
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
+
+double monotonic_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 /// Guards that live, and the handlers from before the first of them.
 struct Guards {
@@ -30,11 +41,18 @@ Guards& guards() {
   return all;
 }
 
-extern "C" void on_interrupt(int) {
-  const bool is_first = !stop_wanted.exchange(true);
-  // A step may take long, and a second Ctrl-C loses what was not saved.
-  constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
-  if (is_first && on_terminal) (void)!::write(STDERR_FILENO, note.data(), note.size());
+extern "C" void on_interrupt(int signal) {
+  const double now = monotonic_seconds();
+  if (!stop_wanted.exchange(true)) {
+    first_request = now;
+    // A step may take long, and a second Ctrl-C loses what was not saved.
+    constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
+    if (on_terminal) (void)!::write(STDERR_FILENO, note.data(), note.size());
+    return;
+  }
+  if (signal == SIGXCPU || now - first_request < one_request) return;
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
 }
 
 }  // namespace
@@ -58,7 +76,6 @@ InterruptGuard::InterruptGuard() {
     if (left_to_others(handled[k], all.before[k])) continue;
     struct sigaction action {};
     action.sa_handler = stops ? on_interrupt : SIG_IGN;
-    action.sa_flags = stops && handled[k] != SIGXCPU ? static_cast<int>(SA_RESETHAND) : 0;
     sigaction(handled[k], &action, nullptr);
   }
 }

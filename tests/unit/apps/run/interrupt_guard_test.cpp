@@ -1,6 +1,8 @@
 #include "apps/run/interrupt_guard.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <optional>
@@ -33,6 +35,30 @@ TEST(InterruptGuard, TheLastOfSeveralPutsBackWhatWasThere) {
     EXPECT_TRUE(InterruptGuard::interrupted()) << "one guard is left: " << signal;
     std::thread([&] { second.reset(); }).join();
     EXPECT_EQ(std::signal(signal, old), ignore) << "as it was";
+  }
+}
+
+/// How a process ends that gets a signal twice, or 128 + it if it goes on. @param pause between, microseconds
+int end_of_process(int signal, useconds_t pause) {
+  const pid_t process = ::fork();
+  if (process == 0) {
+    (void)std::signal(signal, SIG_DFL);
+    const InterruptGuard guard;
+    ::raise(signal);
+    ::usleep(pause);
+    ::raise(signal);
+    ::_exit(InterruptGuard::interrupted() ? 128 + signal : 1);
+  }
+  int status = 0;
+  EXPECT_EQ(::waitpid(process, &status, 0), process);
+  return WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+// `timeout` signals its child and then its whole group.
+TEST(InterruptGuard, WhatIsSentTwiceAtOnceIsOneRequest) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    EXPECT_EQ(end_of_process(signal, 0), 128 + signal);
+    EXPECT_EQ(end_of_process(signal, 400'000), signal) << "a second one ends the program";
   }
 }
 
