@@ -290,7 +290,8 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
     moved = moved_in_level(system, state, blocks, points);
     if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
   }
-  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory), made.cuts);
+  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory), made.cuts,
+                   made.turning);
   if (may_last(system, found, use)) {
     LastingContacts lasting = as_found(finder_, state, {blocks, found.reach}, law, contacts);
     lasting.found = std::move(made);
