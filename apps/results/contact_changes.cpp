@@ -72,7 +72,7 @@ std::string describe_unconverged(const Simulation& simulation, const ContactChan
                   [](const BlockModel& block) { return block.rigid() && !block.fixed(); }))
     remedies.push_back("order = 1 in place of 0");
   if (simulation.system().settings().augmented) remedies.push_back("springs (contact.augmented = false)");
-  if (remedies.empty()) remedies.push_back("stiffer joints");
+  if (remedies.empty()) remedies.push_back("another normal_stiffness");
   return text + fmt::format("; {} may converge", fmt::join(remedies, ", or "));
 }
 

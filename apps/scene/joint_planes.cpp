@@ -109,8 +109,9 @@ JointHeights::JointHeights(const SceneCut& cut, const std::vector<PlaneRange>& r
   const std::vector<PlaneRange> all = joined(ranges);
   draw_side(reversed(all), -1, most);
   std::reverse(drawn_.begin(), drawn_.end());
-  if (std::any_of(all.begin(), all.end(),
-                  [](const PlaneRange& range) { return range.low <= 0.0 && range.high >= 0.0; }))
+  if (!too_many_ && std::any_of(all.begin(), all.end(), [](const PlaneRange& range) {
+        return range.low <= 0.0 && range.high >= 0.0;
+      }))
     drawn_.push_back({0, 0.0});
   draw_side(all, 1, most);
   for (const PlaneRange& range : ranges) {
