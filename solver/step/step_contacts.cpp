@@ -281,9 +281,10 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.
   if (points.empty()) return std::nullopt;
+  // Other points than before have pressure in common, not forces: those of a finer rule are no successors of single ones.
   auto memory = known.memory.recall(
       points, state.has_begun() ? -std::numeric_limits<double>::infinity() : settings.contact_distance,
-      use == PairUse::statics && settings.area_springs);
+      use == PairUse::statics && settings.area_springs && points.size() == known.memory.entries().size());
   law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
   std::vector<Vector3> moved;
   if (use == PairUse::statics && !state.statics.level_start.empty()) {
