@@ -1,9 +1,11 @@
 // operator new of the program: mimalloc's memory, and std::bad_alloc where there is none. Debian builds mimalloc as C, and
 // its own operator new then calls abort(). Only the program links this file, and nothing else may: a process has one.
 #include <mimalloc.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <new>
+#include <string_view>
 
 namespace {
 
@@ -17,6 +19,20 @@ void* allocated(std::size_t bytes, Get get) {
     handler();
   }
 }
+
+/// Where not even a byte can be had, the initialisers of libraries end in a stack overflow; so this comes before them.
+void refuse_to_start_without_memory() {
+  void* place = mi_malloc(1);
+  if (place == nullptr) {
+    constexpr std::string_view message = "ashlar: error: out of memory before the program has begun\n";
+    (void)!::write(STDERR_FILENO, message.data(), message.size());
+    ::_exit(1);
+  }
+  mi_free(place);
+}
+
+[[gnu::section(".preinit_array"),
+  gnu::used]] void (*const before_libraries)() = refuse_to_start_without_memory;
 
 }  // namespace
 

@@ -26,7 +26,7 @@ struct CoreScene {
 /// Of a class whose objects the extension alone makes: Python's NAME.__new__(NAME) would be one that holds nothing.
 inline pybind11::custom_type_setup made_here() {
   return pybind11::custom_type_setup([](PyHeapTypeObject* type) {
-    type->as_type.tp_new = [](PyTypeObject* of, PyObject*, PyObject*) -> PyObject* {
+    type->ht_type.tp_new = [](PyTypeObject* of, PyObject*, PyObject*) -> PyObject* {
       PyErr_Format(PyExc_TypeError, "objects of %s are made by ashlar alone", of->tp_name);
       return nullptr;
     };

@@ -14,7 +14,7 @@ namespace ashlar {
 void ContactChanges::note(const Simulation& simulation) {
   ++iteration_;
   for (auto& [blocks, pair] : pairs_)
-    while (!pair.changes.empty() && pair.changes.front() <= iteration_ - window) pair.changes.pop_front();
+    std::erase_if(pair.changes, [this](int change) { return change <= iteration_ - window; });
   std::map<std::array<int, 2>, std::array<int, 3>> now;
   for (const PairRecord& record : simulation.contacts()) {
     std::array<int, 3>& states = now[{record.a, record.b}];

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/run/simulation.hpp"
 
@@ -29,10 +29,17 @@ class ContactChanges {
   /// The pair whose contacts changed most often; empty if none did in the last iterations.
   [[nodiscard]] std::optional<Alternating> most() const;
 
+  /// Lists all members, for a checkpoint.
+  template <class Archive>
+  friend void visit_members(Archive& archive, ContactChanges& changes) {
+    auto& [pairs, iteration] = changes;
+    archive(pairs, iteration);
+  }
+
  private:
   struct Pair {
     std::array<int, 3> states = {};  ///< points by ContactState, in the last iteration
-    std::deque<int> changes;         ///< iterations of the window in which they were others than before
+    std::vector<int> changes;        ///< iterations of the window in which they were others than before
   };
   std::map<std::array<int, 2>, Pair> pairs_;
   int iteration_ = 0;

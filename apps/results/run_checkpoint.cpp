@@ -42,8 +42,7 @@ std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t
       payload_hash = hash_bytes(bytes, payload_hash);
       file.write(bytes);
     });
-    write_snapshot(payload, checkpoint.simulation);
-    payload(checkpoint.stages, checkpoint.folder, checkpoint.seconds);
+    payload(checkpoint);
     payload.flush();
     ByteWriter end;
     end(payload_hash);
@@ -84,8 +83,7 @@ RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t h
     }
     ByteReader reader(left.substr(0, size));
     RunCheckpoint checkpoint;
-    checkpoint.simulation = read_snapshot(reader);
-    reader(checkpoint.stages, checkpoint.folder, checkpoint.seconds);
+    reader(checkpoint);
     return checkpoint;
   } catch (const CheckpointError&) {
     throw;

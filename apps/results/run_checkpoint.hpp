@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/results/contact_changes.hpp"
 #include "apps/results/result_folder.hpp"
 #include "apps/results/run_summary.hpp"
 #include "solver/run/checkpoint.hpp"
@@ -19,6 +20,7 @@ struct RunCheckpoint {
   std::vector<FinishedStage> stages;  ///< those before
   ResultFolderState folder;
   RunSeconds seconds;
+  ContactChanges changes;  ///< of static iterations of the present stage
 };
 
 /// Why a run cannot go on: no checkpoint, a damaged one, or one of another scene. what() reads as a message

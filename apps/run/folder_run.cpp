@@ -45,7 +45,9 @@ FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStar
       bracket_(std::move(start.bracket)),
       built_(std::move(start.built)),
       files_(loaded, std::move(start.identity), claim, built_.simulation, start.earlier, start.began),
-      saved_(start.earlier != nullptr) {}
+      saved_(start.earlier != nullptr) {
+  if (start.earlier != nullptr) changes_ = start.earlier->changes;
+}
 
 RunEnd FolderRun::go(std::ostream& err) {
   files_.note_setup();
@@ -67,7 +69,7 @@ RunEnd FolderRun::go(std::ostream& err) {
 }
 
 void FolderRun::save() {
-  files_.save(built_.simulation.snapshot(), stages_);
+  files_.save(built_.simulation.snapshot(), stages_, changes_);
   saved_ = true;
 }
 
@@ -105,6 +107,7 @@ bool FolderRun::begin_next_stage(RunStatus status) {
   }
   stages_.push_back(finished(status));
   message_.clear();
+  changes_.forget();
   built_ = std::move(built);
   scene_ = next.scene;
   double elapsed = 0.0;
@@ -162,7 +165,6 @@ RunStatus FolderRun::answered(RunStatus status) {
 RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
-  ContactChanges changes;
   while (!InterruptGuard::interrupted()) {
     const int before = simulation.steps();
     StaticStatus status = StaticStatus::balancing;
@@ -175,7 +177,7 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
       return failed_in_step(error);
     }
     if (simulation.steps() > before) {
-      changes.note(simulation);
+      changes_.note(simulation);
       record_step(schedule, progress);
     }
     switch (status) {
@@ -188,7 +190,7 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
         message_ = describe_motion(simulation);
         return RunStatus::moving;
       case StaticStatus::not_converged:
-        message_ = describe_unconverged(simulation, changes);
+        message_ = describe_unconverged(simulation, changes_);
         return RunStatus::not_converged;
     }
   }
@@ -226,7 +228,7 @@ RunStatus FolderRun::saved_after(const std::exception& error) {
   message_ = fmt::format("results of step {} at t = {:.9g} s could not be written: {}",
                          built_.simulation.steps(), built_.simulation.time(), fault_text(error));
   try {
-    files_.save_in_reserve(built_.simulation.snapshot(), stages_);
+    files_.save_in_reserve(built_.simulation.snapshot(), stages_, changes_);
   } catch (const std::exception& fault) {
     unsaved_ = fault_text(fault);
   }

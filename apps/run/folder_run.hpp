@@ -73,6 +73,7 @@ class FolderRun {
   Scene scene_;                        ///< of the present stage
   std::optional<FactorBracket> bracket_;
   BuiltSimulation built_;
+  ContactChanges changes_;  ///< of static iterations of the present stage
   RunFiles files_;
   bool saved_ = false;
   std::string message_;  ///< see RunEnd

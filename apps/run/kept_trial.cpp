@@ -16,10 +16,13 @@ namespace {
 constexpr double seconds_between_lines = 5.0;  // as ProgressLine where stderr is no terminal
 
 /// The state of a trial that was stopped. Where there is none that is whole and of this factor, it starts anew.
-void restore(Simulation& simulation, const std::filesystem::path& path, std::uint64_t hash) {
+void restore(Simulation& simulation, ContactChanges& changes, const std::filesystem::path& path,
+             std::uint64_t hash) {
   if (!std::filesystem::exists(path)) return;
   try {
-    simulation.restore(read_checkpoint(path, hash).simulation);
+    const RunCheckpoint state = read_checkpoint(path, hash);
+    simulation.restore(state.simulation);
+    changes = state.changes;
   } catch (const CheckpointError&) {
     std::filesystem::remove(path);
   }
@@ -42,18 +45,20 @@ std::optional<FactorTrial> KeptTrial::run(double factor, const std::function<boo
   reason_.clear();
   if (!built) return FactorTrial{factor, TrialOutcome::unknown, 0};
   Simulation& simulation = built->simulation;
-  restore(simulation, path_, hash_of(factor));
+  ContactChanges changes;
+  restore(simulation, changes, path_, hash_of(factor));
+  const int restored = simulation.steps();
   const auto save = [&] {
     RunCheckpoint state;
     state.simulation = simulation.snapshot();
+    state.changes = changes;
     write_checkpoint(path_, hash_of(factor), state);
   };
   CheckpointSchedule schedule(manner_.checkpoint_interval, RunClock::now());
-  ContactChanges changes;
   double told = RunClock::now();
   const auto at_iteration = [&] {
     iterations_ = simulation.steps();
-    if (iterations_ > 0) changes.note(simulation);
+    if (iterations_ > restored) changes.note(simulation);
     if (!goes_on()) {
       save();
       return false;

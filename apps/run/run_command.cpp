@@ -218,7 +218,7 @@ void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem
 /// Puts no text together: there may be no memory for it.
 void tell_missing_memory(const std::bad_alloc& error, const FolderRun& run,
                          const std::filesystem::path& folder, std::ostream& err) {
-  err << "ashlar: error: " << missing_memory(error) << " after step " << run.simulation().steps();
+  err << "ashlar: error: after step " << run.simulation().steps() << ": " << missing_memory(error);
   if (run.saved())
     err << "; the state saved last is in " << folder.native() << ", the same command with --resume goes on\n";
   else

@@ -30,22 +30,25 @@ void RunFiles::add_step(const Simulation& simulation) {
   tables_.add_step(simulation);
 }
 
-void RunFiles::write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
+void RunFiles::write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
+                           const ContactChanges& changes) {
   claim_.check();
   state_bytes_ = write_checkpoint(tables_.path() / checkpoint_name, identity_.scene,
-                                  {state, stages, tables_.synced_state(), seconds()});
+                                  {state, stages, tables_.synced_state(), seconds(), changes});
 }
 
-void RunFiles::save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
-  write_state(state, stages);
+void RunFiles::save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
+                    const ContactChanges& changes) {
+  write_state(state, stages, changes);
   // The next state, which may have more contacts, and the summary fit in beside the state that is there.
   constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
   reserve_.hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
 }
 
-void RunFiles::save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages) {
+void RunFiles::save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
+                               const ContactChanges& changes) {
   reserve_.release();
-  write_state(state, stages);
+  write_state(state, stages, changes);
 }
 
 void RunFiles::write_summary(const nlohmann::ordered_json& summary) const {

@@ -38,9 +38,11 @@ class RunFiles {
   [[nodiscard]] const ResultFolder& tables() const { return tables_; }
 
   /// Writes a checkpoint and keeps room for the next one and a summary.
-  void save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages);
+  void save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
+            const ContactChanges& changes);
   /// The same in the room that was kept, for a disk that is full.
-  void save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages);
+  void save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
+                       const ContactChanges& changes);
   void write_summary(const nlohmann::ordered_json& summary) const;
   /// The same in the room that was kept.
   void write_summary_in_reserve(const nlohmann::ordered_json& summary);
@@ -51,7 +53,8 @@ class RunFiles {
   void add_output_seconds(double seconds) { seconds_.output += seconds; }
 
  private:
-  void write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages);
+  void write_state(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
+                   const ContactChanges& changes);
 
   const FolderClaim& claim_;
   double start_;

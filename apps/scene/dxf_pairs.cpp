@@ -19,7 +19,7 @@ std::string_view without_blanks(std::string_view text) {
                                          : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// Whether all of a text is a number. std::from_chars knows no plus sign.
+/// Reads a text that is one number as a whole. std::from_chars knows no plus sign.
 template <class Number>
 bool read_number(std::string_view text, Number& value) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);

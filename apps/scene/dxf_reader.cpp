@@ -287,7 +287,7 @@ class DxfReader {
     return layout;
   }
 
-  /// What a block stands for. Its shapes are added to the layout. @param level of blocks in blocks
+  /// Size of a block with its inserts. Its shapes are added to the layout. @param level of blocks in blocks
   LayoutSize size_of(const Block& block, ShapeLayout& layout, int level) {
     const auto [found, is_new] = known_.try_emplace(&block);
     std::optional<Known>& known = found->second;

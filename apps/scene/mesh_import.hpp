@@ -25,7 +25,7 @@ inline constexpr const char* readable_mesh = "a readable OFF, OBJ, STL, PLY, MSH
 /// same name those after the first have their number behind it. @throws MeshFileError as above
 [[nodiscard]] std::vector<MeshGroup> read_mesh_file_groups(const std::filesystem::path& path);
 
-/// What an imported file does not say, its unit or which way is up; none of other formats.
+/// A warning of what an imported file does not say, its unit or which way is up; none of other formats.
 [[nodiscard]] std::optional<std::string> import_warning(const std::filesystem::path& path);
 
 }  // namespace ashlar

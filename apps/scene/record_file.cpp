@@ -13,6 +13,7 @@
 
 #include "apps/scene/input_file.hpp"
 #include "apps/scene/nearest_name.hpp"
+#include "apps/scene/peer_record.hpp"
 
 namespace ashlar {
 namespace {
@@ -66,6 +67,8 @@ class RecordReader {
       std::string_view text = line;
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
       const std::string_view content = trimmed(text);
+      if (line_ == 1 && begins_peer_record(content))
+        return parse_peer_record(record_, stream, name_, diagnostics_);
       if (const std::size_t ended = content.find('\r'); ended != std::string_view::npos) {
         fault(
             static_cast<int>(content.data() - line.data() + static_cast<std::ptrdiff_t>(ended)) + 1,
@@ -105,12 +108,6 @@ class RecordReader {
   }
 
   bool find_columns(std::string_view line) {
-    if (line.starts_with("PEER ")) {
-      fault(1, fmt::format("a PEER record has no line of column names and no times (\"{}\"), {} and rows of "
-                           "numbers are needed",
-                           trimmed(line), wanted()));
-      return false;
-    }
     separator_ = separator_of(line);
     std::vector<std::string> names;
     for (const Field& field : fields_of(line, separator_)) names.emplace_back(field.text);
@@ -204,7 +201,7 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
     const bool there = std::filesystem::exists(path, ignored);
-    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable CSV file is needed",
+    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable record is needed",
                                          path.string(), there ? "is no file" : "there is no such file"));
     return std::nullopt;
   }
@@ -212,7 +209,7 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
   try {
     content.str(whole_file(path, most_input_bytes));
   } catch (const std::runtime_error& reason) {
-    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable CSV file is needed",
+    diagnostics.error(place, fmt::format("record cannot be read (\"{}\": {}), a readable record is needed",
                                          path.string(), fault_text(reason)));
     return std::nullopt;
   }

@@ -1,4 +1,5 @@
-// Records (of an earthquake, of a load) from CSV files: a line of column names, then a line for each time.
+// Records (of an earthquake, of a load) from CSV files: a line of column names, then a line for each time. Files of
+// other kinds are told by their first line (peer_record.hpp).
 #pragma once
 
 #include <filesystem>

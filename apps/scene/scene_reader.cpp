@@ -315,6 +315,8 @@ static std::string scene_text(const std::filesystem::path& file) {
   if (std::filesystem::is_character_file(file, ignored)) throw std::runtime_error("is a device");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(std::strerror(errno));
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  if (!ignored && size > most_input_bytes) throw std::runtime_error(too_large(size));
   return whole_stream(stream, most_input_bytes);
 }
 

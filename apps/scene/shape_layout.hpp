@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// What a file stands for once its shapes are placed. Counted in double, which has no overflow.
+/// Size of a file once its shapes are placed. Counted in double, which has no overflow.
 struct LayoutSize {
   double placements = 0.0;  ///< also of groups, which place others
   double faces = 0.0;

@@ -58,7 +58,13 @@ toml::table parse_toml(std::string_view text, std::string_view origin) {
     position.column = static_cast<toml::source_index>(before.size() - (before.rfind('\n') + 1) + 1);
     throw toml::parse_error("a key of more than 1000 parts", position);
   }
-  return toml::parse(text, origin);
+  try {
+    return toml::parse(text, origin);
+  } catch (const toml::parse_error&) {
+    // It reads numbers through streams, which swallow a failed allocation: "0.5" is then no number. What is malformed is
+    // so the second time too.
+    return toml::parse(text, origin);
+  }
 }
 
 std::string describe(const toml::node& node) {

@@ -29,7 +29,7 @@ class XmlAttributes {
   const char** list_;
 };
 
-/// What is done with elements; a MeshFileError that is thrown gets the place of the tag.
+/// Receives elements; a MeshFileError that it throws gets the place of the tag.
 class XmlHandler {
  public:
   virtual ~XmlHandler() = default;

@@ -203,8 +203,10 @@ void triangulate_polygon(const std::vector<Vector3>& points, std::span<const int
     const bool turned = backwards.is_less_than(forwards);
     const std::size_t first = triangles.size();
     EarClipper(points, (turned ? backwards : forwards).corners(), tests_left).run(triangles);
-    for (std::size_t k = first; turned && k < triangles.size(); ++k)
-      std::swap(triangles[k][1], triangles[k][2]);
+    if (!turned) return;
+    const auto begin = triangles.begin() + static_cast<std::ptrdiff_t>(first);
+    std::for_each(begin, triangles.end(), [](auto& triangle) { std::swap(triangle[1], triangle[2]); });
+    std::reverse(begin, triangles.end());
     return;
   }
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {

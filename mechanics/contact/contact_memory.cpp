@@ -217,7 +217,7 @@ std::vector<PointMemory> ContactMemory::of_same(const std::vector<ContactPoint>&
 
 void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory,
                           double deepest, const SpringEnergy& held, double bulge,
-                          std::vector<PressureCut> cuts) {
+                          std::vector<PressureCut> cuts, const std::vector<FacePair>& turned) {
   entries_.clear();
   entries_.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -225,7 +225,7 @@ void ContactMemory::store(const std::vector<ContactPoint>& points, std::vector<P
                         points[k].normal, points[k].area, memory[k]});
   }
   cuts_ = std::move(cuts);
-  turning_ = turning_faces(entries_, turning_);
+  turning_ = turning_faces(entries_, turned);
   deepest_ = deepest;
   bulge_ = bulge;
   held_ = held;

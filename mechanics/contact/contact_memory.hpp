@@ -75,8 +75,10 @@ class ContactMemory {
 
   /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
   /// springs at its end
+  /// @param turned faces over which friction turned in the step before
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
-             const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {});
+             const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {},
+             const std::vector<FacePair>& turned = {});
 
   /// Begins a load level: what slipped in the last one has slipped for good.
   void start_level();

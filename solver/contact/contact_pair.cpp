@@ -22,9 +22,11 @@ double reduced_mass(const BlockModel& a, const BlockModel& b) {
 }  // namespace
 
 ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-                         std::vector<PointMemory> memory, std::vector<PressureCut> cuts)
+                         std::vector<PointMemory> memory, std::vector<PressureCut> cuts,
+                         std::vector<FacePair> turning)
     : ContactPair(bodies, law, std::move(points), std::move(memory), nullptr) {
   cuts_ = std::move(cuts);
+  turning_ = std::move(turning);
 }
 
 ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffness)
@@ -37,6 +39,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, const Ke
     : ContactPair(bodies, law, kept.points, std::move(memory),
                   PairRows(bodies.of_a, bodies.of_b, kept.points, kept.lasting->rows), false) {
   cuts_ = kept.lasting->found.cuts;
+  turning_ = kept.lasting->found.turning;
   lasting_ = kept.lasting;
   kind_.goes_on = true;
   if (law.augmented) return;

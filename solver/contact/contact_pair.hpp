@@ -43,9 +43,10 @@ struct BondedArea {
 /// makes the gap that of the end of the step (notes/contact_at_the_end_of_a_step.md).
 class ContactPair {
  public:
-  /// @param cuts that the points come from, to be remembered
+  /// @param cuts,turning that the points come from, to be remembered
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-              std::vector<PointMemory> memory, std::vector<PressureCut> cuts = {});
+              std::vector<PointMemory> memory, std::vector<PressureCut> cuts = {},
+              std::vector<FacePair> turning = {});
 
   /// Contacts that were known (lasting_contacts.hpp). @param memory of the same points. Springs go on from where the
   /// last step left them, multipliers as hold_where_found() says
@@ -74,6 +75,8 @@ class ContactPair {
   [[nodiscard]] const std::vector<ContactPoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<PointMemory>& memory() const { return memory_; }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
+  /// Faces over which friction turned in the step before.
+  [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
   /// What may last of its contacts; null: nothing.
   [[nodiscard]] const std::shared_ptr<const LastingContacts>& lasting() const { return lasting_; }
   void may_last(std::shared_ptr<const LastingContacts> lasting) { lasting_ = std::move(lasting); }
@@ -244,6 +247,7 @@ class ContactPair {
   std::vector<ContactPoint> points_;
   std::vector<PointMemory> memory_;
   std::vector<PressureCut> cuts_ = {};
+  std::vector<FacePair> turning_ = {};
   std::shared_ptr<const LastingContacts> lasting_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;

@@ -6,6 +6,42 @@
 #include "geometry/index.hpp"
 
 namespace ashlar {
+namespace {
+
+/// A pair that lacks energy, and the pairs with a common block that have lost some.
+struct Claim {
+  double lacking = 0.0;         ///< J
+  double received = 0.0;        ///< J
+  std::vector<double*> losses;  ///< J, what is left of them; each once
+};
+
+/// Shares out losses in proportion to what claims lack, which no order of blocks changes. Each round satisfies a
+/// claim, or leaves nothing that anyone lacks.
+void share_out(std::vector<Claim>& claims) {
+  bool satisfied = true;
+  while (satisfied) {
+    satisfied = false;
+    std::map<double*, double> lacking;  // by all that claim a loss
+    for (const Claim& claim : claims)
+      for (double* loss : claim.losses) lacking[loss] += claim.lacking;
+    std::map<double*, double> taken;
+    for (Claim& claim : claims) {
+      if (!(claim.lacking > 0.0)) continue;
+      double offered = 0.0;
+      for (double* loss : claim.losses) offered += *loss * (claim.lacking / lacking[loss]);
+      if (!(offered > 0.0)) continue;
+      const bool enough = offered >= claim.lacking;
+      const double share = enough ? claim.lacking / offered : 1.0;
+      for (double* loss : claim.losses) taken[loss] += share * *loss * (claim.lacking / lacking[loss]);
+      claim.received += share * offered;
+      claim.lacking = enough ? 0.0 : claim.lacking - offered;
+      satisfied = satisfied || enough;
+    }
+    for (const auto& [loss, energy] : taken) *loss = std::max(0.0, *loss - energy);
+  }
+}
+
+}  // namespace
 
 std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs, const PairHistories& histories,
                                         const std::vector<bool>& moving) {
@@ -28,30 +64,21 @@ std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs, c
     for (const int block : blocks)
       if (moving[at(block)]) lost_at[block].push_back(blocks);
   }
-  const auto sharing = [&](const PairKey& blocks) {
-    std::vector<PairKey> others;
-    for (const int block : blocks) {
-      if (const auto known = lost_at.find(block); known != lost_at.end())
-        others.insert(others.end(), known->second.begin(), known->second.end());
-    }
-    std::sort(others.begin(), others.end());
-    return others;
-  };
+  std::vector<Claim> claims(pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const PairKey blocks{pairs[k].a(), pairs[k].b()};
     if (!pairs[k].can_be_bounded()) continue;
-    double lacking = pairs[k].start_energies().normal - bounds[k].normal;
-    if (!(lacking > 0.0)) continue;
-    for (const PairKey& other : sharing(blocks)) {
-      double& rest = lost.at(other);
-      if (!(lacking > 0.0)) break;
-      if (!(rest > 0.0) || other == blocks) continue;
-      const double taken = std::min(rest, lacking);
-      bounds[k].normal += taken;
-      rest -= taken;
-      lacking -= taken;
+    claims[k].lacking = std::max(0.0, pairs[k].start_energies().normal - bounds[k].normal);
+    if (!(claims[k].lacking > 0.0)) continue;
+    const PairKey blocks{pairs[k].a(), pairs[k].b()};
+    for (const int block : blocks) {
+      const auto known = lost_at.find(block);
+      if (known == lost_at.end()) continue;
+      for (const PairKey& other : known->second)
+        if (other != blocks) claims[k].losses.push_back(&lost.at(other));
     }
   }
+  share_out(claims);
+  for (std::size_t k = 0; k < pairs.size(); ++k) bounds[k].normal += claims[k].received;
   return bounds;
 }
 

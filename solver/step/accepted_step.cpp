@@ -262,7 +262,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   history.bonded = std::max(history.bonded, history.broken + bonds.left);
   history.lasting = pair.lasting();
   history.memory.store(pair.points(), std::move(remembered), deepest, ContactPair::energies(response), bulge,
-                       pair.cuts());
+                       pair.cuts(), pair.turning());
   // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.
   std::vector<PointResponse> acted = response.points;
   for (std::size_t k = 0; k < acted.size(); ++k) {

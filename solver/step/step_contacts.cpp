@@ -281,16 +281,18 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.
   if (points.empty()) return std::nullopt;
+  // Other points than before have pressure in common, not forces: those of a finer rule are no successors of single ones.
   auto memory = known.memory.recall(
       points, state.has_begun() ? -std::numeric_limits<double>::infinity() : settings.contact_distance,
-      use == PairUse::statics && settings.area_springs);
+      use == PairUse::statics && settings.area_springs && points.size() == known.memory.entries().size());
   law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
   std::vector<Vector3> moved;
   if (use == PairUse::statics && !state.statics.level_start.empty()) {
     moved = moved_in_level(system, state, blocks, points);
     if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
   }
-  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory), made.cuts);
+  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory), made.cuts,
+                   made.turning);
   if (may_last(system, found, use)) {
     LastingContacts lasting = as_found(finder_, state, {blocks, found.reach}, law, contacts);
     lasting.found = std::move(made);

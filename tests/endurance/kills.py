@@ -49,10 +49,11 @@ class Kind:
                         *(word for key in entry["set"] for word in ("--set", key))]
         self.reference = folder / f"{name}.straight"
         begin = time.monotonic()
-        status, errors = self.run(self.reference, MANNERS[0])
+        # A run that finds no equilibrium, say, has to end likewise.
+        self.status, errors = self.run(self.reference, MANNERS[0])
         self.seconds = time.monotonic() - begin
-        if status != 0:
-            raise Failure(f"exit status {status} of a run that is not stopped: {errors}")
+        if self.status < 0 or self.status in (REFUSED, STOPPED):
+            raise Failure(f"exit status {self.status} of a run that is not stopped: {errors}")
 
     def arguments(self, out, manner):
         return [*self.command, "--out", str(out), *manner]
@@ -61,6 +62,19 @@ class Kind:
         """Runs to the end; returns the exit status and what was said."""
         done = subprocess.run(self.arguments(out, manner), capture_output=True, text=True, check=False)
         return done.returncode, done.stderr
+
+
+def missing(program, names):
+    """Kinds that there have to be: of each demo scene, key of contact and joints, and word of the analysis."""
+    schema = json.loads(subprocess.run([program, "schema"], capture_output=True, text=True, check=True).stdout)
+    keys = schema["properties"]
+    analysis = keys["analysis"]["properties"]
+    needed = ["demo_" + scene.stem for scene in (HERE / "../../data/scenes").glob("*.toml")]
+    needed += ["contact_" + key for key in keys["contact"]["properties"]]
+    needed += ["joint_" + key for key in keys["joint"]["items"]["properties"] if key not in ("blocks", "cut")]
+    for key, start in (("solver", "solver_"), ("integrator", "integrator_"), ("initial_state", "start_"), ("type", "")):
+        needed += [start + word.replace("-", "_") for word in analysis[key]["enum"] if word not in ("as-placed", "dynamic")]
+    return sorted(set(needed) - set(names))
 
 
 def end_at(kind, out, manner, moment, ending):
@@ -76,7 +90,7 @@ def end_at(kind, out, manner, moment, ending):
         return "ended"
     if process.returncode == REFUSED and "cannot resume" in errors:
         return "unfit"
-    if process.returncode != 0:
+    if process.returncode != kind.status:
         raise Failure(f"exit status {process.returncode}: {errors}")
     return "done"
 
@@ -129,7 +143,7 @@ def trial(kind, chance, most, out):
     status, errors = kind.run(out, manner + goes_on(out))
     if status == REFUSED and forced and "cannot resume" in errors:
         status, errors = kind.run(out, manner + ["--force"])
-    if status != 0:
+    if status != kind.status:
         raise Failure(f"exit status {status}: {errors}")
     wrong = differences(kind.reference, out)
     if wrong:
@@ -146,7 +160,11 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder", help="where results are written; one in memory is faster")
     options = parser.parse_args()
-    entries = {name: entry for name, entry in json.loads((HERE / "kinds.json").read_text()).items()
+    every = json.loads((HERE / "kinds.json").read_text())
+    if missing(options.program, every):
+        print(f"kinds.json has nothing of this name: {', '.join(missing(options.program, every))}")
+        return 1
+    entries = {name: entry for name, entry in every.items()
                if any(fnmatch.fnmatchcase(name, pattern) for pattern in options.kinds)}
     if not entries:
         parser.error("no kind has such a name")

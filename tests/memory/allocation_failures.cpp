@@ -1,11 +1,12 @@
 // The program with its n-th allocation failing, for many n: it must end with a message and exit status 1, or as without a
 // failure where the allocation was not needed, and a run must keep a state that goes on to the same results.
 //
-//   allocation_failures [--first N] [--last N] [--step N] [--from-then-on] [--all] [--trace] [--folder DIR] -- ARGUMENTS
+//   allocation_failures [--first N] [--last N] [--step N] [--from-then-on] [--all] [--trace] [--bare] [--folder DIR] -- ARGUMENTS
 //
 // ARGUMENTS are those of `ashlar`. Counted is operator new, as the program's own replacement of it would fail, and with
 // --all each allocation of the C library too. Each n has a process of its own. --from-then-on: all later ones fail as well.
 // --folder: what a run writes, removed before each n. --trace: where the allocation was asked for.
+// --bare: without the program's handler of std::terminate, so that what it is needed for aborts.
 #include <execinfo.h>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -45,6 +46,7 @@ struct Failure {
   bool armed = false;
   bool all = false;  ///< the C library's allocations count too
   bool from_then_on = false;
+  bool bare = false;  ///< without the last resort
   bool trace = false;
   long number = 0;  ///< 1: the first one
 };
@@ -174,6 +176,9 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// Of the handler of std::terminate, which libraries bring about that declare functions noexcept and allocate in them.
+constexpr const char* last_resort = "a run keeps the last state that it saved";
+
 /// One command in a process of its own. @param number of the allocation that fails; 0: none
 Ending run_once(const std::vector<std::string>& arguments, long number,
                 const std::filesystem::path& scratch) {
@@ -187,10 +192,9 @@ Ending run_once(const std::vector<std::string>& arguments, long number,
       const int descriptor = open(file.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0666);
       if (descriptor < 0 || dup2(descriptor, stream) < 0) _exit(99);
     }
-    // Aborts are what is looked for: the program's own last resort is left out.
     const std::terminate_handler aborts = std::get_terminate();
     ashlar::prepare_for_missing_memory();
-    std::set_terminate(aborts);
+    if (failure.bare) std::set_terminate(aborts);
     std::vector<std::string> own = arguments;
     failure.number = number;
     failure.armed = number > 0;
@@ -214,9 +218,8 @@ std::string fault_of(const Ending& ending, const Ending& reference) {
 }
 
 /// Goes on with a run that ended for memory. @return what is wrong then
-std::string fault_of_resume(const Options& options, const Ending& ending, const std::string& history,
+std::string fault_of_resume(const Options& options, const std::string& history,
                             const std::filesystem::path& scratch) {
-  if (ending.said.find("--resume goes on") == std::string::npos) return "";
   std::vector<std::string> arguments = options.arguments;
   arguments.emplace_back("--resume");
   const Ending resumed = run_once(arguments, 0, scratch);
@@ -234,15 +237,17 @@ int tried(const Options& options) {
   begin();
   const Ending reference = run_once(options.arguments, 0, scratch);
   const std::string history = options.folder.empty() ? "" : text_of(options.folder / "history.csv");
-  long tries = 0, faults = 0, resumed = 0;
+  long tries = 0, faults = 0, resumed = 0, resorts = 0;
   long number = options.first;
   for (; number <= options.last; number += options.step, ++tries) {
     begin();
     const Ending ending = run_once(options.arguments, number, scratch);
     if (!ending.failed) break;
     std::string fault = fault_of(ending, reference);
-    if (fault.empty() && !options.folder.empty() && ending.said.find("--resume") != std::string::npos) {
-      fault = fault_of_resume(options, ending, history, scratch);
+    if (ending.said.find(last_resort) != std::string::npos) ++resorts;
+    if (fault.empty() && ending.status != reference.status && !options.folder.empty() &&
+        std::filesystem::exists(options.folder / "checkpoint")) {
+      fault = fault_of_resume(options, history, scratch);
       ++resumed;
     }
     if (fault.empty()) continue;
@@ -250,10 +255,12 @@ int tried(const Options& options) {
     fmt::print("allocation {}: {}\n{}\n", number, fault, ending.said);
   }
   fmt::print(
-      "{} allocations failed up to number {}, {} runs resumed, {} faults; without a failure exit status {}\n",
-      tries, number, resumed, faults, reference.status);
+      "{} allocations failed up to number {}: {} ended by the last resort, {} runs went on, {} faults, exit "
+      "status {} "
+      "without a failure\n",
+      tries, number, resorts, resumed, faults, reference.status);
   std::filesystem::remove_all(scratch);
-  return faults == 0 && tries > 0 ? 0 : 1;
+  return faults == 0 && tries > 0 && reference.status == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -281,6 +288,8 @@ int main(int count, char** texts) {
       failure.from_then_on = true;
     else if (option == "--all")
       failure.all = true;
+    else if (option == "--bare")
+      failure.bare = true;
     else if (option == "--trace")
       failure.trace = true;
     else

@@ -47,6 +47,15 @@ TEST_F(DrawnVault, ADomeWhoseStonesShareTheirPolygonsIsAcceptedAsItIs) {
   EXPECT_THAT(faults_, Not(HasSubstr("overlap")));
 }
 
+// Displacements of a few hundredths of a millimetre: the stones stay where they were drawn.
+TEST_F(DrawnVault, ADomeOf90StonesStands) {
+  draw(test_support::drawn_dome(6, 15));
+  ASSERT_EQ(run("out"), exit_status::done) << faults_;
+  const auto summary = parse_json(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "equilibrium");
+  EXPECT_LT(summary["largest_displacement"]["value"], 1e-4);
+}
+
 TEST_F(DrawnVault, ACrossVaultOf184StonesNeedsAnAllowedOverlap) {
   const auto stones = test_support::drawn_cross_vault({4, 4, 4, 4, 3, 2, 2});
   ASSERT_EQ(stones.size(), 184U);

@@ -228,8 +228,7 @@ TEST_F(RunCommand, FaultsOfRecordsHaveTheirPlace) {
        "needed"},
       {"t,a\r\n0,1\r1,2\r\n", "r.csv:2:4: error: lines are ended by carriage returns alone (byte 13)"},
       {"PEER NGA STRONG MOTION DATABASE RECORD\nA SINE\nACCELERATION TIME SERIES IN UNITS OF G\n",
-       "r.csv:1:1: error: a PEER record has no line of column names and no times (\"PEER NGA STRONG MOTION "
-       "DATABASE RECORD\"), columns \"t\", \"a\" and rows of numbers are needed"},
+       "r.csv:3:1: error: PEER record ends in its head (3 lines); 4 lines and values are needed"},
       {"t;a\n0;1,5\n",
        "r.csv:2:3: error: no number (\"1,5\"), a finite number with a decimal point, not a comma, is"}};
   for (const auto& [content, fault] : cases) {

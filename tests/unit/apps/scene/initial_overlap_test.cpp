@@ -15,6 +15,7 @@ namespace ashlar::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 Polyhedron turned(const Polyhedron& solid, double degrees) {

@@ -190,7 +190,7 @@ void store_around(ContactMemory& memory, const std::array<Vector3, 4>& direction
     memories.push_back(slipped(1e-6 * directions[k]));
     memories.back().state = k == 3 ? state_of_last : state;
   }
-  memory.store(points, memories, 0.0, {});
+  memory.store(points, memories, 0.0, {}, 0.0, {}, memory.turning());
 }
 
 TEST(ContactMemory, FrictionTurnsOverAFaceThatTwistsOnceAllOfItSlides) {

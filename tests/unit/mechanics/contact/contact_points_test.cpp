@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/index.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar {
@@ -93,7 +94,10 @@ TEST(ContactPoints, CountGapsOfCrossedEdgesFromWhereTheyWerePlaced) {
       mesh.points.push_back(middle - across + Vector3(0, 0, back));
     }
     mesh.triangles = {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {2, 3, 0}};
-    if (along.cross(across).z() * (back - edge) < 0.0)
+    double volume = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      volume += mesh.points[at(a)].dot(mesh.points[at(b)].cross(mesh.points[at(c)]));
+    if (volume < 0.0)
       for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
     return Polyhedron(std::move(mesh));
   };

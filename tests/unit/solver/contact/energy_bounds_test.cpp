@@ -56,10 +56,10 @@ TEST(EnergyBounds, ABlockTakesAlongWhatItNoLongerHoldsElsewhere) {
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 3)}, memory, all_move), (std::vector<double>{6}));
   // Shear does not.
   EXPECT_EQ(energy_bounds({pair_at_depth(0, 2, 3)}, memory, all_move)[0].shear, 0.0);
-  // 1 J of the 6 J is still held there; the first of the others takes 4 of the 5 J.
+  // 1 J of the 6 J is still held there; the others, which lack 4 J each, have half of the 5 J each.
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 1), pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, memory,
                           all_move),
-            (std::vector<double>{6, 4, 1}));
+            (std::vector<double>{6, 2.5, 2.5}));
   // All of it is: found deeper, it keeps its own.
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 3), pair_at_depth(0, 2, 2)}, memory, all_move),
             (std::vector<double>{6, 0}));
@@ -67,6 +67,27 @@ TEST(EnergyBounds, ABlockTakesAlongWhatItNoLongerHoldsElsewhere) {
   EXPECT_EQ(
       normal_bounds({pair_at_depth(0, 2, 3)}, {{{0, 1}, that_held(6)}, {{0, 2}, that_held(1)}}, all_move),
       (std::vector<double>{7}));
+}
+
+TEST(EnergyBounds, AreSharedOutByWhatIsLackedInAnyOrder) {
+  // Pairs at block 0 lack 4 and 16 J of the 10 J that were lost there: 2 and 8 J.
+  const PairHistories memory = {{{0, 1}, that_held(10)}};
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 4)}, memory, all_move),
+            (std::vector<double>{2, 8}));
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 4), pair_at_depth(0, 3, 2)}, memory, all_move),
+            (std::vector<double>{8, 2}));
+  // Of 12 J at block 0 both lack 4 J, and have 4 J. One of them has block 3 too, where 6 J were lost: what both
+  // lack is there, and no more than that is taken.
+  const PairHistories two = {{{0, 1}, that_held(12)}, {{1, 3}, that_held(6)}};
+  EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, two, all_move),
+            (std::vector<double>{4, 4}));
+  // Of 4 J at block 0 both would have 2 J of 4 J; the other one, which has 6 J at block 3 too, needs less of them.
+  const PairHistories scarce = {{{0, 1}, that_held(4)}, {{1, 3}, that_held(6)}};
+  const std::vector<double> shared =
+      normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, scarce, all_move);
+  EXPECT_EQ(shared[1], 4.0);
+  // It is offered 2 J and 6 J, and takes half of each; 3 J of the 4 J are left for the other, which lacks 4 J.
+  EXPECT_DOUBLE_EQ(shared[0], 3.0);
 }
 
 TEST(EnergyBounds, NothingGoesAlongWithAFixedBlock) {

@@ -1,0 +1,34 @@
+// Acceleration records as the PEER ground motion database delivers them (.AT2): four lines of head, of which the last
+// one has the number of values and the time between them, then the values in the order of time, several a line.
+//
+//   PEER NGA STRONG MOTION DATABASE RECORD
+//   (event, date, station, component)
+//   ACCELERATION TIME SERIES IN UNITS OF G
+//   NPTS=   4000, DT=   .0100 SEC,            or   4000  .0100  NPTS, DT
+#pragma once
+
+#include <istream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/scene/diagnostics.hpp"
+#include "apps/scene/scene_record.hpp"
+
+namespace ashlar {
+
+/// Whether a file that begins with this line is a record of PEER.
+[[nodiscard]] bool begins_peer_record(std::string_view line);
+
+/// The rows [time, values...] of a record: the first value is at time 0. Every column that `record` names has the values of
+/// the file times `record.scale`, the others are 0.
+/// @param content after its first line. @param name of the file, for messages
+/// @return none if there is a fault: the head has no NPTS and DT, a field is no number, there are more or fewer values than
+/// NPTS; each with its line and column
+[[nodiscard]] std::optional<std::vector<std::vector<double>>> parse_peer_record(const SceneRecord& record,
+                                                                                std::istream& content,
+                                                                                const std::string& name,
+                                                                                Diagnostics& diagnostics);
+
+}  // namespace ashlar
