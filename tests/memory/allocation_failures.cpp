@@ -252,7 +252,8 @@ int tried(const Options& options) {
     }
     if (fault.empty()) continue;
     ++faults;
-    fmt::print("allocation {}: {}\n{}\n", number, fault, ending.said);
+    fmt::print("allocation {}: {}\n{}{}\n", number, fault, ending.printed, ending.said);
+    std::fflush(stdout);  // or processes that follow would write it again
   }
   fmt::print(
       "{} allocations failed up to number {}: {} ended by the last resort, {} runs went on, {} faults, exit "

@@ -85,9 +85,9 @@ TEST_F(BlocksCommand, ListsTheBlocksWhereNamesOfPiecesAreWrong) {
   EXPECT_EQ(json.at("blocks").at(1).at("name"), "bar.1");
   const std::string alike =
       "\"bar.1\" to \"bar.2\" begin alike; the name of a [[block]] or a glob that matches one is needed";
-  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:19:10: warning: stage names no block (\"bar.1.inside*\"), "));
-  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:21:10: warning: joint names no block (\"bar.left\"), "));
-  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:24:10: warning: assign names no block (\"bar.x\"), "));
+  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:21:10: warning: stage names no block (\"bar.1.inside*\"), "));
+  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:23:10: warning: joint names no block (\"bar.left\"), "));
+  EXPECT_THAT(err_.str(), HasSubstr("bar.toml:26:10: warning: assign names no block (\"bar.x\"), "));
   EXPECT_THAT(err_.str(), HasSubstr(alike));
   EXPECT_EQ(err_.str().find("error"), std::string::npos) << err_.str();
   // Other faults are errors as ever.

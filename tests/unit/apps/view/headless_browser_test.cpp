@@ -24,7 +24,8 @@ class HeadlessBrowser : public ::testing::Test {
     if (::geteuid() == 0) changed_ = ::seteuid(nobody) == 0;
   }
   ~HeadlessBrowser() override {
-    if (changed_) EXPECT_EQ(::seteuid(0), 0);
+    if (!changed_) return;
+    EXPECT_EQ(::seteuid(0), 0);
   }
 
   /// @param script of sh. @return the page
