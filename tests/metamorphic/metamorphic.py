@@ -26,6 +26,8 @@ TURNS = (("rx", "ry", "rz"),)
 LEFT_OUT = {
     ("cut_rock", "axes"): "dips are those of the horizontal plane z = 0",
     ("masonry", "axes"): "columns are upright along z",
+    ("generalized_alpha", "mirror"): "2e-4: faces of order 2 are triangles of the mesh, whose diagonals a mirror exchanges",
+    ("generalized_alpha", "quarter turn"): "the same: a box that is turned has other diagonals",
 }
 
 
