@@ -16,8 +16,10 @@ using ::testing::IsEmpty;
 
 /// A tetrahedron of this height.
 std::string tetrahedron(int height) {
-  return "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 " + std::to_string(height) +
-         "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  std::string mesh = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 ";
+  mesh += std::to_string(height);
+  mesh += "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  return mesh;
 }
 
 /// A scene of a mesh, a record and an included file.

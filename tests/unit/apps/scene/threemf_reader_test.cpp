@@ -210,9 +210,12 @@ std::string package(const std::vector<Part>& parts) {
     const std::string sizes =
         bytes_of(Short{20}, Short{0}, Short{8}, Word{0}, checksum, static_cast<Word>(packed.size()),
                  static_cast<Word>(part.content.size()), static_cast<Short>(part.name.size()));
-    directory += bytes_of(Word{0x02014b50}, Short{20}) + sizes + std::string(12, '\0') +
-                 bytes_of(static_cast<Word>(entries.size())) + part.name;
-    entries += bytes_of(Word{0x04034b50}) + sizes + bytes_of(Short{0}) + part.name + packed;
+    for (const std::string& piece : {bytes_of(Word{0x02014b50}, Short{20}), sizes, std::string(12, '\0'),
+                                     bytes_of(static_cast<Word>(entries.size())), part.name})
+      directory += piece;
+    for (const std::string& piece :
+         {bytes_of(Word{0x04034b50}), sizes, bytes_of(Short{0}), part.name, packed})
+      entries += piece;
   }
   return entries + directory +
          bytes_of(Word{0x06054b50}, Word{0}, static_cast<Short>(parts.size()),

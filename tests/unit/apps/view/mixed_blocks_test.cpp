@@ -121,7 +121,9 @@ TEST_F(MixedBlocks, AFixedBlockThatAStageAddsIsFixed) {
                             "[[stage]]\nname = \"first\"\n[[stage]]\nname = \"second\"\nadd = [\"wall\"]\n");
   const UnstructuredGrid first = read_vtu(folder / "out/frames/blocks_0000000.vtu");
   for (const DataArray& array : first.cell_data)
-    if (array.name == "block") EXPECT_THAT(std::get<1>(array.values), Not(Contains(3)));
+    if (array.name == "block") {
+      EXPECT_THAT(std::get<1>(array.values), Not(Contains(3)));
+    }
   EXPECT_EQ(page["fixed"], (nlohmann::json{3, 4}));
   EXPECT_EQ(page["blocks"][3]["name"], "wall");
 }
@@ -165,7 +167,9 @@ TEST_F(MixedBlocks, NamesThatAreNoneAreRefusedWithTheNearest) {
       err.str("");
       EXPECT_EQ(run(all), exit_status::bad_input) << arguments.front();
       EXPECT_THAT(err.str(), HasSubstr("error: the run has no block \"" + std::string(wrong) + "\""));
-      if (*near != '\0') EXPECT_THAT(err.str(), HasSubstr("did you mean \"" + std::string(near) + "\"?"));
+      if (*near != '\0') {
+        EXPECT_THAT(err.str(), HasSubstr("did you mean \"" + std::string(near) + "\"?"));
+      }
     }
   }
   ::unsetenv("ASHLAR_BROWSER");
