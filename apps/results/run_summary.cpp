@@ -160,7 +160,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
                                    const BuiltSimulation& built, const RunOutcome& outcome) {
   const auto& [status, message, seconds, frames, largest, stages] = outcome;
   const Simulation& simulation = built.simulation;
-  nlohmann::ordered_json summary;
+  nlohmann::ordered_json summary = nlohmann::ordered_json::object();
   summary["status"] = to_string(status);
   if (!message.empty()) summary["message"] = message;
   summary["title"] = scene.title;
@@ -212,7 +212,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
     automatic.push_back({{"key", choice.key}, {"value", value}, {"unit", choice.unit}});
   }
   summary["automatic"] = automatic;
-  nlohmann::ordered_json versions;
+  nlohmann::ordered_json versions = nlohmann::ordered_json::object();
   versions["ashlar"] = program_version();
   for (const auto& [name, version] : tool_versions()) versions[name] = version;
   summary["versions"] = versions;

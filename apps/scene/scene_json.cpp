@@ -32,6 +32,7 @@ void add_gravity(Json& json, const SceneAnalysis& analysis) {
   } else if (analysis.gravity_file) {
     json["gravity_history"] = to_json(*analysis.gravity_file);
   } else {
+    json["gravity_history"] = Json::array();
     for (const auto& [time, value] : analysis.gravity_history)
       json["gravity_history"].push_back({time, value.x(), value.y(), value.z()});
   }
@@ -168,6 +169,7 @@ Json to_json(const SceneFix& fix) {
     json[history_key(fix)] = to_json(*fix.file);
     return json;
   }
+  if (!fix.history.empty()) json[history_key(fix)] = Json::array();
   for (const auto& [time, value] : fix.history)
     json[history_key(fix)].push_back({time, value.x(), value.y(), value.z()});
   return json;
@@ -181,6 +183,7 @@ Json to_json(const SceneLoad& load) {
     json["history"] = to_json(*load.file);
     return json;
   }
+  if (!load.history.empty()) json["history"] = Json::array();
   for (const SceneLoad::Factor& factor : load.history)
     json["history"].push_back({factor.time, factor.factor});
   return json;
