@@ -98,6 +98,7 @@ struct SolidDepthFinder::Part {
   Vector3 start;
   Vector3 end;
   bool one_sided = false;  ///< the surface does not cross it: all of it is inside, or outside
+  bool shallow = false;    ///< none of it is deeper than the resolution
 };
 
 SolidDepthFinder::SolidDepthFinder(const Polyhedron& solid) {
@@ -229,9 +230,13 @@ void SolidDepthFinder::divide(const Vector3& start, const Vector3& end, double r
   });
   std::sort(stretches.begin(), stretches.end());
   double done = 0.0;
-  for (const Stretch& stretch : stretches) {
-    if (stretch[0] > done) parts.push_back({near.at_share(done), near.at_share(stretch[0]), true});
-    done = std::max(done, stretch[1]);
+  for (std::size_t k = 0; k < stretches.size();) {
+    Stretch joined = stretches[k];
+    for (; k < stretches.size() && stretches[k][0] <= joined[1]; ++k)
+      joined[1] = std::max(joined[1], stretches[k][1]);
+    if (joined[0] > done) parts.push_back({near.at_share(done), near.at_share(joined[0]), true});
+    parts.push_back({near.at_share(joined[0]), near.at_share(joined[1]), false, true});
+    done = joined[1];
   }
   if (done < 1.0) parts.push_back({near.at_share(done), end, true});
 }
@@ -265,12 +270,13 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     if (inside && distance > (deepest ? deepest->depth : known)) {
       deepest = depth_of(closest_->solid(), middle, distance, nearest);
     }
+    if (part.shallow) continue;
     const double deeper = (deepest ? deepest->depth : known) + resolution;
     // Outside, a part goes in only beyond its nearest surface; inside, its ends are at most `half` deeper.
     const double most = std::min(inside ? half + distance : half - distance, bound(part, middle, nearest));
     if (most <= deeper) continue;
-    parts.push_back({middle, part.end, part.one_sided});
-    parts.push_back({part.start, middle, part.one_sided});
+    parts.push_back({middle, part.end, part.one_sided, false});
+    parts.push_back({part.start, middle, part.one_sided, false});
   }
   return deepest;
 }

@@ -55,11 +55,14 @@ std::map<FacePair, FrictionDirections> friction_directions(const std::vector<Con
 /// Faces over which friction turns. @param before in the step before, in order
 std::vector<FacePair> turning_faces(const std::vector<ContactMemory::Entry>& entries,
                                     const std::vector<FacePair>& before) {
-  constexpr double aligned = 0.95;
+  constexpr double begins_below = 0.95, ends_at = 0.999;  // of the area
   std::vector<FacePair> turning;
   for (const auto& [faces, directions] : friction_directions(entries)) {
-    const bool may_turn = directions.all_slide || std::binary_search(before.begin(), before.end(), faces);
-    if (may_turn && directions.sum.norm() < aligned * directions.area) turning.push_back(faces);
+    const double mean = directions.sum.norm();
+    const bool turned = std::binary_search(before.begin(), before.end(), faces);
+    if (turned ? mean < ends_at * directions.area
+               : directions.all_slide && mean < begins_below * directions.area)
+      turning.push_back(faces);
   }
   return turning;
 }

@@ -58,8 +58,11 @@ TEST(NearestName, BlocksThatBeginAlikeAreListedBySeries) {
   const std::vector<std::string> names = {"floor",         "rock.1",        "rock.2",    "rock.inside.1",
                                           "rock.inside.2", "rock.inside.3", "rocky.7.a", "wall.top"};
   EXPECT_EQ(guess_block("rock.1.inside*", names),
-            "\"rock.1\" to \"rock.2\", \"rock.inside.1\" to \"rock.inside.3\" begin alike; ");
-  EXPECT_EQ(guess_block("rock.inside.9.?", names), "\"rock.inside.1\" to \"rock.inside.3\" begin alike; ");
+            "did you mean \"rock.inside.1\"? \"rock.1\" to \"rock.2\", \"rock.inside.1\" to "
+            "\"rock.inside.3\" begin "
+            "alike; ");
+  EXPECT_EQ(guess_block("rock.inside.9.?", names),
+            "did you mean \"rock.inside.1\"? \"rock.inside.1\" to \"rock.inside.3\" begin alike; ");
   EXPECT_EQ(guess_block("wall.tip", names), "did you mean \"wall.top\"? \"wall.top\" begin alike; ");
   EXPECT_EQ(guess_block("flor", names), "did you mean \"floor\"? ");
   EXPECT_EQ(guess_block("dam.1", names), "");
