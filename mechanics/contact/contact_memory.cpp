@@ -55,7 +55,7 @@ std::map<FacePair, FrictionDirections> friction_directions(const std::vector<Con
 /// Faces over which friction turns. @param before in the step before, in order
 std::vector<FacePair> turning_faces(const std::vector<ContactMemory::Entry>& entries,
                                     const std::vector<FacePair>& before) {
-  constexpr double begins_below = 0.95, ends_at = 0.999;  // of the area
+  constexpr double begins_below = 0.7, ends_at = 0.95;  // of the area
   std::vector<FacePair> turning;
   for (const auto& [faces, directions] : friction_directions(entries)) {
     const double mean = directions.sum.norm();

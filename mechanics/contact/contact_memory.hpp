@@ -102,7 +102,7 @@ class ContactMemory {
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
   /// Faces over which friction turned in the last step: the mean of its unit directions over the area was shorter than
-  /// 0.95 when all of their closed points slid, and has been since. In order.
+  /// 0.7 when all of their closed points slid, and shorter than 0.95 since. In order.
   [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
 
  private:
