@@ -64,28 +64,14 @@ bool by_blocks(const MeasuredDepth& x, const MeasuredDepth& y) {
   return key(x.pair) < key(y.pair);
 }
 
-/// How far a block has moved since it was looked at, at most, m.
-double travel_of(std::size_t block, const BlockModel& model, const BlockState& state,
-                 const BlockSurface& surface, const KnownDepths& known) {
-  constexpr double unknown = std::numeric_limits<double>::infinity();
+/// Whether a block is where it was looked at, but for what counts as unmoved.
+bool has_stayed(std::size_t block, const BlockModel& model, const BlockState& state,
+                const BlockSurface& surface, const AuditScope& scope, const KnownDepths& known) {
   // Coordinates of an incremental block are others in each step.
-  if (block >= known.positions.size() || model.incremental() != nullptr) return unknown;
+  if (block >= known.positions.size() || model.incremental() != nullptr) return false;
   const Eigen::MatrixX3d& position = known.positions[block];
-  if (position.rows() != state.position.rows()) return unknown;
-  return surface.quick_motion_bound(state.position - position);
-}
-
-/// The room that a pair had when it was last audited, m; 0: not known.
-double room_of(const KnownDepths& known, const std::array<int, 2>& pair) {
-  const auto place =
-      std::lower_bound(known.rooms.begin(), known.rooms.end(), pair,
-                       [](const PairRoom& room, const auto& key) { return room.blocks < key; });
-  return place != known.rooms.end() && place->blocks == pair ? place->room : 0.0;
-}
-
-/// Whether a depth is that of a pair, whichever of the two has the point.
-bool is_of(const PairDepth& depth, const std::array<int, 2>& pair) {
-  return depth.blocks == pair || depth.blocks == std::array{pair[1], pair[0]};
+  return position.rows() == state.position.rows() &&
+         surface.quick_motion_bound(state.position - position) <= scope.unmoved;
 }
 
 /// Asks for the points of one block in another one.
@@ -227,12 +213,10 @@ void DepthAudit::forget(std::size_t block) {
       clear_, [&](const auto& entry) { return at(entry.first[0]) == block || at(entry.first[1]) == block; });
 }
 
-bool DepthAudit::are_convex(const std::array<int, 2>& pair, const std::vector<BlockModel>& blocks) {
-  return std::all_of(pair.begin(), pair.end(), [&](int block) {
-    std::optional<SolidDepthFinder>& finder = finders_[at(block)];
-    if (!finder) finder.emplace(blocks[at(block)].solid());
-    return finder->convex();
-  });
+bool DepthAudit::is_convex(int block, const std::vector<BlockModel>& blocks) {
+  std::optional<SolidDepthFinder>& finder = finders_[static_cast<std::size_t>(block)];
+  if (!finder) finder.emplace(blocks[static_cast<std::size_t>(block)].solid());
+  return finder->convex();
 }
 
 void DepthAudit::prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges) {
@@ -285,68 +269,45 @@ std::vector<MeasuredDepth> DepthAudit::measure(const std::vector<std::array<int,
   return result;
 }
 
-std::vector<double> DepthAudit::look_at(const std::vector<BlockModel>& blocks,
-                                        const std::vector<BlockState>& states,
-                                        const std::vector<BlockSurface>& surfaces, const AuditScope& scope,
-                                        const KnownDepths& known, Audit& audit) {
-  std::vector<double> travels(blocks.size(), 0.0);
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    const double travel = travel_of(k, blocks[k], states[k], surfaces[k], known);
-    if (travel <= scope.unmoved) continue;
-    travels[k] = travel;
-    place(k, blocks[k], states[k], surfaces[k]);
-    audit.moved.push_back(static_cast<int>(k));
-    audit.positions.push_back(states[k].position);
-    audit.boxes.push_back(audited_[k].box);
-  }
-  return travels;
-}
-
-void DepthAudit::place(std::size_t block, const BlockModel& model, const BlockState& state,
-                       const BlockSurface& surface) {
-  if (!model.fixed() || audited_[block].points.empty()) audited_[block] = placed_block(surface, state);
-}
-
 Audit DepthAudit::run(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
                       const std::vector<BlockSurface>& surfaces, const AuditScope& scope,
                       const KnownDepths& known) {
   Audit audit;
-  const std::vector<double> travels = look_at(blocks, states, surfaces, scope, known, audit);
+  std::vector<bool> moved(blocks.size(), false);
+  std::vector<Box> boxes(blocks.size());
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    moved[k] = !has_stayed(k, blocks[k], states[k], surfaces[k], scope, known);
+    if (!moved[k]) {
+      boxes[k] = known.boxes[k].grown(scope.unmoved);
+      continue;
+    }
+    if (!blocks[k].fixed() || audited_[k].points.empty()) audited_[k] = placed_block(surfaces[k], states[k]);
+    boxes[k] = audited_[k].box;
+    audit.moved.push_back(static_cast<int>(k));
+    audit.positions.push_back(states[k].position);
+    audit.boxes.push_back(audited_[k].box);
+  }
   const auto is_live = [&](const std::array<int, 2>& pair) {
     return scope.moving[at(pair[0])] || scope.moving[at(pair[1])];
   };
-  const auto travel_between = [&](const std::array<int, 2>& pair) {
-    return travels[at(pair[0])] + travels[at(pair[1])];
-  };
-  const auto is_asked = [&](std::array<int, 2> pair) {
+  const auto is_asked = [&](const std::array<int, 2>& pair) {
     if (!is_live(pair)) return false;
-    std::sort(pair.begin(), pair.end());
-    const double travel = travel_between(pair);
-    if (are_convex(pair, blocks)) return travel > 0.0;
-    return scope.fine || (travel > 0.0 && travel >= room_of(known, pair));
+    if (moved[at(pair[0])] || moved[at(pair[1])]) return true;
+    return scope.fine && !(is_convex(pair[0], blocks) && is_convex(pair[1], blocks));
   };
   std::vector<std::array<int, 2>> pairs;
-  if (!audit.moved.empty() || scope.fine) {
-    std::vector<Box> boxes(blocks.size());
-    for (std::size_t k = 0; k < blocks.size(); ++k)
-      boxes[k] = travels[k] > 0.0 ? audited_[k].box : known.boxes[k].grown(scope.unmoved);
-    for (const auto& pair : meeting_boxes(boxes)) {
-      if (is_asked(pair)) {
-        if (scope.pairs(pair[0], pair[1])) pairs.push_back(pair);
-      } else if (const double room = room_of(known, pair); room > 0.0) {
-        audit.rooms.push_back({pair, room - travel_between(pair)});
-      }
-    }
-  } else {
-    audit.rooms = known.rooms;
-  }
+  if (!audit.moved.empty() || scope.fine) pairs = meeting_boxes(boxes);
+  std::erase_if(pairs, [&](const auto& pair) { return !is_asked(pair) || !scope.pairs(pair[0], pair[1]); });
+  std::vector<bool> placed = moved;
   for (const auto& pair : pairs) {
-    for (const int block : pair)
-      if (travels[at(block)] == 0.0)
-        place(at(block), blocks[at(block)], states[at(block)], surfaces[at(block)]);
+    for (const int block : pair) {
+      if (placed[at(block)]) continue;
+      placed[at(block)] = true;
+      if (!blocks[at(block)].fixed() || audited_[at(block)].points.empty())
+        audited_[at(block)] = placed_block(surfaces[at(block)], states[at(block)]);
+    }
   }
   audit.measured = measure(pairs, blocks, states, surfaces, scope);
-  add_rooms(pairs, blocks, scope, audit);
   for (const MeasuredDepth& depth : known.depths)
     if (!is_asked(depth.pair.blocks)) audit.measured.push_back(depth);
   std::sort(audit.measured.begin(), audit.measured.end(), by_blocks);
@@ -358,21 +319,6 @@ Audit DepthAudit::run(const std::vector<BlockModel>& blocks, const std::vector<B
   return audit;
 }
 
-void DepthAudit::add_rooms(const std::vector<std::array<int, 2>>& pairs,
-                           const std::vector<BlockModel>& blocks, const AuditScope& scope, Audit& audit) {
-  auto measured = audit.measured.begin();
-  for (const auto& pair : pairs) {
-    double deepest = 0.0;
-    for (; measured != audit.measured.end() && is_of(measured->pair, pair); ++measured)
-      deepest = std::max(deepest, measured->pair.depth);
-    if (are_convex(pair, blocks)) continue;
-    const double room = scope.allowed(pair[0], pair[1]) - deepest - scope.resolution - 2.0 * scope.unmoved;
-    if (room > 0.0) audit.rooms.push_back({pair, room});
-  }
-  std::sort(audit.rooms.begin(), audit.rooms.end(),
-            [](const PairRoom& x, const PairRoom& y) { return x.blocks < y.blocks; });
-}
-
 void Audit::take_over(KnownDepths& known) const {
   for (std::size_t k = 0; k < moved.size(); ++k) {
     const std::size_t block = at(moved[k]);
@@ -382,7 +328,6 @@ void Audit::take_over(KnownDepths& known) const {
     known.boxes[block] = boxes[k];
   }
   known.depths = measured;
-  known.rooms = rooms;
 }
 
 }  // namespace ashlar

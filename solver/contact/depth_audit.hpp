@@ -7,8 +7,7 @@
 // exact to rounding for blocks of order 1, and to the change of the deformation within the depth for others.
 //
 // What has hardly moved is not asked again (notes/lasting_contacts.md): the depth of two blocks that have not is that
-// of the same two material points. Between fine audits the same holds for two blocks of which one is not convex, as long
-// as they cannot have become deeper than is allowed since they were measured (notes/depth_audit.md).
+// of the same two material points.
 #pragma once
 
 #include <algorithm>
@@ -40,19 +39,12 @@ struct MeasuredDepth {
   std::array<Vector3, 2> places;  ///< current coordinates, m
 };
 
-/// How far two blocks are from being deeper in each other than is allowed.
-struct PairRoom {
-  std::array<int, 2> blocks;  ///< in order
-  double room = 0.0;  ///< m: the two are not too deep until one has moved by more relative to the other
-};
-
 /// What is known from the audits of the steps before: part of the state of a run. By block.
 struct KnownDepths {
   std::vector<Eigen::MatrixX3d>
       positions;           ///< where the block was when all of its neighbours were looked for; empty: never
   std::vector<Box> boxes;  ///< of it there
   std::vector<MeasuredDepth> depths;  ///< of all pairs, in the order of meeting_boxes()
-  std::vector<PairRoom> rooms;        ///< of pairs with a block that is not convex, by blocks
 };
 
 /// A ball in the reference shape of a solid that has nothing of the solid in it.
@@ -94,15 +86,13 @@ struct AuditedBlock {
 
 /// What an audit looks at.
 struct AuditScope {
-  std::function<bool(int, int)> pairs;      ///< a < b; whether the two may not be in each other
-  std::function<double(int, int)> allowed;  ///< m, > 0: how deep the two may be whatever their contacts know
-  std::vector<bool> moving;                 ///< by block; depths of two that are held are of no interest
+  std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
+  std::vector<bool> moving;             ///< by block; depths of two that are held are of no interest
   double resolution = 0.0;  ///< m, > 0: how exact depths of edges are in solids that are not convex
   int threads = 1;
   /// m, >= 0: blocks that have moved less since they were looked at are not asked again
   double unmoved = 0.0;
-  /// whether pairs with solids that are not convex are measured in any case; else where their room is used up
-  bool fine = true;
+  bool fine = true;  ///< whether pairs with solids that are not convex are measured in any case
 };
 
 /// What an audit has found.
@@ -114,7 +104,6 @@ struct Audit {
   std::vector<Eigen::MatrixX3d> positions;  ///< of them
   std::vector<Box> boxes;                   ///< of them
   std::vector<MeasuredDepth> measured;      ///< of all pairs, old and new
-  std::vector<PairRoom> rooms;              ///< of all pairs that have one
 
   /// What the next audit is to know.
   void take_over(KnownDepths& known) const;
@@ -133,19 +122,9 @@ class DepthAudit {
   void forget(std::size_t block);
 
  private:
-  /// Whether the solids of both blocks are convex.
-  [[nodiscard]] bool are_convex(const std::array<int, 2>& pair, const std::vector<BlockModel>& blocks);
-  /// Takes note of the blocks that have moved. @return how far each has, m; 0: not
-  std::vector<double> look_at(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
-                              const std::vector<BlockSurface>& surfaces, const AuditScope& scope,
-                              const KnownDepths& known, Audit& audit);
-  /// Places the surface of a block; that of a fixed block stays.
-  void place(std::size_t block, const BlockModel& model, const BlockState& state,
-             const BlockSurface& surface);
-  /// Adds the rooms of pairs that were measured.
-  void add_rooms(const std::vector<std::array<int, 2>>& pairs, const std::vector<BlockModel>& blocks,
-                 const AuditScope& scope, Audit& audit);
-  /// Makes space for what is known of the points of the first block near the second.
+  /// Whether the solid of a block is convex.
+  [[nodiscard]] bool is_convex(int block, const std::vector<BlockModel>& blocks);
+  /// Makes room for what is known of the points of the first block near the second.
   void prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges);
 
   /// The deepest points of pairs of placed blocks in each other.

@@ -36,14 +36,12 @@ double allowed_depth(const RunContext& run, int a, int b, double share) {
 Audit measure_depths(const RunContext& run, const std::vector<BlockState>& states, bool fine,
                      const KnownDepths& known) {
   const SimulationSettings& settings = run.settings();
-  const AuditScope scope{
-      [&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
-      [&run](int a, int b) { return allowed_depth(run, a, b, run.settings().depth.unknown_depth_share); },
-      run.system.moving(),
-      (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
-      settings.threads,
-      settings.lasting_motion(),
-      fine};
+  const AuditScope scope{[&run](int a, int b) { return !run.contacts.finder().leaves_out(a, b); },
+                         run.system.moving(),
+                         (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
+                         settings.threads,
+                         settings.lasting_motion(),
+                         fine};
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
 }
 

@@ -13,8 +13,7 @@ namespace {
 using test_support::block_of;
 
 const Material rock{2500.0, 1e10, 0.2};
-const AuditScope all_pairs{[](int, int) { return true; }, [](int, int) { return 0.05; },
-                           std::vector<bool>(8, true), 1e-6};
+const AuditScope all_pairs{[](int, int) { return true; }, std::vector<bool>(8, true), 1e-6};
 
 /// Audits two blocks where they are placed.
 std::vector<PairDepth> audit(const Polyhedron& first, const Polyhedron& second, int order,
@@ -139,70 +138,6 @@ TEST(DepthAudit, WhatHasHardlyMovedIsNotAskedAgain) {
   const Audit third = audit.run(blocks, states, surfaces, scope, known);
   EXPECT_EQ(third.moved, std::vector{0});
   EXPECT_NEAR(third.depths[0].depth, 0.1 + 1.1e-3, 1e-12);
-}
-
-/// A cube in the notch of an L (x > 1, y > 1), 0.005 from the face at x = 1, and what audits of it know.
-struct CubeInANotch {
-  CubeInANotch() {
-    blocks.emplace_back(block_of("cube", cube({1.005, 1.2, 0.25}, 0.5), rock, 1));
-    blocks.emplace_back(block_of("L", test_support::l_shaped_prism(), rock, 1));
-    for (const BlockModel& block : blocks) {
-      states.push_back(block.initial_state());
-      surfaces.emplace_back(block, 0, Eigen::Matrix3d::Identity());
-    }
-    scope.fine = false;
-    static_cast<void>(depth());
-  }
-  /// @param in towards the face, m
-  void move(double in) {
-    states[0].position += blocks[0].basis().linear_field({-in, 0, 0}, Eigen::Matrix3d::Zero());
-  }
-  /// Audits, and takes over what was found. @return the greatest depth, m
-  double depth() {
-    const Audit audit = audits.run(blocks, states, surfaces, scope, known);
-    audit.take_over(known);
-    double deepest = 0.0;
-    for (const PairDepth& pair : audit.depths) deepest = std::max(deepest, pair.depth);
-    return deepest;
-  }
-
-  std::vector<BlockModel> blocks;
-  std::vector<BlockState> states;
-  std::vector<BlockSurface> surfaces;
-  AuditScope scope = all_pairs;
-  DepthAudit audits{2};
-  KnownDepths known;
-};
-
-TEST(DepthAudit, ABlockThatIsNotConvexIsAskedOnceItMayBeTooDeep) {
-  // 0.05 is allowed: 0.03 from where nothing was deep is left out, though 0.025 of it is inside; 0.06 is not.
-  CubeInANotch pair;
-  pair.move(0.03);
-  EXPECT_EQ(pair.depth(), 0.0);
-  pair.move(0.03);
-  EXPECT_NEAR(pair.depth(), 0.055, 2e-6);
-  // Too deep already: asked each time.
-  pair.move(-0.02);
-  EXPECT_NEAR(pair.depth(), 0.035, 2e-6);
-  // 0.015 is left; what is not asked moves on with its two points.
-  pair.move(0.005);
-  EXPECT_NEAR(pair.depth(), 0.04, 2e-6);
-  EXPECT_NEAR(pair.known.rooms.at(0).room, 0.01, 1e-5);
-}
-
-TEST(DepthAudit, AFineAuditAsksAllThatIsNotConvex) {
-  CubeInANotch pair;
-  pair.scope.fine = true;
-  pair.move(0.03);
-  EXPECT_NEAR(pair.depth(), 0.025, 2e-6);
-}
-
-TEST(DepthAudit, TheWayOfBothBlocksCounts) {
-  // Each goes by 0.03, towards the other.
-  CubeInANotch pair;
-  pair.move(0.03);
-  pair.states[1].position += pair.blocks[1].basis().linear_field({0.03, 0, 0}, Eigen::Matrix3d::Zero());
-  EXPECT_NEAR(pair.depth(), 0.055, 2e-6);
 }
 
 }  // namespace
