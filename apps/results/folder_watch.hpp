@@ -1,8 +1,7 @@
 // A folder that must stay the one that it was while a run writes into it.
 #pragma once
 
-#include <sys/types.h>
-
+#include <cstdint>
 #include <filesystem>
 
 namespace ashlar {
@@ -18,8 +17,8 @@ class FolderWatch {
 
  private:
   std::filesystem::path folder_;
-  dev_t device_ = 0;
-  ino_t number_ = 0;
+  std::uint64_t device_ = 0;
+  std::uint64_t number_ = 0;
 };
 
 }  // namespace ashlar

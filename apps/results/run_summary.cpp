@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "apps/results/identity_json.hpp"
 #include "apps/results/program_version.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/scene_json.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -29,18 +28,5 @@ struct SceneIdentity {
 
 /// @param scene the whole one, just read: its files are read again for their hashes
 [[nodiscard]] SceneIdentity scene_identity(const LoadedScene& scene);
-
-/// As summary.json has it: version, checkpoint_layout, scene (hexadecimal), files.
-[[nodiscard]] nlohmann::ordered_json to_json(const SceneIdentity& identity);
-
-/// "mesh stone.off has changed", ... for each file whose bytes are others; empty where `was` tells nothing.
-/// @param was an identity as to_json gives it, or what stands in its place
-[[nodiscard]] std::vector<std::string> changed_files(const nlohmann::ordered_json& was,
-                                                     const SceneIdentity& is);
-
-/// The same and all other reasons: another version of the program, other blocks. Empty: results of the one are those of
-/// the other, up to the end time.
-[[nodiscard]] std::vector<std::string> identity_differences(const nlohmann::ordered_json& was,
-                                                            const SceneIdentity& is);
 
 }  // namespace ashlar

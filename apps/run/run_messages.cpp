@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "apps/results/identity_json.hpp"
 #include "apps/results/json_text.hpp"
 #include "apps/run/scene_difference.hpp"
 #include "apps/scene/initial_state.hpp"

@@ -23,9 +23,9 @@
 #include <thread>
 
 #include "apps/results/atomic_file.hpp"
+#include "apps/results/identity_json.hpp"
 #include "apps/results/json_text.hpp"
 #include "apps/results/output_stream.hpp"
-#include "apps/results/scene_identity.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/override_option.hpp"
 #include "apps/run/run_command.hpp"

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/results/identity_json.hpp"
 #include "apps/results/program_version.hpp"
 #include "apps/results/run_checkpoint.hpp"
 #include "support/temporary_folder.hpp"
