@@ -23,7 +23,7 @@ namespace {
 
 std::terminate_handler other_end = nullptr;
 
-/// Whether it is memory that the program ends for: there is no exception where not even that could be allocated.
+/// @return true if the program ends for want of memory: there is no exception where not even that could be allocated.
 bool is_for_memory() {
   const std::exception_ptr error = std::current_exception();
   if (!error) return true;

@@ -1,4 +1,4 @@
-// What a stream writes through goes into an OutputFile at once: std::ostream stream(&buffer). Where that fails the stream
+// Text written to the stream goes into an OutputFile at once: std::ostream stream(&buffer). Where that fails the stream
 // has badbit.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What makes two runs the same: the one answer that a summary states, a sweep compares and a checkpoint is bound to.
+// Identity of a run's input: the one answer that a summary states, a sweep compares and a checkpoint is bound to.
 #pragma once
 
 #include <cstdint>

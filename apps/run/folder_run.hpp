@@ -44,7 +44,7 @@ class FolderRun {
   /// there is no summary, so that the run counts as one that did not end
   RunEnd go(std::ostream& err);
 
-  /// Whether the folder has a checkpoint of this run.
+  /// True if the folder has a checkpoint of this run.
   [[nodiscard]] bool saved() const { return saved_; }
 
   [[nodiscard]] const Simulation& simulation() const { return built_.simulation; }

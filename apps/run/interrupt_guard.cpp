@@ -57,7 +57,7 @@ extern "C" void on_interrupt(int signal) {
 
 }  // namespace
 
-/// What the caller of a library wants with these is not known: they are only its own as long as it says nothing.
+/// The caller of a library may want these signals: they are only its own as long as it says nothing.
 static bool left_to_others(int signal, const struct sigaction& old) {
   const bool announces = signal == SIGQUIT || signal == SIGXCPU || signal == SIGUSR1;
   return announces && old.sa_handler != SIG_DFL;

@@ -8,11 +8,11 @@
 
 namespace ashlar {
 
-/// What a message says of an exception: "out of memory"; "cannot open directory PATH: REASON" of what the library for
+/// Text of an exception in a message: "out of memory"; "cannot open directory PATH: REASON" of what the library for
 /// file systems throws, and the reason alone where a stream failed; what() of all others.
 [[nodiscard]] std::string fault_text(const std::exception& error);
 
-/// That of an allocation that failed, without another one: "out of memory", and what was needed where that is known.
+/// Text of an allocation that failed, without another one: "out of memory", and what was needed where that is known.
 [[nodiscard]] std::string_view missing_memory(const std::bad_alloc& error);
 
 }  // namespace ashlar

@@ -35,7 +35,7 @@ inline constexpr std::size_t most_input_bytes = 100'000'000;
 /// The same of a stream, which may come from a pipe.
 [[nodiscard]] std::string whole_stream(std::istream& input, std::size_t most);
 
-/// What `read` returns. @throws std::runtime_error "cannot read <path>: <reason>" where `read` throws; std::bad_alloc
+/// @return the value of `read`. @throws std::runtime_error "cannot read <path>: <reason>" where `read` throws; std::bad_alloc
 template <class Read>
 auto naming_the_file(const std::filesystem::path& path, Read read) {
   try {

@@ -65,7 +65,7 @@ class JointHeights {
 
  private:
   void draw_side(const std::vector<PlaneRange>& ranges, int way, double most);
-  /// Those that were drawn in a range.
+  /// Planes that were drawn in a range.
   [[nodiscard]] std::pair<std::size_t, std::size_t> drawn_in(const PlaneRange& range) const;
 
   const SceneCut& cut_;

@@ -59,7 +59,7 @@ bool is_in_class(std::string_view name, char32_t code) {
                      [&](const auto& known) { return known.first == name && known.second; });
 }
 
-/// What a part of a pattern says of one letter.
+/// Answer of a part of a pattern for one letter.
 struct Verdict {
   bool matches;
   std::size_t next;  ///< where the pattern goes on
@@ -124,7 +124,7 @@ class LetterSet {
   bool found_ = false;
 };
 
-/// Whether the part of a pattern at a place, which is no *, matches a letter.
+/// True if the part of a pattern at a place, which is no *, matches a letter.
 Verdict match_letter(std::string_view pattern, std::size_t at, char32_t letter) {
   if (pattern[at] == '[')
     if (const std::optional<Verdict> verdict = LetterSet(pattern, at, letter).read()) return *verdict;

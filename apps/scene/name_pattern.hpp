@@ -17,7 +17,7 @@
 
 namespace ashlar {
 
-/// Whether a name is matched by a glob as a whole. At most as many steps as the product of both lengths.
+/// True if a glob matches a name as a whole. At most as many steps as the product of both lengths.
 [[nodiscard]] bool pattern_matches(std::string_view pattern, std::string_view name);
 
 /// The glob that matches one name only.

@@ -27,7 +27,7 @@ namespace ashlar {
 [[nodiscard]] std::string guess(std::string_view name, const std::vector<std::string>& candidates,
                                 std::string_view quote = "");
 
-/// What a name or glob that matches no block may have meant: the guess, and the names that begin as it does up to a dot,
+/// Suggestions for a name or glob that matches no block: the guess, and the names that begin as it does up to a dot,
 /// those that differ in a number at their end as one: 'did you mean "rock.inside.1"? "rock.1" to "rock.5" and
 /// "rock.inside.1" to "rock.inside.3" begin alike; '. @param names of all blocks
 [[nodiscard]] std::string guess_block(std::string_view pattern, const std::vector<std::string>& names);

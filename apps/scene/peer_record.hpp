@@ -18,7 +18,7 @@
 
 namespace ashlar {
 
-/// Whether a file that begins with this line is a record of PEER.
+/// True if a file that begins with this line is a record of PEER.
 [[nodiscard]] bool begins_peer_record(std::string_view line);
 
 /// The rows [time, values...] of a record: the first value is at time 0. Every column that `record` names has the values of

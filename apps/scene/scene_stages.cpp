@@ -94,7 +94,7 @@ class StageScenes {
       if (was_there_[k] || scene_.absent[k]) continue;
       was_there_[k] = true;
       SceneBlock& block = scene_.block[k];
-      // What stages have added comes after what the block has of its own.
+      // Entries of stages come after the block's own.
       for (std::size_t n = 0; n < whole_.block[k].fix.size(); ++n) stay(block.fix[n]);
       for (std::size_t n = 0; n < whole_.block[k].load.size(); ++n) stay(block.load[n], end_time);
     }

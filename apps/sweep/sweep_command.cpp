@@ -91,12 +91,12 @@ int run_over_results(RunOptions run, const Json& summary, std::ostream& log) {
   return run_command(run, log);
 }
 
-/// Whether a run that did not end left anything to go on from.
+/// True if a run that did not end left a state to go on from.
 bool has_state(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / checkpoint_name) || std::filesystem::exists(folder / trials_name);
 }
 
-/// Whether a run can go on from the state in its folder. What is wrong with the scene is told when it is run.
+/// True if a run can go on from the state in its folder. What is wrong with the scene is told when it is run.
 bool is_of_this_scene(const RunOptions& run) {
   Diagnostics told_later;
   const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, told_later);

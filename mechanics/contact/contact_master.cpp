@@ -139,7 +139,7 @@ class DeepEndSearch {
   double tolerance_;
 };
 
-/// Whether block a is the master where rims do not tell. @param otherwise of blocks of one kind and size
+/// True if block a is the master where rims do not tell. @param otherwise of blocks of one kind and size
 bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise) {
   if (a.model->fixed() != b.model->fixed()) return a.model->fixed();
   const bool divided_a = a.placed->surface().divided;

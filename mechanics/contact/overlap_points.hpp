@@ -42,7 +42,7 @@ void count_from_placement(const ContactBody& a, const ContactBody& b, bool maste
 void count_from_placement_of_edges(const ContactBody& a, const ContactBody& b, double known,
                                    ContactPoint& point);
 
-/// Whether points are where they are in the material: not on flat sub-faces of a block that bends.
+/// True if points are where they are in the material: not on flat sub-faces of a block that bends.
 [[nodiscard]] bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved);
 
 /// Overlaps of cells that make one polygon: those of two whole faces, or one alone.
@@ -84,7 +84,7 @@ class OverlapPoints {
   [[nodiscard]] const ContactBody& body(bool of_a) const { return of_a ? a_ : b_; }
   [[nodiscard]] int cell(bool of_a) const { return of_a ? cells_.cell_a : cells_.cell_b; }
   [[nodiscard]] const CellMap& map(bool of_a) const { return of_a ? map_a_ : map_b_; }
-  /// Whether points of the block's true surface are looked for.
+  /// True if points of the block's true surface are looked for.
   [[nodiscard]] bool follows(bool of_a) const { return whole_ && !is_affine(*body(of_a).model); }
   /// The point of the true surface that is seen at a place, by Newton's method in the face's plane.
   [[nodiscard]] Tangent seen_at(bool of_a, const Eigen::Vector2d& place, const Vector3& start) const;

@@ -32,7 +32,7 @@ Threads& threads() {
   return all;
 }
 
-/// Whether the system would give one more buffer.
+/// True if the system would give one more buffer.
 bool has_room() {
   void* place = mmap(nullptr, asked_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (place == MAP_FAILED) return false;

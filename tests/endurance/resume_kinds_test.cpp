@@ -40,7 +40,7 @@ std::vector<Kind> kinds() {
   return result;
 }
 
-/// What a run has reached, without clock times and what it cost.
+/// State that a run has reached, without clock times and what it cost.
 std::string reached(SimulationSnapshot snapshot) {
   snapshot.run.log = {};
   snapshot.finder.counts = {};

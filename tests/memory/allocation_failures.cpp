@@ -53,7 +53,7 @@ struct Failure {
 Failure failure;
 std::atomic<long> counted = 0;
 
-/// What a process tells the one that began it.
+/// Report of a process to the one that began it.
 struct Told {
   std::atomic<bool> failed = false;  ///< there was an allocation of that number
 };
@@ -208,7 +208,7 @@ Ending run_once(const std::vector<std::string>& arguments, long number,
   return {WIFEXITED(how) ? WEXITSTATUS(how) : -WTERMSIG(how), told->failed, text_of(out), text_of(err)};
 }
 
-/// What is wrong with an ending; empty: nothing.
+/// Fault of an ending; empty: none.
 std::string fault_of(const Ending& ending, const Ending& reference) {
   if (ending.status == reference.status)
     return ending.printed == reference.printed ? "" : "the same status with other output";

@@ -22,7 +22,7 @@ import scenes
 VECTORS = (("ux", "uy", "uz"), ("vx", "vy", "vz"))
 TURNS = (("rx", "ry", "rz"),)
 
-# What a scene cannot promise, or has no meaning there.
+# Relations that a scene cannot promise, or that have no meaning there.
 LEFT_OUT = {
     ("cut_rock", "axes"): "dips are those of the horizontal plane z = 0",
     ("masonry", "axes"): "columns are upright along z",

@@ -137,7 +137,7 @@ TEST_F(DrawnVault, AnAllowedOverlapIsListedAndWithoutForce) {
   EXPECT_NEAR(summary["penetration_max"], 2.4e-5, 1e-9);
 }
 
-// What a later stage adds starts without force where it was placed: the lower stone has gone down by then.
+// A block that a later stage adds starts without force where it was placed: the lower stone has gone down by then.
 TEST_F(DrawnVault, AStageMayAddWhatOverlaps) {
   write_text(scene_, std::string(sunk_stone) + R"([[block]]
 name = "added"

@@ -80,7 +80,7 @@ TEST_F(Identity, NamesEachFileOnceWithItsHash) {
 TEST_F(Identity, TheSameFilesAreTheSame) {
   was_ = to_json(identity());
   EXPECT_THAT(differences(), IsEmpty());
-  // What no result up to the end time depends on.
+  // No result up to the end time depends on these keys.
   EXPECT_THAT(differences({"title=b", "analysis.end_time=2", "analysis.memory_limit=1e10"}), IsEmpty());
   EXPECT_THAT(differences({"analysis.time_step=0.2"}), ElementsAre("blocks or keys have changed"));
 }

@@ -65,7 +65,7 @@ TEST(StoredLayout, IsTheSameForTheSameMembersAndVersion) {
   EXPECT_NE(stored_layout<Two>(3), stored_layout<Two>(4));
 }
 
-// What a container has at present is no part of it.
+// The present contents of a container are no part of it.
 TEST(StoredLayout, DoesNotDependOnValues) {
   OfList filled{{{1}, {2}}};
   StoredLayout layout(0);

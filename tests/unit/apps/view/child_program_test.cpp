@@ -14,7 +14,7 @@
 namespace ashlar {
 namespace {
 
-/// Whether a process is there and no zombie.
+/// True if a process is there and no zombie.
 bool runs(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
   for (std::string line; std::getline(status, line);)

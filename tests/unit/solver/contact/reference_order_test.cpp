@@ -14,7 +14,7 @@ BlockModel cube_at(const Vector3& corner) {
                                            {2500, 1e9, 0.2}, 1));
 }
 
-/// Whether the block at one corner is before the one at the other, in both orders of the list.
+/// True if the block at one corner is before the one at the other, in both orders of the list.
 std::vector<bool> is_before(const std::vector<Vector3>& corners, const Vector3& gravity, int a, int b) {
   std::vector<BlockModel> blocks;
   std::vector<BlockModel> reversed;
