@@ -219,6 +219,8 @@ void FolderRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress
   if (schedule.due(before)) {
     save();
     schedule.saved(seconds_now());
+  } else if (files_.outgrown(built_.simulation)) {
+    save();
   }
   files_.add_output_seconds(seconds_now() - before);
 }

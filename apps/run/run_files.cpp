@@ -1,6 +1,7 @@
 #include "apps/run/run_files.hpp"
 
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 #include "apps/results/atomic_file.hpp"
@@ -8,6 +9,14 @@
 #include "apps/scene/scene_json.hpp"
 
 namespace ashlar {
+namespace {
+
+std::size_t contact_points(const std::vector<PairRecord>& records) {
+  return std::accumulate(records.begin(), records.end(), std::size_t{0},
+                         [](std::size_t sum, const PairRecord& pair) { return sum + pair.points.size(); });
+}
+
+}  // namespace
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -37,10 +46,16 @@ void RunFiles::write_state(const SimulationSnapshot& state, const std::vector<Fi
                                   {state, stages, tables_.synced_state(), seconds(), changes});
 }
 
+bool RunFiles::outgrown(const Simulation& simulation) const {
+  return contact_points(simulation.contacts()) > 2 * contact_points_;
+}
+
 void RunFiles::save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
                     const ContactChanges& changes) {
   write_state(state, stages, changes);
-  // The next state, which may have more contacts, and the summary fit in beside the state that is there.
+  contact_points_ = contact_points(state.run.records);
+  // A state of twice the contact points, which asks for another checkpoint (outgrown), and the summary fit in
+  // beside the state that is there.
   constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
   reserve_.hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
 }

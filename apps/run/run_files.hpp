@@ -37,6 +37,9 @@ class RunFiles {
   [[nodiscard]] ResultFolder& tables() { return tables_; }
   [[nodiscard]] const ResultFolder& tables() const { return tables_; }
 
+  /// Whether a state has so many more contact points than the last checkpoint that the room that is kept may be too
+  /// small for it.
+  [[nodiscard]] bool outgrown(const Simulation& simulation) const;
   /// Writes a checkpoint and keeps room for the next one and a summary.
   void save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
             const ContactChanges& changes);
@@ -63,6 +66,7 @@ class RunFiles {
   ResultFolder tables_;
   std::uintmax_t scene_bytes_;      ///< in the summary
   std::uintmax_t state_bytes_ = 0;  ///< of the last checkpoint
+  std::size_t contact_points_ = 0;  ///< of the last checkpoint
   RunSeconds earlier_seconds_;
   RunSeconds seconds_;
 };

@@ -58,6 +58,9 @@ class FullDiskTest(unittest.TestCase):
     def test_table_fills_the_disk(self):
         self.expect_saved(["--set", "output.every=1000000"], 600 * KIB)
 
+    def test_contacts_come_after_the_only_checkpoint_that_was_due(self):
+        self.expect_saved(["--set", "output.every=1000000", "--checkpoint", "1000000"], 600 * KIB)
+
     def test_frames_fill_the_disk(self):
         self.expect_saved(["--set", "output.history_every=1000000"], 600 * KIB)
 
