@@ -34,9 +34,9 @@ BuiltSimulation built(const LoadedScene& stage, int threads, bool first) {
 /// @throws std::invalid_argument
 std::shared_ptr<const LoadedScene> checked(std::shared_ptr<const LoadedScene> scene, int threads) {
   const SceneAnalysis::Type type = scene->scene.analysis.type;
-  if (type == SceneAnalysis::Type::safety || type == SceneAnalysis::Type::capacity)
+  if (type != SceneAnalysis::Type::dynamic && type != SceneAnalysis::Type::statics)
     throw std::invalid_argument(
-        "a search for a factor is many analyses (analysis.type), `ashlar run` or ashlar.run() does it; "
+        "limits are found by many analyses (analysis.type), `ashlar run` or ashlar.run() does it; "
         "static or dynamic "
         "is needed here");
   if (threads < 1) throw std::invalid_argument(fmt::format("threads is {}, at least 1 is needed", threads));

@@ -43,6 +43,7 @@ FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStar
       stages_(start.earlier != nullptr ? start.earlier->stages : std::vector<FinishedStage>()),
       scene_(scene_of_stage(loaded.scene, stages_.size())),
       bracket_(std::move(start.bracket)),
+      limits_(std::move(start.limits)),
       built_(std::move(start.built)),
       files_(loaded, std::move(start.identity), claim, built_.simulation, start.earlier, start.began),
       saved_(start.earlier != nullptr) {
@@ -75,10 +76,12 @@ void FolderRun::save() {
 
 RunStatus FolderRun::go_through_stage(std::ostream& err) {
   ProgressLine progress(scene_.analysis.end_time, manner_.quiet, err);
-  RunStatus status = is_static(scene_.analysis) ? find_equilibrium(progress) : take_steps(progress);
+  RunStatus status = limits_                      ? show_limits(progress)
+                     : is_static(scene_.analysis) ? find_equilibrium(progress)
+                                                  : take_steps(progress);
   // Before the last frame, which a run that goes on has only if it is due.
   save();
-  if (status == RunStatus::completed) status = audited();
+  if (status == RunStatus::completed && !limits_) status = audited();
   if (bracket_) status = answered(status);
   files_.tables().add_end(built_.simulation);
   return status;
@@ -160,6 +163,18 @@ RunStatus FolderRun::answered(RunStatus status) {
   const std::string motion = status == RunStatus::moving ? "; " + message_ : "";
   message_ = describe(*bracket_, scene_.analysis) + motion;
   return bracket_->resolved ? RunStatus::completed : RunStatus::not_converged;
+}
+
+/// What limit analysis found: blocks are drawn as they set off.
+RunStatus FolderRun::show_limits(ProgressLine& progress) {
+  Simulation& simulation = built_.simulation;
+  if (simulation.steps() == 0) {
+    simulation.displace(drawn_motion(limits_->released, simulation));
+    CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
+    record_step(schedule, progress);
+  }
+  message_ = describe(*limits_, scene_.analysis, simulation);
+  return limits_->answer.released.resolved ? RunStatus::completed : RunStatus::not_converged;
 }
 
 RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
@@ -263,6 +278,7 @@ nlohmann::ordered_json FolderRun::summary_of(RunStatus status) const {
   auto summary = run_summary(
       loaded_.scene, files_.identity(), built_,
       {status, message_, files_.seconds(), files_.tables().frames(), largest(), std::move(begun)});
+  if (limits_) summary[factor_name(scene_.analysis)] = limit_summary(*limits_, built_.simulation);
   if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
   return summary;
 }

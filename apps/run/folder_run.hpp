@@ -8,6 +8,7 @@
 
 #include "apps/run/checkpoint_schedule.hpp"
 #include "apps/run/factor_search.hpp"
+#include "apps/run/limit_run.hpp"
 #include "apps/run/progress.hpp"
 #include "apps/run/run_files.hpp"
 #include "apps/run/run_messages.hpp"
@@ -27,6 +28,7 @@ struct RunStart {
   const RunCheckpoint* earlier = nullptr;  ///< the checkpoint that it goes on from; null: none
   SceneIdentity identity;                  ///< of the whole scene
   std::optional<FactorBracket> bracket;    ///< of a search for a factor, whose motion the run shows
+  std::optional<LimitFindings> limits;     ///< the same, by limit analysis
   double began = 0.0;                      ///< seconds_now() when the program began
 };
 
@@ -44,6 +46,8 @@ class FolderRun {
   /// there is no summary, so that the run counts as one that did not end
   RunEnd go(std::ostream& err);
 
+  /// True if blocks are only drawn as they set off.
+  [[nodiscard]] bool drawn_only() const { return limits_.has_value(); }
   /// True if the folder has a checkpoint of this run.
   [[nodiscard]] bool saved() const { return saved_; }
 
@@ -57,6 +61,7 @@ class FolderRun {
   bool begin_next_stage(RunStatus status);
   RunStatus take_steps(ProgressLine& progress);
   RunStatus find_equilibrium(ProgressLine& progress);
+  RunStatus show_limits(ProgressLine& progress);
   RunStatus audited();
   RunStatus answered(RunStatus status);
   RunStatus failed_in_step(const std::exception& error);
@@ -72,6 +77,7 @@ class FolderRun {
   std::vector<FinishedStage> stages_;  ///< those before the present one
   Scene scene_;                        ///< of the present stage
   std::optional<FactorBracket> bracket_;
+  std::optional<LimitFindings> limits_;
   BuiltSimulation built_;
   ContactChanges changes_;  ///< of static iterations of the present stage
   RunFiles files_;

@@ -12,6 +12,7 @@
 #include "apps/run/folder_run.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/kept_trial.hpp"
+#include "apps/run/limit_run.hpp"
 #include "apps/run/run_messages.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/fault_text.hpp"
@@ -143,6 +144,8 @@ PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnos
   run.built = build_simulation(run.first(), threads, diagnostics, &preparation);
   if (run.built && is_static(run.first().scene.analysis))
     refuse_loose_blocks(run.first().scene, run.built->simulation, diagnostics);
+  if (run.built && diagnostics.good())
+    refuse_idle_limits(run.first().scene, run.built->simulation, diagnostics);
   return run;
 }
 
@@ -186,6 +189,23 @@ std::optional<int> start_statically(PreparedRun& run, std::ostream& err) {
   return std::nullopt;
 }
 
+/// Finds the scene's factor by limit analysis. @return empty: interrupted, which was told
+std::optional<LimitFindings> find_limits_first(const PreparedRun& run, const RunOptions& options,
+                                               std::ostream& err) {
+  LimitFindings findings = find_limits(run.loaded->scene, run.built->simulation, std::max(options.threads, 1),
+                                       [] { return !InterruptGuard::interrupted(); });
+  if (!options.quiet) {
+    for (const LimitTrial& trial : findings.answer.trials)
+      err << fmt::format(
+          "factor {:.5g}, {}: {} ({} iterations)\n", trial.factors.strength * trial.factors.load,
+          trial.released ? "released" : "associated", to_string(trial.outcome), trial.iterations);
+  }
+  if (!findings.answer.interrupted) return findings;
+  err << fmt::format("ashlar: interrupted after {} trials of limit analysis, which a new run begins with\n",
+                     findings.answer.trials.size());
+  return std::nullopt;
+}
+
 /// Finds the scene's factor and builds what shows it. @return false: interrupted, which was told
 bool find_factor_first(PreparedRun& run, const RunOptions& options, const FolderClaim& claim,
                        std::optional<FactorBracket>& bracket, std::ostream& err) {
@@ -209,7 +229,7 @@ bool find_factor_first(PreparedRun& run, const RunOptions& options, const Folder
 void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem::path& folder, bool quiet,
                   std::ostream& err) {
   tell_end(end, folder, quiet, err);
-  if (!quiet) tell_answers(run.simulation(), run.largest(), err);
+  if (!quiet && !run.drawn_only()) tell_answers(run.simulation(), run.largest(), err);
   warn_of_depth(run.simulation(), err);
   warn_of_friction(run.simulation(), err);
   warn_of_hops(run.simulation(), err);
@@ -248,11 +268,20 @@ int run_command(const RunOptions& options, std::ostream& err) {
   std::optional<FolderRun> run;
   try {
     std::optional<FactorBracket> bracket;
-    if (seeks_factor(prepared.loaded->scene.analysis) &&
-        !find_factor_first(prepared, options, *claim, bracket, err))
+    std::optional<LimitFindings> limits;
+    if (uses_limit_analysis(prepared.loaded->scene, prepared.built->simulation)) {
+      limits = find_limits_first(prepared, options, err);
+      if (!limits) return exit_status::interrupted;
+    } else if (seeks_factor(prepared.loaded->scene.analysis) &&
+               !find_factor_first(prepared, options, *claim, bracket, err)) {
       return exit_status::interrupted;
-    RunStart start{std::move(*prepared.built), prepared.earlier ? &*prepared.earlier : nullptr,
-                   std::move(prepared.identity), std::move(bracket), began};
+    }
+    RunStart start{std::move(*prepared.built),
+                   prepared.earlier ? &*prepared.earlier : nullptr,
+                   std::move(prepared.identity),
+                   std::move(bracket),
+                   std::move(limits),
+                   began};
     run.emplace(*prepared.loaded, RunManner{threads, options.checkpoint, options.quiet}, std::move(start),
                 *claim);
   } catch (const std::bad_alloc&) {

@@ -13,7 +13,7 @@
 #include "apps/scene/cut_rock.hpp"
 #include "apps/scene/initial_state.hpp"
 #include "apps/scene/joint_table.hpp"
-#include "apps/scene/name_pattern.hpp"
+#include "apps/scene/limit_choices.hpp"
 #include "apps/scene/support_history.hpp"
 #include "apps/scene/tied_joints.hpp"
 #include "apps/scene/turned_supports.hpp"
@@ -27,11 +27,6 @@ template <class Where>
 BlockPlace place_of(const Where& where) {
   if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};
   return std::get<Vector3>(where);
-}
-
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const std::string& pattern) { return pattern_matches(pattern, name); });
 }
 
 /// @param load_factor of the block's loads
@@ -137,27 +132,6 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   }
   return settings;
 }
-
-/// The joints whose strength a search for a factor of safety divides.
-class ReducedJoints {
- public:
-  explicit ReducedJoints(const Scene& scene) : rock_(scene.rock), cut_(scene.cut.size()) {
-    const std::vector<std::string>& patterns = scene.analysis.safety.of;
-    for (const SceneBlock& block : scene.block) block_.push_back(matches_any(patterns, block.name));
-    for (std::size_t k = 0; k < cut_.size(); ++k) cut_[k] = matches_any(patterns, scene.cut[k].name);
-  }
-
-  [[nodiscard]] bool contains(std::size_t a, std::size_t b) const {
-    if (block_[a] || block_[b]) return true;
-    if (!rock_) return false;
-    const std::vector<std::size_t> cuts = rock_->cuts_between(a, b);
-    return std::any_of(cuts.begin(), cuts.end(), [&](std::size_t cut) { return cut_[cut]; });
-  }
-
- private:
-  std::shared_ptr<const CutRock> rock_;
-  std::vector<bool> block_, cut_;  ///< (#blocks), (#cuts) whether they are named
-};
 
 /// The law with its strength divided by a factor.
 JointLaw reduced(JointLaw law, double factor) {
@@ -293,12 +267,13 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   std::vector<BlockModel> blocks;
   std::vector<InitialMotion> motions;
   BlockPartsLibrary parts;
+  const std::vector<bool> multiplied = multiplied_blocks(scene);
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     if (preparation != nullptr)
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
-      const double load_factor = matches_any(scene.analysis.capacity.of, block.name) ? factors.load : 1.0;
+      const double load_factor = multiplied[k] ? factors.load : 1.0;
       blocks.emplace_back(define_block(loaded, k, load_factor), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(

@@ -22,6 +22,13 @@ struct SceneAnalysis {
     statics,   ///< "static": equilibrium
     safety,    ///< "factor-of-safety": static analyses with less and less strength
     capacity,  ///< "capacity": static analyses with more and more load
+    thrust,    ///< "thrust": least and most thrust on supports
+  };
+  /// How a factor is found (notes/factor_of_safety.md).
+  enum class Method {
+    automatic,  ///< "auto": limit where no joint loses strength for good, elastic where one does
+    limit,      ///< "limit": rigid blocks, by cone programmes
+    elastic,    ///< "elastic": static analyses of the blocks as they are
   };
   enum class Integrator {
     dda,                   ///< "dda": Newmark beta 1/2, gamma 1
@@ -66,6 +73,7 @@ struct SceneAnalysis {
   double mass_damping = 0.0;                   ///< 1/s, >= 0
   double stiffness_damping = 0.0;              ///< s, >= 0, Rayleigh's beta
   bool sleeping = true;                ///< whether islands that have come to rest are held until woken
+  Method method = Method::automatic;   ///< of types safety and capacity
   FactorSearch safety;                 ///< of type safety
   FactorSearch capacity;               ///< of type capacity
   std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto

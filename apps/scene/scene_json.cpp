@@ -54,6 +54,7 @@ Json to_json(const SceneAnalysis& analysis) {
   json["solver"] = name_of(solver_names, analysis.solver);
   json["mass_damping"] = analysis.mass_damping;
   json["stiffness_damping"] = analysis.stiffness_damping;
+  json["method"] = name_of(method_names, analysis.method);
   json["safety"] = to_json(analysis.safety, "joints");
   json["capacity"] = to_json(analysis.capacity, "blocks");
   json["sleeping"] = analysis.sleeping;

@@ -11,11 +11,17 @@ namespace ashlar {
 template <typename Choice, std::size_t count>
 using ChoiceNames = std::array<std::pair<const char*, Choice>, count>;
 
-inline constexpr ChoiceNames<SceneAnalysis::Type, 4> analysis_type_names = {
+inline constexpr ChoiceNames<SceneAnalysis::Type, 5> analysis_type_names = {
     {{"dynamic", SceneAnalysis::Type::dynamic},
      {"static", SceneAnalysis::Type::statics},
      {"factor-of-safety", SceneAnalysis::Type::safety},
-     {"capacity", SceneAnalysis::Type::capacity}}};
+     {"capacity", SceneAnalysis::Type::capacity},
+     {"thrust", SceneAnalysis::Type::thrust}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Method, 3> method_names = {
+    {{"auto", SceneAnalysis::Method::automatic},
+     {"limit", SceneAnalysis::Method::limit},
+     {"elastic", SceneAnalysis::Method::elastic}}};
 
 inline constexpr ChoiceNames<SceneAnalysis::Integrator, 3> integrator_names = {
     {{"dda", SceneAnalysis::Integrator::dda},

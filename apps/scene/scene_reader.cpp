@@ -58,6 +58,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("solver", analysis.solver, solver_names);
   table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
   table.read_number("stiffness_damping", analysis.stiffness_damping, range::not_negative);
+  table.read_choice("method", analysis.method, method_names);
   read_factor_search(table.table_or_empty("safety"), "joints", analysis.safety);
   read_factor_search(table.table_or_empty("capacity"), "blocks", analysis.capacity);
   table.read_bool("sleeping", analysis.sleeping);

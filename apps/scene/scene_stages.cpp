@@ -16,6 +16,11 @@
 namespace ashlar {
 namespace {
 
+/// Whether an analysis goes through states that a stage can begin or end with.
+bool is_run_of_stages(SceneAnalysis::Type type) {
+  return type == SceneAnalysis::Type::dynamic || type == SceneAnalysis::Type::statics;
+}
+
 std::string key_of(std::size_t stage, const std::string& key) {
   return fmt::format("stage.{}.{}", stage, key);
 }
@@ -277,9 +282,9 @@ class StageCheck {
   void check_analysis(std::size_t s) {
     const SceneAnalysis& analysis = scene_.stage[s].analysis;
     const SceneAnalysis& first = scene_.stage.front().analysis;
-    if (analysis.type == SceneAnalysis::Type::safety || analysis.type == SceneAnalysis::Type::capacity)
+    if (!is_run_of_stages(analysis.type))
       error(s, "analysis.type",
-            fmt::format("search for a factor in a stage (\"{}\"), \"static\" or \"dynamic\" is needed",
+            fmt::format("limit analysis in a stage (\"{}\"), \"static\" or \"dynamic\" is needed",
                         name_of(analysis_type_names, analysis.type)));
     if (analysis.formulation != first.formulation)
       error(s, "analysis.formulation",

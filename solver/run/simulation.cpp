@@ -9,6 +9,8 @@
 #include "geometry/index.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/stage_start.hpp"
+#include "solver/statics/rigid_model.hpp"
+#include "solver/statics/rigid_verdict.hpp"
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
@@ -38,6 +40,27 @@ Simulation::Simulation(std::vector<BlockModel> blocks, const std::vector<Initial
 
 RunContext Simulation::context() {
   return {system_, state_, contacts_, factors_, audit_, fault_};
+}
+
+RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& multiplied) const {
+  return ashlar::rigid_model(system_, state_, end_time, multiplied);
+}
+
+void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
+  for (const RigidDisplacement& way : displacements) {
+    Eigen::MatrixX3d& position = state_.states.at(at(way.block)).position;
+    // The first function is constant and of norm 1.
+    Eigen::VectorXd one = Eigen::VectorXd::Zero(position.rows());
+    one[0] = std::sqrt(system_.blocks()[at(way.block)].basis().volume());
+    const double angle = way.rotation.norm();
+    const Vector3 axis = angle > 0.0 ? Vector3(way.rotation / angle) : Vector3(Vector3::UnitX());
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    position = (position - one * way.about.transpose()) * turn.transpose() +
+               one * (way.about + way.translation).transpose();
+  }
+  for (BlockState& state : state_.states) state.velocity.setZero();
+  state_.records.clear();
+  ++state_.steps;
 }
 
 void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
@@ -111,7 +134,9 @@ StaticStatus Simulation::static_step(double end_time) {
 
 StaticStatus Simulation::static_step(double end_time, double far) {
   wake_all(context());
-  return ashlar::static_step(context(), end_time, far);
+  const StaticStatus status = ashlar::static_step(context(), end_time, far);
+  const bool ended = status == StaticStatus::equilibrium || status == StaticStatus::not_converged;
+  return ended ? rigid_verdict(context(), end_time, status) : status;
 }
 
 void Simulation::wake() {

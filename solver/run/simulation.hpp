@@ -23,6 +23,15 @@ struct InitialMotion {
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
 };
 
+/// A rigid motion of a block: a turn about a point and a translation.
+struct RigidDisplacement {
+  int block;
+  Vector3 about;        ///< m
+  Vector3 translation;  ///< m
+  Vector3 rotation;     ///< rad, along its axis
+};
+
+struct RigidModel;          // rigid_model.hpp
 struct SimulationSnapshot;  // checkpoint.hpp
 
 /// A scene in motion. Block indices are those of the vector given.
@@ -73,6 +82,12 @@ class Simulation {
   [[nodiscard]] StaticStatus static_step(double end_time);
   /// The same, which ends as moving as soon as a block is sure to go so far. @param far in block sizes, > 0
   [[nodiscard]] StaticStatus static_step(double end_time, double far);
+  /// The blocks as they lie as rigid bodies, for limit analysis. @param end_time of the loads, s
+  /// @param multiplied by block: whether its loads are those that a factor multiplies; empty: none
+  /// @throws std::invalid_argument if a block is incremental
+  [[nodiscard]] RigidModel rigid_model(double end_time, const std::vector<bool>& multiplied = {}) const;
+  /// Places blocks elsewhere, at rest and without contacts, as a step of its own: for showing how they set off.
+  void displace(const std::vector<RigidDisplacement>& displacements);
   /// Blocks that a static analysis found to be moving, and others that move with them.
   [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
   /// Wakes blocks that sleep (step/sleeping_islands.hpp). To be called where joint laws have changed.

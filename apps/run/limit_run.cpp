@@ -1,0 +1,196 @@
+#include "apps/run/limit_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/run/factor_analysis.hpp"
+#include "apps/scene/limit_choices.hpp"
+#include "solver/state/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// How far the farthest block is drawn from its place, in its sizes.
+constexpr double drawn_share = 0.1;
+
+bool is_safety(const SceneAnalysis& analysis) {
+  return analysis.type == SceneAnalysis::Type::safety;
+}
+
+std::vector<bool> multiplied_of(const Scene& scene) {
+  return is_safety(scene.analysis) ? std::vector<bool>() : multiplied_blocks(scene);
+}
+
+RigidModel model_of(const Scene& scene, const Simulation& simulation) {
+  return simulation.rigid_model(scene.analysis.end_time, multiplied_of(scene));
+}
+
+std::string name_of(const Simulation& simulation, int block) {
+  return simulation.blocks()[static_cast<std::size_t>(block)].name();
+}
+
+/// "rock.8 slides on one plane", "rock.8 and 11 others topple"
+std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
+  if (motion.blocks.empty()) return "nothing moves";
+  const auto fastest = std::max_element(
+      motion.blocks.begin(), motion.blocks.end(),
+      [](const auto& x, const auto& y) { return x.acceleration.norm() < y.acceleration.norm(); });
+  const std::string first = name_of(simulation, fastest->block);
+  if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
+  return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
+}
+
+Json array(const Vector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+void add_motion(Json& json, const LimitMotion& motion, const Simulation& simulation) {
+  json["mode"] = motion.mode;
+  for (const char* key : {"moving", "accelerations", "angular_accelerations", "joints"})
+    json[key] = Json::array();
+  for (const LimitMotion::Block& block : motion.blocks) {
+    json["moving"].push_back(name_of(simulation, block.block));
+    json["accelerations"].push_back(array(block.acceleration));
+    json["angular_accelerations"].push_back(array(block.angular_acceleration));
+  }
+  for (const MovingJoint& joint : motion.joints)
+    json["joints"].push_back(
+        {{"blocks", Json{name_of(simulation, joint.blocks[0]), name_of(simulation, joint.blocks[1])}},
+         {"mode", to_string(joint.motion)}});
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// "between 1.08 and 1.09"
+std::string between(const LimitBracket& bracket) {
+  return fmt::format("between {:.5g} and {:.5g}", *bracket.lower, *bracket.upper);
+}
+
+}  // namespace
+
+bool uses_limit_analysis(const Scene& scene, const Simulation& simulation) {
+  if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return false;
+  if (scene.analysis.method == SceneAnalysis::Method::limit) return true;
+  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return false;
+  const RigidModel model = model_of(scene, simulation);
+  return std::none_of(model.points.begin(), model.points.end(),
+                      [](const RigidPoint& point) { return point_law(point.law, 1.0, true).weakens(); });
+}
+
+void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics) {
+  if (!seeks_factor(scene.analysis)) return;
+  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
+    if (scene.analysis.method == SceneAnalysis::Method::limit)
+      diagnostics.error(scene.places.value("analysis.method"),
+                        "limit analysis of the incremental formulation (\"limit\"), \"elastic\" or the total "
+                        "formulation is needed");
+    return;
+  }
+  const RigidModel model = model_of(scene, simulation);
+  if (model.bodies.empty()) {
+    diagnostics.error(scene.places.value("analysis.type"),
+                      "no block can move (all are fixed or held by supports), one that can is needed");
+    return;
+  }
+  const bool loaded = std::any_of(model.multiplied.begin(), model.multiplied.end(),
+                                  [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
+  if (!is_safety(scene.analysis) && !loaded)
+    diagnostics.error(scene.places.value("analysis.capacity.blocks"),
+                      "loads to multiply move no block (0 N in all), one that can move a block is needed");
+}
+
+LimitFindings find_limits(const Scene& scene, const Simulation& simulation, int threads,
+                          const std::function<bool()>& goes_on) {
+  const ReducedJoints reduced(scene);
+  LimitAnalysis analysis(
+      model_of(scene, simulation),
+      [&](int a, int b) {
+        return reduced.contains(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+      },
+      threads);
+  const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
+  const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
+  LimitFindings findings;
+  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on)
+                                              : analysis.load_factor(search, goes_on);
+  if (findings.answer.released.motion)
+    findings.released = analysis.motion_of(*findings.answer.released.motion);
+  if (findings.answer.associated.motion)
+    findings.associated = analysis.motion_of(*findings.answer.associated.motion);
+  return findings;
+}
+
+std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
+                     const Simulation& simulation) {
+  const LimitBracket& released = findings.answer.released;
+  const LimitBracket& associated = findings.answer.associated;
+  const char* name = is_safety(analysis) ? "factor of safety" : "load factor";
+  const SceneAnalysis::FactorSearch& search = search_of(analysis);
+  if (!released.resolved) {
+    return fmt::format("no {} to the tolerance of {}: {} stands, {} moves", name, search.tolerance,
+                       released.lower ? fmt::format("{:.5g}", *released.lower) : "no factor",
+                       released.upper ? fmt::format("{:.5g}", *released.upper) : "no factor");
+  }
+  if (!released.upper)
+    return fmt::format("no {} up to {}: nothing moves{}", name, search.upper,
+                       is_safety(analysis) ? " with strengths over that" : "");
+  if (!released.lower)
+    return fmt::format(
+        "no {} down to {}: {}, {}", name, search.lower, words_of(findings.released, simulation),
+        is_safety(analysis) ? fmt::format("also with strengths over {}", search.lower) : "under all loads");
+  std::string text =
+      fmt::format("{} {}: {}", name, between(released), words_of(findings.released, simulation));
+  const double apart = 1.0 + 2.0 * search.tolerance;
+  if (!associated.upper)
+    return text + fmt::format(" if joints do not wedge; if they do, nothing moves up to {}", search.upper);
+  if (associated.lower && *associated.lower > apart * *released.upper) {
+    text += fmt::format(" if joints do not wedge, {} if they do ({})", between(associated),
+                        words_of(findings.associated, simulation));
+  }
+  return text;
+}
+
+Json limit_summary(const LimitFindings& findings, const Simulation& simulation) {
+  const LimitBracket& released = findings.answer.released;
+  const LimitBracket& associated = findings.answer.associated;
+  Json json = {{"method", "limit"},
+               {"lower", number(released.lower)},
+               {"upper", number(released.upper)},
+               {"released", number(released.lower)},
+               {"associated", number(associated.lower)}};
+  json["gap"] =
+      released.lower && released.upper ? Json(*released.upper / *released.lower - 1.0) : Json(nullptr);
+  add_motion(json, findings.released, simulation);
+  json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
+  json["associated_motion"] = Json::object();
+  add_motion(json["associated_motion"], findings.associated, simulation);
+  json["trials"] = Json::array();
+  for (const LimitTrial& trial : findings.answer.trials)
+    json["trials"].push_back({{"factor", trial.factors.strength * trial.factors.load},
+                              {"law", trial.released ? "released" : "associated"},
+                              {"outcome", to_string(trial.outcome)},
+                              {"iterations", trial.iterations}});
+  return json;
+}
+
+std::vector<RigidDisplacement> drawn_motion(const LimitMotion& motion, const Simulation& simulation) {
+  double most = 0.0;
+  for (const LimitMotion::Block& block : motion.blocks) {
+    const double size = block_size(simulation.blocks()[static_cast<std::size_t>(block.block)]);
+    most = std::max({most, block.acceleration.norm() / size, block.angular_acceleration.norm()});
+  }
+  std::vector<RigidDisplacement> drawn;
+  if (most == 0.0) return drawn;
+  for (const LimitMotion::Block& block : motion.blocks)
+    drawn.push_back({block.block, block.about, drawn_share / most * block.acceleration,
+                     drawn_share / most * block.angular_acceleration});
+  return drawn;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,48 @@
+// analysis.type "factor-of-safety" and "capacity" by limit analysis (analysis.method = "limit"): what was found, in
+// words and in the summary.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/scene/scene_loading.hpp"
+#include "solver/run/simulation.hpp"
+#include "solver/statics/limit_analysis.hpp"
+
+namespace ashlar {
+
+/// What limit analysis found of a scene.
+struct LimitFindings {
+  LimitAnswer answer;
+  LimitMotion released;    ///< at the least factor that moves; empty: none does
+  LimitMotion associated;  ///< at the least factor that nothing stands above; empty: none is known
+};
+
+/// Whether a search for a factor is one of limit analysis: as the scene says, or, if that leaves it to the program,
+/// where no joint of blocks in contact loses strength for good when it fails.
+[[nodiscard]] bool uses_limit_analysis(const Scene& scene, const Simulation& simulation);
+
+/// Errors of a scene that leave nothing to be found: no block can move, or no load is multiplied.
+void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics);
+
+/// @param simulation as placed, without factors. @param goes_on asked before each trial
+/// @param tell called after each trial, with its law "associated" or "released"
+[[nodiscard]] LimitFindings find_limits(const Scene& scene, const Simulation& simulation, int threads,
+                                        const std::function<bool()>& goes_on);
+
+/// "factor of safety between 0.593 and 0.597 (rock.8 slides on one plane), up to 0.72 if joints wedge (...)"
+[[nodiscard]] std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
+                                   const Simulation& simulation);
+
+/// method, lower, upper (of the released factor; null where there is none), released (the number to sign), associated,
+/// gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, associated_motion, trials.
+[[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
+                                                   const Simulation& simulation);
+
+/// How blocks are drawn that set off: each by its acceleration times one time, the farthest by a share of its size.
+[[nodiscard]] std::vector<RigidDisplacement> drawn_motion(const LimitMotion& motion,
+                                                          const Simulation& simulation);
+
+}  // namespace ashlar

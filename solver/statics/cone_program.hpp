@@ -1,0 +1,120 @@
+// Statics of rigid blocks as a convex programme over the cones of their joints, solved by an interior point method.
+//
+// Bodies have velocities v in coordinates in which their mass matrix is the unit matrix, points have forces
+// p = (N, t1, t2) on the first of their two bodies, compression positive. With G v the velocities of the first body
+// relative to the second one at the points, F the loads and p within the strengths of the joints,
+//     |t| <= c + mu N,   N >= -T                                                                      (cone)
+// two programmes are solved:
+//     rest     min over p   1/2 |F + G'p|^2 + s . N      accelerations v = F + G'p: Gauss's principle
+//     factor   max over p, a   a,   F + G'p + a F1 = 0,   a <= most
+// The dual variables of both are velocities: v is how blocks set off, under `rest` from no velocity, under `factor` in
+// the mechanism that keeps the factor from growing, with F1 . v = 1. Joints that slide open by mu times what they
+// slide (associated flow), less the shift s of a point. Under `rest` v is zero if and only if there are forces within
+// the strengths that balance the loads.
+//
+// Method: primal-dual, scaled by Nesterov and Todd (Andersen, Roos and Terlaky, Math. Program. 95 (2003) 249), with
+// Mehrotra's predictor and corrector. An iteration factorises G' H^-1 G + 1, H (3, 3) of each point: one block for each
+// pair of bodies in contact. Everything is without unit: what calls it divides by a mass, a length and an acceleration.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "solver/linear/block_matrix.hpp"
+#include "solver/linear/sparse_cholesky.hpp"
+
+namespace ashlar {
+
+using BodyVelocity = Eigen::Matrix<double, 6, 1>;
+using ConeRows = Eigen::Matrix<double, 3, 6>;
+
+/// What a point bears.
+struct ConeStrength {
+  double friction = 0.0;  ///< mu, >= 0
+  double cohesion = 0.0;  ///< c, >= 0
+  double tension = 0.0;   ///< T, >= 0
+
+  /// Whether it bears shear.
+  [[nodiscard]] bool shear() const { return friction > 0.0 || cohesion > 0.0; }
+  /// Whether the bound of tension is one beside that of shear: beyond c/mu nothing is left to bear.
+  [[nodiscard]] bool cut_off() const { return !shear() || friction == 0.0 || tension < cohesion / friction; }
+};
+
+/// A point between two bodies: how its relative velocity follows from theirs, normal first.
+struct ConePoint {
+  ConeRows first = ConeRows::Zero();
+  ConeRows second = ConeRows::Zero();  ///< to be subtracted
+  ConeStrength strength;
+};
+
+/// The points of two bodies, which follow each other.
+struct ConePair {
+  std::array<int, 2> bodies;  ///< -1: what does not move
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// What is asked.
+struct ConeQuestion {
+  std::vector<BodyVelocity> load;   ///< F, by body
+  std::vector<BodyVelocity> grows;  ///< F1; empty: `rest`
+  double most = 0.0;                ///< of the factor, > 0
+  std::vector<double> shift;        ///< s by point, >= 0; empty: none
+  double gap =
+      0.0;  ///< at which `rest` may end, over the square of the loads; 0: as small as rounding allows
+};
+
+enum class ConeStatus {
+  solved,      ///< to the tolerances, or as near as rounding allows
+  inaccurate,  ///< neither is the gap closed nor are the equations met
+};
+
+struct ConeAnswer {
+  ConeStatus status = ConeStatus::inaccurate;
+  std::vector<BodyVelocity> velocity;    ///< v
+  std::vector<Eigen::Vector3d> force;    ///< p
+  std::vector<Eigen::Vector2d> opening;  ///< duals: of the cone's axis, and of the bound of tension; >= 0
+  double factor = 0.0;                   ///< a, of `factor`
+  double gap = 0.0;                      ///< between primal and dual value, >= 0
+  double lacking = 0.0;  ///< most that |F + G'p + a F1| of a body is beside v, over the largest load
+  int iterations = 0;
+};
+
+/// Keeps the analysis of its matrix from question to question. The same question has the same answer whatever was asked
+/// before, on any number of threads.
+class ConeProgram {
+ public:
+  /// @param freedom of each body, 1 to 6: the first of its coordinates. @param pairs no two of the same bodies, none of
+  /// two that do not move. @param threads >= 1
+  ConeProgram(std::vector<int> freedom, std::vector<ConePair> pairs, std::vector<ConePoint> points,
+              int threads);
+
+  [[nodiscard]] const std::vector<ConePoint>& points() const { return points_; }
+  [[nodiscard]] const std::vector<ConePair>& pairs() const { return pairs_; }
+  [[nodiscard]] std::size_t bodies() const { return freedom_.size(); }
+  void set_strength(std::size_t point, const ConeStrength& strength) { points_[point].strength = strength; }
+
+  /// @throws std::bad_alloc
+  [[nodiscard]] ConeAnswer solve(const ConeQuestion& question);
+
+  /// G v at a point.
+  [[nodiscard]] Eigen::Vector3d relative(std::size_t pair, std::size_t point,
+                                         const std::vector<BodyVelocity>& velocity) const;
+
+ private:
+  friend class ConeIteration;
+  [[nodiscard]] std::vector<std::array<int, 2>> moving_pairs() const;
+
+  std::vector<int> freedom_;
+  std::vector<ConePair> pairs_;
+  std::vector<ConePoint> points_;
+  std::vector<std::vector<std::array<std::size_t, 2>>>
+      pairs_of_body_;  ///< pair, and which of its bodies this is
+  int threads_;
+  BlockMatrix matrix_;
+  SparseCholesky factor_;
+};
+
+}  // namespace ashlar

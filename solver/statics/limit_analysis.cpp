@@ -1,0 +1,506 @@
+#include "solver/statics/limit_analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Bodies that accelerate by no more than this part of what their loads alone would do are in balance.
+constexpr double still = 1e-4;
+/// Of the fastest body: others move with it.
+constexpr double moves_along = 1e-3;
+
+/// Between steps of the fixed point, relative to the motion: one that repeats itself so well is a motion.
+constexpr double repeats = 2e-3;
+constexpr int most_shifts = 60;
+
+double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k].dot(b[k]);
+  return sum;
+}
+
+double distance(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]).squaredNorm();
+  return std::sqrt(sum);
+}
+
+/// Shifts one after the other, taken on to where they go if they go there by a constant ratio (Aitken).
+class ShiftSequence {
+ public:
+  explicit ShiftSequence(std::size_t points) : last_(points, 0.0) {}
+
+  /// @param found by the last programme. @return to ask the next one with
+  std::vector<double> next(std::vector<double> found) {
+    // What is left of a motion must not be taken for none: a shift of zero is a limit of its own.
+    constexpr double least_left = 0.05, most_on = 10.0;
+    constexpr int steady = 2;
+    const double change = change_of(found);
+    const double ratio = last_change_ > 0.0 ? change / last_change_ : 0.0;
+    jumped_ = ++seen_ > steady && ratio > 0.3 && ratio < 1.0 && std::abs(ratio - last_ratio_) < 0.2 * ratio;
+    last_ratio_ = ratio;
+    if (jumped_) {
+      const double on = std::min(ratio / (1.0 - ratio), most_on);
+      for (std::size_t k = 0; k < found.size(); ++k)
+        found[k] = std::max(found[k] + on * (found[k] - last_[k]), least_left * found[k]);
+      seen_ = 0;
+      last_change_ = 0.0;
+    } else {
+      last_change_ = change;
+    }
+    last_ = found;
+    return found;
+  }
+  /// Whether the last shifts were taken on.
+  [[nodiscard]] bool jumped() const { return jumped_; }
+
+ private:
+  [[nodiscard]] double change_of(const std::vector<double>& found) const {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < found.size(); ++k) sum += (found[k] - last_[k]) * (found[k] - last_[k]);
+    return std::sqrt(sum);
+  }
+
+  std::vector<double> last_;
+  double last_change_ = 0.0, last_ratio_ = 0.0;
+  int seen_ = 0;
+  bool jumped_ = false;
+};
+
+/// Looks for the limit of trials that stand below and move above it.
+class Bracketing {
+ public:
+  Bracketing(const LimitSearch& search, LimitBracket& bracket) : search_(search), bracket_(bracket) {}
+
+  /// @param guess of the limit; 0: none
+  void run(double guess, const std::function<std::optional<LimitTrial>(double)>& attempt) {
+    constexpr int most_trials = 60;
+    double next = guess > 0.0 ? below(guess) : std::clamp(1.0, search_.lower, search_.upper);
+    estimate_ = guess;
+    int unknown = 0;
+    for (int n = 0; n < most_trials && next > 0.0; ++n) {
+      std::optional<LimitTrial> trial = attempt(next);
+      if (!trial) return;
+      if (trial->outcome == LimitOutcome::unknown) {
+        if (++unknown > 3) return;
+        // Rounding is another one beside it.
+        next = std::clamp(next * (1.0 - 0.1 * search_.tolerance), search_.lower, search_.upper);
+        continue;
+      }
+      note(next, std::move(*trial));
+      next = next_factor();
+    }
+  }
+
+ private:
+  [[nodiscard]] double below(double limit) const {
+    return std::clamp(limit * (1.0 - 0.3 * search_.tolerance), search_.lower, search_.upper);
+  }
+
+  void note(double factor, LimitTrial trial) {
+    const bool stands = trial.outcome == LimitOutcome::stands;
+    if (!stands) estimate_ = trial.estimate;
+    last_stands_ = stands;
+    std::optional<double>& end = stands ? bracket_.lower : bracket_.upper;
+    std::optional<LimitTrial>& kept = stands ? bracket_.rest : bracket_.motion;
+    if (end && (stands ? factor <= *end : factor >= *end)) return;
+    end = factor;
+    kept = std::move(trial);
+  }
+
+  /// @return 0: the bracket is as narrow as it is to be
+  double next_factor() {
+    const auto& [low, high] = std::pair(bracket_.lower, bracket_.upper);
+    if (!high) {
+      bracket_.resolved = *low >= search_.upper;
+      if (bracket_.resolved) return 0.0;
+      const double above = std::exchange(estimate_, 0.0) * (1.0 + 0.5 * search_.tolerance);
+      return std::min(above > *low ? above : 2.0 * *low, search_.upper);
+    }
+    bracket_.resolved = low ? *high <= *low * (1.0 + search_.tolerance) : *high <= search_.lower;
+    if (bracket_.resolved) return 0.0;
+    const double least = low ? *low : search_.lower;
+    const double near = last_stands_ ? estimate_ * (1.0 + 0.5 * search_.tolerance) : below(estimate_);
+    const bool inside =
+        near > least * (1.0 + 0.2 * search_.tolerance) && near < *high / (1.0 + 0.2 * search_.tolerance);
+    if (estimate_ > 0.0 && inside) {
+      if (last_stands_) estimate_ = 0.0;
+      return near;
+    }
+    return low ? std::sqrt(*low * *high) : std::max(0.5 * *high, search_.lower);
+  }
+
+  const LimitSearch& search_;
+  LimitBracket& bracket_;
+  double estimate_ = 0.0;
+  bool last_stands_ = false;
+};
+
+}  // namespace
+
+LimitAnalysis::LimitAnalysis(RigidModel model, const Chosen& reduced, int threads)
+    : model_(std::move(model)), program_(program_of(model_, threads)) {
+  for (const RigidPoint& point : model_.points) reduced_.push_back(reduced(point.blocks[0], point.blocks[1]));
+}
+
+void LimitAnalysis::set_factors(const LimitFactors& factors) {
+  for (std::size_t k = 0; k < model_.points.size(); ++k)
+    program_.set_strength(k, strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0));
+}
+
+ConeQuestion LimitAnalysis::question(double load) const {
+  ConeQuestion question;
+  question.load = model_.steady;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) question.load[b] += load * model_.multiplied[b];
+  return question;
+}
+
+double LimitAnalysis::fastest(const std::vector<BodyVelocity>& acceleration, double load) const {
+  // Bodies without loads of their own are moved by others.
+  constexpr double least_load = 1e-3;
+  double most = 0.0, largest = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b)
+    largest = std::max(largest, (model_.steady[b] + load * model_.multiplied[b]).norm());
+  if (largest == 0.0) return 0.0;
+  for (std::size_t b = 0; b < acceleration.size(); ++b) {
+    const double own = (model_.steady[b] + load * model_.multiplied[b]).norm();
+    most = std::max(most, acceleration[b].norm() / std::max(own, least_load * largest));
+  }
+  return most;
+}
+
+double LimitAnalysis::estimate(const LimitFactors& factors, const std::vector<BodyVelocity>& acceleration,
+                               const std::vector<Eigen::Vector3d>& force) const {
+  // The power that accelerates would be dissipated by strengths that are larger in this ratio.
+  double dissipated = 0.0;
+  for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
+    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k)
+      if (reduced_[k]) dissipated -= force[k].dot(program_.relative(n, k, acceleration));
+  }
+  if (!(dissipated > 0.0)) return 0.0;
+  return factors.strength / (1.0 + product(acceleration, acceleration) / dissipated);
+}
+
+LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
+  set_factors(factors);
+  const ConeQuestion asked = question(factors.load);
+  ConeAnswer found = program_.solve(asked);
+  LimitTrial trial;
+  trial.factors = factors;
+  trial.programmes = 1;
+  trial.iterations = found.iterations;
+  const double motion = fastest(found.velocity, factors.load);
+  const double square = product(found.velocity, found.velocity);
+  if (found.status == ConeStatus::solved && motion <= still) {
+    trial.outcome = LimitOutcome::stands;
+  } else if (motion > still && square > 2.0 * found.gap && found.lacking < 0.1 * still) {
+    trial.outcome = LimitOutcome::moves;
+    // Power of forces within the strengths that reduction takes: z . x of the cones is what is left of them.
+    double strength_power = 0.0;
+    for (std::size_t k = 0; k < model_.points.size(); ++k) {
+      if (!reduced_[k]) continue;
+      const ConeStrength& s = program_.points()[k].strength;
+      strength_power += found.opening[k][0] * (s.friction * found.force[k][0] + s.cohesion) +
+                        found.opening[k][1] * s.tension;
+    }
+    if (strength_power > 0.0) trial.estimate = factors.strength / (1.0 + square / strength_power);
+  }
+  trial.acceleration = std::move(found.velocity);
+  trial.force = std::move(found.force);
+  return trial;
+}
+
+LimitTrial LimitAnalysis::released(const LimitFactors& factors) {
+  LimitTrial trial;
+  trial.factors = factors;
+  trial.released = true;
+  ConeQuestion asked = question(factors.load);
+  // The motion without friction: nothing is wedged in it.
+  for (std::size_t k = 0; k < model_.points.size(); ++k) {
+    ConeStrength strength = strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0);
+    strength.friction = 0.0;
+    program_.set_strength(k, strength);
+  }
+  ConeAnswer found = program_.solve(asked);
+  ++trial.programmes;
+  trial.iterations += found.iterations;
+  set_factors(factors);
+  std::vector<double> kept_open(model_.points.size());
+  for (std::size_t k = 0; k < model_.points.size(); ++k) {
+    const double friction = program_.points()[k].strength.friction;
+    kept_open[k] = friction - std::min(model_.points[k].law.dilation, friction);
+  }
+  std::vector<BodyVelocity> before = found.velocity;
+  ShiftSequence sequence(model_.points.size());
+  double size = std::sqrt(product(before, before));
+  for (int n = 0; n < most_shifts; ++n) {
+    std::vector<double> next(model_.points.size());
+    for (std::size_t pair = 0; pair < model_.pairs.size(); ++pair)
+      for (std::size_t k = model_.pairs[pair].begin; k < model_.pairs[pair].end; ++k)
+        next[k] = kept_open[k] * program_.relative(pair, k, before).tail<2>().norm();
+    asked.shift = sequence.next(std::move(next));
+    const double square = product(asked.load, asked.load);
+    asked.gap = square > 0.0 ? std::min(1e-4 * size * size / square, 1e-7) : 0.0;
+    found = program_.solve(asked);
+    ++trial.programmes;
+    trial.iterations += found.iterations;
+    if (found.status != ConeStatus::solved) break;
+    const double motion = fastest(found.velocity, factors.load);
+    if (motion <= still) {
+      trial.outcome = LimitOutcome::stands;
+      break;
+    }
+    size = std::sqrt(product(found.velocity, found.velocity));
+    if (!sequence.jumped() && distance(found.velocity, before) <= repeats * size) {
+      trial.outcome = LimitOutcome::moves;
+      trial.estimate = estimate(factors, found.velocity, found.force);
+      break;
+    }
+    before = found.velocity;
+  }
+  trial.acceleration = std::move(found.velocity);
+  trial.force = std::move(found.force);
+  return trial;
+}
+
+LimitTrial LimitAnalysis::with_bounds(const LimitFactors& factors, std::vector<double>& normal) {
+  // The share of friction that follows the normal force at once; the rest is that of the programme before.
+  constexpr double first_share = 0.3, least_share = 0.005, share_falls = 0.6, taken_over = 0.7;
+  LimitTrial trial;
+  trial.factors = factors;
+  trial.released = true;
+  const ConeQuestion asked = question(factors.load);
+  std::vector<BodyVelocity> before;
+  int stood = 0;
+  double share = first_share;
+  for (int n = 0; n < most_shifts; ++n) {
+    for (std::size_t k = 0; k < model_.points.size(); ++k) {
+      ConeStrength strength = strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0);
+      const double dilating = std::min(model_.points[k].law.dilation, strength.friction);
+      const double at_once = dilating + share * (strength.friction - dilating);
+      strength.cohesion += (strength.friction - at_once) * std::max(normal[k], 0.0);
+      strength.friction = at_once;
+      program_.set_strength(k, strength);
+    }
+    ConeAnswer found = program_.solve(asked);
+    ++trial.programmes;
+    trial.iterations += found.iterations;
+    if (found.status != ConeStatus::solved) break;
+    double change = 0.0, largest = 0.0;
+    for (std::size_t k = 0; k < normal.size(); ++k) {
+      const double next = std::max(found.force[k][0], 0.0);
+      change = std::max(change, std::abs(next - normal[k]));
+      largest = std::max(largest, next);
+      normal[k] += taken_over * (next - normal[k]);
+    }
+    const double motion = fastest(found.velocity, factors.load);
+    stood = motion <= still ? stood + 1 : 0;
+    const double size = std::sqrt(product(found.velocity, found.velocity));
+    const bool repeated = !before.empty() && distance(found.velocity, before) <= repeats * size;
+    before = found.velocity;
+    trial.acceleration = std::move(found.velocity);
+    trial.force = std::move(found.force);
+    if (stood >= 2 && share <= least_share) trial.outcome = LimitOutcome::stands;
+    if (stood == 0 && repeated && share <= least_share && change <= 10.0 * repeats * largest)
+      trial.outcome = LimitOutcome::moves;
+    if (trial.outcome != LimitOutcome::unknown) break;
+    share = std::max(share * share_falls, least_share);
+  }
+  return trial;
+}
+
+LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors) {
+  int programmes = 0, iterations = 0;
+  if (!steady_normal_) {
+    steady_normal_.emplace(model_.points.size(), 0.0);
+    const LimitTrial steady = with_bounds({factors.strength, 0.0}, *steady_normal_);
+    programmes = steady.programmes;
+    iterations = steady.iterations;
+    // Where the others alone are in motion already, all act at once.
+    if (steady.outcome != LimitOutcome::stands) steady_normal_->assign(model_.points.size(), 0.0);
+  }
+  std::vector<double> normal = *steady_normal_;
+  LimitTrial trial = with_bounds(factors, normal);
+  trial.programmes += programmes;
+  trial.iterations += iterations;
+  return trial;
+}
+
+double LimitAnalysis::most_that_stands(const LimitSearch& search) {
+  set_factors({});
+  ConeQuestion asked = question(0.0);
+  asked.grows = model_.multiplied;
+  asked.most = search.upper;
+  const ConeAnswer found = program_.solve(asked);
+  return found.status == ConeStatus::solved && found.lacking < still ? found.factor : 0.0;
+}
+
+LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
+                                  const std::function<bool()>& goes_on) {
+  LimitAnswer answer;
+  const auto factors = [&](double factor) {
+    return sought == Sought::strength ? LimitFactors{factor, 1.0} : LimitFactors{1.0, factor};
+  };
+  const auto attempt = [&](bool released) {
+    return [&, released](double factor) -> std::optional<LimitTrial> {
+      if (!goes_on()) {
+        answer.interrupted = true;
+        return std::nullopt;
+      }
+      LimitTrial trial = !released                    ? associated(factors(factor))
+                         : sought == Sought::strength ? this->released(factors(factor))
+                                                      : released_after_steady(factors(factor));
+      answer.trials.push_back({trial.factors,
+                               released,
+                               trial.outcome,
+                               {},
+                               {},
+                               trial.estimate,
+                               trial.programmes,
+                               trial.iterations});
+      if (sought == Sought::load) trial.estimate = 0.0;
+      return trial;
+    };
+  };
+  const double guess = sought == Sought::load ? most_that_stands(search) : 0.0;
+  Bracketing(search, answer.associated).run(guess, attempt(false));
+  if (answer.interrupted) return answer;
+  // A released motion may exist below: at the largest factor that stands, and down from there.
+  LimitBracket& released = answer.released;
+  if (answer.associated.upper) {
+    released.upper = answer.associated.upper;
+    released.motion = answer.associated.motion;
+  }
+  const double start = answer.associated.lower.value_or(0.0);
+  if (start == 0.0) {
+    released = answer.associated;
+    return answer;
+  }
+  Bracketing(search, released).run(start / (1.0 - 0.3 * search.tolerance), attempt(true));
+  return answer;
+}
+
+LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
+  return answer(Sought::strength, search, goes_on);
+}
+
+LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
+  return answer(Sought::load, search, goes_on);
+}
+
+LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) const {
+  LimitMotion motion;
+  double largest = 0.0;
+  std::size_t leader = 0;
+  const auto speed = [&](std::size_t b) {
+    return trial.acceleration[b].norm() / std::sqrt(model_.bodies[b].mass / model_.units.mass);
+  };
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    if (speed(b) <= largest) continue;
+    largest = speed(b);
+    leader = b;
+  }
+  if (largest == 0.0) return motion;
+  std::vector<bool> moves(model_.bodies.size());
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+    moves[b] = speed(b) > moves_along * largest;
+    if (!moves[b]) continue;
+    const RigidMotionOf rigid =
+        ashlar::motion_of(model_.bodies[b], model_.units.acceleration * trial.acceleration[b]);
+    for (const int block : model_.bodies[b].blocks)
+      motion.blocks.push_back({block, model_.bodies[b].middle, rigid.translation, rigid.rotation});
+  }
+  std::sort(motion.blocks.begin(), motion.blocks.end(),
+            [](const LimitMotion::Block& x, const LimitMotion::Block& y) { return x.block < y.block; });
+  struct Seen {
+    double normal = 0.0, slid = 0.0, opened = 0.0;
+    Vector3 direction = Vector3::Zero();
+    bool of_leader = false;
+  };
+  std::map<std::array<int, 2>, Seen> seen;
+  for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
+    const auto [a, b] = model_.pairs[n].bodies;
+    if (!(a >= 0 && moves[at(a)]) && !(b >= 0 && moves[at(b)])) continue;
+    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
+      const RigidPoint& point = model_.points[k];
+      Seen& joint =
+          seen[{std::min(point.blocks[0], point.blocks[1]), std::max(point.blocks[0], point.blocks[1])}];
+      const Eigen::Vector3d y = program_.relative(n, k, trial.acceleration);
+      joint.normal += std::max(trial.force[k][0], 0.0);
+      joint.slid = std::max(joint.slid, y.tail<2>().norm());
+      joint.opened = std::max(joint.opened, y[0]);
+      joint.direction += point.frame.row(0).transpose();
+      joint.of_leader = at(std::max(a, 0)) == leader || at(std::max(b, 0)) == leader;
+    }
+  }
+  double weight = 0.0;
+  for (std::size_t b = 0; b < model_.bodies.size(); ++b)
+    if (moves[b])
+      weight = std::max(weight, (model_.steady[b] + trial.factors.load * model_.multiplied[b]).norm());
+  std::vector<Vector3> planes;
+  for (const auto& [blocks, joint] : seen) {
+    const bool bears = joint.normal > 1e-3 * weight;
+    const bool slides = joint.slid > 0.05 * largest;
+    const JointMotion how = !bears && (slides || joint.opened > 0.05 * largest) ? JointMotion::opens
+                            : slides                                            ? JointMotion::slides
+                                                                                : JointMotion::sticks;
+    motion.joints.push_back({blocks, how});
+    if (how != JointMotion::slides || !joint.of_leader) continue;
+    const Vector3 normal = joint.direction.normalized();
+    const bool known = std::any_of(planes.begin(), planes.end(),
+                                   [&](const Vector3& plane) { return std::abs(plane.dot(normal)) > 0.999; });
+    if (!known) planes.push_back(normal);
+  }
+  const RigidBody& body = model_.bodies[leader];
+  const RigidMotionOf rigid = ashlar::motion_of(body, trial.acceleration[leader]);
+  double reach = 0.0;
+  for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
+    const auto [a, b] = model_.pairs[n].bodies;
+    if (a != static_cast<int>(leader) && b != static_cast<int>(leader)) continue;
+    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k)
+      reach = std::max(reach, (model_.points[k].place - body.middle).norm());
+  }
+  const bool turns = rigid.rotation.norm() * reach > 0.1 * rigid.translation.norm();
+  if (turns) {
+    motion.mode = planes.empty() ? "topples" : "topples and slides";
+  } else if (planes.empty()) {
+    motion.mode = "falls";
+  } else if (planes.size() == 1) {
+    motion.mode = "slides on one plane";
+  } else {
+    motion.mode = planes.size() == 2 ? "slides along two planes" : "slides on several planes";
+  }
+  return motion;
+}
+
+const char* to_string(JointMotion motion) {
+  switch (motion) {
+    case JointMotion::sticks:
+      return "sticks";
+    case JointMotion::slides:
+      return "slides";
+    case JointMotion::opens:
+      return "opens";
+  }
+  return "";
+}
+
+const char* to_string(LimitOutcome outcome) {
+  switch (outcome) {
+    case LimitOutcome::stands:
+      return "stands";
+    case LimitOutcome::moves:
+      return "moves";
+    case LimitOutcome::unknown:
+      return "unknown";
+  }
+  return "";
+}
+
+}  // namespace ashlar

@@ -1,0 +1,405 @@
+#include "solver/statics/rigid_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
+#include "mechanics/block/rigid_motions.hpp"
+#include "solver/state/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Eigen::Matrix3d cross_matrix(const Vector3& d) {
+  Eigen::Matrix3d m;
+  m << 0.0, -d.z(), d.y(), d.z(), 0.0, -d.x(), -d.y(), d.x(), 0.0;
+  return m;
+}
+
+/// Coefficients of the velocity field of a block for each rigid motion (t, w) about a place, as it lies.
+class RigidFields {
+ public:
+  RigidFields(const BlockModel& block, const Eigen::MatrixX3d& position, const Vector3& about)
+      : one_(Eigen::VectorXd::Zero(block.basis().size())) {
+    // The first function is constant and of norm 1.
+    one_[0] = std::sqrt(block.basis().volume());
+    arm_ = position - one_ * about.transpose();
+  }
+  /// @param k 0 to 2: translation along an axis, 3 to 5: rotation about one
+  [[nodiscard]] Eigen::MatrixX3d field(int k) const {
+    if (k < 3) return one_ * Vector3::Unit(k).transpose();
+    return arm_ * cross_matrix(Vector3::Unit(k - 3)).transpose();
+  }
+  [[nodiscard]] Vector3 middle() const { return arm_.transpose() * one_ / one_.squaredNorm(); }
+
+ private:
+  Eigen::VectorXd one_;
+  Eigen::MatrixX3d arm_;
+};
+
+/// Motions about a place that the supports of a block do not leave, as projectors onto them are summed; lengths over
+/// a size.
+Matrix6 held_by_supports(const BlockModel& block, const Vector3& about, double size) {
+  const std::vector<RigidMotion> motions = admissible_rigid_motions(block);
+  Eigen::MatrixXd left(6, static_cast<Eigen::Index>(motions.size()));
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    left.col(column).head<3>() =
+        motions[k].translation + motions[k].rotation.cross(about - block.basis().centroid());
+    left.col(column).tail<3>() = size * motions[k].rotation;
+  }
+  if (motions.empty()) return Matrix6::Identity();
+  const Eigen::MatrixXd q = left.colPivHouseholderQr().householderQ() *
+                            Eigen::MatrixXd::Identity(6, static_cast<Eigen::Index>(motions.size()));
+  return Matrix6::Identity() - q * q.transpose();
+}
+
+/// Columns: what all supports of a body leave it.
+Eigen::MatrixXd motions_left(const BlockSystem& system, const RigidBody& body) {
+  double size = 0.0;
+  for (const int k : body.blocks) size = std::max(size, block_size(system.blocks()[at(k)]));
+  Matrix6 held = Matrix6::Zero();
+  for (const int k : body.blocks) {
+    const BlockModel& block = system.blocks()[at(k)];
+    if (block.fixed()) return Eigen::MatrixXd(6, 0);
+    if (block.supported()) held += held_by_supports(block, body.middle, size);
+  }
+  constexpr double as_good_as_free = 1e-6;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(held);
+  const auto count = static_cast<Eigen::Index>((solver.eigenvalues().array() < as_good_as_free).count());
+  Eigen::MatrixXd left = solver.eigenvectors().leftCols(count);
+  left.bottomRows<3>() /= size;
+  return left;
+}
+
+/// Blocks and middles of all bodies that may move. Marks what does not.
+std::vector<RigidBody> bodies_of(const BlockSystem& system, const RunState& state,
+                                 std::vector<int>& body_of) {
+  UnionFind tied(system.blocks().size());
+  for (const TiedBlocks& tie : system.ties()) tied.unite(tie.a, tie.b);
+  std::map<int, RigidBody> by_root;
+  for (int k = 0; k < system.count(); ++k) {
+    if (!system.present(k)) continue;
+    if (system.blocks()[at(k)].incremental() != nullptr)
+      throw std::invalid_argument("incremental blocks have no limit analysis");
+    by_root[tied.find(k)].blocks.push_back(k);
+  }
+  std::vector<RigidBody> bodies;
+  for (auto& [root, body] : by_root) {
+    for (const int k : body.blocks) {
+      const BlockModel& block = system.blocks()[at(k)];
+      if (block.fixed()) continue;
+      const double mass = block.mass();
+      body.mass += mass;
+      body.middle += mass * RigidFields(block, state.states[at(k)].position, Vector3::Zero()).middle();
+    }
+    if (!(body.mass > 0.0)) continue;
+    body.middle /= body.mass;
+    const Eigen::MatrixXd left = motions_left(system, body);
+    if (left.cols() == 0) continue;
+    body.freedom = static_cast<int>(left.cols());
+    body.motion.leftCols(left.cols()) = left;
+    for (const int k : body.blocks) body_of[at(k)] = static_cast<int>(bodies.size());
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+/// Makes the mass matrix of a body's coordinates the unit mass times the unit matrix.
+void normalize(const BlockSystem& system, const RunState& state, double unit, RigidBody& body) {
+  Matrix6 mass = Matrix6::Zero();
+  for (const int k : body.blocks) {
+    const BlockModel& block = system.blocks()[at(k)];
+    const RigidFields fields(block, state.states[at(k)].position, body.middle);
+    std::array<Eigen::MatrixX3d, 6> field;
+    for (int i = 0; i < 6; ++i) field[at(i)] = fields.field(i);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j)
+        mass(i, j) += block.material().density * field[at(i)].cwiseProduct(field[at(j)]).sum();
+  }
+  const Eigen::MatrixXd motion = body.motion.leftCols(body.freedom);
+  const Eigen::MatrixXd own = motion.transpose() * mass * motion / unit;
+  const Eigen::LLT<Eigen::MatrixXd> factor(own);
+  body.motion.leftCols(body.freedom) = factor.matrixL().solve(motion.transpose()).transpose();
+}
+
+/// Loads on a body's coordinates, N. @param forces (p, 3) of a block
+template <class Forces>
+BodyVelocity load_on(const BlockSystem& system, const RunState& state, const RigidBody& body,
+                     const Forces& forces) {
+  BodyVelocity wrench = BodyVelocity::Zero();
+  for (const int k : body.blocks) {
+    const Eigen::MatrixX3d force = forces(k);
+    if (force.size() == 0) continue;
+    const RigidFields fields(system.blocks()[at(k)], state.states[at(k)].position, body.middle);
+    for (int i = 0; i < 6; ++i) wrench[i] += fields.field(i).cwiseProduct(force).sum();
+  }
+  return body.motion.transpose() * wrench;
+}
+
+/// The system with springs at the corners of overlaps, and no ties.
+BlockSystem with_corners(const BlockSystem& system) {
+  SimulationSettings settings = system.settings();
+  settings.area_springs = false;
+  settings.curved_surface = false;
+  settings.augmented = false;
+  settings.search.subdivisions = 0;
+  settings.search.chord_tolerance = std::numeric_limits<double>::infinity();
+  return BlockSystem(
+      system.blocks(),
+      [&system](int a, int b) {
+        JointLaw law = system.law(a, b);
+        law.area_springs = false;
+        return law;
+      },
+      settings, {}, system.absent());
+}
+
+/// Divides the overlaps of two blocks into parts.
+class OverlapParts {
+ public:
+  OverlapParts(const ContactFinder& finder, const FoundContacts& found, const ContactPair& pair, double reach)
+      : a_(finder.placed(found.blocks[0])),
+        b_(finder.placed(found.blocks[1])),
+        found_(found),
+        pair_(pair),
+        reach_(reach) {}
+
+  /// @param law of the two blocks
+  void add(const JointLaw& law, std::vector<RigidPoint>& points) const {
+    for (const CellOverlap& overlap : found_.contacts.overlaps) {
+      const ContactPoint* corner = corner_of(overlap);
+      if (corner == nullptr) continue;
+      double gap = 0.0;
+      for (const double g : overlap.gaps) gap += g / static_cast<double>(overlap.gaps.size());
+      if (gap > reach_) continue;
+      for (std::size_t k = 2; k < overlap.corners.size(); ++k)
+        add_triangle({overlap.corners[0].place, overlap.corners[k - 1].place, overlap.corners[k].place},
+                     overlap, *corner, law, points);
+    }
+  }
+
+ private:
+  using Triangle = std::array<Eigen::Vector2d, 3>;
+
+  [[nodiscard]] const ContactPoint* corner_of(const CellOverlap& overlap) const {
+    const int face_a = a_.surface().cells[at(overlap.cell_a)].face;
+    const int face_b = b_.surface().cells[at(overlap.cell_b)].face;
+    for (const ContactPoint& point : pair_.points())
+      if (point.type == ContactPointType::face_face && point.face_a == face_a && point.face_b == face_b)
+        return &point;
+    return nullptr;
+  }
+
+  static ContactPoint part_of(ContactPoint corner, const Vector3& place, double area) {
+    for (Vector3* material : {&corner.material_a, &corner.material_b}) *material += place - corner.place_a;
+    corner.place_a = corner.place_b = place;
+    corner.area = area;
+    corner.gap = 0.0;
+    return corner;
+  }
+
+  void add_triangle(const Triangle& t, const CellOverlap& overlap, const ContactPoint& corner,
+                    const JointLaw& law, std::vector<RigidPoint>& points) const {
+    const Eigen::Vector2d m01 = 0.5 * (t[0] + t[1]), m12 = 0.5 * (t[1] + t[2]), m20 = 0.5 * (t[2] + t[0]);
+    for (const Triangle& part : {Triangle{t[0], m01, m20}, Triangle{t[1], m12, m01}, Triangle{t[2], m20, m12},
+                                 Triangle{m01, m12, m20}}) {
+      const Eigen::Vector2d u = part[1] - part[0], v = part[2] - part[0];
+      const double area = 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
+      if (!(area > 0.0)) continue;
+      const Eigen::Vector2d middle = (part[0] + part[1] + part[2]) / 3.0;
+      const ViewFrame& frame = overlap.frame;
+      Eigen::Matrix3d axes;
+      axes << corner.normal.transpose(), corner.tangent_1.transpose(), corner.tangent_2.transpose();
+      points.push_back({{pair_.a(), pair_.b()},
+                        frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
+                        axes,
+                        area,
+                        law,
+                        part_of(corner, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2, area)});
+    }
+  }
+
+  const PlacedSurface& a_;
+  const PlacedSurface& b_;
+  const FoundContacts& found_;
+  const ContactPair& pair_;
+  double reach_;
+};
+
+/// Points of all pairs of blocks, in the order of the pairs.
+std::vector<RigidPoint> points_of(const BlockSystem& system, const RunState& state,
+                                  const std::vector<int>& body_of) {
+  BlockSystem view = with_corners(system);
+  RunState copy;
+  copy.states = state.states;
+  for (const auto& [blocks, history] : state.pairs) copy.pairs[blocks].overlap = history.overlap;
+  copy.clock = state.clock;
+  StepContacts contacts(view);
+  std::vector<FoundContacts> found = contacts.detect(view, copy, 0.0);
+  std::erase_if(found, [&](const FoundContacts& one) {
+    const auto [a, b] = one.blocks;
+    const bool same = body_of[at(a)] >= 0 && body_of[at(a)] == body_of[at(b)];
+    return same || (body_of[at(a)] < 0 && body_of[at(b)] < 0) || system.left_out().contains(one.blocks);
+  });
+  const double reach = system.settings().contact_distance;
+  std::vector<RigidPoint> points;
+  auto next = found.begin();
+  for (const ContactPair& pair : contacts.pairs(view, copy, found, PairUse::statics)) {
+    while (next->blocks != PairKey{pair.a(), pair.b()}) ++next;
+    const JointLaw law = system.law(pair.a(), pair.b());
+    for (const ContactPoint& point : pair.points()) {
+      if (point.gap > reach) continue;
+      Eigen::Matrix3d frame;
+      frame << point.normal.transpose(), point.tangent_1.transpose(), point.tangent_2.transpose();
+      points.push_back({{pair.a(), pair.b()}, 0.5 * (point.place_a + point.place_b), frame, 0.0, law, point});
+    }
+    if (law.cohesion > 0.0 || law.tensile_strength > 0.0)
+      OverlapParts(contacts.finder(), *next, pair, reach).add(law, points);
+  }
+  return points;
+}
+
+ConeRows rows_of(const RigidBody& body, const RigidPoint& point) {
+  Eigen::Matrix<double, 3, 6> field;
+  field << Eigen::Matrix3d::Identity(), -cross_matrix(point.place - body.middle);
+  return point.frame * field * body.motion;
+}
+
+}  // namespace
+
+RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
+                       const std::vector<bool>& multiplied) {
+  RigidModel model;
+  model.body_of.assign(at(system.count()), -1);
+  model.bodies = bodies_of(system, state, model.body_of);
+  std::vector<RigidPoint> points = points_of(system, state, model.body_of);
+  // Points of the same two bodies follow each other.
+  const auto bodies = [&](const RigidPoint& point) {
+    return std::array<int, 2>{model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
+  };
+  const auto key = [&](const RigidPoint& point) {
+    const auto [a, b] = bodies(point);
+    return std::pair(std::min(a, b), std::max(a, b));
+  };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const RigidPoint& x, const RigidPoint& y) { return key(x) < key(y); });
+  std::vector<bool> touched(model.bodies.size(), false);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    RigidPoint& point = points[k];
+    if (k > 0 && key(point) == key(points[k - 1])) {
+      // Two tied blocks may see a third one from other sides.
+      if (bodies(point) != model.pairs.back().bodies) {
+        std::swap(point.blocks[0], point.blocks[1]);
+        point.frame = -point.frame;
+        point.frame.row(2) *= -1.0;
+      }
+      model.pairs.back().end = k + 1;
+    } else {
+      model.pairs.push_back({bodies(point), k, k + 1});
+    }
+    for (const int body : bodies(point))
+      if (body >= 0) touched[at(body)] = true;
+  }
+  model.points = std::move(points);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!touched[b])
+      model.without_contact.insert(model.without_contact.end(), model.bodies[b].blocks.begin(),
+                                   model.bodies[b].blocks.end());
+  double mass = 0.0;
+  for (const RigidBody& body : model.bodies) mass += body.mass;
+  if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());
+  const Vector3 gravity = system.settings().gravity_at(end_time);
+  double largest = 0.0;
+  for (RigidBody& body : model.bodies) {
+    normalize(system, state, model.units.mass, body);
+    const auto grows = [&](int k) { return !multiplied.empty() && multiplied[at(k)]; };
+    const BodyVelocity all = load_on(system, state, body, [&](int k) {
+      return system.blocks()[at(k)].fixed() ? Eigen::MatrixX3d()
+                                            : system.blocks()[at(k)].external_force(gravity, end_time);
+    });
+    const BodyVelocity part = load_on(system, state, body, [&](int k) {
+      return grows(k) && !system.blocks()[at(k)].fixed() ? system.blocks()[at(k)].load_force(end_time)
+                                                         : Eigen::MatrixX3d();
+    });
+    model.steady.push_back(all - part);
+    model.multiplied.push_back(part);
+    largest = std::max({largest, (all - part).norm(), part.norm()});
+  }
+  if (largest > 0.0) model.units.acceleration = largest / model.units.mass;
+  for (auto* loads : {&model.steady, &model.multiplied})
+    for (BodyVelocity& load : *loads) load /= model.units.force();
+  return model;
+}
+
+ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor) {
+  const double friction = point.law.friction / factor;
+  if (point.area == 0.0) return {friction, 0.0, 0.0};
+  const double cohesion = point.law.cohesion * point.area / factor / model.units.force();
+  const double tension = point.law.tensile_strength * point.area / factor / model.units.force();
+  return {friction, cohesion, friction > 0.0 ? std::min(tension, cohesion / friction) : tension};
+}
+
+std::vector<ConePoint> cone_points(const RigidModel& model) {
+  std::vector<ConePoint> points;
+  for (const ConePair& pair : model.pairs) {
+    for (std::size_t k = pair.begin; k < pair.end; ++k) {
+      ConePoint point;
+      if (pair.bodies[0] >= 0) point.first = rows_of(model.bodies[at(pair.bodies[0])], model.points[k]);
+      if (pair.bodies[1] >= 0) point.second = rows_of(model.bodies[at(pair.bodies[1])], model.points[k]);
+      point.strength = strength_of(model, model.points[k], 1.0);
+      points.push_back(point);
+    }
+  }
+  return points;
+}
+
+ConeProgram program_of(const RigidModel& model, int threads) {
+  std::vector<int> freedom;
+  for (const RigidBody& body : model.bodies) freedom.push_back(body.freedom);
+  return ConeProgram(std::move(freedom), model.pairs, cone_points(model), threads);
+}
+
+std::vector<PairRecord> contact_records(const RigidModel& model, const std::vector<Eigen::Vector3d>& force) {
+  constexpr double bears = 1e-9, at_limit = 1.0 - 1e-6;
+  double largest = 0.0;
+  for (const Eigen::Vector3d& f : force) largest = std::max(largest, f.norm());
+  std::map<PairKey, PairRecord> records;
+  for (std::size_t k = 0; k < model.points.size(); ++k) {
+    const RigidPoint& point = model.points[k];
+    const PairKey key{std::min(point.blocks[0], point.blocks[1]), std::max(point.blocks[0], point.blocks[1])};
+    PairRecord& record = records.try_emplace(key, PairRecord{key[0], key[1], {}, {}, {}, 0.0}).first->second;
+    const double sign = point.blocks[0] == key[0] ? 1.0 : -1.0;
+    const Vector3 on_a = sign * (point.frame.transpose() * force[k]);
+    PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
+    response.force = in_frame(point.contact, on_a);
+    const ConeStrength strength = strength_of(model, point, 1.0);
+    const double shear = force[k].tail<2>().norm();
+    const double limit =
+        strength.friction * std::max(force[k][0], 0.0) + strength.cohesion * model.units.force();
+    response.state = force[k].norm() <= bears * largest ? ContactState::open
+                     : shear >= at_limit * limit        ? ContactState::sliding
+                                                        : ContactState::locked;
+    if (response.state == ContactState::open) response.force.setZero();
+    record.points.push_back(point.contact);
+    record.responses.push_back(response);
+    record.gaps.push_back(std::max(point.contact.gap, 0.0));
+  }
+  std::vector<PairRecord> result;
+  for (auto& [key, record] : records) result.push_back(std::move(record));
+  return result;
+}
+
+RigidMotionOf motion_of(const RigidBody& body, const BodyVelocity& coordinates) {
+  const BodyVelocity motion = body.motion * coordinates;
+  return {motion.head<3>(), motion.tail<3>()};
+}
+
+}  // namespace ashlar

@@ -1,0 +1,17 @@
+// What limit analysis says of a static analysis that has ended (limit_analysis.hpp): of one without an answer, whether
+// blocks stand or move, and of one in equilibrium, whether that needs forces that only wedging could have put there.
+//
+// It speaks where rigid blocks tell: joints keep their strength when they slide, loads do not change on the way, no
+// support moves, and nothing was in equilibrium before under other loads, of which forces may be left.
+#pragma once
+
+#include "solver/statics/static_analysis.hpp"
+#include "solver/step/run_context.hpp"
+
+namespace ashlar {
+
+/// Takes note of the motion that limit analysis finds, so that moving_blocks() tells it.
+/// @param status equilibrium or not_converged. @return moving, or the same status
+[[nodiscard]] StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus status);
+
+}  // namespace ashlar
