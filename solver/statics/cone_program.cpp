@@ -21,13 +21,14 @@ constexpr double to_the_boundary = 0.99;
 constexpr double gap_of_rest = 1e-12;
 constexpr double gap_of_factor = 1e-8;
 constexpr double equations = 1e-9;
+constexpr double loose_equations = 1e-7;  ///< where a gap is allowed
 /// What still counts as solved where rounding ends the iteration.
 constexpr double loose = 1e-4;
 /// Of `factor`: balance is asked for by a penalty, F + G'p + a F1 = share v.
 constexpr double balance_share = 1e-9;
 
 /// Below this number of points several threads take longer than one.
-constexpr std::size_t points_worth_a_thread = 500;
+constexpr std::size_t points_worth_a_thread = 5000;
 
 // Algebra of the cone x0 >= |x1, x2|.
 
@@ -181,7 +182,7 @@ class ConeIteration {
         keep();
         break;
       }
-      const double measure = gap_ / gap_scale_ + equations_;
+      const double measure = std::max(gap_ / (gap_allowed() * gap_scale_), equations_ / equations_allowed());
       stuck = measure > 0.9 * before ? stuck + 1 : 0;
       if (!std::isfinite(measure)) break;
       if (measure <= before) keep();
@@ -338,9 +339,15 @@ class ConeIteration {
     }
   }
 
+  [[nodiscard]] double gap_allowed() const {
+    return grows_ ? gap_of_factor : std::max(gap_of_rest, question_.gap);
+  }
+  [[nodiscard]] double equations_allowed() const {
+    return question_.gap > gap_of_rest ? loose_equations : equations;
+  }
   [[nodiscard]] bool done(double looser) const {
-    const double gap = grows_ ? gap_of_factor : std::max(gap_of_rest, question_.gap);
-    return gap_ <= std::min(1e-3, looser * gap) * gap_scale_ && equations_ <= looser * equations;
+    return gap_ <= std::min(1e-3, looser * gap_allowed()) * gap_scale_ &&
+           equations_ <= looser * equations_allowed();
   }
 
   bool factorize() {

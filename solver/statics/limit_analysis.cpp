@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -16,7 +17,10 @@ constexpr double still = 1e-4;
 constexpr double moves_along = 1e-3;
 
 /// Between steps of the fixed point, relative to the motion: one that repeats itself so well is a motion.
-constexpr double repeats = 2e-3;
+constexpr double repeats = 3e-3;
+/// What the gap of its programmes may be, over the square of the motion.
+constexpr double enough = 1e-5;
+constexpr double near_enough = 0.1;  ///< where rounding ends them before
 constexpr int most_shifts = 60;
 
 double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
@@ -31,46 +35,48 @@ double distance(const std::vector<BodyVelocity>& a, const std::vector<BodyVeloci
   return std::sqrt(sum);
 }
 
-/// Shifts one after the other, taken on to where they go if they go there by a constant ratio (Aitken).
+/// Shifts one after the other, taken on to where the last few say that they go (Anderson, J. ACM 12 (1965) 547).
 class ShiftSequence {
  public:
-  explicit ShiftSequence(std::size_t points) : last_(points, 0.0) {}
+  /// @param first what the first programme is asked with
+  explicit ShiftSequence(Eigen::VectorXd first) : asked_(std::move(first)) {}
 
-  /// @param found by the last programme. @return to ask the next one with
-  std::vector<double> next(std::vector<double> found) {
-    // What is left of a motion must not be taken for none: a shift of zero is a limit of its own.
+  [[nodiscard]] const Eigen::VectorXd& asked() const { return asked_; }
+  /// How much the shifts that a programme found are off those that it was asked with.
+  [[nodiscard]] double off() const { return off_; }
+
+  /// @param found of the motion of the programme that was asked with asked()
+  void add(const Eigen::VectorXd& found) {
+    constexpr std::size_t remembered = 5;
     constexpr double least_left = 0.05, most_on = 10.0;
-    constexpr int steady = 2;
-    const double change = change_of(found);
-    const double ratio = last_change_ > 0.0 ? change / last_change_ : 0.0;
-    jumped_ = ++seen_ > steady && ratio > 0.3 && ratio < 1.0 && std::abs(ratio - last_ratio_) < 0.2 * ratio;
-    last_ratio_ = ratio;
-    if (jumped_) {
-      const double on = std::min(ratio / (1.0 - ratio), most_on);
-      for (std::size_t k = 0; k < found.size(); ++k)
-        found[k] = std::max(found[k] + on * (found[k] - last_[k]), least_left * found[k]);
-      seen_ = 0;
-      last_change_ = 0.0;
-    } else {
-      last_change_ = change;
+    const Eigen::VectorXd lack = found - asked_;
+    off_ = lack.norm() / std::max(found.norm(), std::numeric_limits<double>::min());
+    if (last_found_.size() > 0) {
+      found_changes_.push_back(found - last_found_);
+      lack_changes_.push_back(lack - last_lack_);
+      if (found_changes_.size() > remembered) {
+        found_changes_.erase(found_changes_.begin());
+        lack_changes_.erase(lack_changes_.begin());
+      }
     }
-    last_ = found;
-    return found;
+    last_found_ = found;
+    last_lack_ = lack;
+    asked_ = found;
+    if (found_changes_.empty()) return;
+    Eigen::MatrixXd changes(lack.size(), static_cast<Eigen::Index>(lack_changes_.size()));
+    for (std::size_t k = 0; k < lack_changes_.size(); ++k)
+      changes.col(static_cast<Eigen::Index>(k)) = lack_changes_[k];
+    const Eigen::VectorXd weights = changes.completeOrthogonalDecomposition().solve(lack);
+    for (std::size_t k = 0; k < found_changes_.size(); ++k)
+      asked_ -= weights[static_cast<Eigen::Index>(k)] * found_changes_[k];
+    // What is left of a motion must not be taken for none: a shift of zero is a limit of its own.
+    asked_ = asked_.cwiseMax(least_left * found).cwiseMin(most_on * found);
   }
-  /// Whether the last shifts were taken on.
-  [[nodiscard]] bool jumped() const { return jumped_; }
 
  private:
-  [[nodiscard]] double change_of(const std::vector<double>& found) const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < found.size(); ++k) sum += (found[k] - last_[k]) * (found[k] - last_[k]);
-    return std::sqrt(sum);
-  }
-
-  std::vector<double> last_;
-  double last_change_ = 0.0, last_ratio_ = 0.0;
-  int seen_ = 0;
-  bool jumped_ = false;
+  Eigen::VectorXd asked_, last_found_, last_lack_;
+  std::vector<Eigen::VectorXd> found_changes_, lack_changes_;
+  double off_ = 1.0;
 };
 
 /// Looks for the limit of trials that stand below and move above it.
@@ -216,7 +222,9 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   return trial;
 }
 
-LimitTrial LimitAnalysis::released(const LimitFactors& factors) {
+LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance) {
+  // A motion dies away from one shift to the next: slowly where the factor is near the limit.
+  const double at_rest = std::clamp(0.1 * tolerance, still, 10.0 * still);
   LimitTrial trial;
   trial.factors = factors;
   trial.released = true;
@@ -236,33 +244,32 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors) {
     const double friction = program_.points()[k].strength.friction;
     kept_open[k] = friction - std::min(model_.points[k].law.dilation, friction);
   }
-  std::vector<BodyVelocity> before = found.velocity;
-  ShiftSequence sequence(model_.points.size());
-  double size = std::sqrt(product(before, before));
-  for (int n = 0; n < most_shifts; ++n) {
-    std::vector<double> next(model_.points.size());
+  const auto shifts = [&] {
+    Eigen::VectorXd shift(static_cast<Eigen::Index>(model_.points.size()));
     for (std::size_t pair = 0; pair < model_.pairs.size(); ++pair)
       for (std::size_t k = model_.pairs[pair].begin; k < model_.pairs[pair].end; ++k)
-        next[k] = kept_open[k] * program_.relative(pair, k, before).tail<2>().norm();
-    asked.shift = sequence.next(std::move(next));
-    const double square = product(asked.load, asked.load);
-    asked.gap = square > 0.0 ? std::min(1e-4 * size * size / square, 1e-7) : 0.0;
+        shift[static_cast<Eigen::Index>(k)] =
+            kept_open[k] * program_.relative(pair, k, found.velocity).tail<2>().norm();
+    return shift;
+  };
+  ShiftSequence sequence(shifts());
+  const double square = product(asked.load, asked.load);
+  for (int n = 0; n < most_shifts && square > 0.0; ++n) {
+    asked.shift.assign(sequence.asked().begin(), sequence.asked().end());
+    asked.gap = enough * product(found.velocity, found.velocity) / square;
     found = program_.solve(asked);
     ++trial.programmes;
     trial.iterations += found.iterations;
-    if (found.status != ConeStatus::solved) break;
-    const double motion = fastest(found.velocity, factors.load);
-    if (motion <= still) {
+    if (found.lacking < still && fastest(found.velocity, factors.load) <= at_rest) {
       trial.outcome = LimitOutcome::stands;
       break;
     }
-    size = std::sqrt(product(found.velocity, found.velocity));
-    if (!sequence.jumped() && distance(found.velocity, before) <= repeats * size) {
-      trial.outcome = LimitOutcome::moves;
-      trial.estimate = estimate(factors, found.velocity, found.force);
-      break;
-    }
-    before = found.velocity;
+    if (found.gap > near_enough * product(found.velocity, found.velocity)) break;
+    sequence.add(shifts());
+    if (sequence.off() > repeats) continue;
+    trial.outcome = LimitOutcome::moves;
+    trial.estimate = estimate(factors, found.velocity, found.force);
+    break;
   }
   trial.acceleration = std::move(found.velocity);
   trial.force = std::move(found.force);
@@ -354,7 +361,7 @@ LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
         return std::nullopt;
       }
       LimitTrial trial = !released                    ? associated(factors(factor))
-                         : sought == Sought::strength ? this->released(factors(factor))
+                         : sought == Sought::strength ? this->released(factors(factor), search.tolerance)
                                                       : released_after_steady(factors(factor));
       answer.trials.push_back({trial.factors,
                                released,

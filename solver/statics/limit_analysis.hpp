@@ -104,7 +104,8 @@ class LimitAnalysis {
   /// Whether forces within the strengths exist that balance the loads.
   [[nodiscard]] LimitTrial associated(const LimitFactors& factors);
   /// Whether there is a motion from rest and from no contact forces that obeys Coulomb's law.
-  [[nodiscard]] LimitTrial released(const LimitFactors& factors);
+  /// @param tolerance of the factor: how near to the limit it is to tell
+  [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3);
 
   /// The same where loads that are multiplied come after the others: from the forces that those have built up.
   [[nodiscard]] LimitTrial released_after_steady(const LimitFactors& factors);

@@ -23,7 +23,7 @@ bool is_where_placed(const RunContext& run) {
 }
 
 bool can_tell(const RunContext& run, double end_time) {
-  if (run.system.any_incremental() || run.state.remembers_statics || !is_where_placed(run)) return false;
+  if (run.system.any_incremental() || run.state.remembers_statics) return false;
   if (run.settings().gravity_history.changes_between(0.0, end_time)) return false;
   return std::none_of(run.blocks().begin(), run.blocks().end(), [&](const BlockModel& block) {
     return block.driven() || block.loads_change_between(0.0, end_time);
@@ -71,6 +71,7 @@ void note_motion(const RunContext& run, const LimitMotion& motion) {
 
 StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus status) {
   if (!can_tell(run, end_time)) return status;
+  if (status == StaticStatus::equilibrium && !is_where_placed(run)) return status;
   RunState placed;
   for (const BlockModel& block : run.blocks()) placed.states.push_back(block.initial_state());
   for (const auto& [blocks, history] : run.state.pairs) placed.pairs[blocks].overlap = history.overlap;
