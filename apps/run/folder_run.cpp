@@ -44,6 +44,7 @@ FolderRun::FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStar
       scene_(scene_of_stage(loaded.scene, stages_.size())),
       bracket_(std::move(start.bracket)),
       limits_(std::move(start.limits)),
+      thrust_(std::move(start.thrust)),
       built_(std::move(start.built)),
       files_(loaded, std::move(start.identity), claim, built_.simulation, start.earlier, start.began),
       saved_(start.earlier != nullptr) {
@@ -77,11 +78,12 @@ void FolderRun::save() {
 RunStatus FolderRun::go_through_stage(std::ostream& err) {
   ProgressLine progress(scene_.analysis.end_time, manner_.quiet, err);
   RunStatus status = limits_                      ? show_limits(progress)
+                     : thrust_                    ? show_thrust(progress)
                      : is_static(scene_.analysis) ? find_equilibrium(progress)
                                                   : take_steps(progress);
   // Before the last frame, which a run that goes on has only if it is due.
   save();
-  if (status == RunStatus::completed && !limits_) status = audited();
+  if (status == RunStatus::completed && !drawn_only()) status = audited();
   if (bracket_) status = answered(status);
   files_.tables().add_end(built_.simulation);
   return status;
@@ -175,6 +177,19 @@ RunStatus FolderRun::show_limits(ProgressLine& progress) {
   }
   message_ = describe(*limits_, scene_.analysis, simulation);
   return limits_->answer.released.resolved ? RunStatus::completed : RunStatus::not_converged;
+}
+
+RunStatus FolderRun::show_thrust(ProgressLine& progress) {
+  Simulation& simulation = built_.simulation;
+  if (simulation.steps() == 0) {
+    simulation.displace({});
+    CheckpointSchedule schedule(manner_.checkpoint_interval, seconds_now());
+    record_step(schedule, progress);
+  }
+  draw_thrust(*thrust_, scene_, simulation, files_.tables().path() / "thrust.svg");
+  message_ = describe(*thrust_, simulation);
+  if (!thrust_->collapse.empty()) return RunStatus::moving;
+  return thrust_->supports.empty() ? RunStatus::not_converged : RunStatus::completed;
 }
 
 RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
@@ -278,6 +293,7 @@ nlohmann::ordered_json FolderRun::summary_of(RunStatus status) const {
   auto summary = run_summary(
       loaded_.scene, files_.identity(), built_,
       {status, message_, files_.seconds(), files_.tables().frames(), largest(), std::move(begun)});
+  if (thrust_) summary["thrust"] = thrust_summary(*thrust_, built_.simulation);
   if (limits_) summary[factor_name(scene_.analysis)] = limit_summary(*limits_, built_.simulation);
   if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
   return summary;

@@ -12,6 +12,7 @@
 #include "apps/run/progress.hpp"
 #include "apps/run/run_files.hpp"
 #include "apps/run/run_messages.hpp"
+#include "apps/run/thrust_run.hpp"
 
 namespace ashlar {
 
@@ -29,6 +30,7 @@ struct RunStart {
   SceneIdentity identity;                  ///< of the whole scene
   std::optional<FactorBracket> bracket;    ///< of a search for a factor, whose motion the run shows
   std::optional<LimitFindings> limits;     ///< the same, by limit analysis
+  std::optional<ThrustFindings> thrust;    ///< of an analysis of thrust
   double began = 0.0;                      ///< seconds_now() when the program began
 };
 
@@ -47,7 +49,7 @@ class FolderRun {
   RunEnd go(std::ostream& err);
 
   /// True if blocks are only drawn as they set off.
-  [[nodiscard]] bool drawn_only() const { return limits_.has_value(); }
+  [[nodiscard]] bool drawn_only() const { return limits_.has_value() || thrust_.has_value(); }
   /// True if the folder has a checkpoint of this run.
   [[nodiscard]] bool saved() const { return saved_; }
 
@@ -62,6 +64,7 @@ class FolderRun {
   RunStatus take_steps(ProgressLine& progress);
   RunStatus find_equilibrium(ProgressLine& progress);
   RunStatus show_limits(ProgressLine& progress);
+  RunStatus show_thrust(ProgressLine& progress);
   RunStatus audited();
   RunStatus answered(RunStatus status);
   RunStatus failed_in_step(const std::exception& error);
@@ -78,6 +81,7 @@ class FolderRun {
   Scene scene_;                        ///< of the present stage
   std::optional<FactorBracket> bracket_;
   std::optional<LimitFindings> limits_;
+  std::optional<ThrustFindings> thrust_;
   BuiltSimulation built_;
   ContactChanges changes_;  ///< of static iterations of the present stage
   RunFiles files_;

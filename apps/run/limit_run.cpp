@@ -33,17 +33,6 @@ std::string name_of(const Simulation& simulation, int block) {
   return simulation.blocks()[static_cast<std::size_t>(block)].name();
 }
 
-/// "rock.8 slides on one plane", "rock.8 and 11 others topple"
-std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
-  if (motion.blocks.empty()) return "nothing moves";
-  const auto fastest = std::max_element(
-      motion.blocks.begin(), motion.blocks.end(),
-      [](const auto& x, const auto& y) { return x.acceleration.norm() < y.acceleration.norm(); });
-  const std::string first = name_of(simulation, fastest->block);
-  if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
-  return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
-}
-
 Json array(const Vector3& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -74,6 +63,16 @@ std::string between(const LimitBracket& bracket) {
 
 }  // namespace
 
+std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
+  if (motion.blocks.empty()) return "nothing moves";
+  const auto fastest = std::max_element(
+      motion.blocks.begin(), motion.blocks.end(),
+      [](const auto& x, const auto& y) { return x.acceleration.norm() < y.acceleration.norm(); });
+  const std::string first = name_of(simulation, fastest->block);
+  if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
+  return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
+}
+
 bool uses_limit_analysis(const Scene& scene, const Simulation& simulation) {
   if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return false;
   if (scene.analysis.method == SceneAnalysis::Method::limit) return true;
@@ -84,12 +83,13 @@ bool uses_limit_analysis(const Scene& scene, const Simulation& simulation) {
 }
 
 void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics) {
-  if (!seeks_factor(scene.analysis)) return;
+  if (!seeks_factor(scene.analysis) && scene.analysis.type != SceneAnalysis::Type::thrust) return;
   if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
-    if (scene.analysis.method == SceneAnalysis::Method::limit)
-      diagnostics.error(scene.places.value("analysis.method"),
-                        "limit analysis of the incremental formulation (\"limit\"), \"elastic\" or the total "
-                        "formulation is needed");
+    if (scene.analysis.method == SceneAnalysis::Method::limit ||
+        scene.analysis.type == SceneAnalysis::Type::thrust)
+      diagnostics.error(
+          scene.places.value("analysis.formulation"),
+          "limit analysis of the incremental formulation (\"incremental\"), \"total\" is needed");
     return;
   }
   const RigidModel model = model_of(scene, simulation);
@@ -100,7 +100,7 @@ void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagno
   }
   const bool loaded = std::any_of(model.multiplied.begin(), model.multiplied.end(),
                                   [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
-  if (!is_safety(scene.analysis) && !loaded)
+  if (scene.analysis.type == SceneAnalysis::Type::capacity && !loaded)
     diagnostics.error(scene.places.value("analysis.capacity.blocks"),
                       "loads to multiply move no block (0 N in all), one that can move a block is needed");
 }

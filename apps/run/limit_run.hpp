@@ -41,6 +41,9 @@ void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagno
 [[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
                                                    const Simulation& simulation);
 
+/// "block rock.8 slides on one plane", "12 blocks move, block rock.8 fastest: it topples"
+[[nodiscard]] std::string words_of(const LimitMotion& motion, const Simulation& simulation);
+
 /// How blocks are drawn that set off: each by its acceleration times one time, the farthest by a share of its size.
 [[nodiscard]] std::vector<RigidDisplacement> drawn_motion(const LimitMotion& motion,
                                                           const Simulation& simulation);

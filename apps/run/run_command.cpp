@@ -269,6 +269,9 @@ int run_command(const RunOptions& options, std::ostream& err) {
   try {
     std::optional<FactorBracket> bracket;
     std::optional<LimitFindings> limits;
+    std::optional<ThrustFindings> thrust;
+    if (prepared.loaded->scene.analysis.type == SceneAnalysis::Type::thrust)
+      thrust = find_thrust(prepared.loaded->scene, prepared.built->simulation, threads);
     if (uses_limit_analysis(prepared.loaded->scene, prepared.built->simulation)) {
       limits = find_limits_first(prepared, options, err);
       if (!limits) return exit_status::interrupted;
@@ -281,6 +284,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
                    std::move(prepared.identity),
                    std::move(bracket),
                    std::move(limits),
+                   std::move(thrust),
                    began};
     run.emplace(*prepared.loaded, RunManner{threads, options.checkpoint, options.quiet}, std::move(start),
                 *claim);

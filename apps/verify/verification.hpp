@@ -67,6 +67,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> joint_cases();
 /// Factors of safety.
 [[nodiscard]] std::span<const VerificationCase> safety_cases();
+/// Limit analysis.
+[[nodiscard]] std::span<const VerificationCase> limit_cases();
 /// Stacks, columns and arches.
 [[nodiscard]] std::span<const VerificationCase> stack_cases();
 /// Solids that are not convex.

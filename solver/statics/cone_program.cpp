@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -16,7 +18,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int most_iterations = 120;
-constexpr double to_the_boundary = 0.99;
+constexpr double to_the_boundary = 0.98;
 /// Of `rest`, over the square of the loads: v is right to the root of it.
 constexpr double gap_of_rest = 1e-12;
 constexpr double gap_of_factor = 1e-8;
@@ -27,6 +29,9 @@ constexpr double loose = 1e-4;
 /// Of `factor`: balance is asked for by a penalty, F + G'p + a F1 = share v.
 constexpr double balance_share = 1e-9;
 
+/// Of points in a step: forces that balance does not tell apart would make the matrix as stiff as they are free. What it
+/// adds to the equations of a step is gone once steps are small.
+constexpr double compliance = 1e-9;
 /// Below this number of points several threads take longer than one.
 constexpr std::size_t points_worth_a_thread = 5000;
 
@@ -138,7 +143,11 @@ Matrix3d inverse_of(const ConeStrength& strength, const Scaling& w, double cut) 
     inverse.row(0) /= strength.friction;
     inverse.col(0) /= strength.friction;
     const Vector3d along = inverse.col(0);
-    inverse -= cut / (1.0 + cut * along[0]) * along * along.transpose();
+    // The bound of tension takes away what is along N: by a factor, where a difference would lose its digits.
+    const double less = 1.0 / (1.0 + cut * along[0]);
+    inverse.row(0) = less * along.transpose();
+    inverse.col(0) = less * along;
+    inverse.bottomRightCorner<2, 2>() -= cut * less * along.tail<2>() * along.tail<2>().transpose();
   } else {
     // The cone's axis does not depend on the force.
     const Matrix3d m = w.back * w.back;
@@ -176,6 +185,7 @@ class ConeIteration {
     ConeAnswer answer;
     double before = std::numeric_limits<double>::infinity();
     int stuck = 0;
+    double length = 1.0;
     for (answer.iterations = 0; answer.iterations < most_iterations; ++answer.iterations) {
       note_equations();
       if (done(1.0)) {
@@ -184,17 +194,20 @@ class ConeIteration {
       }
       const double measure = std::max(gap_ / (gap_allowed() * gap_scale_), equations_ / equations_allowed());
       stuck = measure > 0.9 * before ? stuck + 1 : 0;
+      if (getenv("LOUD2")) fprintf(stderr, "%d gap %.2e eq %.2e measure %.2e length %.2e\n", answer.iterations, gap_/gap_scale_, equations_, measure, length);
       if (!std::isfinite(measure)) break;
       if (measure <= before) keep();
       before = std::min(before, measure);
       if (stuck >= 5) break;
       if (!factorize()) break;
       direction(0.0);
-      const double ahead = length(1.0);
+      const double ahead = this->length(1.0);
       const double left =
           std::max(gap_after(ahead), 0.0) / std::max(gap_, std::numeric_limits<double>::min());
-      direction(std::clamp(std::pow(left, 3), 1e-8, 1.0), true);
-      const double length = this->length(to_the_boundary);
+      // A step that was cut short has left the iterate near the boundary: back to the middle first.
+      const bool centres = length < 0.2;
+      direction(std::clamp(std::pow(left, 3), centres ? 0.5 : 1e-8, 1.0), !centres);
+      length = this->length(to_the_boundary);
       if (!(length > 1e-9)) break;
       advance(length);
     }
@@ -359,7 +372,9 @@ class ConeIteration {
         d.w = scaling_of(i.x, i.z);
         d.lambda = d.w.forth * i.z;
       }
-      d.inverse = inverse_of(s, d.w, s.cut_off() ? scalar_w2(i) : 0.0);
+      const Matrix3d stiff = inverse_of(s, d.w, s.cut_off() ? scalar_w2(i) : 0.0);
+      d.inverse = (Matrix3d::Identity() + compliance * stiff).inverse() * stiff;
+      d.inverse = 0.5 * (d.inverse + d.inverse.transpose()).eval();
     });
     struct Blocks {
       Eigen::Matrix<double, 6, 6> first, second, both;
@@ -469,7 +484,9 @@ class ConeIteration {
       const Vector3d y = times(program_.points_[k], pair, step_v_);
       // The duals follow from G dv, which keeps them feasible to rounding whatever W is.
       Vector3d dual = d.lack_y + y;
+      if (!s.shear()) dual.tail<2>().setZero();
       d.dp = d.right - d.inverse * y;
+      dual += compliance * d.dp;
       if (s.cut_off()) {
         d.dxc = d.lack_xc + d.dp[0];
         d.dzc = s.friction > 0.0 ? d.qc - scalar_w2(points_[k]) * d.dxc : dual[0];

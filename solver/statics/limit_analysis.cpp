@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "geometry/union_find.hpp"
 
 namespace ashlar {
 namespace {
@@ -35,7 +38,9 @@ double distance(const std::vector<BodyVelocity>& a, const std::vector<BodyVeloci
   return std::sqrt(sum);
 }
 
-/// Shifts one after the other, taken on to where the last few say that they go (Anderson, J. ACM 12 (1965) 547).
+/// Shifts one after the other. Their direction is that of the last motion. Their size is looked for by secants: slow
+/// motion grows or dies away from one programme to the next by a factor that is nearly 1 near the limit, and that falls
+/// as inertia takes a larger part in it.
 class ShiftSequence {
  public:
   /// @param first what the first programme is asked with
@@ -44,39 +49,41 @@ class ShiftSequence {
   [[nodiscard]] const Eigen::VectorXd& asked() const { return asked_; }
   /// How much the shifts that a programme found are off those that it was asked with.
   [[nodiscard]] double off() const { return off_; }
+  /// Whether motion that is slow already has grown, and in the same direction, a few times.
+  [[nodiscard]] bool grows() const { return growing_ >= 3; }
 
   /// @param found of the motion of the programme that was asked with asked()
   void add(const Eigen::VectorXd& found) {
-    constexpr std::size_t remembered = 5;
-    constexpr double least_left = 0.05, most_on = 10.0;
-    const Eigen::VectorXd lack = found - asked_;
-    off_ = lack.norm() / std::max(found.norm(), std::numeric_limits<double>::min());
-    if (last_found_.size() > 0) {
-      found_changes_.push_back(found - last_found_);
-      lack_changes_.push_back(lack - last_lack_);
-      if (found_changes_.size() > remembered) {
-        found_changes_.erase(found_changes_.begin());
-        lack_changes_.erase(lack_changes_.begin());
-      }
+    constexpr double most_on = 2.0;  // of the logarithm
+    constexpr double clearly = 2e-3, settled = 0.1;
+    const double before = asked_.norm(), after = found.norm();
+    if (!(before > 0.0) || !(after > 0.0)) {
+      off_ = before > 0.0 || after > 0.0 ? 1.0 : 0.0;
+      asked_ = found;
+      return;
     }
-    last_found_ = found;
-    last_lack_ = lack;
-    asked_ = found;
-    if (found_changes_.empty()) return;
-    Eigen::MatrixXd changes(lack.size(), static_cast<Eigen::Index>(lack_changes_.size()));
-    for (std::size_t k = 0; k < lack_changes_.size(); ++k)
-      changes.col(static_cast<Eigen::Index>(k)) = lack_changes_[k];
-    const Eigen::VectorXd weights = changes.completeOrthogonalDecomposition().solve(lack);
-    for (std::size_t k = 0; k < found_changes_.size(); ++k)
-      asked_ -= weights[static_cast<Eigen::Index>(k)] * found_changes_[k];
-    // What is left of a motion must not be taken for none: a shift of zero is a limit of its own.
-    asked_ = asked_.cwiseMax(least_left * found).cwiseMin(most_on * found);
+    off_ = (found - asked_).norm() / after;
+    const double size = std::log(before), growth = std::log(after / before);
+    const double turned = (found / after - asked_ / before).norm();
+    growing_ = growth > clearly && turned < settled ? growing_ + 1 : 0;
+    double on = growth;
+    if (known_) {
+      const double slope = (growth - last_growth_) / (size - last_size_);
+      on = slope < 0.0 && std::isfinite(slope) ? -growth / slope : std::copysign(most_on, growth);
+    }
+    if (std::abs(on) < std::abs(growth) || turned > settled) on = growth;
+    known_ = true;
+    last_size_ = size;
+    last_growth_ = growth;
+    asked_ = std::exp(std::clamp(on, -most_on, most_on)) * before / after * found;
   }
 
  private:
-  Eigen::VectorXd asked_, last_found_, last_lack_;
-  std::vector<Eigen::VectorXd> found_changes_, lack_changes_;
+  Eigen::VectorXd asked_;
   double off_ = 1.0;
+  bool known_ = false;
+  double last_size_ = 0.0, last_growth_ = 0.0;
+  int growing_ = 0;
 };
 
 /// Looks for the limit of trials that stand below and move above it.
@@ -86,7 +93,7 @@ class Bracketing {
 
   /// @param guess of the limit; 0: none
   void run(double guess, const std::function<std::optional<LimitTrial>(double)>& attempt) {
-    constexpr int most_trials = 60;
+    constexpr int most_trials = 60, most_unknown = 6;
     double next = guess > 0.0 ? below(guess) : std::clamp(1.0, search_.lower, search_.upper);
     estimate_ = guess;
     int unknown = 0;
@@ -94,9 +101,10 @@ class Bracketing {
       std::optional<LimitTrial> trial = attempt(next);
       if (!trial) return;
       if (trial->outcome == LimitOutcome::unknown) {
-        if (++unknown > 3) return;
+        if (++unknown > most_unknown) return;
         // Rounding is another one beside it.
-        next = std::clamp(next * (1.0 - 0.1 * search_.tolerance), search_.lower, search_.upper);
+        next = std::clamp(next * (1.0 - 0.1 * search_.tolerance * std::pow(4.0, unknown - 1)), search_.lower,
+                          search_.upper);
         continue;
       }
       note(next, std::move(*trial));
@@ -183,14 +191,15 @@ double LimitAnalysis::fastest(const std::vector<BodyVelocity>& acceleration, dou
 
 double LimitAnalysis::estimate(const LimitFactors& factors, const std::vector<BodyVelocity>& acceleration,
                                const std::vector<Eigen::Vector3d>& force) const {
-  // The power that accelerates would be dissipated by strengths that are larger in this ratio.
-  double dissipated = 0.0;
+  // The power of the loads would be dissipated by strengths that are larger in this ratio.
+  double power = product(question(factors.load).load, acceleration), dissipated = 0.0;
   for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
-    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k)
-      if (reduced_[k]) dissipated -= force[k].dot(program_.relative(n, k, acceleration));
+    for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
+      const double lost = -force[k].tail<2>().dot(program_.relative(n, k, acceleration).tail<2>());
+      (reduced_[k] ? dissipated : power) += reduced_[k] ? lost : -lost;
+    }
   }
-  if (!(dissipated > 0.0)) return 0.0;
-  return factors.strength / (1.0 + product(acceleration, acceleration) / dissipated);
+  return dissipated > 0.0 && power > dissipated ? factors.strength * dissipated / power : 0.0;
 }
 
 LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
@@ -203,7 +212,8 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   trial.iterations = found.iterations;
   const double motion = fastest(found.velocity, factors.load);
   const double square = product(found.velocity, found.velocity);
-  if (found.status == ConeStatus::solved && motion <= still) {
+  if (getenv("LOUD")) fprintf(stderr, "assoc F %.5f motion %.2e square %.2e gap %.2e lacking %.2e status %d it %d\n", factors.strength, motion, square, found.gap, found.lacking, int(found.status), found.iterations);
+  if (found.lacking < 0.1 * still && motion <= still) {
     trial.outcome = LimitOutcome::stands;
   } else if (motion > still && square > 2.0 * found.gap && found.lacking < 0.1 * still) {
     trial.outcome = LimitOutcome::moves;
@@ -254,6 +264,7 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
   };
   ShiftSequence sequence(shifts());
   const double square = product(asked.load, asked.load);
+  int vague = 0;
   for (int n = 0; n < most_shifts && square > 0.0; ++n) {
     asked.shift.assign(sequence.asked().begin(), sequence.asked().end());
     asked.gap = enough * product(found.velocity, found.velocity) / square;
@@ -264,9 +275,15 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
       trial.outcome = LimitOutcome::stands;
       break;
     }
-    if (found.gap > near_enough * product(found.velocity, found.velocity)) break;
+    if (found.gap > near_enough * product(found.velocity, found.velocity)) {
+      // The gap that was allowed was that of a faster motion.
+      if (++vague > 2) break;
+      continue;
+    }
+    vague = 0;
     sequence.add(shifts());
-    if (sequence.off() > repeats) continue;
+    if (getenv("LOUD")) fprintf(stderr, "rel F %.5f motion %.2e off %.2e gap %.2e v2 %.2e it %d\n", factors.strength, fastest(found.velocity, factors.load), sequence.off(), found.gap, product(found.velocity, found.velocity), found.iterations);
+    if (sequence.off() > repeats && !sequence.grows()) continue;
     trial.outcome = LimitOutcome::moves;
     trial.estimate = estimate(factors, found.velocity, found.force);
     break;
@@ -322,7 +339,7 @@ LimitTrial LimitAnalysis::with_bounds(const LimitFactors& factors, std::vector<d
   return trial;
 }
 
-LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors) {
+LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors, double tolerance) {
   int programmes = 0, iterations = 0;
   if (!steady_normal_) {
     steady_normal_.emplace(model_.points.size(), 0.0);
@@ -334,6 +351,8 @@ LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors) {
   }
   std::vector<double> normal = *steady_normal_;
   LimitTrial trial = with_bounds(factors, normal);
+  // All loads at once move no less.
+  if (trial.outcome == LimitOutcome::unknown) trial = released(factors, tolerance);
   trial.programmes += programmes;
   trial.iterations += iterations;
   return trial;
@@ -360,9 +379,10 @@ LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
         answer.interrupted = true;
         return std::nullopt;
       }
-      LimitTrial trial = !released                    ? associated(factors(factor))
-                         : sought == Sought::strength ? this->released(factors(factor), search.tolerance)
-                                                      : released_after_steady(factors(factor));
+      LimitTrial trial = !released ? associated(factors(factor))
+                         : sought == Sought::strength
+                             ? this->released(factors(factor), search.tolerance)
+                             : released_after_steady(factors(factor), search.tolerance);
       answer.trials.push_back({trial.factors,
                                released,
                                trial.outcome,
@@ -428,7 +448,6 @@ LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) const {
   struct Seen {
     double normal = 0.0, slid = 0.0, opened = 0.0;
     Vector3 direction = Vector3::Zero();
-    bool of_leader = false;
   };
   std::map<std::array<int, 2>, Seen> seen;
   for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
@@ -443,23 +462,31 @@ LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) const {
       joint.slid = std::max(joint.slid, y.tail<2>().norm());
       joint.opened = std::max(joint.opened, y[0]);
       joint.direction += point.frame.row(0).transpose();
-      joint.of_leader = at(std::max(a, 0)) == leader || at(std::max(b, 0)) == leader;
     }
   }
   double weight = 0.0;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b)
     if (moves[b])
       weight = std::max(weight, (model_.steady[b] + trial.factors.load * model_.multiplied[b]).norm());
-  std::vector<Vector3> planes;
+  // What sticks to the fastest body moves as one with it.
+  UnionFind together(model_.bodies.size());
   for (const auto& [blocks, joint] : seen) {
     const bool bears = joint.normal > 1e-3 * weight;
     const bool slides = joint.slid > 0.05 * largest;
-    const JointMotion how = !bears && (slides || joint.opened > 0.05 * largest) ? JointMotion::opens
-                            : slides                                            ? JointMotion::slides
-                                                                                : JointMotion::sticks;
+    const bool opens = !bears && (slides || joint.opened > 0.05 * largest);
+    const JointMotion how = opens ? JointMotion::opens : slides ? JointMotion::slides : JointMotion::sticks;
     motion.joints.push_back({blocks, how});
-    if (how != JointMotion::slides || !joint.of_leader) continue;
-    const Vector3 normal = joint.direction.normalized();
+    const int a = model_.body_of[at(blocks[0])], b = model_.body_of[at(blocks[1])];
+    if (a >= 0 && b >= 0 && how == JointMotion::sticks) together.unite(a, b);
+  }
+  const auto leads = [&](int block) {
+    const int own = model_.body_of[at(block)];
+    return own >= 0 && together.find(own) == together.find(static_cast<int>(leader));
+  };
+  std::vector<Vector3> planes;
+  for (const MovingJoint& joint : motion.joints) {
+    if (joint.motion != JointMotion::slides || leads(joint.blocks[0]) == leads(joint.blocks[1])) continue;
+    const Vector3 normal = seen[joint.blocks].direction.normalized();
     const bool known = std::any_of(planes.begin(), planes.end(),
                                    [&](const Vector3& plane) { return std::abs(plane.dot(normal)) > 0.999; });
     if (!known) planes.push_back(normal);

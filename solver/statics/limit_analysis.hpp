@@ -108,7 +108,7 @@ class LimitAnalysis {
   [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3);
 
   /// The same where loads that are multiplied come after the others: from the forces that those have built up.
-  [[nodiscard]] LimitTrial released_after_steady(const LimitFactors& factors);
+  [[nodiscard]] LimitTrial released_after_steady(const LimitFactors& factors, double tolerance = 1e-3);
 
   /// The factor by which strengths of the chosen joints may be divided. @param goes_on asked before each trial
   [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on);

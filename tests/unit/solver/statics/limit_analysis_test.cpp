@@ -1,0 +1,422 @@
+// Limit analysis of blocks whose factors are known by hand.
+#include "solver/statics/limit_analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sample_statics.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::rock;
+using test_support::tilted_box;
+
+constexpr double g = 9.81;
+
+double tangent_of(double degrees) {
+  return std::tan(degrees * std::numbers::pi / 180.0);
+}
+
+JointLaw joint(double friction, double cohesion = 0.0, double dilation = 0.0) {
+  JointLaw law{1e10, 1e10, friction, cohesion, 0.0, true};
+  law.dilation = dilation;
+  return law;
+}
+
+/// Blocks that a test turns, scales and orders as it likes.
+struct Scene {
+  std::vector<BlockDefinition> blocks;
+  JointLaw law = joint(0.5);
+  Vector3 gravity{0.0, 0.0, -g};
+  std::vector<TieRequest> ties;
+  double contact_distance = 1e-3;  ///< m
+
+  int add(const std::string& name, Polyhedron solid, int order = 0) {
+    blocks.push_back(block_of(name, std::move(solid), rock, order));
+    return static_cast<int>(blocks.size()) - 1;
+  }
+  void add_fixed(Polyhedron solid) { blocks.push_back(test_support::fixed_block(std::move(solid))); }
+
+  [[nodiscard]] Scene turned(const Eigen::AngleAxisd& turn) const {
+    Scene scene = *this;
+    scene.gravity = turn * gravity;
+    for (BlockDefinition& block : scene.blocks) {
+      block.solid = std::make_shared<const Polyhedron>(test_support::turned(*block.solid, turn));
+      for (Load& load : block.loads) {
+        load.where = Vector3(turn * std::get<Vector3>(load.where));
+        load.vector = turn * load.vector;
+      }
+    }
+    return scene;
+  }
+  [[nodiscard]] Scene scaled(double by) const {
+    Scene scene = *this;
+    scene.contact_distance *= by;
+    for (BlockDefinition& block : scene.blocks) {
+      std::vector<Vector3> points;
+      for (const Vector3& point : block.solid->mesh().points) points.emplace_back(by * point);
+      block.solid = std::make_shared<const Polyhedron>(block.solid->with_points(std::move(points)));
+    }
+    return scene;
+  }
+  /// @param order the block that comes k-th is order[k]
+  [[nodiscard]] Scene reordered(const std::vector<std::size_t>& order) const {
+    Scene scene = *this;
+    for (std::size_t k = 0; k < order.size(); ++k) scene.blocks[k] = blocks[order[k]];
+    return scene;
+  }
+
+  [[nodiscard]] Simulation build() const {
+    std::vector<BlockModel> models;
+    for (const BlockDefinition& block : blocks) models.emplace_back(block);
+    SimulationSettings settings;
+    settings.gravity = gravity;
+    settings.contact_distance = contact_distance;
+    return Simulation(std::move(models), std::vector<InitialMotion>(blocks.size()),
+                      test_support::same_law(law), settings, ties);
+  }
+  /// @param multiplied by block
+  [[nodiscard]] LimitAnalysis analysis(const std::vector<bool>& multiplied = {}) const {
+    return LimitAnalysis(
+        build().rigid_model(1.0, multiplied), [](int, int) { return true; }, 1);
+  }
+  [[nodiscard]] LimitAnswer safety(double tolerance = 1e-3) const {
+    return analysis().strength_factor({0.1, 10.0, tolerance}, [] { return true; });
+  }
+};
+
+/// Bodies that accelerate by 1e-4 of their loads stand still, which a factor may be wrong by.
+constexpr double stillness = 5e-4;
+
+void expect_factor(const LimitBracket& bracket, double factor, double tolerance, const std::string& what) {
+  ASSERT_TRUE(bracket.lower && bracket.upper) << what;
+  EXPECT_TRUE(bracket.resolved) << what;
+  EXPECT_LE(*bracket.lower, factor * (1.0 + stillness)) << what;
+  EXPECT_GE(*bracket.upper, factor * (1.0 - stillness)) << what;
+  EXPECT_LE(*bracket.upper, *bracket.lower * (1.0 + tolerance) * (1.0 + 1e-12)) << what;
+}
+
+void expect_factors(const LimitAnswer& answer, double factor, const std::string& what,
+                    double tolerance = 1e-3) {
+  expect_factor(answer.associated, factor, tolerance, what + ", associated");
+  expect_factor(answer.released, factor, tolerance, what + ", released");
+}
+
+/// A flat block on a slope of some degrees.
+Scene on_slope(double incline, const JointLaw& law, int order) {
+  Scene scene;
+  scene.law = law;
+  scene.add("A", tilted_box({-1, -0.5, 0}, {1, 0.5, 0.5}, incline), order);
+  scene.add_fixed(tilted_box({-6, -2, -1}, {6, 2, 0}, incline));
+  return scene;
+}
+
+TEST(LimitAnalysis, ABlockOnAPlaneHasTheRatioOfTheTangents) {
+  for (const auto& [alpha, phi] : {std::pair{30.0, 35.0}, {20.0, 40.0}, {40.0, 25.0}}) {
+    for (const int order : {0, 1, 2}) {
+      const LimitAnswer answer = on_slope(alpha, joint(tangent_of(phi)), order).safety();
+      expect_factors(answer, tangent_of(phi) / tangent_of(alpha),
+                     std::to_string(alpha) + " " + std::to_string(order));
+      EXPECT_FALSE(answer.interrupted);
+    }
+  }
+}
+
+TEST(LimitAnalysis, AFactorTurnsWithItsScene) {
+  const Scene scene = on_slope(30.0, joint(tangent_of(35.0)), 0);
+  for (const Eigen::AngleAxisd& turn : {Eigen::AngleAxisd(0.8, Vector3(1, 2, 3).normalized()),
+                                        Eigen::AngleAxisd(2.5, Vector3(-1, 0.2, 0.7).normalized())})
+    expect_factors(scene.turned(turn).safety(), tangent_of(35.0) / tangent_of(30.0), "turned");
+}
+
+TEST(LimitAnalysis, CohesionActsOnTheWholeJoint) {
+  // F = (W cos a tan phi + c A)/(W sin a), of a block 2 x 1 x 0.5.
+  const double weight = rock.density * g;
+  for (const auto& [alpha, phi, cohesion] :
+       {std::array{30.0, 25.0, 4e3}, {50.0, 20.0, 1e4}, {40.0, 0.0, 1e4}}) {
+    for (const int order : {0, 1}) {
+      const double slope = std::atan(tangent_of(alpha));
+      const double factor =
+          (weight * std::cos(slope) * tangent_of(phi) + 2.0 * cohesion) / (weight * std::sin(slope));
+      expect_factors(on_slope(alpha, joint(tangent_of(phi), cohesion), order).safety(), factor,
+                     std::to_string(alpha) + " " + std::to_string(order));
+    }
+  }
+}
+
+TEST(LimitAnalysis, ASearchEndsWhenItIsTold) {
+  int trials = 0;
+  LimitAnalysis analysis = on_slope(30.0, joint(0.7), 0).analysis();
+  const LimitAnswer answer = analysis.strength_factor({0.1, 10.0, 1e-6}, [&] { return ++trials <= 2; });
+  EXPECT_TRUE(answer.interrupted);
+  EXPECT_EQ(answer.trials.size(), 2U);
+  EXPECT_FALSE(answer.associated.resolved);
+}
+
+TEST(LimitAnalysis, AFactorOutsideTheSearchHasOneEnd) {
+  LimitAnalysis analysis = on_slope(30.0, joint(tangent_of(35.0)), 0).analysis();
+  const LimitAnswer above = analysis.strength_factor({0.1, 1.1, 1e-2}, [] { return true; });
+  for (const LimitBracket& bracket : {above.associated, above.released}) {
+    EXPECT_TRUE(bracket.resolved);
+    EXPECT_EQ(bracket.lower, 1.1);
+    EXPECT_FALSE(bracket.upper);
+  }
+  const LimitAnswer below = analysis.strength_factor({1.5, 10.0, 1e-2}, [] { return true; });
+  for (const LimitBracket& bracket : {below.associated, below.released}) {
+    EXPECT_TRUE(bracket.resolved);
+    EXPECT_EQ(bracket.upper, 1.5);
+    EXPECT_FALSE(bracket.lower);
+  }
+}
+
+TEST(LimitAnalysis, BlocksThatTouchNothingAreNamed) {
+  Scene scene = on_slope(10.0, joint(0.5), 0);
+  const int above = scene.add("above", Polyhedron(make_box({-0.5, -0.5, 3}, {0.5, 0.5, 4})));
+  const Simulation simulation = scene.build();
+  const RigidModel model = simulation.rigid_model(1.0);
+  EXPECT_EQ(model.without_contact, std::vector<int>{above});
+  EXPECT_EQ(model.bodies.size(), 2U);
+  // Its factor is below any: it falls with g.
+  LimitAnalysis analysis = scene.analysis();
+  const LimitTrial trial = analysis.associated({});
+  EXPECT_EQ(trial.outcome, LimitOutcome::moves);
+  const LimitMotion motion = analysis.motion_of(trial);
+  EXPECT_EQ(motion.mode, "falls");
+  ASSERT_EQ(motion.blocks.size(), 1U);
+  EXPECT_EQ(motion.blocks[0].block, above);
+  EXPECT_LT((motion.blocks[0].acceleration - Vector3(0, 0, -g)).norm(), 1e-4 * g);
+  EXPECT_LT(motion.blocks[0].angular_acceleration.norm(), 1e-4);
+}
+
+TEST(LimitAnalysis, TiedBlocksAreOneBody) {
+  // Two cubes on each other on a slope topple at 1/2, one slides first.
+  Scene scene;
+  scene.law = joint(0.6);
+  const double incline = std::atan(0.52) * 180.0 / std::numbers::pi;
+  scene.add("lower", tilted_box({0, 0, 0}, {1, 1, 1}, incline), 1);
+  scene.add("upper", tilted_box({0, 0, 1}, {1, 1, 2}, incline), 1);
+  scene.add_fixed(tilted_box({-6, -2, -1}, {6, 2, 0}, incline));
+  LimitAnalysis loose = scene.analysis();
+  EXPECT_EQ(loose.model().bodies.size(), 2U);
+  scene.ties.push_back({0, 1, 1e14});
+  LimitAnalysis tied = scene.analysis();
+  ASSERT_EQ(tied.model().bodies.size(), 1U);
+  EXPECT_EQ(tied.model().bodies[0].blocks, (std::vector<int>{0, 1}));
+  EXPECT_NEAR(tied.model().bodies[0].mass, 2.0 * rock.density, 1e-8 * rock.density);
+  EXPECT_EQ(tied.model().body_of, (std::vector<int>{0, 0, -1}));
+  const LimitTrial trial = tied.released({});
+  EXPECT_EQ(trial.outcome, LimitOutcome::moves);
+  const LimitMotion motion = tied.motion_of(trial);
+  EXPECT_EQ(motion.mode, "topples");
+  ASSERT_EQ(motion.blocks.size(), 2U);
+  // About the edge: m g (h sin - b cos)/2 over m (b^2 + h^2)/3, b = 1, h = 2.
+  const double slope = std::atan(0.52);
+  const double expected = g * (2.0 * std::sin(slope) - std::cos(slope)) / 2.0 / (5.0 / 3.0);
+  for (const LimitMotion::Block& block : motion.blocks)
+    EXPECT_NEAR(block.angular_acceleration.norm() / expected, 1.0, 1e-3);
+}
+
+TEST(LimitAnalysis, ASupportLeavesWhatItLeaves) {
+  // Held across x on its top face, a block may only move along x: a push that friction of its joint bears 0.5 W of.
+  Scene scene;
+  const int block = scene.add("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), 1);
+  scene.add_fixed(Polyhedron(make_box({1, -1, -1}, {2, 2, 2})));
+  scene.blocks[static_cast<std::size_t>(block)].supports.push_back(
+      {Plane{{0, 0, 1}, Vector3::UnitZ()}, {false, true, true}, {}});
+  for (const double push : {-1.0, 1.0}) {
+    scene.gravity = {push, 0.0, -g};
+    LimitAnalysis analysis = scene.analysis();
+    ASSERT_EQ(analysis.model().bodies.size(), 1U);
+    const RigidBody& body = analysis.model().bodies[0];
+    EXPECT_EQ(body.freedom, 1);
+    // One coordinate of unit mass: a translation along x.
+    EXPECT_NEAR(std::abs(body.motion(0, 0)), 1.0, 1e-9);
+    EXPECT_LT(body.motion.col(0).tail<5>().norm(), 1e-9);
+    EXPECT_LT(body.motion.rightCols<5>().norm(), 1e-12);
+    const LimitTrial trial = analysis.released({});
+    EXPECT_EQ(trial.outcome, push > 0.0 ? LimitOutcome::stands : LimitOutcome::moves);
+    if (push < 0.0) {
+      const LimitMotion motion = analysis.motion_of(trial);
+      ASSERT_EQ(motion.blocks.size(), 1U);
+      EXPECT_LT((motion.blocks[0].acceleration - Vector3(push, 0, 0)).norm(), 1e-3);
+    }
+  }
+}
+
+TEST(LimitAnalysis, APushOfABlockIsBoundBySlidingAndToppling) {
+  // mu W where the block slides, W b/(2 h) where it turns over the far edge first.
+  for (const auto& [b, h, mode] : {std::tuple{1.0, 0.8, "slides on one plane"}, {1.0, 2.0, "topples"}}) {
+    Scene scene;
+    scene.law = joint(0.4);
+    const int block = scene.add("A", Polyhedron(make_box({0, 0, 0}, {b, 1, h})));
+    scene.add_fixed(Polyhedron(make_box({-3, -2, -1}, {4, 3, 0})));
+    const double weight = rock.density * g * b * h;
+    scene.blocks[static_cast<std::size_t>(block)].loads.push_back(
+        {Vector3(0, 0.5, h), false, {0.1 * weight, 0, 0}, {}});
+    LimitAnalysis analysis = scene.analysis({true, false});
+    const LimitAnswer answer = analysis.load_factor({0.1, 100.0, 1e-3}, [] { return true; });
+    expect_factors(answer, 10.0 * std::min(0.4, b / (2.0 * h)), mode);
+    ASSERT_TRUE(answer.released.motion);
+    EXPECT_EQ(analysis.motion_of(*answer.released.motion).mode, mode);
+  }
+}
+
+/// /work/shared/reproductions/practice/leaning_roof.toml: a stone on a plane of 45 degrees below a roof that stands by
+/// itself on a pedestal and touches it from above.
+Scene leaning_roof(double friction, double dilation) {
+  const auto prism = [](const std::vector<std::array<double, 2>>& outline) {
+    std::vector<Vector3> points;
+    for (const auto& [x, z] : outline)
+      for (const double y : {0.0, 1.0}) points.emplace_back(x, y, z);
+    return Polyhedron(make_convex_hull(points));
+  };
+  Scene scene;
+  scene.law = joint(friction, 0.0, dilation);
+  const double end = -0.36397023426620234, corner = -0.47316130454606303;
+  scene.add_fixed(prism({{-1, 1}, {-1, -3}, {2, -3}, {2, -2}}));
+  scene.add_fixed(Polyhedron(make_box({1.3, 0, corner - 0.3}, {6, 1, corner})));
+  scene.add("stone", prism({{0, 0}, {1, -1}, {1, end}}));
+  scene.add("roof", prism({{0, 0}, {1.3, corner}, {6, corner}, {6, 1.5}, {0, 1.5}}));
+  return scene;
+}
+
+TEST(LimitAnalysis, AStoneBelowARoofMovesAwayFromIt) {
+  // It slides down its plane and leaves the roof: tan(phi)/tan(45). Forces that wedge it below the roof balance it up
+  // to 2.04: a linear programme of the plane problem gave 2.04024.
+  const LimitAnswer answer = leaning_roof(0.5, 0.0).safety();
+  expect_factor(answer.released, 0.5, 1e-3, "released");
+  expect_factor(answer.associated, 2.0402, 1e-3, "associated");
+  ASSERT_TRUE(answer.released.motion);
+  LimitAnalysis analysis = leaning_roof(0.5, 0.0).analysis();
+  const LimitMotion motion = analysis.motion_of(*answer.released.motion);
+  EXPECT_EQ(motion.mode, "slides on one plane");
+  ASSERT_EQ(motion.blocks.size(), 1U);
+  EXPECT_EQ(motion.blocks[0].block, 2);
+  const Vector3 down = Vector3(1, 0, -1).normalized();
+  EXPECT_NEAR(motion.blocks[0].acceleration.normalized().dot(down), 1.0, 1e-3);
+}
+
+TEST(LimitAnalysis, JointsThatDilateByTheirFrictionAngleHaveOneLimit) {
+  const LimitAnswer answer = leaning_roof(0.5, 0.5).safety();
+  ASSERT_TRUE(answer.associated.lower && answer.associated.upper && answer.released.lower &&
+              answer.released.upper);
+  expect_factor(answer.associated, 2.0402, 1e-3, "associated");
+  expect_factor(answer.released, 2.0402, 2e-3, "released");
+}
+
+/// A stack of three blocks beside a leaning one on a slope: many joints, no symmetry.
+Scene heap() {
+  Scene scene;
+  scene.law = joint(0.7);
+  constexpr double incline = 20.0;
+  scene.add_fixed(tilted_box({-5, -3, -1}, {6, 3, 0}, incline));
+  scene.add("A", tilted_box({0, 0, 0}, {1.5, 1, 0.6}, incline));
+  scene.add("B", tilted_box({0.2, 0.1, 0.6}, {1.7, 1.1, 1.2}, incline));
+  scene.add("C", tilted_box({-0.1, 0, 1.2}, {1.2, 0.8, 1.9}, incline));
+  scene.add("D", tilted_box({1.5, 0, 0}, {2.4, 0.9, 0.6}, incline));
+  return scene;
+}
+
+void expect_same(const LimitAnswer& a, const LimitAnswer& b, const std::string& what) {
+  for (const auto& [x, y] : {std::pair{a.associated, b.associated}, {a.released, b.released}}) {
+    ASSERT_TRUE(x.lower && x.upper && y.lower && y.upper) << what;
+    EXPECT_NEAR(*x.lower / *y.lower, 1.0, 1e-6) << what;
+    EXPECT_NEAR(*x.upper / *y.upper, 1.0, 1e-6) << what;
+  }
+}
+
+TEST(LimitAnalysis, TheOrderOfBlocksIsOfNoMeaning) {
+  for (const auto& [name, scene] : {std::pair{"heap", heap()}, {"roof", leaning_roof(0.5, 0.0)}}) {
+    const LimitAnswer first = scene.safety(1e-2);
+    std::vector<std::size_t> order(scene.blocks.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::reverse(order.begin(), order.end());
+    expect_same(scene.reordered(order).safety(1e-2), first, std::string(name) + " reversed");
+    std::rotate(order.begin(), order.begin() + 2, order.end());
+    expect_same(scene.reordered(order).safety(1e-2), first, std::string(name) + " rotated");
+  }
+}
+
+TEST(LimitAnalysis, AFactorHasNoUnit) {
+  for (const auto& [name, scene] : {std::pair{"heap", heap()}, {"roof", leaning_roof(0.5, 0.0)}}) {
+    const LimitAnswer first = scene.safety(1e-2);
+    for (const double by : {1000.0, 0.001}) expect_same(scene.scaled(by).safety(1e-2), first, name);
+  }
+}
+
+/// A prism in a groove of two planes of 45 degrees that dips.
+Scene groove(double dip, double friction) {
+  Scene scene;
+  scene.law = joint(friction);
+  const auto prism = [&](const std::vector<std::array<double, 2>>& outline, double from, double to) {
+    std::vector<Vector3> points;
+    for (const auto& [y, z] : outline)
+      for (const double x : {from, to}) points.emplace_back(x, y, z);
+    return test_support::turned(Polyhedron(make_convex_hull(points)),
+                                Eigen::AngleAxisd(dip * std::numbers::pi / 180.0, Vector3::UnitY()));
+  };
+  scene.add_fixed(prism({{0, 0}, {3, 3}, {3, -1}, {0, -1}}, -4, 4));
+  scene.add_fixed(prism({{0, 0}, {-3, 3}, {-3, -1}, {0, -1}}, -4, 4));
+  scene.add("wedge", prism({{0, 0}, {1, 1}, {-1, 1}}, -1, 1));
+  return scene;
+}
+
+std::string mode_of(const Scene& scene) {
+  LimitAnalysis analysis = scene.analysis();
+  const LimitTrial trial = analysis.released({});
+  EXPECT_EQ(trial.outcome, LimitOutcome::moves);
+  return analysis.motion_of(trial).mode;
+}
+
+TEST(LimitAnalysis, AWedgeSlidesAlongTwoPlanes) {
+  // Released, each plane bears N = W cos(dip)/sqrt(2), all of its friction along the line: F = mu sqrt(2)/tan(dip).
+  // Forces in balance may also press across the line, by s and N + s: 2 t = W sin(dip), t^2 + s^2 = mu^2 (N + s)^2. The
+  // most t is N mu/sqrt(1 - mu^2), so that mu/F = k/sqrt(1 + k^2) with k = tan(dip)/sqrt(2).
+  constexpr double mu = 0.6;
+  const double k = tangent_of(35.0) / std::sqrt(2.0);
+  const LimitAnswer answer = groove(35.0, mu).safety();
+  expect_factor(answer.associated, mu * std::sqrt(1.0 + k * k) / k, 1e-3, "associated");
+  expect_factor(answer.released, mu / k, 1e-3, "released");
+  EXPECT_EQ(mode_of(groove(35.0, 0.3)), "slides along two planes");
+}
+
+TEST(LimitAnalysis, ModesHaveWords) {
+  EXPECT_EQ(mode_of(on_slope(30.0, joint(0.4), 0)), "slides on one plane");
+  Scene tower;
+  tower.law = joint(1.0);
+  tower.add("tower", tilted_box({0, 0, 0}, {1, 1, 3}, 25.0));
+  tower.add_fixed(tilted_box({-6, -2, -1}, {6, 2, 0}, 25.0));
+  EXPECT_EQ(mode_of(tower), "topples");
+  Scene ceiling;
+  ceiling.add_fixed(Polyhedron(make_box({-2, -2, 1}, {2, 2, 2})));
+  ceiling.add("below", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})));
+  EXPECT_EQ(mode_of(ceiling), "falls");
+}
+
+TEST(LimitAnalysis, JointsOfAMotionAreNamed) {
+  LimitAnalysis analysis = on_slope(30.0, joint(0.4), 0).analysis();
+  const LimitTrial trial = analysis.released({});
+  const LimitMotion motion = analysis.motion_of(trial);
+  ASSERT_EQ(motion.joints.size(), 1U);
+  EXPECT_EQ(motion.joints[0].blocks, (std::array<int, 2>{0, 1}));
+  EXPECT_EQ(motion.joints[0].motion, JointMotion::slides);
+  ASSERT_EQ(motion.blocks.size(), 1U);
+  // g (sin a - cos a tan phi) down the slope.
+  const double slope = std::numbers::pi / 6.0;
+  EXPECT_NEAR(motion.blocks[0].acceleration.norm() / (g * (std::sin(slope) - 0.4 * std::cos(slope))), 1.0,
+              5e-3);
+}
+
+}  // namespace
+}  // namespace ashlar
