@@ -4,6 +4,7 @@
 
 #include <new>
 #include <ostream>
+#include <system_error>
 
 #include "apps/results/contact_changes.hpp"
 #include "apps/run/factor_analysis.hpp"
@@ -250,7 +251,11 @@ void FolderRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress
     save();
     schedule.saved(seconds_now());
   } else if (files_.outgrown(built_.simulation)) {
-    save();
+    try {
+      save();
+    } catch (const std::system_error&) {
+      // It was for later; the run ends with what has to be written and cannot.
+    }
   }
   files_.add_output_seconds(seconds_now() - before);
 }

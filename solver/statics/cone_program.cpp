@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -194,7 +192,6 @@ class ConeIteration {
       }
       const double measure = std::max(gap_ / (gap_allowed() * gap_scale_), equations_ / equations_allowed());
       stuck = measure > 0.9 * before ? stuck + 1 : 0;
-      if (getenv("LOUD2")) fprintf(stderr, "%d gap %.2e eq %.2e measure %.2e length %.2e\n", answer.iterations, gap_/gap_scale_, equations_, measure, length);
       if (!std::isfinite(measure)) break;
       if (measure <= before) keep();
       before = std::min(before, measure);

@@ -24,7 +24,9 @@ constexpr double repeats = 3e-3;
 /// What the gap of its programmes may be, over the square of the motion.
 constexpr double enough = 1e-5;
 constexpr double near_enough = 0.1;  ///< where rounding ends them before
-constexpr int most_shifts = 60;
+constexpr int most_shifts = 45;
+constexpr int times_at_rest = 3, most_vague = 2, times_fast = 20;
+constexpr double times_rest = 10.0;  ///< motion beyond this multiple of rest is no doubt one
 
 double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
   double sum = 0.0;
@@ -49,13 +51,20 @@ class ShiftSequence {
   [[nodiscard]] const Eigen::VectorXd& asked() const { return asked_; }
   /// How much the shifts that a programme found are off those that it was asked with.
   [[nodiscard]] double off() const { return off_; }
-  /// Whether motion that is slow already has grown, and in the same direction, a few times.
-  [[nodiscard]] bool grows() const { return growing_ >= 3; }
+  /// Whether motion has grown in the same direction a few times, or has kept its size though details of it change.
+  [[nodiscard]] bool goes_on() const { return growing_ >= 3 || (lasting_ >= 5 && off_ < 0.05); }
+
+  /// Asks with less, after a programme without motion.
+  void shrink() {
+    asked_ *= 0.3;
+    known_ = false;
+  }
 
   /// @param found of the motion of the programme that was asked with asked()
   void add(const Eigen::VectorXd& found) {
     constexpr double most_on = 2.0;  // of the logarithm
-    constexpr double clearly = 2e-3, settled = 0.1;
+    constexpr double clearly = 2e-3, settled = 0.1, alike = 0.01;
+    constexpr int followed = 4;
     const double before = asked_.norm(), after = found.norm();
     if (!(before > 0.0) || !(after > 0.0)) {
       off_ = before > 0.0 || after > 0.0 ? 1.0 : 0.0;
@@ -72,6 +81,16 @@ class ShiftSequence {
       on = slope < 0.0 && std::isfinite(slope) ? -growth / slope : std::copysign(most_on, growth);
     }
     if (std::abs(on) < std::abs(growth) || turned > settled) on = growth;
+    // A direction that goes to and fro is followed by less.
+    lasting_ = std::abs(after / last_after_ - 1.0) < alike ? lasting_ + 1 : 0;
+    last_after_ = after;
+    if (turned > settled) ++turning_;
+    if (turning_ > followed) {
+      known_ = false;
+      const double share = turning_ > 4 * followed ? 0.25 : 0.5;
+      asked_ += share * (found - asked_);
+      return;
+    }
     known_ = true;
     last_size_ = size;
     last_growth_ = growth;
@@ -84,6 +103,9 @@ class ShiftSequence {
   bool known_ = false;
   double last_size_ = 0.0, last_growth_ = 0.0;
   int growing_ = 0;
+  int turning_ = 0;  ///< times the direction has turned
+  double last_after_ = 1.0;
+  int lasting_ = 0;
 };
 
 /// Looks for the limit of trials that stand below and move above it.
@@ -212,7 +234,6 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   trial.iterations = found.iterations;
   const double motion = fastest(found.velocity, factors.load);
   const double square = product(found.velocity, found.velocity);
-  if (getenv("LOUD")) fprintf(stderr, "assoc F %.5f motion %.2e square %.2e gap %.2e lacking %.2e status %d it %d\n", factors.strength, motion, square, found.gap, found.lacking, int(found.status), found.iterations);
   if (found.lacking < 0.1 * still && motion <= still) {
     trial.outcome = LimitOutcome::stands;
   } else if (motion > still && square > 2.0 * found.gap && found.lacking < 0.1 * still) {
@@ -232,64 +253,177 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   return trial;
 }
 
-LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance) {
-  // A motion dies away from one shift to the next: slowly where the factor is near the limit.
-  const double at_rest = std::clamp(0.1 * tolerance, still, 10.0 * still);
-  LimitTrial trial;
-  trial.factors = factors;
-  trial.released = true;
-  ConeQuestion asked = question(factors.load);
-  // The motion without friction: nothing is wedged in it.
+std::vector<BodyVelocity> LimitAnalysis::without_friction(const LimitFactors& factors, LimitTrial& trial) {
   for (std::size_t k = 0; k < model_.points.size(); ++k) {
     ConeStrength strength = strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0);
     strength.friction = 0.0;
     program_.set_strength(k, strength);
   }
-  ConeAnswer found = program_.solve(asked);
+  ConeAnswer found = program_.solve(question(factors.load));
   ++trial.programmes;
   trial.iterations += found.iterations;
-  set_factors(factors);
+  return std::move(found.velocity);
+}
+
+LimitOutcome LimitAnalysis::follow(const std::vector<BodyVelocity>& start, double at_rest,
+                                   LimitTrial& trial) {
+  set_factors(trial.factors);
   std::vector<double> kept_open(model_.points.size());
   for (std::size_t k = 0; k < model_.points.size(); ++k) {
     const double friction = program_.points()[k].strength.friction;
     kept_open[k] = friction - std::min(model_.points[k].law.dilation, friction);
   }
-  const auto shifts = [&] {
+  const auto shifts = [&](const std::vector<BodyVelocity>& velocity) {
     Eigen::VectorXd shift(static_cast<Eigen::Index>(model_.points.size()));
     for (std::size_t pair = 0; pair < model_.pairs.size(); ++pair)
       for (std::size_t k = model_.pairs[pair].begin; k < model_.pairs[pair].end; ++k)
         shift[static_cast<Eigen::Index>(k)] =
-            kept_open[k] * program_.relative(pair, k, found.velocity).tail<2>().norm();
+            kept_open[k] * program_.relative(pair, k, velocity).tail<2>().norm();
     return shift;
   };
-  ShiftSequence sequence(shifts());
+  ConeQuestion asked = question(trial.factors.load);
   const double square = product(asked.load, asked.load);
-  int vague = 0;
-  for (int n = 0; n < most_shifts && square > 0.0; ++n) {
+  if (square == 0.0) return LimitOutcome::stands;
+  ShiftSequence sequence(shifts(start));
+  double motion = product(start, start);
+  int vague = 0, rested = 0, fast = 0;
+  for (int n = 0; n < most_shifts; ++n) {
     asked.shift.assign(sequence.asked().begin(), sequence.asked().end());
-    asked.gap = enough * product(found.velocity, found.velocity) / square;
-    found = program_.solve(asked);
+    asked.gap = enough * motion / square;
+    ConeAnswer found = program_.solve(asked);
+    motion = product(found.velocity, found.velocity);
     ++trial.programmes;
     trial.iterations += found.iterations;
-    if (found.lacking < still && fastest(found.velocity, factors.load) <= at_rest) {
-      trial.outcome = LimitOutcome::stands;
-      break;
+    trial.acceleration = std::move(found.velocity);
+    trial.force = std::move(found.force);
+    if (found.lacking < still && fastest(trial.acceleration, trial.factors.load) <= at_rest) {
+      // One programme may have been asked with shifts that lead nowhere: smaller ones have to agree.
+      if (++rested >= times_at_rest) return LimitOutcome::stands;
+      sequence.shrink();
+      continue;
     }
-    if (found.gap > near_enough * product(found.velocity, found.velocity)) {
+    rested = 0;
+    if (found.gap > near_enough * motion) {
       // The gap that was allowed was that of a faster motion.
-      if (++vague > 2) break;
+      if (++vague > most_vague) break;
       continue;
     }
     vague = 0;
-    sequence.add(shifts());
-    if (getenv("LOUD")) fprintf(stderr, "rel F %.5f motion %.2e off %.2e gap %.2e v2 %.2e it %d\n", factors.strength, fastest(found.velocity, factors.load), sequence.off(), found.gap, product(found.velocity, found.velocity), found.iterations);
-    if (sequence.off() > repeats && !sequence.grows()) continue;
-    trial.outcome = LimitOutcome::moves;
-    trial.estimate = estimate(factors, found.velocity, found.force);
-    break;
+    fast = fastest(trial.acceleration, trial.factors.load) > times_rest * at_rest ? fast + 1 : 0;
+    sequence.add(shifts(trial.acceleration));
+    if (getenv("LOUD"))
+      fprintf(stderr, "rel F %.5f n %d motion %.2e off %.2e it %d\n", trial.factors.strength, n,
+              fastest(trial.acceleration, trial.factors.load), sequence.off(), int(found.iterations));
+    if (sequence.off() <= repeats || sequence.goes_on()) return LimitOutcome::moves;
   }
-  trial.acceleration = std::move(found.velocity);
-  trial.force = std::move(found.force);
+  // A motion that goes on and on is one, though its details do not settle.
+  return vague <= most_vague && fast >= times_fast ? LimitOutcome::moves : LimitOutcome::unknown;
+}
+
+std::vector<BodyVelocity> LimitAnalysis::alone(const LimitFactors& factors, double tolerance) {
+  std::vector<BodyVelocity> velocity(model_.bodies.size(), BodyVelocity::Zero());
+  if (model_.bodies.size() < 2) return velocity;
+  if (alone_.empty())
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) alone_.push_back(with_others_held(b));
+  for (std::size_t b = 0; b < alone_.size(); ++b) {
+    LimitTrial trial = alone_[b]->released(factors, tolerance);
+    if (trial.outcome == LimitOutcome::moves) velocity[b] = trial.acceleration.front();
+  }
+  return velocity;
+}
+
+std::vector<std::vector<BodyVelocity>> LimitAnalysis::apart(std::vector<BodyVelocity> velocity) const {
+  constexpr int most_sets = 4;
+  std::vector<std::vector<int>> neighbours(velocity.size());
+  for (const ConePair& pair : model_.pairs) {
+    const auto [a, b] = pair.bodies;
+    if (a < 0 || b < 0) continue;
+    neighbours[at(a)].push_back(b);
+    neighbours[at(b)].push_back(a);
+  }
+  std::vector<std::size_t> order;
+  for (std::size_t b = 0; b < velocity.size(); ++b)
+    if (velocity[b].squaredNorm() > 0.0) order.push_back(b);
+  const auto speed = [&](std::size_t b) { return velocity[b].squaredNorm() / model_.bodies[b].mass; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t x, std::size_t y) { return speed(x) > speed(y); });
+  std::vector<std::vector<BodyVelocity>> sets;
+  while (!order.empty() && static_cast<int>(sets.size()) < most_sets) {
+    sets.emplace_back(velocity.size(), BodyVelocity::Zero());
+    std::vector<BodyVelocity>& set = sets.back();
+    std::vector<std::size_t> left;
+    for (const std::size_t b : order) {
+      const bool beside = std::any_of(neighbours[b].begin(), neighbours[b].end(),
+                                      [&](int other) { return set[at(other)].squaredNorm() > 0.0; });
+      if (beside) {
+        left.push_back(b);
+      } else {
+        set[b] = velocity[b];
+      }
+    }
+    order = std::move(left);
+  }
+  return sets;
+}
+
+std::unique_ptr<LimitAnalysis> LimitAnalysis::with_others_held(std::size_t body) const {
+  RigidModel held;
+  held.units = model_.units;
+  held.bodies = {model_.bodies[body]};
+  held.steady = {model_.steady[body]};
+  held.multiplied = {model_.multiplied[body]};
+  held.body_of.assign(model_.body_of.size(), -1);
+  for (const int block : model_.bodies[body].blocks) held.body_of[at(block)] = 0;
+  std::vector<bool> reduced;
+  ConePair fixed{{0, -1}, 0, 0};
+  for (const ConePair& pair : model_.pairs) {
+    const bool first = pair.bodies[0] == static_cast<int>(body);
+    if (!first && pair.bodies[1] != static_cast<int>(body)) continue;
+    for (std::size_t k = pair.begin; k < pair.end; ++k) {
+      RigidPoint point = model_.points[k];
+      if (!first) {
+        std::swap(point.blocks[0], point.blocks[1]);
+        point.frame.topRows<2>() *= -1.0;
+      }
+      held.points.push_back(std::move(point));
+      reduced.push_back(reduced_[k]);
+    }
+  }
+  fixed.end = held.points.size();
+  if (fixed.end > 0) held.pairs = {fixed};
+  auto analysis = std::make_unique<LimitAnalysis>(
+      std::move(held), [](int, int) { return true; }, 1);
+  analysis->reduced_ = std::move(reduced);
+  return analysis;
+}
+
+LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance, const LimitTrial* known) {
+  // A motion dies away from one shift to the next: slowly where the factor is near the limit.
+  const double at_rest = std::clamp(0.5 * tolerance, 5.0 * still, 10.0 * still);
+  LimitTrial trial;
+  trial.factors = factors;
+  trial.released = true;
+  // Motion may be found from a known one, from that without friction, in which nothing is wedged, and from those of
+  // bodies that move while all others are held.
+  trial.outcome = known != nullptr ? follow(known->acceleration, at_rest, trial) : LimitOutcome::stands;
+  const auto also_from = [&](const std::vector<BodyVelocity>& start) {
+    if (trial.outcome == LimitOutcome::moves || product(start, start) == 0.0) return;
+    const LimitOutcome other = follow(start, at_rest, trial);
+    if (other != LimitOutcome::stands) trial.outcome = other;
+  };
+  also_from(without_friction(factors, trial));
+  if (trial.outcome != LimitOutcome::moves)
+    for (const std::vector<BodyVelocity>& start : apart(alone(factors, tolerance))) also_from(start);
+  if (trial.outcome == LimitOutcome::stands) {
+    // Slow motion is no motion only where there are forces that hold it.
+    LimitTrial held = associated(factors);
+    held.programmes += trial.programmes;
+    held.iterations += trial.iterations;
+    held.released = true;
+    return held;
+  }
+  if (trial.outcome == LimitOutcome::moves)
+    trial.estimate = estimate(factors, trial.acceleration, trial.force);
   return trial;
 }
 
@@ -339,7 +473,8 @@ LimitTrial LimitAnalysis::with_bounds(const LimitFactors& factors, std::vector<d
   return trial;
 }
 
-LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors, double tolerance) {
+LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors, double tolerance,
+                                                const LimitTrial* known) {
   int programmes = 0, iterations = 0;
   if (!steady_normal_) {
     steady_normal_.emplace(model_.points.size(), 0.0);
@@ -352,7 +487,7 @@ LimitTrial LimitAnalysis::released_after_steady(const LimitFactors& factors, dou
   std::vector<double> normal = *steady_normal_;
   LimitTrial trial = with_bounds(factors, normal);
   // All loads at once move no less.
-  if (trial.outcome == LimitOutcome::unknown) trial = released(factors, tolerance);
+  if (trial.outcome == LimitOutcome::unknown) trial = released(factors, tolerance, known);
   trial.programmes += programmes;
   trial.iterations += iterations;
   return trial;
@@ -379,10 +514,12 @@ LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
         answer.interrupted = true;
         return std::nullopt;
       }
+      const std::optional<LimitTrial>& motion = answer.released.motion;
+      const LimitTrial* known = motion && motion->released ? &*motion : nullptr;
       LimitTrial trial = !released ? associated(factors(factor))
                          : sought == Sought::strength
-                             ? this->released(factors(factor), search.tolerance)
-                             : released_after_steady(factors(factor), search.tolerance);
+                             ? this->released(factors(factor), search.tolerance, known)
+                             : released_after_steady(factors(factor), search.tolerance, known);
       answer.trials.push_back({trial.factors,
                                released,
                                trial.outcome,
@@ -406,10 +543,15 @@ LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
   }
   const double start = answer.associated.lower.value_or(0.0);
   if (start == 0.0) {
-    released = answer.associated;
-    return answer;
+    released.resolved = answer.associated.resolved;
+  } else {
+    Bracketing(search, released).run(start / (1.0 - 0.3 * search.tolerance), attempt(true));
   }
-  Bracketing(search, released).run(start / (1.0 - 0.3 * search.tolerance), attempt(true));
+  // Shown is a motion without dilation.
+  if (!answer.interrupted && released.upper && !released.motion->released) {
+    LimitTrial shown = this->released(factors(*released.upper), search.tolerance);
+    if (shown.outcome == LimitOutcome::moves) released.motion = std::move(shown);
+  }
   return answer;
 }
 

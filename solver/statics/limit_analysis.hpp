@@ -16,6 +16,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -105,10 +106,12 @@ class LimitAnalysis {
   [[nodiscard]] LimitTrial associated(const LimitFactors& factors);
   /// Whether there is a motion from rest and from no contact forces that obeys Coulomb's law.
   /// @param tolerance of the factor: how near to the limit it is to tell
-  [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3);
-
+  /// @param known a motion under other factors, which is followed first; null: none
+  [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3,
+                                    const LimitTrial* known = nullptr);
   /// The same where loads that are multiplied come after the others: from the forces that those have built up.
-  [[nodiscard]] LimitTrial released_after_steady(const LimitFactors& factors, double tolerance = 1e-3);
+  [[nodiscard]] LimitTrial released_after_steady(const LimitFactors& factors, double tolerance = 1e-3,
+                                                 const LimitTrial* known = nullptr);
 
   /// The factor by which strengths of the chosen joints may be divided. @param goes_on asked before each trial
   [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
@@ -123,6 +126,14 @@ class LimitAnalysis {
   using Attempt = std::function<LimitTrial(double)>;
 
   void set_factors(const LimitFactors& factors);
+  [[nodiscard]] std::vector<BodyVelocity> without_friction(const LimitFactors& factors, LimitTrial& trial);
+  /// Of each body, its released motion while all others are held; zero where it stands.
+  [[nodiscard]] std::vector<BodyVelocity> alone(const LimitFactors& factors, double tolerance);
+  /// The same in a few sets, of bodies that do not touch each other, the fastest first.
+  [[nodiscard]] std::vector<std::vector<BodyVelocity>> apart(std::vector<BodyVelocity> velocity) const;
+  [[nodiscard]] std::unique_ptr<LimitAnalysis> with_others_held(std::size_t body) const;
+  [[nodiscard]] LimitOutcome follow(const std::vector<BodyVelocity>& start, double at_rest,
+                                    LimitTrial& trial);
   [[nodiscard]] LimitTrial with_bounds(const LimitFactors& factors, std::vector<double>& normal);
   [[nodiscard]] ConeQuestion question(double load) const;
   [[nodiscard]] double fastest(const std::vector<BodyVelocity>& acceleration, double load) const;
@@ -135,6 +146,7 @@ class LimitAnalysis {
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
   ConeProgram program_;
+  std::vector<std::unique_ptr<LimitAnalysis>> alone_;  ///< by body, once it was asked for
   std::optional<std::vector<double>>
       steady_normal_;  ///< by point, normal forces of the loads that are not multiplied
 };

@@ -40,6 +40,7 @@ rotate = { axis = [0, -1, 0], angle = 30 }
 }
 
 const char* const safety = "[analysis]\ntype = \"factor-of-safety\"\n";
+const char* const elastic = "[analysis]\ntype = \"factor-of-safety\"\nmethod = \"elastic\"\n";
 
 class FactorRun : public RunCommand {
  protected:
@@ -113,10 +114,8 @@ TEST_F(FactorRun, WhatMovesAtAllStrengthsAndWhatNothingMoves) {
   write_text(scene_,
              plate_on_a_slope(safety, "friction_angle = 2") +
                  "[[block.fix]]\nplane = { point = [0, 0, 0], normal = [0.5, 0, -0.866025403784] }\n");
-  ASSERT_EQ(command({"run", scene_.string(), "--out", (folder_ / "stands").string()}), 0) << faults_;
-  EXPECT_THAT(faults_, HasSubstr("no factor of safety up to 10"));
-  EXPECT_TRUE(summary("stands").at("factor_of_safety").at("upper").is_null());
-  EXPECT_THAT(summary("stands").at("factor_of_safety").at("moving"), IsEmpty());
+  EXPECT_EQ(command({"run", scene_.string(), "--out", (folder_ / "stands").string()}), 2);
+  EXPECT_THAT(faults_, HasSubstr("no block can move"));
 }
 
 TEST_F(FactorRun, CapacityIsTheLoadThatMovesABlock) {
@@ -151,7 +150,7 @@ force = [1000, 0, 0]
 }
 
 TEST_F(FactorRun, ResumeKeepsTrialsAndEndsAlike) {
-  write_text(scene_, plate_on_a_slope(safety, "friction_angle = 40"));
+  write_text(scene_, plate_on_a_slope(elastic, "friction_angle = 40"));
   ASSERT_EQ(run("whole"), 0) << faults_;
   ASSERT_EQ(run("half"), 0) << faults_;
   // As if it had been killed after three trials.
@@ -176,7 +175,7 @@ TEST_F(FactorRun, ResumeKeepsTrialsAndEndsAlike) {
 }
 
 TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
-  write_text(scene_, plate_on_a_slope(safety, "friction_angle = 40"));
+  write_text(scene_, plate_on_a_slope(elastic, "friction_angle = 40"));
   ASSERT_EQ(run("whole"), 0) << faults_;
   ASSERT_EQ(run("half"), 0) << faults_;
   // As if it had been stopped in its first trial.

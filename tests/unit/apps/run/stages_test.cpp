@@ -315,7 +315,7 @@ TEST_F(Stages, FaultsAreToldAtTheirKeys) {
               HasSubstr("block \"high\" is removed but not there"));
   EXPECT_THAT(faults_of("[[stage]]\nname = \"a\"\n"), HasSubstr("end_time"));
   EXPECT_THAT(faults_of("[[stage]]\nname = \"a\"\nanalysis = { type = \"capacity\" }\n"),
-              HasSubstr("search for a factor in a stage (\"capacity\")"));
+              HasSubstr("limit analysis in a stage (\"capacity\")"));
   EXPECT_THAT(faults_of("[[stage]]\nname = \"a\"\nanalysis = { type = \"static\" }\n[[stage]]\nname = \"a\"\n"
                         "analysis = { type = \"static\" }\n"),
               HasSubstr("stage named twice (\"a\")"));

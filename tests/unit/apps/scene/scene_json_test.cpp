@@ -19,7 +19,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
     "title": "",
     "analysis": {"type": "dynamic", "end_time": 1.0, "time_step": 0.01, "integrator": "dda", "spectral_radius": 0.8,
                  "formulation": "total", "initial_state": "as-placed", "gravity": [0.0, 0.0, -9.81],
-                 "solver": "auto", "mass_damping": 0.0, "stiffness_damping": 0.0,
+                 "solver": "auto", "mass_damping": 0.0, "stiffness_damping": 0.0, "method": "auto",
                  "safety": {"joints": ["*"], "tolerance": 0.01, "lower": 0.1, "upper": 10.0},
                  "capacity": {"blocks": ["*"], "tolerance": 0.01, "lower": 0.1, "upper": 10.0},
                  "sleeping": true, "memory_limit": "auto"},

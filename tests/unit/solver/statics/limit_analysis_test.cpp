@@ -97,7 +97,7 @@ struct Scene {
 };
 
 /// Bodies that accelerate by 1e-4 of their loads stand still, which a factor may be wrong by.
-constexpr double stillness = 5e-4;
+constexpr double stillness = 1e-3;
 
 void expect_factor(const LimitBracket& bracket, double factor, double tolerance, const std::string& what) {
   ASSERT_TRUE(bracket.lower && bracket.upper) << what;
