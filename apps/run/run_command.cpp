@@ -190,9 +190,9 @@ std::optional<int> start_statically(PreparedRun& run, std::ostream& err) {
 }
 
 /// Finds the scene's factor by limit analysis. @return empty: interrupted, which was told
-std::optional<LimitFindings> find_limits_first(const PreparedRun& run, const RunOptions& options,
-                                               std::ostream& err) {
-  LimitFindings findings = find_limits(run.loaded->scene, run.built->simulation, std::max(options.threads, 1),
+std::optional<LimitFindings> find_limits_first(const PreparedRun& run, const Simulation& placed,
+                                               const RunOptions& options, std::ostream& err) {
+  LimitFindings findings = find_limits(run.loaded->scene, placed, std::max(options.threads, 1),
                                        [] { return !InterruptGuard::interrupted(); });
   if (!options.quiet) {
     for (const LimitTrial& trial : findings.answer.trials)
@@ -270,10 +270,15 @@ int run_command(const RunOptions& options, std::ostream& err) {
     std::optional<FactorBracket> bracket;
     std::optional<LimitFindings> limits;
     std::optional<ThrustFindings> thrust;
+    // A run that goes on has blocks drawn as they set off.
+    std::optional<BuiltSimulation> placed;
+    if (prepared.earlier && is_static(prepared.loaded->scene.analysis))
+      placed = built_or_thrown(prepared.first(), threads);
+    const Simulation& as_placed = placed ? placed->simulation : prepared.built->simulation;
     if (prepared.loaded->scene.analysis.type == SceneAnalysis::Type::thrust)
-      thrust = find_thrust(prepared.loaded->scene, prepared.built->simulation, threads);
-    if (uses_limit_analysis(prepared.loaded->scene, prepared.built->simulation)) {
-      limits = find_limits_first(prepared, options, err);
+      thrust = find_thrust(prepared.loaded->scene, as_placed, threads);
+    if (uses_limit_analysis(prepared.loaded->scene, as_placed)) {
+      limits = find_limits_first(prepared, as_placed, options, err);
       if (!limits) return exit_status::interrupted;
     } else if (seeks_factor(prepared.loaded->scene.analysis) &&
                !find_factor_first(prepared, options, *claim, bracket, err)) {

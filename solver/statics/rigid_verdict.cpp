@@ -82,6 +82,9 @@ StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus 
   if (weakens || model.bodies.empty()) return status;
   LimitAnalysis analysis(
       std::move(model), [](int, int) { return false; }, run.settings().threads);
+  // Where blocks are in balance on contacts that rigid blocks have no forces for, these tell nothing.
+  if (status == StaticStatus::equilibrium && analysis.associated({}).outcome != LimitOutcome::stands)
+    return status;
   const LimitTrial trial = analysis.released({});
   if (trial.outcome == LimitOutcome::moves) {
     note_motion(run, analysis.motion_of(trial));
