@@ -4,13 +4,14 @@
 // p = (N, t1, t2) on the first of their two bodies, compression positive. With G v the velocities of the first body
 // relative to the second one at the points, F the loads and p within the strengths of the joints,
 //     |t| <= c + mu N,   N >= -T                                                                      (cone)
-// two programmes are solved:
+// three programmes are solved:
 //     rest     min over p   1/2 |F + G'p|^2 + s . N      accelerations v = F + G'p: Gauss's principle
 //     factor   max over p, a   a,   F + G'p + a F1 = 0,   a <= most
-// The dual variables of both are velocities: v is how blocks set off, under `rest` from no velocity, under `factor` in
-// the mechanism that keeps the factor from growing, with F1 . v = 1. Joints that slide open by mu times what they
-// slide (associated flow), less the shift s of a point. Under `rest` v is zero if and only if there are forces within
-// the strengths that balance the loads.
+//     slow     min over p   s . N,   F + G'p = 0         forces in balance
+// The dual variables of all are velocities: v is how blocks set off, under `rest` from no velocity, under `factor` in
+// the mechanism that keeps the factor from growing, with F1 . v = 1, under `slow` so slowly that inertia has no part.
+// Joints that slide open by mu times what they slide (associated flow), less the shift s of a point. Under `rest`
+// without shifts v is zero if and only if there are forces within the strengths that balance the loads.
 //
 // Method: primal-dual, scaled by Nesterov and Todd (Andersen, Roos and Terlaky, Math. Program. 95 (2003) 249), with
 // Mehrotra's predictor and corrector. An iteration factorises G' H^-1 G + 1, H (3, 3) of each point: one block for each
@@ -62,8 +63,9 @@ struct ConeQuestion {
   std::vector<BodyVelocity> grows;  ///< F1; empty: `rest`
   double most = 0.0;                ///< of the factor, > 0
   std::vector<double> shift;        ///< s by point, >= 0; empty: none
-  double gap =
-      0.0;  ///< at which `rest` may end, over the square of the loads; 0: as small as rounding allows
+  bool balanced = false;            ///< `slow`: needs shifts of which the largest is 1
+  /// At which `rest` may end, over the square of the loads; 0: as small as rounding allows.
+  double gap = 0.0;
 };
 
 enum class ConeStatus {

@@ -1,0 +1,37 @@
+// Motion of each body while all others are held: where a motion of many may start, and which blocks only others keep.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "solver/statics/limit_trial.hpp"
+#include "solver/statics/rigid_model.hpp"
+
+namespace ashlar {
+
+class LimitAnalysis;
+
+class SingleBodies {
+ public:
+  /// @param reduced by point, whether its strength is divided
+  SingleBodies(const RigidModel& model, const std::vector<bool>& reduced);
+  ~SingleBodies();
+  SingleBodies(SingleBodies&&) noexcept;
+  SingleBodies& operator=(SingleBodies&&) noexcept;
+  SingleBodies(const SingleBodies&) = delete;
+  SingleBodies& operator=(const SingleBodies&) = delete;
+
+  /// @param tolerance of the factor. @return by body, zero where it stands or where it is not known
+  [[nodiscard]] std::vector<BodyVelocity> motions(const LimitFactors& factors, double tolerance);
+  /// The same in a few sets of bodies that do not touch each other, the fastest first.
+  [[nodiscard]] std::vector<std::vector<BodyVelocity>> sets(const LimitFactors& factors, double tolerance);
+
+ private:
+  std::vector<double> mass_;                            ///< by body
+  std::vector<std::vector<int>> neighbours_;            ///< bodies, by body
+  std::vector<std::unique_ptr<LimitAnalysis>> single_;  ///< by body
+  std::vector<LimitFactors> stands_;  ///< by body, the largest strength factor that it stood at, and its load
+};
+
+}  // namespace ashlar

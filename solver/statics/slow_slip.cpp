@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/statics/released_motion.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr int most_programmes = 60;
+/// Between directions of slip, one after the other: the same, and nearly the same.
+constexpr double same = 1e-3, alike = 0.1;
+/// Of the growth: what it may still change by where its sign is no question.
+constexpr double clearly = 0.2;
+/// Slip that decays so fast comes to rest, whatever its direction turns to.
+constexpr double fast_decay = -0.5;
+constexpr int fast_decays = 3;
+constexpr double no_slip = 1e-5;
+
+/// Shifts that keep joints from opening by more than they dilate. @return by point
+Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>& dilation,
+                          const std::vector<BodyVelocity>& velocity) {
+  Eigen::VectorXd shift(static_cast<Eigen::Index>(dilation.size()));
+  for (std::size_t pair = 0; pair < program.pairs().size(); ++pair) {
+    for (std::size_t k = program.pairs()[pair].begin; k < program.pairs()[pair].end; ++k) {
+      const double kept = program.points()[k].strength.friction - dilation[k];
+      shift[static_cast<Eigen::Index>(k)] = kept * program.relative(pair, k, velocity).tail<2>().norm();
+    }
+  }
+  return shift;
+}
+
+/// Growth of slip from programme to programme, and what it tends to.
+class Growth {
+ public:
+  void add(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+    const double last = growth_, last_change = change_;
+    growth_ = std::log(after.norm() / before.norm());
+    turned_ = (after / after.norm() - before / before.norm()).norm();
+    change_ = growth_ - last;
+    // Changes that fall by a ratio sum up to a limit.
+    const double ratio = count_ > 1 ? change_ / last_change : 0.0;
+    limit_ = ratio > 0.0 && ratio < 0.95 ? growth_ + change_ * ratio / (1.0 - ratio) : growth_;
+    decays_ = growth_ < fast_decay ? decays_ + 1 : 0;
+    ++count_;
+  }
+
+  [[nodiscard]] bool decays_fast() const { return decays_ >= fast_decays; }
+  [[nodiscard]] double limit() const { return limit_; }
+  [[nodiscard]] bool settled(double margin) const {
+    if (count_ < 3) return false;
+    const double allowed = std::max(margin, clearly * std::abs(growth_));
+    return turned_ < same || (turned_ < alike && std::abs(limit_ - growth_) < allowed);
+  }
+
+ private:
+  double growth_ = 0.0, change_ = 0.0, limit_ = 0.0, turned_ = 0.0;
+  int count_ = 0, decays_ = 0;
+};
+
+ConeAnswer asked(ConeProgram& program, const ConeQuestion& question, ReleasedMotion& found) {
+  ConeAnswer answer = program.solve(question);
+  ++found.programmes;
+  found.iterations += answer.iterations;
+  return answer;
+}
+
+}  // namespace
+
+ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilation,
+                         const std::vector<BodyVelocity>& load, const std::vector<BodyVelocity>& start,
+                         double margin) {
+  ReleasedMotion found;
+  ConeQuestion question;
+  question.load = load;
+  question.balanced = true;
+  Eigen::VectorXd shift = shifts_of(program, dilation, start);
+  Growth growth;
+  for (int n = 0; n < most_programmes; ++n) {
+    const double size = shift.size() > 0 ? shift.maxCoeff() : 0.0;
+    if (!(size > 0.0)) {
+      found.outcome = LimitOutcome::stands;
+      return found;
+    }
+    shift /= size;
+    question.shift.assign(shift.begin(), shift.end());
+    ConeAnswer answer = asked(program, question, found);
+    found.velocity = std::move(answer.velocity);
+    found.force = std::move(answer.force);
+    Eigen::VectorXd next = shifts_of(program, dilation, found.velocity);
+    if (!(next.norm() > no_slip * shift.norm())) {
+      found.outcome = LimitOutcome::stands;
+      return found;
+    }
+    growth.add(shift, next);
+    if (growth.decays_fast()) {
+      found.outcome = LimitOutcome::stands;
+      return found;
+    }
+    if (growth.settled(margin)) {
+      found.outcome = growth.limit() > -margin ? LimitOutcome::moves : LimitOutcome::stands;
+      return found;
+    }
+    shift = std::move(next);
+  }
+  return found;
+}
+
+ReleasedMotion motion_of_slip(ConeProgram& program, const std::vector<double>& dilation,
+                              const std::vector<BodyVelocity>& load, const std::vector<BodyVelocity>& slip) {
+  // Inertia takes a part in a motion that is a share of what the loads would do.
+  constexpr double first_motion = 0.1, followed_to = 0.05, programme_gap = 1e-8;
+  constexpr int most_followed = 12;
+  ReleasedMotion found;
+  ConeQuestion question;
+  question.load = load;
+  question.gap = programme_gap;
+  const double motion = largest_motion(slip, load);
+  if (!(motion > 0.0)) return found;
+  Eigen::VectorXd shift = first_motion / motion * shifts_of(program, dilation, slip);
+  std::vector<Eigen::Vector3d> force;
+  for (int n = 0; n < most_followed; ++n) {
+    question.shift.assign(shift.begin(), shift.end());
+    ConeAnswer answer = asked(program, question, found);
+    force = std::move(answer.force);
+    Eigen::VectorXd next = shifts_of(program, dilation, answer.velocity);
+    const bool followed = (next - shift).norm() <= followed_to * next.norm();
+    shift = std::move(next);
+    if (followed) break;
+  }
+  ReleasedMotion polished = motion_from_rest(program, dilation, load, std::move(force));
+  polished.programmes += found.programmes;
+  polished.iterations += found.iterations;
+  return polished;
+}
+
+}  // namespace ashlar
