@@ -18,8 +18,8 @@ constexpr double settled = 1e-2;
 constexpr double exact = 1e-11;
 /// Sweeps in all, over those after which a motion was no question.
 constexpr int polished = 4;
-/// Between checks, of the motion: one that shrinks by more has not settled.
-constexpr double lasting = 0.95;
+/// Of the motion: what has to be left of it in the end, and the ratio of changes above which the end is not known.
+constexpr double left_over = 0.8, slow_ratio = 0.9;
 /// Of the loads: less is rest.
 constexpr double at_rest = 1e-4;
 constexpr int first_check = 64, most_sweeps = 4096;
@@ -127,6 +127,30 @@ class Sweeps {
   double lack_ = 0.0, fastest_ = 0.0;
 };
 
+/// The size of motion at checks, each after twice the sweeps of the one before.
+class Decay {
+ public:
+  void add(double motion) {
+    last_change_ = change_;
+    change_ = count_ > 0 ? motion_ - motion : 0.0;
+    motion_ = motion;
+    ++count_;
+  }
+  /// Whether motion stays, going by its last changes: these fall by a ratio from check to check.
+  [[nodiscard]] bool lasts() const {
+    constexpr double no_change = 1e-6;
+    if (count_ < 3) return false;
+    if (change_ <= no_change * motion_) return true;
+    const double ratio = change_ / last_change_;
+    return ratio > 0.0 && ratio < slow_ratio &&
+           motion_ - change_ * ratio / (1.0 - ratio) > left_over * motion_;
+  }
+
+ private:
+  double motion_ = 0.0, change_ = 0.0, last_change_ = 0.0;
+  int count_ = 0;
+};
+
 }  // namespace
 
 double largest_motion(const std::vector<BodyVelocity>& velocity, const std::vector<BodyVelocity>& load) {
@@ -146,7 +170,7 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
   const double points = static_cast<double>(std::max<std::size_t>(program.points().size(), 1));
   const int most =
       static_cast<int>(std::min<double>(most_sweeps, std::max<double>(most_updates / points, first_check)));
-  double before = 0.0;
+  Decay decay;
   int last = most;
   for (int check = first_check; found.iterations < last; check = std::min(2 * check, last)) {
     for (; found.iterations < std::min(check, last); ++found.iterations)
@@ -156,13 +180,13 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
       found.outcome = LimitOutcome::stands;
       break;
     }
-    const bool moves =
-        sweeps.lack() <= settled * sweeps.fastest() && motion >= lasting * before && before > 0.0;
+    decay.add(motion);
+    const bool done = sweeps.lack() <= exact * sweeps.fastest();
+    const bool moves = done || (sweeps.lack() <= settled * sweeps.fastest() && decay.lasts());
     // Once it is no question, a few sweeps more for its accelerations.
     if (moves && found.outcome != LimitOutcome::moves) last = std::min(most, polished * found.iterations);
     found.outcome = moves ? LimitOutcome::moves : LimitOutcome::unknown;
-    if (sweeps.lack() <= exact * sweeps.fastest()) break;
-    before = motion;
+    if (done) break;
   }
   found.velocity = std::move(sweeps.velocity());
   found.force = std::move(sweeps.force());

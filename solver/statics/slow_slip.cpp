@@ -12,10 +12,11 @@ constexpr int most_programmes = 60;
 constexpr double same = 1e-3, alike = 0.1;
 /// Of the growth: what it may still change by where its sign is no question.
 constexpr double clearly = 0.2;
-/// Slip that decays so fast comes to rest, whatever its direction turns to.
+/// Slip that decays so fast a few times comes to rest.
 constexpr double fast_decay = -0.5;
 constexpr int fast_decays = 3;
-constexpr double no_slip = 1e-5;
+/// Of the slip that it starts with: what is left where slip has died away.
+constexpr double no_slip = 1e-4;
 
 /// Shifts that keep joints from opening by more than they dilate. @return by point
 Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>& dilation,
@@ -42,10 +43,12 @@ class Growth {
     const double ratio = count_ > 1 ? change_ / last_change : 0.0;
     limit_ = ratio > 0.0 && ratio < 0.95 ? growth_ + change_ * ratio / (1.0 - ratio) : growth_;
     decays_ = growth_ < fast_decay ? decays_ + 1 : 0;
+    total_ += growth_;
     ++count_;
   }
 
-  [[nodiscard]] bool decays_fast() const { return decays_ >= fast_decays; }
+  /// Whether slip comes to rest, whatever its direction does.
+  [[nodiscard]] bool ends() const { return decays_ >= fast_decays || total_ < std::log(no_slip); }
   [[nodiscard]] double limit() const { return limit_; }
   [[nodiscard]] bool settled(double margin) const {
     if (count_ < 3) return false;
@@ -54,7 +57,7 @@ class Growth {
   }
 
  private:
-  double growth_ = 0.0, change_ = 0.0, limit_ = 0.0, turned_ = 0.0;
+  double growth_ = 0.0, change_ = 0.0, limit_ = 0.0, turned_ = 0.0, total_ = 0.0;
   int count_ = 0, decays_ = 0;
 };
 
@@ -93,7 +96,7 @@ ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilati
       return found;
     }
     growth.add(shift, next);
-    if (growth.decays_fast()) {
+    if (growth.ends()) {
       found.outcome = LimitOutcome::stands;
       return found;
     }
