@@ -13,88 +13,19 @@
 #include <utility>
 #include <vector>
 
-#include "sample_statics.hpp"
+#include "sample_limits.hpp"
 
 namespace ashlar {
 namespace {
 
-using test_support::block_of;
+using test_support::g;
+using test_support::groove;
+using test_support::joint;
+using test_support::on_slope;
 using test_support::rock;
+using test_support::tangent_of;
 using test_support::tilted_box;
-
-constexpr double g = 9.81;
-
-double tangent_of(double degrees) {
-  return std::tan(degrees * std::numbers::pi / 180.0);
-}
-
-JointLaw joint(double friction, double cohesion = 0.0, double dilation = 0.0) {
-  JointLaw law{1e10, 1e10, friction, cohesion, 0.0, true};
-  law.dilation = dilation;
-  return law;
-}
-
-/// Blocks that a test turns, scales and orders as it likes.
-struct Scene {
-  std::vector<BlockDefinition> blocks;
-  JointLaw law = joint(0.5);
-  Vector3 gravity{0.0, 0.0, -g};
-  std::vector<TieRequest> ties;
-  double contact_distance = 1e-3;  ///< m
-
-  int add(const std::string& name, Polyhedron solid, int order = 0) {
-    blocks.push_back(block_of(name, std::move(solid), rock, order));
-    return static_cast<int>(blocks.size()) - 1;
-  }
-  void add_fixed(Polyhedron solid) { blocks.push_back(test_support::fixed_block(std::move(solid))); }
-
-  [[nodiscard]] Scene turned(const Eigen::AngleAxisd& turn) const {
-    Scene scene = *this;
-    scene.gravity = turn * gravity;
-    for (BlockDefinition& block : scene.blocks) {
-      block.solid = std::make_shared<const Polyhedron>(test_support::turned(*block.solid, turn));
-      for (Load& load : block.loads) {
-        load.where = Vector3(turn * std::get<Vector3>(load.where));
-        load.vector = turn * load.vector;
-      }
-    }
-    return scene;
-  }
-  [[nodiscard]] Scene scaled(double by) const {
-    Scene scene = *this;
-    scene.contact_distance *= by;
-    for (BlockDefinition& block : scene.blocks) {
-      std::vector<Vector3> points;
-      for (const Vector3& point : block.solid->mesh().points) points.emplace_back(by * point);
-      block.solid = std::make_shared<const Polyhedron>(block.solid->with_points(std::move(points)));
-    }
-    return scene;
-  }
-  /// @param order the block that comes k-th is order[k]
-  [[nodiscard]] Scene reordered(const std::vector<std::size_t>& order) const {
-    Scene scene = *this;
-    for (std::size_t k = 0; k < order.size(); ++k) scene.blocks[k] = blocks[order[k]];
-    return scene;
-  }
-
-  [[nodiscard]] Simulation build() const {
-    std::vector<BlockModel> models;
-    for (const BlockDefinition& block : blocks) models.emplace_back(block);
-    SimulationSettings settings;
-    settings.gravity = gravity;
-    settings.contact_distance = contact_distance;
-    return Simulation(std::move(models), std::vector<InitialMotion>(blocks.size()),
-                      test_support::same_law(law), settings, ties);
-  }
-  /// @param multiplied by block
-  [[nodiscard]] LimitAnalysis analysis(const std::vector<bool>& multiplied = {}) const {
-    return LimitAnalysis(
-        build().rigid_model(1.0, multiplied), [](int, int) { return true; }, 1);
-  }
-  [[nodiscard]] LimitAnswer safety(double tolerance = 1e-3) const {
-    return analysis().strength_factor({0.1, 10.0, tolerance}, [] { return true; });
-  }
-};
+using Scene = test_support::LimitScene;
 
 /// Bodies that accelerate by 1e-4 of their loads stand still, which a factor may be wrong by.
 constexpr double stillness = 5e-4;
@@ -111,15 +42,6 @@ void expect_factors(const LimitAnswer& answer, double factor, const std::string&
                     double tolerance = 1e-3) {
   expect_factor(answer.associated, factor, tolerance, what + ", associated");
   expect_factor(answer.released, factor, tolerance, what + ", released");
-}
-
-/// A flat block on a slope of some degrees.
-Scene on_slope(double incline, const JointLaw& law, int order) {
-  Scene scene;
-  scene.law = law;
-  scene.add("A", tilted_box({-1, -0.5, 0}, {1, 0.5, 0.5}, incline), order);
-  scene.add_fixed(tilted_box({-6, -2, -1}, {6, 2, 0}, incline));
-  return scene;
 }
 
 TEST(LimitAnalysis, ABlockOnAPlaneHasTheRatioOfTheTangents) {
@@ -272,7 +194,7 @@ TEST(LimitAnalysis, APushOfABlockIsBoundBySlidingAndToppling) {
   }
 }
 
-/// /work/shared/reproductions/practice/leaning_roof.toml: a stone on a plane of 45 degrees below a roof that stands by
+/// A stone on a plane of 45 degrees below a roof that stands by
 /// itself on a pedestal and touches it from above.
 Scene leaning_roof(double friction, double dilation) {
   const auto prism = [](const std::vector<std::array<double, 2>>& outline) {
@@ -355,30 +277,6 @@ TEST(LimitAnalysis, AFactorHasNoUnit) {
   }
 }
 
-/// A prism in a groove of two planes of 45 degrees that dips.
-Scene groove(double dip, double friction) {
-  Scene scene;
-  scene.law = joint(friction);
-  const auto prism = [&](const std::vector<std::array<double, 2>>& outline, double from, double to) {
-    std::vector<Vector3> points;
-    for (const auto& [y, z] : outline)
-      for (const double x : {from, to}) points.emplace_back(x, y, z);
-    return test_support::turned(Polyhedron(make_convex_hull(points)),
-                                Eigen::AngleAxisd(dip * std::numbers::pi / 180.0, Vector3::UnitY()));
-  };
-  scene.add_fixed(prism({{0, 0}, {3, 3}, {3, -1}, {0, -1}}, -4, 4));
-  scene.add_fixed(prism({{0, 0}, {-3, 3}, {-3, -1}, {0, -1}}, -4, 4));
-  scene.add("wedge", prism({{0, 0}, {1, 1}, {-1, 1}}, -1, 1));
-  return scene;
-}
-
-std::string mode_of(const Scene& scene) {
-  LimitAnalysis analysis = scene.analysis();
-  const LimitTrial trial = analysis.released({});
-  EXPECT_EQ(trial.outcome, LimitOutcome::moves);
-  return analysis.motion_of(trial).mode;
-}
-
 TEST(LimitAnalysis, AWedgeSlidesAlongTwoPlanes) {
   // Released, each plane bears N = W cos(dip)/sqrt(2), all of its friction along the line: F = mu sqrt(2)/tan(dip).
   // Forces in balance may also press across the line, by s and N + s: 2 t = W sin(dip), t^2 + s^2 = mu^2 (N + s)^2. The
@@ -388,34 +286,6 @@ TEST(LimitAnalysis, AWedgeSlidesAlongTwoPlanes) {
   const LimitAnswer answer = groove(35.0, mu).safety();
   expect_factor(answer.associated, mu * std::sqrt(1.0 + k * k) / k, 1e-3, "associated");
   expect_factor(answer.released, mu / k, 1e-3, "released");
-  EXPECT_EQ(mode_of(groove(35.0, 0.3)), "slides along two planes");
-}
-
-TEST(LimitAnalysis, ModesHaveWords) {
-  EXPECT_EQ(mode_of(on_slope(30.0, joint(0.4), 0)), "slides on one plane");
-  Scene tower;
-  tower.law = joint(1.0);
-  tower.add("tower", tilted_box({0, 0, 0}, {1, 1, 3}, 25.0));
-  tower.add_fixed(tilted_box({-6, -2, -1}, {6, 2, 0}, 25.0));
-  EXPECT_EQ(mode_of(tower), "topples");
-  Scene ceiling;
-  ceiling.add_fixed(Polyhedron(make_box({-2, -2, 1}, {2, 2, 2})));
-  ceiling.add("below", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})));
-  EXPECT_EQ(mode_of(ceiling), "falls");
-}
-
-TEST(LimitAnalysis, JointsOfAMotionAreNamed) {
-  LimitAnalysis analysis = on_slope(30.0, joint(0.4), 0).analysis();
-  const LimitTrial trial = analysis.released({});
-  const LimitMotion motion = analysis.motion_of(trial);
-  ASSERT_EQ(motion.joints.size(), 1U);
-  EXPECT_EQ(motion.joints[0].blocks, (std::array<int, 2>{0, 1}));
-  EXPECT_EQ(motion.joints[0].motion, JointMotion::slides);
-  ASSERT_EQ(motion.blocks.size(), 1U);
-  // g (sin a - cos a tan phi) down the slope.
-  const double slope = std::numbers::pi / 6.0;
-  EXPECT_NEAR(motion.blocks[0].acceleration.norm() / (g * (std::sin(slope) - 0.4 * std::cos(slope))), 1.0,
-              5e-3);
 }
 
 }  // namespace
