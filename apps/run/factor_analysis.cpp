@@ -163,7 +163,7 @@ Json factor_summary(const FactorBracket& bracket, const Simulation& simulation) 
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
   const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
   const auto array = [](const Vector3& v) { return Json{v.x(), v.y(), v.z()}; };
-  Json json = {{"lower", number(bracket.lower)}, {"upper", number(bracket.upper)}};
+  Json json = {{"method", "elastic"}, {"lower", number(bracket.lower)}, {"upper", number(bracket.upper)}};
   json["moving"] = Json::array();
   json["accelerations"] = Json::array();
   json["angular_accelerations"] = Json::array();

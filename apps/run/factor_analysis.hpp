@@ -63,7 +63,7 @@ class TrialFile {
 /// "factor of safety between 1.09 and 1.1", in words, with what could not be found.
 [[nodiscard]] std::string describe(const FactorBracket& bracket, const SceneAnalysis& analysis);
 
-/// lower, upper (null where there is none), trials; where blocks move: moving (names), accelerations (m/s^2),
+/// method, lower, upper (null where there is none), trials; where blocks move: moving (names), accelerations (m/s^2),
 /// angular_accelerations (rad/s^2), joints (of moving blocks: blocks, mode "slides", "sticks" or "opens").
 /// @param simulation at the end of the static analysis under shown_factor
 [[nodiscard]] nlohmann::ordered_json factor_summary(const FactorBracket& bracket,

@@ -12,12 +12,13 @@ class Search {
          const std::function<std::optional<FactorTrial>(double)>& attempt)
       : range_(range), attempt_(attempt) {}
 
-  FactorBracket run() {
-    const double start = std::clamp(1.0, range_.lower, range_.upper);
-    bool goes_on = decide(start);
-    for (double factor = start; goes_on && !bracket_.lower && factor > range_.lower;)
+  FactorBracket run(const std::optional<ExpectedFactor>& expected) {
+    const double low = std::clamp(expected ? expected->lower : 1.0, range_.lower, range_.upper);
+    const double high = std::clamp(expected ? expected->upper : 1.0, range_.lower, range_.upper);
+    bool goes_on = decide(low) && (high == low || decide(high));
+    for (double factor = low; goes_on && !bracket_.lower && factor > range_.lower;)
       goes_on = decide(factor = std::max(factor / 2.0, range_.lower));
-    for (double factor = start; goes_on && !bracket_.upper && factor < range_.upper;)
+    for (double factor = high; goes_on && !bracket_.upper && factor < range_.upper;)
       goes_on = decide(factor = std::min(2.0 * factor, range_.upper));
     while (goes_on && bracket_.lower && bracket_.upper &&
            *bracket_.upper > *bracket_.lower * (1.0 + range_.tolerance)) {
@@ -59,8 +60,10 @@ class Search {
     bracket_.interrupted = !trial;
     if (!trial) return false;
     bracket_.trials.push_back(*trial);
-    if (trial->outcome == TrialOutcome::stands) bracket_.lower = factor;
-    if (trial->outcome == TrialOutcome::moves) bracket_.upper = factor;
+    if (trial->outcome == TrialOutcome::stands)
+      bracket_.lower = std::max(bracket_.lower.value_or(factor), factor);
+    if (trial->outcome == TrialOutcome::moves)
+      bracket_.upper = std::min(bracket_.upper.value_or(factor), factor);
     return true;
   }
 
@@ -84,8 +87,9 @@ std::string to_string(TrialOutcome outcome) {
 }
 
 FactorBracket find_factor(const SceneAnalysis::FactorSearch& search,
-                          const std::function<std::optional<FactorTrial>(double)>& attempt) {
-  return Search(search, attempt).run();
+                          const std::function<std::optional<FactorTrial>(double)>& attempt,
+                          const std::optional<ExpectedFactor>& expected) {
+  return Search(search, attempt).run(expected);
 }
 
 }  // namespace ashlar

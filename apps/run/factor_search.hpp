@@ -34,12 +34,20 @@ struct FactorBracket {
   std::vector<FactorTrial> trials;  ///< in order
 };
 
+/// What another method has found of the limit, to be tried first.
+struct ExpectedFactor {
+  double lower = 0.0;  ///< expected to stand
+  double upper = 0.0;  ///< expected to move
+};
+
 /// Starts at the factor 1, or the allowed one nearest to it; halves until blocks stand, doubles until they move, and
 /// then halves the bracket in ratio until its width is within the tolerance. Trials that say nothing are taken to lie
 /// around the limit: the search goes on below and above them, and ends unresolved once they reach to within a quarter
 /// of the tolerance of both ends.
 /// @param attempt its factor is within search.lower and upper; empty: stop
+/// @param expected starts at its ends: if one stands and the other moves, within the tolerance, they are the answer
 [[nodiscard]] FactorBracket find_factor(const SceneAnalysis::FactorSearch& search,
-                                        const std::function<std::optional<FactorTrial>(double)>& attempt);
+                                        const std::function<std::optional<FactorTrial>(double)>& attempt,
+                                        const std::optional<ExpectedFactor>& expected = {});
 
 }  // namespace ashlar

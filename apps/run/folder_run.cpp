@@ -78,7 +78,7 @@ void FolderRun::save() {
 
 RunStatus FolderRun::go_through_stage(std::ostream& err) {
   ProgressLine progress(scene_.analysis.end_time, manner_.quiet, err);
-  RunStatus status = limits_                      ? show_limits(progress)
+  RunStatus status = limits_ && !bracket_         ? show_limits(progress)
                      : thrust_                    ? show_thrust(progress)
                      : is_static(scene_.analysis) ? find_equilibrium(progress)
                                                   : take_steps(progress);
@@ -299,8 +299,12 @@ nlohmann::ordered_json FolderRun::summary_of(RunStatus status) const {
       loaded_.scene, files_.identity(), built_,
       {status, message_, files_.seconds(), files_.tables().frames(), largest(), std::move(begun)});
   if (thrust_) summary["thrust"] = thrust_summary(*thrust_, built_.simulation);
-  if (limits_) summary[factor_name(scene_.analysis)] = limit_summary(*limits_, built_.simulation);
-  if (bracket_) summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
+  if (bracket_) {
+    summary[factor_name(scene_.analysis)] = factor_summary(*bracket_, built_.simulation);
+    if (limits_) summary[factor_name(scene_.analysis)]["limit"] = limit_summary(*limits_, built_.simulation);
+  } else if (limits_) {
+    summary[factor_name(scene_.analysis)] = limit_summary(*limits_, built_.simulation);
+  }
   return summary;
 }
 

@@ -21,14 +21,6 @@ bool is_safety(const SceneAnalysis& analysis) {
   return analysis.type == SceneAnalysis::Type::safety;
 }
 
-std::vector<bool> multiplied_of(const Scene& scene) {
-  return is_safety(scene.analysis) ? std::vector<bool>() : multiplied_blocks(scene);
-}
-
-RigidModel model_of(const Scene& scene, const Simulation& simulation) {
-  return simulation.rigid_model(scene.analysis.end_time, multiplied_of(scene));
-}
-
 std::string name_of(const Simulation& simulation, int block) {
   return simulation.blocks()[static_cast<std::size_t>(block)].name();
 }
@@ -61,82 +53,30 @@ std::string between(const LimitBracket& bracket) {
   return fmt::format("between {:.5g} and {:.5g}", *bracket.lower, *bracket.upper);
 }
 
-}  // namespace
-
-std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
-  if (motion.blocks.empty()) return "nothing moves";
-  const auto fastest = std::max_element(
-      motion.blocks.begin(), motion.blocks.end(),
-      [](const auto& x, const auto& y) { return x.acceleration.norm() < y.acceleration.norm(); });
-  const std::string first = name_of(simulation, fastest->block);
-  if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
-  return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
-}
-
-bool uses_limit_analysis(const Scene& scene, const Simulation& simulation) {
-  if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return false;
-  if (scene.analysis.method == SceneAnalysis::Method::limit) return true;
-  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return false;
-  const RigidModel model = model_of(scene, simulation);
-  return std::none_of(model.points.begin(), model.points.end(),
-                      [](const RigidPoint& point) { return point_law(point.law, 1.0, true).weakens(); });
-}
-
-void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics) {
-  if (!seeks_factor(scene.analysis) && scene.analysis.type != SceneAnalysis::Type::thrust) return;
-  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
-    if (scene.analysis.method == SceneAnalysis::Method::limit ||
-        scene.analysis.type == SceneAnalysis::Type::thrust)
-      diagnostics.error(
-          scene.places.value("analysis.formulation"),
-          "limit analysis of the incremental formulation (\"incremental\"), \"total\" is needed");
-    return;
+/// "block a", "blocks a and b", "blocks a, b, c and 5 more"
+std::string names_of(const Simulation& simulation, const std::vector<int>& blocks) {
+  constexpr std::size_t most_named = 3;
+  std::string text = blocks.size() == 1 ? "block " : "blocks ";
+  const std::size_t named = std::min(blocks.size(), most_named);
+  for (std::size_t k = 0; k < named; ++k) {
+    const bool last = k + 1 == blocks.size();
+    text += fmt::format("{}{}", k == 0 ? "" : last ? " and " : ", ", name_of(simulation, blocks[k]));
   }
-  const RigidModel model = model_of(scene, simulation);
-  if (model.bodies.empty()) {
-    diagnostics.error(scene.places.value("analysis.type"),
-                      "no block can move (all are fixed or held by supports), one that can is needed");
-    return;
-  }
-  const bool loaded = std::any_of(model.multiplied.begin(), model.multiplied.end(),
-                                  [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
-  if (scene.analysis.type == SceneAnalysis::Type::capacity && !loaded)
-    diagnostics.error(scene.places.value("analysis.capacity.blocks"),
-                      "loads to multiply move no block (0 N in all), one that can move a block is needed");
+  if (named < blocks.size()) text += fmt::format(" and {} more", blocks.size() - named);
+  return text;
 }
 
-LimitFindings find_limits(const Scene& scene, const Simulation& simulation, int threads,
-                          const std::function<bool()>& goes_on) {
-  const ReducedJoints reduced(scene);
-  LimitAnalysis analysis(
-      model_of(scene, simulation),
-      [&](int a, int b) {
-        return reduced.contains(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-      },
-      threads);
-  const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
-  const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
-  LimitFindings findings;
-  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on)
-                                              : analysis.load_factor(search, goes_on);
-  if (findings.answer.released.motion)
-    findings.released = analysis.motion_of(*findings.answer.released.motion);
-  if (findings.answer.associated.motion)
-    findings.associated = analysis.motion_of(*findings.answer.associated.motion);
-  return findings;
-}
-
-std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
-                     const Simulation& simulation) {
+std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& analysis,
+                            const Simulation& simulation) {
   const LimitBracket& released = findings.answer.released;
   const LimitBracket& associated = findings.answer.associated;
   const char* name = is_safety(analysis) ? "factor of safety" : "load factor";
   const SceneAnalysis::FactorSearch& search = search_of(analysis);
-  if (!released.resolved) {
-    return fmt::format("no {} to the tolerance of {}: {} stands, {} moves", name, search.tolerance,
-                       released.lower ? fmt::format("{:.5g}", *released.lower) : "no factor",
-                       released.upper ? fmt::format("{:.5g}", *released.upper) : "no factor");
-  }
+  if (!released.resolved)
+    return fmt::format(
+        "no {} to the tolerance of {}: {} stands, {} moves; analysis.method = \"elastic\" may find it", name,
+        search.tolerance, released.lower ? fmt::format("{:.5g}", *released.lower) : "no factor",
+        released.upper ? fmt::format("{:.5g}", *released.upper) : "no factor");
   if (!released.upper)
     return fmt::format("no {} up to {}: nothing moves{}", name, search.upper,
                        is_safety(analysis) ? " with strengths over that" : "");
@@ -149,11 +89,103 @@ std::string describe(const LimitFindings& findings, const SceneAnalysis& analysi
   const double apart = 1.0 + 2.0 * search.tolerance;
   if (!associated.upper)
     return text + fmt::format(" if joints do not wedge; if they do, nothing moves up to {}", search.upper);
-  if (associated.lower && *associated.lower > apart * *released.upper) {
+  if (associated.lower && *associated.lower > apart * *released.upper)
     text += fmt::format(" if joints do not wedge, {} if they do ({})", between(associated),
                         words_of(findings.associated, simulation));
-  }
   return text;
+}
+
+/// What an engineer has to know beside the factor.
+std::string remarks(const LimitFindings& findings, const Simulation& simulation) {
+  std::string text;
+  const std::vector<int>& kept = findings.answer.kept_by_others;
+  if (!kept.empty())
+    text += fmt::format("; {} would move below it but for the pressure of other blocks",
+                        names_of(simulation, kept));
+  if (!findings.without_contact.empty())
+    text += fmt::format("; {} touch{} no other block", names_of(simulation, findings.without_contact),
+                        findings.without_contact.size() == 1 ? "es" : "");
+  return text;
+}
+
+Json names_in_json(const std::vector<int>& blocks, const Simulation& simulation) {
+  Json json = Json::array();
+  for (const int block : blocks) json.push_back(name_of(simulation, block));
+  return json;
+}
+
+}  // namespace
+
+std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
+  if (motion.blocks.empty()) return "nothing moves";
+  const auto fastest = std::max_element(
+      motion.blocks.begin(), motion.blocks.end(),
+      [](const auto& x, const auto& y) { return x.acceleration.norm() < y.acceleration.norm(); });
+  const std::string first = name_of(simulation, fastest->block);
+  if (motion.blocks.size() == 1) return fmt::format("block {} {}", first, motion.mode);
+  return fmt::format("{} blocks move, block {} fastest: it {}", motion.blocks.size(), first, motion.mode);
+}
+
+std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation) {
+  const bool asks = seeks_factor(scene.analysis) || scene.analysis.type == SceneAnalysis::Type::thrust;
+  if (!asks || scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return std::nullopt;
+  const bool multiplies = scene.analysis.type == SceneAnalysis::Type::capacity;
+  return simulation.rigid_model(scene.analysis.end_time,
+                                multiplies ? multiplied_blocks(scene) : std::vector<bool>());
+}
+
+bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model) {
+  if (!seeks_factor(scene.analysis) || scene.analysis.method == SceneAnalysis::Method::elastic) return false;
+  return model && (scene.analysis.method == SceneAnalysis::Method::limit || !loses_strength(*model));
+}
+
+void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model,
+                        Diagnostics& diagnostics) {
+  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  if (!model) {
+    if (thrust || (seeks_factor(scene.analysis) && scene.analysis.method == SceneAnalysis::Method::limit))
+      diagnostics.error(
+          scene.places.value("analysis.formulation"),
+          "limit analysis of the incremental formulation (\"incremental\"), \"total\" is needed");
+    return;
+  }
+  if (model->bodies.empty()) {
+    diagnostics.error(scene.places.value("analysis.type"),
+                      "no block can move (all are fixed or held by supports), one that can is needed");
+    return;
+  }
+  const bool loaded = std::any_of(model->multiplied.begin(), model->multiplied.end(),
+                                  [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
+  if (scene.analysis.type == SceneAnalysis::Type::capacity && !loaded)
+    diagnostics.error(scene.places.value("analysis.capacity.blocks"),
+                      "loads to multiply move no block (0 N in all), one that can move a block is needed");
+}
+
+LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
+                          const std::function<bool()>& goes_on) {
+  LimitFindings findings;
+  findings.without_contact = model.without_contact;
+  const ReducedJoints reduced(scene);
+  LimitAnalysis analysis(
+      std::move(model),
+      [&](int a, int b) {
+        return reduced.contains(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+      },
+      threads);
+  const SceneAnalysis::FactorSearch& asked = search_of(scene.analysis);
+  const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
+  findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on)
+                                              : analysis.load_factor(search, goes_on);
+  if (findings.answer.released.motion)
+    findings.released = analysis.motion_of(*findings.answer.released.motion);
+  if (findings.answer.associated.motion)
+    findings.associated = analysis.motion_of(*findings.answer.associated.motion);
+  return findings;
+}
+
+std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
+                     const Simulation& simulation) {
+  return factor_in_words(findings, analysis, simulation) + remarks(findings, simulation);
 }
 
 Json limit_summary(const LimitFindings& findings, const Simulation& simulation) {
@@ -167,6 +199,8 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
   json["gap"] =
       released.lower && released.upper ? Json(*released.upper / *released.lower - 1.0) : Json(nullptr);
   add_motion(json, findings.released, simulation);
+  json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
+  json["without_contact"] = names_in_json(findings.without_contact, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
   json["associated_motion"] = Json::object();
   add_motion(json["associated_motion"], findings.associated, simulation);

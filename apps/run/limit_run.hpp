@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,20 +17,24 @@ namespace ashlar {
 /// What limit analysis found of a scene.
 struct LimitFindings {
   LimitAnswer answer;
-  LimitMotion released;    ///< at the least factor that moves; empty: none does
-  LimitMotion associated;  ///< at the least factor that nothing stands above; empty: none is known
+  LimitMotion released;              ///< at the least factor that moves; empty: none does
+  LimitMotion associated;            ///< at the least factor that nothing stands above; empty: none is known
+  std::vector<int> without_contact;  ///< blocks that may move and touch nothing
 };
 
-/// Whether a search for a factor is one of limit analysis: as the scene says, or, if that leaves it to the program,
-/// where no joint of blocks in contact loses strength for good when it fails.
-[[nodiscard]] bool uses_limit_analysis(const Scene& scene, const Simulation& simulation);
+/// The rigid blocks of a scene that seeks a factor or thrust. @param simulation as placed, without factors
+/// @return empty: the scene asks for neither, or limit analysis does not know its formulation
+[[nodiscard]] std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation);
+
+/// A search for a factor is one of limit analysis as the scene says, or, if that leaves it to the program, where no
+/// joint of blocks in contact loses strength for good when it fails. @param model of limit_model
+[[nodiscard]] bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model);
 
 /// Errors of a scene that leave nothing to be found: no block can move, or no load is multiplied.
-void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics);
+void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model, Diagnostics& diagnostics);
 
-/// @param simulation as placed, without factors. @param goes_on asked before each trial
-/// @param tell called after each trial, with its law "associated" or "released"
-[[nodiscard]] LimitFindings find_limits(const Scene& scene, const Simulation& simulation, int threads,
+/// @param goes_on asked before each trial
+[[nodiscard]] LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
                                         const std::function<bool()>& goes_on);
 
 /// "factor of safety between 0.593 and 0.597 (rock.8 slides on one plane), up to 0.72 if joints wedge (...)"
@@ -37,7 +42,8 @@ void refuse_idle_limits(const Scene& scene, const Simulation& simulation, Diagno
                                    const Simulation& simulation);
 
 /// method, lower, upper (of the released factor; null where there is none), released (the number to sign), associated,
-/// gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, associated_motion, trials.
+/// gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, kept_by_others, without_contact,
+/// associated_motion, trials.
 [[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
                                                    const Simulation& simulation);
 

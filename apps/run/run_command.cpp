@@ -69,9 +69,18 @@ bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
          !std::filesystem::exists(folder / checkpoint_name);
 }
 
-/// Looks for the scene's factor. What earlier trials in the folder found counts.
+/// The ends of what limit analysis has found; empty: one of them is not known.
+std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>& limits) {
+  if (!limits || !limits->answer.released.resolved) return std::nullopt;
+  const LimitBracket& released = limits->answer.released;
+  if (!released.lower || !released.upper) return std::nullopt;
+  return ExpectedFactor{*released.lower, *released.upper};
+}
+
+/// Looks for the scene's factor by static analyses. What earlier trials in the folder found counts.
 FactorBracket seek_factor(const LoadedScene& loaded, std::uint64_t scene, const RunOptions& options,
-                          const FolderClaim& claim, std::ostream& err) {
+                          const FolderClaim& claim, const std::optional<ExpectedFactor>& expected,
+                          std::ostream& err) {
   TrialFile known(claim.folder() / trials_name, scene, options.resume);
   KeptTrial kept(loaded, scene, claim.folder(),
                  {std::max(options.threads, 1), options.checkpoint, options.quiet});
@@ -96,7 +105,7 @@ FactorBracket seek_factor(const LoadedScene& loaded, std::uint64_t scene, const 
                          trial->iterations, reason);
     return trial;
   };
-  return find_factor(search_of(loaded.scene.analysis), attempt);
+  return find_factor(search_of(loaded.scene.analysis), attempt, expected);
 }
 
 /// The folder for this run alone. @return null: refused, and told why
@@ -145,7 +154,7 @@ PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnos
   if (run.built && is_static(run.first().scene.analysis))
     refuse_loose_blocks(run.first().scene, run.built->simulation, diagnostics);
   if (run.built && diagnostics.good())
-    refuse_idle_limits(run.first().scene, run.built->simulation, diagnostics);
+    refuse_idle_limits(run.first().scene, limit_model(run.first().scene, run.built->simulation), diagnostics);
   return run;
 }
 
@@ -190,9 +199,9 @@ std::optional<int> start_statically(PreparedRun& run, std::ostream& err) {
 }
 
 /// Finds the scene's factor by limit analysis. @return empty: interrupted, which was told
-std::optional<LimitFindings> find_limits_first(const PreparedRun& run, const Simulation& placed,
+std::optional<LimitFindings> find_limits_first(const PreparedRun& run, RigidModel model,
                                                const RunOptions& options, std::ostream& err) {
-  LimitFindings findings = find_limits(run.loaded->scene, placed, std::max(options.threads, 1),
+  LimitFindings findings = find_limits(run.loaded->scene, std::move(model), std::max(options.threads, 1),
                                        [] { return !InterruptGuard::interrupted(); });
   if (!options.quiet) {
     for (const LimitTrial& trial : findings.answer.trials)
@@ -208,9 +217,10 @@ std::optional<LimitFindings> find_limits_first(const PreparedRun& run, const Sim
 
 /// Finds the scene's factor and builds what shows it. @return false: interrupted, which was told
 bool find_factor_first(PreparedRun& run, const RunOptions& options, const FolderClaim& claim,
-                       std::optional<FactorBracket>& bracket, std::ostream& err) {
+                       const std::optional<LimitFindings>& limits, std::optional<FactorBracket>& bracket,
+                       std::ostream& err) {
   const SceneAnalysis& analysis = run.loaded->scene.analysis;
-  bracket = seek_factor(*run.loaded, run.identity.scene, options, claim, err);
+  bracket = seek_factor(*run.loaded, run.identity.scene, options, claim, expected_factor(limits), err);
   if (bracket->interrupted) {
     err << fmt::format(
         "ashlar: interrupted after {} static analyses, {}; they and the state of the one that was stopped "
@@ -275,13 +285,18 @@ int run_command(const RunOptions& options, std::ostream& err) {
     if (prepared.earlier && is_static(prepared.loaded->scene.analysis))
       placed = built_or_thrown(prepared.first(), threads);
     const Simulation& as_placed = placed ? placed->simulation : prepared.built->simulation;
-    if (prepared.loaded->scene.analysis.type == SceneAnalysis::Type::thrust)
-      thrust = find_thrust(prepared.loaded->scene, as_placed, threads);
-    if (uses_limit_analysis(prepared.loaded->scene, as_placed)) {
-      limits = find_limits_first(prepared, as_placed, options, err);
+    const Scene& scene = prepared.loaded->scene;
+    std::optional<RigidModel> model = limit_model(scene, as_placed);
+    if (scene.analysis.type == SceneAnalysis::Type::thrust)
+      thrust = find_thrust(scene, std::move(model.value()), as_placed, threads);
+    // A search by static analyses begins with what limit analysis says of the same strengths.
+    const bool by_limits = uses_limit_analysis(scene, model);
+    if (by_limits || (seeks_factor(scene.analysis) && model && !loses_strength(*model))) {
+      limits = find_limits_first(prepared, std::move(model.value()), options, err);
       if (!limits) return exit_status::interrupted;
-    } else if (seeks_factor(prepared.loaded->scene.analysis) &&
-               !find_factor_first(prepared, options, *claim, bracket, err)) {
+    }
+    if (seeks_factor(scene.analysis) && !by_limits &&
+        !find_factor_first(prepared, options, *claim, limits, bracket, err)) {
       return exit_status::interrupted;
     }
     RunStart start{std::move(*prepared.built),

@@ -115,9 +115,8 @@ std::string drawn_line(const ThrustLine& line, const Simulation& simulation, con
 
 }  // namespace
 
-ThrustFindings find_thrust(const Scene& scene, const Simulation& simulation, int threads) {
+ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation, int threads) {
   ThrustFindings findings;
-  RigidModel model = simulation.rigid_model(scene.analysis.end_time);
   for (const ThrustRange& range : thrust_ranges(model, scene.analysis.gravity, threads)) {
     SupportThrust support{range.support, line_of(model, *range.least), std::nullopt};
     if (range.most) support.most = line_of(model, *range.most);

@@ -29,7 +29,9 @@ struct ThrustFindings {
   std::string collapse;  ///< what moves, if no forces within the strengths balance the loads
 };
 
-[[nodiscard]] ThrustFindings find_thrust(const Scene& scene, const Simulation& simulation, int threads);
+/// @param model of limit_model
+[[nodiscard]] ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation,
+                                         int threads);
 
 /// "thrust on abutment between 1.2e+04 and 3.4e+04 N; ..."
 [[nodiscard]] std::string describe(const ThrustFindings& findings, const Simulation& simulation);

@@ -192,6 +192,7 @@ std::string draw_series(const PlotSeries& series, const std::vector<Point>& poin
     const double x = x_axis.place(point.x);
     const double y = y_axis.place(point.y);
     path += fmt::format("{}{:.1f},{:.1f}", path.empty() ? "" : " ", x, y);
+    if (!series.marks) continue;
     marks += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3.5" fill="{}" stroke="{}"/>)"
                          "\n",
                          x, y, series.dashed ? "white" : color, color);

@@ -14,6 +14,7 @@ struct PlotSeries {
   std::vector<double> x;
   std::vector<double> y;
   bool dashed = false;
+  bool marks = true;                ///< at points
   bool same_color_as_last = false;  ///< a companion of the series before it, e.g. its bound
 };
 

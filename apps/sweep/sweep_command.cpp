@@ -36,6 +36,7 @@
 #include "apps/scene/scene_json.hpp"
 #include "apps/scene/scene_loading.hpp"
 #include "apps/study/log_log_plot.hpp"
+#include "apps/sweep/sample_statistics.hpp"
 #include "apps/sweep/sweep_plot.hpp"
 #include "apps/sweep/sweep_table.hpp"
 #include "apps/sweep/variants.hpp"
@@ -283,22 +284,33 @@ void refuse_other_pictures(std::filesystem::path picture) {
   refuse_other_file(picture.replace_extension(".svg"), "SVG picture", {svg_mark});
 }
 
-/// Of the first value that was asked for, or else of the first usual one beside the time.
-void write_picture(const SweepOptions& options, const std::vector<VariedKey>& keys, const SweepTable& table,
-                   std::ostream& err) {
+/// The first value that was asked for, or else the first usual one beside the time.
+std::string first_value(const SweepOptions& options, const std::vector<VariedKey>& keys,
+                        const SweepTable& table) {
+  if (!options.values.empty()) return options.values.front();
   const std::size_t first = keys.size() + 2;  // after folder and status
-  std::string value = table.columns.at(first);
-  if (!options.values.empty())
-    value = options.values.front();
-  else if (table.columns.size() > first + 1)
-    value = table.columns[first + 1];
-  const std::string svg = sweep_svg(keys, table, value);
+  return table.columns.size() > first + 1 ? table.columns[first + 1] : table.columns.at(first);
+}
+
+void write_picture(const SweepOptions& options, const std::string& svg, std::ostream& err) {
   std::filesystem::path file = *options.picture;
   file.replace_extension(".svg");
   write_file_atomically(file, svg, Durability::process);
   if (!options.quiet) err << fmt::format("picture: {}\n", file.string());
   if (options.picture->extension() == ".png")
     err << write_png(svg, *options.picture, plot_width, plot_height) << '\n';
+}
+
+/// What samples say of the first value, and its picture.
+void tell_samples(const SweepOptions& options, const std::vector<VariedKey>& keys, const SweepTable& table,
+                  std::ostream& err) {
+  constexpr double unit_factor = 1.0;  // below which a factor of safety or of loads is failure
+  const std::string value = first_value(options, keys, table);
+  const std::vector<SampleGroup> groups = sample_groups(keys, table, value);
+  for (const SampleGroup& group : groups)
+    err << fmt::format("{}{}{}\n", group.name, group.name.empty() ? "" : ": ",
+                       to_string(statistics_of(group.values, unit_factor), value, unit_factor));
+  if (options.picture) write_picture(options, histogram_svg(groups, value), err);
 }
 
 }  // namespace
@@ -316,9 +328,9 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   std::vector<Variant> variants;
   try {
     for (const std::string& text : options.varied) keys.push_back(parse_varied_key(text));
-    variants = variants_of(keys);
+    variants = variants_of(keys, options.samples);
     // Told before the runs, not after.
-    if (options.picture) (void)sweep_svg(keys, {{"value"}, {}}, "value");
+    if (options.picture && options.samples.count == 0) (void)sweep_svg(keys, {{"value"}, {}}, "value");
     if (options.picture && !options.force) refuse_other_pictures(*options.picture);
   } catch (const std::invalid_argument& fault) {
     return refuse(fault.what());
@@ -349,7 +361,10 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   write_file_atomically(file, text, Durability::process);
   out << text;
   if (!options.quiet) err << fmt::format("table: {}\n", file.string());
-  if (options.picture) write_picture(options, keys, table, err);
+  if (options.samples.count > 0)
+    tell_samples(options, keys, table, err);
+  else if (options.picture)
+    write_picture(options, sweep_svg(keys, table, first_value(options, keys, table)), err);
   return status;
 }
 
@@ -365,10 +380,23 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
         ->take_all();
   };
   command->add_option("SCENE", options->scene, "Scene file (TOML)")->required()->type_name("");
-  repeatable("--vary", options->varied,
-             "A key and its values; all combinations of several keys are run (repeatable)")
+  repeatable(
+      "--vary", options->varied,
+      "A key and its values; all combinations of several keys are run. Or a key and how its values are "
+      "drawn: normal(MEAN,DEVIATION), normal(MEAN,DEVIATION,LEAST,MOST), lognormal(...) likewise, "
+      "uniform(LEAST,MOST), triangular(LEAST,MODE,MOST) (repeatable)")
       ->required()
       ->type_name("KEY=A,B,...");
+  command
+      ->add_option(
+          "--samples", options->samples.count,
+          "Samples of the values that are drawn: their statistics are told at the end, and --picture is a "
+          "histogram")
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command->add_option("--seed", options->samples.seed, "Of the samples (default: 1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
   repeatable("--value", options->values,
              "A number for the table: a column of history.csv at its end, or a path in summary.json "
              "(repeatable; default: time, factors, measures)")

@@ -12,17 +12,19 @@
 #include <vector>
 
 #include "apps/command_line.hpp"
+#include "apps/sweep/variants.hpp"
 
 namespace ashlar {
 
 struct SweepOptions {
   std::filesystem::path scene;                 ///< a file
-  std::vector<std::string> varied;             ///< "key=a,b,c" each
+  std::vector<std::string> varied;             ///< "key=a,b,c" or "key=normal(32, 2)" each
+  Samples samples;                             ///< of values that are drawn
   std::vector<std::string> overrides;          ///< "key.path=value" each, for all variants
   std::vector<std::string> values;             ///< columns wanted, see sweep_table.hpp; empty: the usual ones
   std::optional<std::filesystem::path> table;  ///< empty: the scene's name + ".sweep.csv"
   std::optional<std::filesystem::path>
-      picture;         ///< .svg or .png: the first value of the table against the keys
+      picture;  ///< .svg or .png: the first value of the table against the keys, or its histogram over samples
   int jobs = 0;        ///< runs at a time; 0: as many as there are processors
   bool force = false;  ///< replace results of other scenes, and a strange table
   bool quiet = false;  ///< no line per run on stderr

@@ -59,6 +59,40 @@ std::string folder_of(const std::vector<VariedKey>& keys, const std::vector<std:
   return fmt::format("{}-{}", name, sha256_of_text(text).substr(0, 12));
 }
 
+/// Of the values that are listed.
+std::size_t combinations(const std::vector<VariedKey>& keys, const Samples& samples) {
+  std::set<std::string> known;
+  std::size_t count = 1;
+  const std::size_t most = most_variants / std::clamp<std::size_t>(samples.count, 1, most_variants);
+  const auto refuse_more = [&](std::size_t factor) {
+    if (factor > most / count)
+      throw std::invalid_argument(
+          fmt::format("too many variants (more than {}), at most that many are allowed", most_variants));
+  };
+  refuse_more(samples.count > most_variants ? samples.count : 1);
+  bool draws = false;
+  for (const VariedKey& key : keys) {
+    if (!known.insert(key.key).second)
+      throw std::invalid_argument(
+          fmt::format("--vary names a key twice ({}), all its values in one are needed", key.key));
+    draws = draws || key.drawn;
+    if (key.drawn && samples.count == 0)
+      throw std::invalid_argument(
+          fmt::format("--vary draws values of {} and nothing says how many, --samples is needed", key.key));
+    if (key.drawn) continue;
+    std::set<std::string> values;
+    for (const std::string& value : key.values)
+      if (!values.insert(value).second)
+        throw std::invalid_argument(
+            fmt::format("--vary gives {} a value twice ({}), each once is needed", key.key, value));
+    refuse_more(key.values.size());
+    count *= key.values.size();
+  }
+  if (samples.count > 0 && !draws)
+    throw std::invalid_argument("--samples without a value that is drawn, --vary key=normal(...) is needed");
+  return count;
+}
+
 }  // namespace
 
 VariedKey parse_varied_key(const std::string& text) {
@@ -71,40 +105,39 @@ VariedKey parse_varied_key(const std::string& text) {
   result.key = trimmed(text.substr(0, equals));
   if (result.key.empty()) refuse("has no key");
   result.values = parts_of(text.substr(equals + 1));
+  if (result.values.size() == 1) result.drawn = parse_distribution(result.values.front());
+  if (result.drawn) {
+    result.values.clear();
+    return result;
+  }
   if (std::any_of(result.values.begin(), result.values.end(),
                   [](const std::string& value) { return value.empty(); }))
     refuse("has an empty value");
   return result;
 }
 
-std::vector<Variant> variants_of(const std::vector<VariedKey>& keys) {
-  std::set<std::string> known;
-  std::size_t count = 1;
-  for (const VariedKey& key : keys) {
-    if (!known.insert(key.key).second)
-      throw std::invalid_argument(
-          fmt::format("--vary names a key twice ({}), all its values in one are needed", key.key));
-    std::set<std::string> values;
-    for (const std::string& value : key.values)
-      if (!values.insert(value).second)
-        throw std::invalid_argument(
-            fmt::format("--vary gives {} a value twice ({}), each once is needed", key.key, value));
-    if (key.values.size() > most_variants / count)
-      throw std::invalid_argument(
-          fmt::format("too many variants (more than {}), at most that many are allowed", most_variants));
-    count *= key.values.size();
-  }
+std::vector<Variant> variants_of(const std::vector<VariedKey>& keys, const Samples& samples) {
+  const std::size_t count = combinations(keys, samples);
+  // Of each sample, the values of the keys that are drawn, in order.
+  std::vector<std::vector<std::string>> drawn(std::max<std::size_t>(samples.count, 1));
+  Draws draws(samples.seed);
+  for (std::vector<std::string>& sample : drawn)
+    for (const VariedKey& key : keys)
+      if (key.drawn) sample.push_back(fmt::format("{:.6g}", draws.draw(*key.drawn)));
   std::vector<Variant> variants;
-  variants.reserve(count);
+  variants.reserve(count * drawn.size());
   for (std::size_t k = 0; k < count; ++k) {
-    Variant variant;
-    std::size_t rest = k;
-    for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
-      variant.values.insert(variant.values.begin(), key->values[rest % key->values.size()]);
-      rest /= key->values.size();
+    for (const std::vector<std::string>& sample : drawn) {
+      Variant variant;
+      std::size_t rest = k, left = sample.size();
+      for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+        const std::string& value = key->drawn ? sample[--left] : key->values[rest % key->values.size()];
+        variant.values.insert(variant.values.begin(), value);
+        if (!key->drawn) rest /= key->values.size();
+      }
+      variant.folder = folder_of(keys, variant.values);
+      variants.push_back(std::move(variant));
     }
-    variant.folder = folder_of(keys, variant.values);
-    variants.push_back(std::move(variant));
   }
   return variants;
 }

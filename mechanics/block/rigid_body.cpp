@@ -27,6 +27,19 @@ Eigen::MatrixXd rigid_fields(const Eigen::MatrixX3d& position) {
   return fields;
 }
 
+Eigen::VectorXd constant_function(Eigen::Index size, double volume) {
+  Eigen::VectorXd one = Eigen::VectorXd::Zero(size);
+  one[0] = std::sqrt(volume);
+  return one;
+}
+
+Eigen::MatrixX3d rigid_velocity(const Eigen::MatrixX3d& position, double volume, const Eigen::Vector3d& about,
+                                const Eigen::Vector3d& translation, const Eigen::Vector3d& rotation) {
+  const Eigen::VectorXd one = constant_function(position.rows(), volume);
+  const Eigen::MatrixX3d arm = position - one * about.transpose();
+  return one * translation.transpose() + arm.rowwise().cross(-rotation.transpose());
+}
+
 Eigen::MatrixX3d rigid_change(const Eigen::MatrixX3d& position, const Eigen::MatrixX3d& change) {
   const Eigen::MatrixX3d middle = without_mean(position + 0.5 * change);
   const Eigen::Vector3d spin =

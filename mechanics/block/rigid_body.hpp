@@ -24,6 +24,17 @@ inline constexpr int rigid_freedom = 6;
 /// @return (3p, 6), coefficients stacked as in elasticity.hpp
 [[nodiscard]] Eigen::MatrixXd rigid_fields(const Eigen::MatrixX3d& position);
 
+/// Coefficients of the function 1 in a basis whose first function is constant and of norm 1.
+/// @param size of the basis. @param volume of the block, m^3. @return (size)
+[[nodiscard]] Eigen::VectorXd constant_function(Eigen::Index size, double volume);
+
+/// The velocity field of a translation and of a rotation about a place.
+/// @param position (p, 3). @param volume of the block, m^3. @return (p, 3)
+[[nodiscard]] Eigen::MatrixX3d rigid_velocity(const Eigen::MatrixX3d& position, double volume,
+                                              const Eigen::Vector3d& about,
+                                              const Eigen::Vector3d& translation,
+                                              const Eigen::Vector3d& rotation);
+
 /// The rigid change near a change of position: the spin about the middle of the change that fits it best. A rigid one
 /// stays as it is. Its rounding errors are those of the change, not of the position.
 /// @param position of a rigid block, (p, 3). @param change (p, 3). @return (p, 3)

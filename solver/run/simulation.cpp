@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "mechanics/block/rigid_body.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/stage_start.hpp"
 #include "solver/statics/rigid_model.hpp"
@@ -49,9 +50,8 @@ RigidModel Simulation::rigid_model(double end_time, const std::vector<bool>& mul
 void Simulation::displace(const std::vector<RigidDisplacement>& displacements) {
   for (const RigidDisplacement& way : displacements) {
     Eigen::MatrixX3d& position = state_.states.at(at(way.block)).position;
-    // The first function is constant and of norm 1.
-    Eigen::VectorXd one = Eigen::VectorXd::Zero(position.rows());
-    one[0] = std::sqrt(system_.blocks()[at(way.block)].basis().volume());
+    const Eigen::VectorXd one =
+        constant_function(position.rows(), system_.blocks()[at(way.block)].basis().volume());
     const double angle = way.rotation.norm();
     const Vector3 axis = angle > 0.0 ? Vector3(way.rotation / angle) : Vector3(Vector3::UnitX());
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();

@@ -9,6 +9,7 @@
 
 #include "geometry/index.hpp"
 #include "geometry/union_find.hpp"
+#include "mechanics/block/rigid_body.hpp"
 #include "mechanics/block/rigid_motions.hpp"
 #include "solver/state/automatic.hpp"
 
@@ -23,26 +24,19 @@ Eigen::Matrix3d cross_matrix(const Vector3& d) {
   return m;
 }
 
-/// Coefficients of the velocity field of a block for each rigid motion (t, w) about a place, as it lies.
-class RigidFields {
- public:
-  RigidFields(const BlockModel& block, const Eigen::MatrixX3d& position, const Vector3& about)
-      : one_(Eigen::VectorXd::Zero(block.basis().size())) {
-    // The first function is constant and of norm 1.
-    one_[0] = std::sqrt(block.basis().volume());
-    arm_ = position - one_ * about.transpose();
-  }
-  /// @param k 0 to 2: translation along an axis, 3 to 5: rotation about one
-  [[nodiscard]] Eigen::MatrixX3d field(int k) const {
-    if (k < 3) return one_ * Vector3::Unit(k).transpose();
-    return arm_ * cross_matrix(Vector3::Unit(k - 3)).transpose();
-  }
-  [[nodiscard]] Vector3 middle() const { return arm_.transpose() * one_ / one_.squaredNorm(); }
+/// The velocity field of a block, as it lies, for a rigid motion about a place.
+/// @param k 0 to 2: translation along an axis, 3 to 5: rotation about one. @return (p, 3)
+Eigen::MatrixX3d field(const BlockModel& block, const Eigen::MatrixX3d& position, const Vector3& about,
+                       int k) {
+  const Vector3 none = Vector3::Zero(), axis = Vector3::Unit(k % 3);
+  return rigid_velocity(position, block.basis().volume(), about, k < 3 ? axis : none, k < 3 ? none : axis);
+}
 
- private:
-  Eigen::VectorXd one_;
-  Eigen::MatrixX3d arm_;
-};
+/// m, of gravity
+Vector3 middle_of(const BlockModel& block, const Eigen::MatrixX3d& position) {
+  const Eigen::VectorXd one = constant_function(position.rows(), block.basis().volume());
+  return position.transpose() * one / one.squaredNorm();
+}
 
 /// Motions about a place that the supports of a block do not leave, as projectors onto them are summed; lengths over
 /// a size.
@@ -98,7 +92,7 @@ std::vector<RigidBody> bodies_of(const BlockSystem& system, const RunState& stat
       if (block.fixed()) continue;
       const double mass = block.mass();
       body.mass += mass;
-      body.middle += mass * RigidFields(block, state.states[at(k)].position, Vector3::Zero()).middle();
+      body.middle += mass * middle_of(block, state.states[at(k)].position);
     }
     if (!(body.mass > 0.0)) continue;
     body.middle /= body.mass;
@@ -117,12 +111,11 @@ void normalize(const BlockSystem& system, const RunState& state, double unit, Ri
   Matrix6 mass = Matrix6::Zero();
   for (const int k : body.blocks) {
     const BlockModel& block = system.blocks()[at(k)];
-    const RigidFields fields(block, state.states[at(k)].position, body.middle);
-    std::array<Eigen::MatrixX3d, 6> field;
-    for (int i = 0; i < 6; ++i) field[at(i)] = fields.field(i);
+    std::array<Eigen::MatrixX3d, 6> fields;
+    for (int i = 0; i < 6; ++i) fields[at(i)] = field(block, state.states[at(k)].position, body.middle, i);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j)
-        mass(i, j) += block.material().density * field[at(i)].cwiseProduct(field[at(j)]).sum();
+        mass(i, j) += block.material().density * fields[at(i)].cwiseProduct(fields[at(j)]).sum();
   }
   const Eigen::MatrixXd motion = body.motion.leftCols(body.freedom);
   const Eigen::MatrixXd own = motion.transpose() * mass * motion / unit;
@@ -138,8 +131,9 @@ BodyVelocity load_on(const BlockSystem& system, const RunState& state, const Rig
   for (const int k : body.blocks) {
     const Eigen::MatrixX3d force = forces(k);
     if (force.size() == 0) continue;
-    const RigidFields fields(system.blocks()[at(k)], state.states[at(k)].position, body.middle);
-    for (int i = 0; i < 6; ++i) wrench[i] += fields.field(i).cwiseProduct(force).sum();
+    const BlockModel& block = system.blocks()[at(k)];
+    for (int i = 0; i < 6; ++i)
+      wrench[i] += field(block, state.states[at(k)].position, body.middle, i).cwiseProduct(force).sum();
   }
   return body.motion.transpose() * wrench;
 }
@@ -395,6 +389,11 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
   std::vector<PairRecord> result;
   for (auto& [key, record] : records) result.push_back(std::move(record));
   return result;
+}
+
+bool loses_strength(const RigidModel& model) {
+  return std::any_of(model.points.begin(), model.points.end(),
+                     [](const RigidPoint& point) { return point_law(point.law, 1.0, true).weakens(); });
 }
 
 RigidMotionOf motion_of(const RigidBody& body, const BodyVelocity& coordinates) {

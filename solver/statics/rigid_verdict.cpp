@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/index.hpp"
+#include "mechanics/block/rigid_body.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/statics/limit_analysis.hpp"
 
@@ -38,18 +39,6 @@ bool is_rigid(const RunContext& run, const RigidModel& model) {
                      [](const RigidPoint& point) { return point.law.rigid; });
 }
 
-/// The rigid motion of a block as a field of its functions. @return (p, 3)
-Eigen::MatrixX3d field_of(const BlockModel& block, const Eigen::MatrixX3d& position,
-                          const LimitMotion::Block& motion) {
-  Eigen::VectorXd one = Eigen::VectorXd::Zero(position.rows());
-  one[0] = std::sqrt(block.basis().volume());  // the first function is constant and of norm 1
-  const Vector3& w = motion.angular_acceleration;
-  Eigen::Matrix3d turn;
-  turn << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
-  return one * motion.acceleration.transpose() +
-         (position - one * motion.about.transpose()) * turn.transpose();
-}
-
 void note_motion(const RunContext& run, const LimitMotion& motion) {
   StaticState& statics = run.state.statics;
   const std::size_t count = run.blocks().size();
@@ -63,23 +52,45 @@ void note_motion(const RunContext& run, const LimitMotion& motion) {
   for (const LimitMotion::Block& block : motion.blocks) {
     const std::size_t k = at(block.block);
     statics.progress.travels[k] = run.settings().statics.travel;
-    statics.onset.unbalanced[k] = field_of(run.blocks()[k], run.state.states[k].position, block);
+    statics.onset.unbalanced[k] =
+        rigid_velocity(run.state.states[k].position, run.blocks()[k].basis().volume(), block.about,
+                       block.acceleration, block.angular_acceleration);
   }
+}
+
+/// Blocks as they were placed, with the overlaps that they had.
+RunState as_placed(const RunContext& run) {
+  RunState placed;
+  for (const BlockModel& block : run.blocks()) placed.states.push_back(block.initial_state());
+  for (const auto& [blocks, history] : run.state.pairs) placed.pairs[blocks].overlap = history.overlap;
+  return placed;
+}
+
+/// Of an analysis without an answer at a level of loads that have changed: nothing stands beyond the associated limit,
+/// whatever forces are left of the way. A table that is tilted to its friction angle is at that limit.
+StaticStatus verdict_on_level(const RunContext& run, StaticStatus status) {
+  constexpr double at_the_limit = 1.001;
+  const bool driven = std::any_of(run.blocks().begin(), run.blocks().end(),
+                                  [](const BlockModel& block) { return block.driven(); });
+  if (status != StaticStatus::not_converged || run.system.any_incremental() || driven) return status;
+  RigidModel model = rigid_model(run.system, as_placed(run), run.state.time(), {});
+  if (loses_strength(model) || model.bodies.empty()) return status;
+  LimitAnalysis analysis(
+      std::move(model), [](int, int) { return true; }, run.settings().threads);
+  const LimitTrial trial = analysis.associated({at_the_limit, 1.0});
+  if (trial.outcome != LimitOutcome::moves) return status;
+  note_motion(run, analysis.motion_of(trial));
+  return StaticStatus::moving;
 }
 
 }  // namespace
 
 StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus status) {
-  if (!can_tell(run, end_time)) return status;
+  if (!can_tell(run, end_time)) return verdict_on_level(run, status);
   if (status == StaticStatus::equilibrium && !is_where_placed(run)) return status;
-  RunState placed;
-  for (const BlockModel& block : run.blocks()) placed.states.push_back(block.initial_state());
-  for (const auto& [blocks, history] : run.state.pairs) placed.pairs[blocks].overlap = history.overlap;
+  const RunState placed = as_placed(run);
   RigidModel model = rigid_model(run.system, placed, end_time, {});
-  const bool weakens = std::any_of(model.points.begin(), model.points.end(), [](const RigidPoint& point) {
-    return point_law(point.law, 1.0, true).weakens();
-  });
-  if (weakens || model.bodies.empty()) return status;
+  if (loses_strength(model) || model.bodies.empty()) return status;
   LimitAnalysis analysis(
       std::move(model), [](int, int) { return false; }, run.settings().threads);
   // Where blocks are in balance on contacts that rigid blocks have no forces for, these tell nothing.

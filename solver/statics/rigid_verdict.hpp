@@ -2,7 +2,8 @@
 // blocks stand or move, and of one in equilibrium, whether that needs forces that only wedging could have put there.
 //
 // It speaks where rigid blocks tell: joints keep their strength when they slide, loads do not change on the way, no
-// support moves, and nothing was in equilibrium before under other loads, of which forces may be left.
+// support moves, and nothing was in equilibrium before under other loads, of which forces may be left. Where loads have
+// changed, it says of an analysis without an answer whether they are beyond what any forces balance, or at that limit.
 #pragma once
 
 #include "solver/statics/static_analysis.hpp"

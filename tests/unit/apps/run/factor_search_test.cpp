@@ -41,6 +41,27 @@ TEST(FactorSearch, BracketsTheLimitToTheTolerance) {
   }
 }
 
+TEST(FactorSearch, WhatIsExpectedIsTriedFirst) {
+  Slope right{1.502};
+  const FactorBracket two = find_factor({{"*"}, 0.01, 0.1, 10.0}, std::ref(right), ExpectedFactor{1.5, 1.51});
+  EXPECT_TRUE(two.resolved);
+  EXPECT_EQ(two.lower, 1.5);
+  EXPECT_EQ(two.upper, 1.51);
+  EXPECT_EQ(right.tried, (std::vector<double>{1.5, 1.51}));
+  // Wrong on either side, or without an answer at its ends, it does no harm.
+  for (const double limit : {0.3, 1.49, 1.505, 1.53, 6.0}) {
+    for (const double unknown : {0.0, 0.004}) {
+      Slope slope{limit, unknown};
+      const FactorBracket bracket =
+          find_factor({{"*"}, 0.02, 0.1, 10.0}, std::ref(slope), ExpectedFactor{1.5, 1.51});
+      ASSERT_TRUE(bracket.resolved && bracket.lower && bracket.upper) << limit << ' ' << unknown;
+      EXPECT_LT(*bracket.lower, limit);
+      EXPECT_GE(*bracket.upper, limit);
+      EXPECT_LE(*bracket.upper, *bracket.lower * 1.02);
+    }
+  }
+}
+
 // A tolerance that no two numbers are within is met where no number is left between them.
 TEST(FactorSearch, EndsAtNeighbouringNumbers) {
   for (const double limit : {1.5862568514200606, 1.0, 0.3}) {

@@ -48,6 +48,33 @@ TEST(Variants, FoldersAreFileNamesAndDiffer) {
   EXPECT_EQ(variants_of({{"file", {"a b"}}})[0].folder, variants[1].folder);
 }
 
+TEST(Variants, SamplesAreTheSameForEachListedValue) {
+  const std::vector<VariedKey> keys = {parse_varied_key("phi=normal(30, 2)"), parse_varied_key("dip=20,25"),
+                                       parse_varied_key("c=uniform(0, 1e4)")};
+  ASSERT_TRUE(keys[0].drawn && keys[2].drawn && !keys[1].drawn);
+  const std::vector<Variant> variants = variants_of(keys, {5, 7});
+  ASSERT_THAT(variants, SizeIs(10));
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(variants[k].values[1], "20");
+    EXPECT_EQ(variants[k + 5].values[1], "25");
+    EXPECT_EQ(variants[k].values[0], variants[k + 5].values[0]);
+    EXPECT_EQ(variants[k].values[2], variants[k + 5].values[2]);
+  }
+  // More samples begin with the same ones, another seed has others.
+  const std::vector<Variant> more = variants_of(keys, {8, 7});
+  EXPECT_EQ(more[4], variants[4]);
+  EXPECT_NE(variants_of(keys, {5, 8})[0].values[0], variants[0].values[0]);
+}
+
+TEST(Variants, SamplesNeedANumberAndSomethingToDraw) {
+  EXPECT_THROW((void)variants_of({parse_varied_key("phi=normal(30, 2)")}), std::invalid_argument);
+  EXPECT_THROW((void)variants_of({{"a", {"1", "2"}}}, {5, 1}), std::invalid_argument);
+  EXPECT_THROW((void)variants_of({parse_varied_key("phi=normal(30, 2)")}, {100'001, 1}),
+               std::invalid_argument);
+  EXPECT_THROW((void)variants_of({parse_varied_key("phi=normal(30, 2)"), {"a", {"1", "2"}}}, {60'000, 1}),
+               std::invalid_argument);
+}
+
 TEST(Variants, WhatComesTwiceIsRefused) {
   EXPECT_THROW((void)variants_of({{"a", {"1"}}, {"a", {"2"}}}), std::invalid_argument);
   EXPECT_THROW((void)variants_of({{"a", {"1", "1"}}}), std::invalid_argument);

@@ -39,6 +39,18 @@ TEST(RigidBody, FieldsAreOrthonormalAndDoNotStrain) {
   }
 }
 
+TEST(RigidBody, AVelocityFieldTranslatesAndTurns) {
+  const Eigen::MatrixX3d position = placed(turned(0.7, {1, -2, 1}), {1, 2, 3});
+  const Vector3 about(1, 0, 2), translation(0.5, -1, 2), rotation(0.1, 0.4, -0.3);
+  const Eigen::MatrixX3d velocity =
+      rigid_velocity(position, needle().basis().volume(), about, translation, rotation);
+  for (const Vector3& reference : {Vector3(3, 4, 5), Vector3(3.01, 4.01, 8)}) {
+    const Eigen::VectorXd value = needle().basis().values(reference);
+    const Vector3 place = position.transpose() * value;
+    EXPECT_LT((velocity.transpose() * value - translation - rotation.cross(place - about)).norm(), 1e-10);
+  }
+}
+
 /// Any two rigid positions differ by a rigid change, which stays as it is, at any angle but half a turn.
 TEST(RigidBody, ARigidChangeStaysAsItIs) {
   const Eigen::MatrixX3d start = placed(turned(0.7, {1, -2, 1}), {1, 2, 3});

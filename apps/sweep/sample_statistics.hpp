@@ -1,0 +1,43 @@
+// Statistics of a value over the random samples of a sweep.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/sweep/sweep_table.hpp"
+
+namespace ashlar {
+
+struct SampleStatistics {
+  std::size_t count = 0;                                        ///< samples with a value
+  std::size_t missing = 0;                                      ///< samples without
+  double mean = 0.0, deviation = 0.0, least = 0.0, most = 0.0;  ///< deviation: of the sample, over count - 1
+  double share_below = 0.0;                                     ///< of a limit
+  double share_error = 0.0;                                     ///< standard error of that share
+};
+
+/// @param limit of share_below
+[[nodiscard]] SampleStatistics statistics_of(const std::vector<std::optional<double>>& values, double limit);
+
+/// Samples of one combination of the keys that are listed.
+struct SampleGroup {
+  std::string name;                           ///< "key = value, ..."; empty: no key is listed
+  std::vector<std::optional<double>> values;  ///< by sample
+};
+
+/// The values of a column. Of "factor_of_safety.lower" and "load_factor.lower", which are empty where even the least
+/// factor of the search moves, `upper` takes its place.
+/// @throws std::invalid_argument if the table has no such column
+[[nodiscard]] std::vector<SampleGroup> sample_groups(const std::vector<VariedKey>& keys,
+                                                     const SweepTable& table, const std::string& value);
+
+/// "factor_of_safety.lower: 1000 samples, mean 1.21, deviation 0.1, from 0.9 to 1.5; 3.4 % below 1 (standard error 0.6 %)"
+[[nodiscard]] std::string to_string(const SampleStatistics& statistics, const std::string& value,
+                                    double limit);
+
+/// Histograms as an SVG document, a line for each group. Bins are as wide as Freedman and Diaconis ask for all samples, 5
+/// to 60 of them.
+[[nodiscard]] std::string histogram_svg(const std::vector<SampleGroup>& groups, const std::string& value);
+
+}  // namespace ashlar
