@@ -16,6 +16,40 @@ constexpr double boundless = 1e3;
 /// What balance may lack, over the loads.
 constexpr double balanced = 1e-4;
 
+/// Where the places of a support go when it gives way: level, away from the middle of what it holds.
+class Directions {
+ public:
+  Directions(const RigidModel& model, int support, const Vector3& middle, const Vector3& down)
+      : middle_(middle), down_(down) {
+    constexpr double one_side = 0.1;
+    Vector3 sum = Vector3::Zero();
+    double size = 0.0;
+    for (const RigidPoint& point : model.points) {
+      if (point.blocks[0] != support && point.blocks[1] != support) continue;
+      sum += level(point.place);
+      size += level(point.place).norm();
+    }
+    if (sum.norm() > one_side * size) common_ = sum.normalized();
+  }
+
+  /// The same of all places of a support on one side; radial of one that lies around what it holds.
+  [[nodiscard]] Vector3 at(const Vector3& place) const {
+    if (common_) return *common_;
+    const Vector3 arm = level(place);
+    return arm.norm() > 0.0 ? Vector3(arm.normalized()) : Vector3(Vector3::Zero());
+  }
+
+ private:
+  [[nodiscard]] Vector3 level(const Vector3& place) const {
+    const Vector3 arm = place - middle_;
+    const double square = down_.squaredNorm();
+    return square > 0.0 ? Vector3(arm - arm.dot(down_) / square * down_) : arm;
+  }
+
+  Vector3 middle_, down_;
+  std::optional<Vector3> common_;
+};
+
 /// A model in which one support may give way.
 class Yielding {
  public:
@@ -62,6 +96,7 @@ class Yielding {
     }
     middle /= mass;
     freedom.push_back(1);
+    const Directions directions(model_, support_, middle, down);
     std::vector<ConePoint> points = cone_points(model_);
     std::vector<ConePair> pairs = model_.pairs;
     for (ConePair& pair : pairs) {
@@ -70,7 +105,7 @@ class Yielding {
         for (const std::size_t side : {0U, 1U}) {
           if (point.blocks[side] != support_ || pair.bodies[side] >= 0) continue;
           ConeRows& rows = side == 0 ? points[k].first : points[k].second;
-          rows.col(0) = point.frame * away(point.place - middle, down);
+          rows.col(0) = point.frame * directions.at(point.place);
         }
       }
       const bool of_support = std::any_of(model_.points.begin() + static_cast<std::ptrdiff_t>(pair.begin),
@@ -82,13 +117,6 @@ class Yielding {
         if (body < 0 && of_support) body = coordinate;
     }
     return ConeProgram(std::move(freedom), std::move(pairs), std::move(points), threads);
-  }
-
-  static Vector3 away(const Vector3& arm, const Vector3& down) {
-    const double length = down.norm();
-    const Vector3 level = length > 0.0 ? Vector3(arm - arm.dot(down) / (length * length) * down) : arm;
-    const double size = level.norm();
-    return size > 1e-9 * arm.norm() ? Vector3(level / size) : Vector3(Vector3::Zero());
   }
 
   const RigidModel& model_;

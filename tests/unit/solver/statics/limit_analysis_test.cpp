@@ -21,6 +21,7 @@ namespace {
 using test_support::g;
 using test_support::groove;
 using test_support::joint;
+using test_support::leaning_roof;
 using test_support::on_slope;
 using test_support::rock;
 using test_support::tangent_of;
@@ -192,25 +193,6 @@ TEST(LimitAnalysis, APushOfABlockIsBoundBySlidingAndToppling) {
     ASSERT_TRUE(answer.released.motion);
     EXPECT_EQ(analysis.motion_of(*answer.released.motion).mode, mode);
   }
-}
-
-/// A stone on a plane of 45 degrees below a roof that stands by
-/// itself on a pedestal and touches it from above.
-Scene leaning_roof(double friction, double dilation) {
-  const auto prism = [](const std::vector<std::array<double, 2>>& outline) {
-    std::vector<Vector3> points;
-    for (const auto& [x, z] : outline)
-      for (const double y : {0.0, 1.0}) points.emplace_back(x, y, z);
-    return Polyhedron(make_convex_hull(points));
-  };
-  Scene scene;
-  scene.law = joint(friction, 0.0, dilation);
-  const double end = -0.36397023426620234, corner = -0.47316130454606303;
-  scene.add_fixed(prism({{-1, 1}, {-1, -3}, {2, -3}, {2, -2}}));
-  scene.add_fixed(Polyhedron(make_box({1.3, 0, corner - 0.3}, {6, 1, corner})));
-  scene.add("stone", prism({{0, 0}, {1, -1}, {1, end}}));
-  scene.add("roof", prism({{0, 0}, {1.3, corner}, {6, corner}, {6, 1.5}, {0, 1.5}}));
-  return scene;
 }
 
 TEST(LimitAnalysis, AStoneBelowARoofMovesAwayFromIt) {
