@@ -42,6 +42,9 @@ rotate = { axis = [0, -1, 0], angle = 30 }
 const char* const safety = "[analysis]\ntype = \"factor-of-safety\"\n";
 const char* const elastic = "[analysis]\ntype = \"factor-of-safety\"\nmethod = \"elastic\"\n";
 
+/// Of joints that lose strength limit analysis says nothing, so that static analyses look for the factor alone.
+const char* const brittle = "friction_angle = 40\nfriction_angle_residual = 39";
+
 class FactorRun : public RunCommand {
  protected:
   nlohmann::json summary(const std::string& out) {
@@ -150,7 +153,7 @@ force = [1000, 0, 0]
 }
 
 TEST_F(FactorRun, ResumeKeepsTrialsAndEndsAlike) {
-  write_text(scene_, plate_on_a_slope(elastic, "friction_angle = 40"));
+  write_text(scene_, plate_on_a_slope(elastic, brittle));
   ASSERT_EQ(run("whole"), 0) << faults_;
   ASSERT_EQ(run("half"), 0) << faults_;
   // As if it had been killed after three trials.
@@ -175,7 +178,7 @@ TEST_F(FactorRun, ResumeKeepsTrialsAndEndsAlike) {
 }
 
 TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
-  write_text(scene_, plate_on_a_slope(elastic, "friction_angle = 40"));
+  write_text(scene_, plate_on_a_slope(elastic, brittle));
   ASSERT_EQ(run("whole"), 0) << faults_;
   ASSERT_EQ(run("half"), 0) << faults_;
   // As if it had been stopped in its first trial.
@@ -194,6 +197,59 @@ TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "half" / trial_state_name));
   EXPECT_EQ(summary("half").at("factor_of_safety"), summary("whole").at("factor_of_safety"));
   expect_same_results("whole", "half");
+}
+
+TEST_F(FactorRun, AnElasticSearchBeginsWithWhatLimitAnalysisFinds) {
+  write_text(scene_, plate_on_a_slope(elastic, "friction_angle = 40"));
+  ASSERT_EQ(run("out"), 0) << faults_;
+  const nlohmann::json found = summary("out").at("factor_of_safety");
+  EXPECT_EQ(found.at("method"), "elastic");
+  ASSERT_EQ(found.at("trials").size(), 2U);
+  EXPECT_EQ(found.at("lower"), found.at("limit").at("lower"));
+  EXPECT_EQ(found.at("upper"), found.at("limit").at("upper"));
+  const double reference = std::tan(40.0 * M_PI / 180.0) / std::tan(30.0 * M_PI / 180.0);
+  EXPECT_NEAR(factor(found, reference), reference, 0.01 * reference);
+}
+
+TEST_F(FactorRun, BlocksThatOthersHoldAndThatTouchNothingAreNamed) {
+  // A stone between two that press on it from its sides: alone it falls.
+  write_text(scene_, R"([analysis]
+type = "factor-of-safety"
+[contact]
+friction_angle = 40
+[[material]]
+name = "rock"
+density = 2000
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "left"
+fixed = true
+box = { min = [-2, 0, 0], max = [-1, 1, 1] }
+[[block]]
+name = "ground"
+fixed = true
+box = { min = [1, 0, -1], max = [3, 1, 0] }
+[[block]]
+name = "middle"
+material = "rock"
+order = 0
+box = { min = [-1, 0, 0], max = [1, 1, 1] }
+[[block]]
+name = "right"
+material = "rock"
+order = 0
+box = { min = [1, 0, 0], max = [2, 1, 1] }
+[[block.load]]
+point = [2, 0.5, 0.5]
+force = [-200000, 0, 0]
+)");
+  ASSERT_EQ(run("out"), 0) << faults_;
+  const nlohmann::json found = summary("out").at("factor_of_safety");
+  EXPECT_THAT(found.at("kept_by_others"), ElementsAre("middle"));
+  EXPECT_THAT(found.at("without_contact"), IsEmpty());
+  EXPECT_THAT(summary("out").at("message").get<std::string>(),
+              HasSubstr("block middle would move below it but for the pressure of other blocks"));
 }
 
 TEST_F(FactorRun, FaultsHaveTheirPlace) {
