@@ -178,8 +178,9 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
                                               : analysis.load_factor(search, goes_on);
   if (findings.answer.released.motion)
     findings.released = analysis.motion_of(*findings.answer.released.motion);
-  if (findings.answer.associated.motion)
-    findings.associated = analysis.motion_of(*findings.answer.associated.motion);
+  const std::optional<LimitTrial>& associated = findings.answer.associated.motion;
+  const bool same = associated && findings.answer.released.upper == findings.answer.associated.upper;
+  if (associated) findings.associated = same ? findings.released : analysis.motion_of(*associated);
   return findings;
 }
 

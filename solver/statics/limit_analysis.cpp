@@ -146,7 +146,8 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
     return true;
   };
   if (trial.outcome != LimitOutcome::stands) {
-    if (trial.outcome == LimitOutcome::moves) moves(motion_from_rest(program_, dilates, loads, {}), false);
+    if (trial.outcome == LimitOutcome::moves)
+      moves(motion_from_rest(program_, dilates, loads, trial.force), false);
     return trial;
   }
   const auto slips = [&](const std::vector<BodyVelocity>& start) {
@@ -261,7 +262,7 @@ LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) {
   if (trial.slow) {
     motion = motion_of_slip(program_, dilation(), loads, trial.acceleration);
   } else if (!trial.released) {
-    motion = motion_from_rest(program_, dilation(), loads, {});
+    motion = motion_from_rest(program_, dilation(), loads, trial.force);
   }
   if (motion.outcome != LimitOutcome::moves) return limit_motion(model_, program_, trial);
   LimitTrial shown = trial;

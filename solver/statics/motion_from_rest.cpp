@@ -140,13 +140,18 @@ class Decay {
   [[nodiscard]] bool lasts() const {
     constexpr double no_change = 1e-6;
     if (count_ < 3) return false;
-    if (change_ <= no_change * motion_) return true;
-    const double ratio = change_ / last_change_;
-    return ratio > 0.0 && ratio < slow_ratio &&
-           motion_ - change_ * ratio / (1.0 - ratio) > left_over * motion_;
+    return change_ <= no_change * motion_ || left() > left_over * motion_;
   }
+  /// Whether nothing is left of it in the end.
+  [[nodiscard]] bool ends() const { return count_ >= 4 && left() < 0.0; }
 
  private:
+  /// Of the motion in the end; 0: not known.
+  [[nodiscard]] double left() const {
+    const double ratio = last_change_ > 0.0 ? change_ / last_change_ : 0.0;
+    return ratio > 0.0 && ratio < slow_ratio ? motion_ - change_ * ratio / (1.0 - ratio) : 0.0;
+  }
+
   double motion_ = 0.0, change_ = 0.0, last_change_ = 0.0;
   int count_ = 0;
 };
@@ -186,7 +191,8 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
     // Once it is no question, a few sweeps more for its accelerations.
     if (moves && found.outcome != LimitOutcome::moves) last = std::min(most, polished * found.iterations);
     found.outcome = moves ? LimitOutcome::moves : LimitOutcome::unknown;
-    if (done) break;
+    // What comes to rest slowly is left to slow slip.
+    if (done || decay.ends()) break;
   }
   found.velocity = std::move(sweeps.velocity());
   found.force = std::move(sweeps.force());
