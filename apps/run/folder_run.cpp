@@ -16,7 +16,7 @@
 namespace ashlar {
 namespace {
 
-/// Whether a stage has come to its end.
+/// True if a stage has come to its end.
 bool is_done(RunStatus status) {
   return status == RunStatus::completed || status == RunStatus::equilibrium;
 }
@@ -150,7 +150,7 @@ RunStatus FolderRun::take_steps(ProgressLine& progress) {
   return RunStatus::completed;
 }
 
-/// Whether blocks are where they may be at the end. After the run is saved: one that goes on has no end here.
+/// The audit of depths at the end. After the run is saved: one that goes on has no end here.
 RunStatus FolderRun::audited() {
   Simulation& simulation = built_.simulation;
   const auto deep = simulation.audit();
@@ -168,7 +168,7 @@ RunStatus FolderRun::answered(RunStatus status) {
   return bracket_->resolved ? RunStatus::completed : RunStatus::not_converged;
 }
 
-/// What limit analysis found: blocks are drawn as they set off.
+/// The answer of limit analysis: blocks are drawn as they set off.
 RunStatus FolderRun::show_limits(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   if (simulation.steps() == 0) {
@@ -228,7 +228,7 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
   return interrupted_here();
 }
 
-/// What no check of the scene foresaw: the state is that before the step.
+/// A fault that no check of the scene foresaw: the state is that before the step.
 RunStatus FolderRun::failed_in_step(const std::exception& error) {
   message_ = fmt::format("step {} at t = {:.9g} s cannot be taken: {}", built_.simulation.steps() + 1,
                          built_.simulation.time(), error.what());

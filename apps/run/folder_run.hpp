@@ -49,9 +49,7 @@ class FolderRun {
   RunEnd go(std::ostream& err);
 
   /// True if blocks are only drawn as they set off.
-  [[nodiscard]] bool drawn_only() const {
-    return (limits_.has_value() && !bracket_) || thrust_.has_value();
-  }
+  [[nodiscard]] bool drawn_only() const { return (limits_.has_value() && !bracket_) || thrust_.has_value(); }
   /// True if the folder has a checkpoint of this run.
   [[nodiscard]] bool saved() const { return saved_; }
 

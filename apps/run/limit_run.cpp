@@ -95,7 +95,7 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
   return text;
 }
 
-/// What an engineer has to know beside the factor.
+/// Blocks that an engineer has to look at beside the factor.
 std::string remarks(const LimitFindings& findings, const Simulation& simulation) {
   std::string text;
   const std::vector<int>& kept = findings.answer.kept_by_others;

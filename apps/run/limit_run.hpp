@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// What limit analysis found of a scene.
+/// The answer of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
   LimitMotion released;              ///< at the least factor that moves; empty: none does

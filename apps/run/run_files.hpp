@@ -1,4 +1,4 @@
-// What a run keeps in its result folder: tables and frames, checkpoints, the summary, and room for the last of them.
+// The files of a run in its result folder: tables and frames, checkpoints, the summary, and room for the last of them.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class RunFiles {
   [[nodiscard]] ResultFolder& tables() { return tables_; }
   [[nodiscard]] const ResultFolder& tables() const { return tables_; }
 
-  /// Whether a state has so many more contact points than the last checkpoint that the room that is kept may be too
+  /// True if a state has so many more contact points than the last checkpoint that the room that is kept may be too
   /// small for it.
   [[nodiscard]] bool outgrown(const Simulation& simulation) const;
   /// Writes a checkpoint and keeps room for the next one and a summary.

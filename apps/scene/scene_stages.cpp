@@ -16,7 +16,7 @@
 namespace ashlar {
 namespace {
 
-/// Whether an analysis goes through states that a stage can begin or end with.
+/// True if an analysis goes through states that a stage can begin or end with.
 bool is_run_of_stages(SceneAnalysis::Type type) {
   return type == SceneAnalysis::Type::dynamic || type == SceneAnalysis::Type::statics;
 }
@@ -83,7 +83,7 @@ class StageScenes {
     stage_ = stage_ ? *stage_ + 1 : 0;
     add_changes(*stage_);
     scene_.analysis = whole_.stage[*stage_].analysis;
-    // What comes before the first stage comes before no other.
+    // Events before the first stage come before no other one.
     if (*stage_ > 0) scene_.analysis.initial_state = SceneAnalysis::InitialState::as_placed;
     change_presence(whole_, whole_.stage[*stage_], scene_.absent);
     name_places(*stage_);

@@ -42,7 +42,7 @@ std::vector<double> numbers_in(const std::string& list, const std::string& text)
   return numbers;
 }
 
-/// What is wrong with parameters; empty: nothing.
+/// The parameters that are needed; empty: these are right.
 std::string fault_of(Kind kind, const std::vector<double>& p) {
   const bool deviates = kind == Kind::normal || kind == Kind::lognormal;
   if (deviates && p.size() != 2 && p.size() != 4)

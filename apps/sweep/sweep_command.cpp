@@ -247,7 +247,7 @@ class Runs {
   bool stopped_ = false;
 };
 
-/// Whether a file is a table of these keys, or is not there.
+/// True if a file is a table of these keys, or is not there.
 bool may_be_replaced(const std::filesystem::path& table, const SweepTable& mine) {
   if (!std::filesystem::exists(table)) return true;
   std::ifstream stream(table);
@@ -301,7 +301,7 @@ void write_picture(const SweepOptions& options, const std::string& svg, std::ost
     err << write_png(svg, *options.picture, plot_width, plot_height) << '\n';
 }
 
-/// What samples say of the first value, and its picture.
+/// Statistics of the first value over the samples, and its histogram.
 void tell_samples(const SweepOptions& options, const std::vector<VariedKey>& keys, const SweepTable& table,
                   std::ostream& err) {
   constexpr double unit_factor = 1.0;  // below which a factor of safety or of loads is failure

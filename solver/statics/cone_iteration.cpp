@@ -21,7 +21,7 @@ constexpr double gap_of_rest = 1e-12;
 constexpr double gap_of_factor = 1e-8;
 constexpr double equations = 1e-9;
 constexpr double loose_equations = 1e-7;  ///< where a gap is allowed
-/// What still counts as solved where rounding ends the iteration.
+/// Tolerances by which an answer counts as solved where rounding ends the iteration.
 constexpr double loose = 1e-4;
 /// Of `factor` and `slow`: balance is asked for by a penalty, F + G'p + a F1 = share v.
 constexpr double balance_share = 1e-9;

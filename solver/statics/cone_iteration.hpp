@@ -94,7 +94,7 @@ class ConeIteration {
 
   [[nodiscard]] double gap_allowed() const;
   [[nodiscard]] double equations_allowed() const;
-  /// What velocities are measured by.
+  /// The unit in which lacks of velocity are measured.
   [[nodiscard]] double velocity_scale() const;
   [[nodiscard]] bool done(double looser) const;
 

@@ -31,15 +31,15 @@ namespace ashlar {
 using BodyVelocity = Eigen::Matrix<double, 6, 1>;
 using ConeRows = Eigen::Matrix<double, 3, 6>;
 
-/// What a point bears.
+/// Strength of a point.
 struct ConeStrength {
   double friction = 0.0;  ///< mu, >= 0
   double cohesion = 0.0;  ///< c, >= 0
   double tension = 0.0;   ///< T, >= 0
 
-  /// Whether it bears shear.
+  /// True if it bears shear.
   [[nodiscard]] bool shear() const { return friction > 0.0 || cohesion > 0.0; }
-  /// Whether the bound of tension is one beside that of shear: beyond c/mu nothing is left to bear.
+  /// True if tension has a bound of its own, below c/mu, where the cone of shear ends.
   [[nodiscard]] bool cut_off() const { return !shear() || friction == 0.0 || tension < cohesion / friction; }
 };
 
@@ -57,7 +57,7 @@ struct ConePair {
   std::size_t end = 0;
 };
 
-/// What is asked.
+/// Loads and kind of a programme.
 struct ConeQuestion {
   std::vector<BodyVelocity> load;   ///< F, by body
   std::vector<BodyVelocity> grows;  ///< F1; empty: `rest`

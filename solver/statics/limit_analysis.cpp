@@ -223,7 +223,7 @@ LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
     return answer;
   }
   narrow(released, search, *answer.associated.lower, 0.0, stride, attempt(true));
-  // What has stood from a motion far above is asked again from the last one.
+  // A factor that stood when a motion far above was followed is tried again from the last motion.
   for (int n = 0; n < most_returns && released.resolved && released.lower && released.upper; ++n) {
     if (sought == Sought::load || !released.motion->released || followed[*released.lower] == *released.upper)
       break;

@@ -43,9 +43,9 @@ class LimitAnalysis {
 
   [[nodiscard]] const RigidModel& model() const { return model_; }
 
-  /// Whether forces within the strengths exist that balance the loads.
+  /// Forces within the strengths that balance the loads, or the motion that proves that there are none.
   [[nodiscard]] LimitTrial associated(const LimitFactors& factors);
-  /// Whether a motion from rest and from no contact forces was found that obeys Coulomb's law.
+  /// A motion from rest and from no contact forces that obeys Coulomb's law, if one is found.
   /// @param tolerance of the factor: how near to the limit it is to tell
   /// @param known a motion under other factors, which is followed first; null: none
   [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3,
@@ -56,7 +56,7 @@ class LimitAnalysis {
   /// The factor by which loads may be multiplied, the others as they are.
   [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
 
-  /// What a trial that moves shows. Slow slip is followed until it has accelerations.
+  /// The motion of a trial that moves. Slow slip is followed until it has accelerations.
   [[nodiscard]] LimitMotion motion_of(const LimitTrial& trial);
 
  private:

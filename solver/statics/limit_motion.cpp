@@ -18,7 +18,7 @@ constexpr double joint_moves = 0.05;
 /// Of the largest load of a moving body: a joint bears.
 constexpr double joint_bears = 1e-3;
 
-/// What the points of a joint do together.
+/// Sums and extremes over the points of a joint.
 struct Joint {
   double normal = 0.0, slid = 0.0, opened = 0.0;
   Vector3 direction = Vector3::Zero();
@@ -120,7 +120,7 @@ class Setting {
     return planes.size();
   }
 
-  /// Whether points of the fastest body move by its rotation.
+  /// True if points of the fastest body move by its rotation.
   [[nodiscard]] bool turns() const {
     constexpr double no_rotation = 0.1;
     const RigidBody& body = model_.bodies[leader_];

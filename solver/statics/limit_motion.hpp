@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// What a joint between two blocks does in a motion.
+/// Behaviour of a joint between two blocks in a motion.
 enum class JointMotion { sticks, slides, opens };
 struct MovingJoint {
   std::array<int, 2> blocks;

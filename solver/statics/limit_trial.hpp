@@ -15,7 +15,7 @@ struct LimitFactors {
   double load = 1.0;
 };
 
-/// What one pair of factors gives.
+/// Result of one pair of factors.
 struct LimitTrial {
   LimitFactors factors;
   bool released = false;  ///< which of the two limits it is of (limit_analysis.hpp)
@@ -36,7 +36,7 @@ struct LimitSearch {
   double tolerance = 0.01;  ///< > 0: relative width of the bracket
 };
 
-/// What is known of one of the two limits.
+/// Bounds of one of the two limits.
 struct LimitBracket {
   std::optional<double> lower;       ///< the largest factor that stands; empty: even the least moves
   std::optional<double> upper;       ///< the least factor that moves; empty: even the largest stands

@@ -136,13 +136,13 @@ class Decay {
     motion_ = motion;
     ++count_;
   }
-  /// Whether motion stays, going by its last changes: these fall by a ratio from check to check.
+  /// True if motion stays, going by its last changes: these fall by a ratio from check to check.
   [[nodiscard]] bool lasts() const {
     constexpr double no_change = 1e-6;
     if (count_ < 3) return false;
     return change_ <= no_change * motion_ || left() > left_over * motion_;
   }
-  /// Whether nothing is left of it in the end.
+  /// True if nothing is left of it in the end.
   [[nodiscard]] bool ends() const { return count_ >= 4 && left() < 0.0; }
 
  private:
@@ -191,7 +191,7 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
     // Once it is no question, a few sweeps more for its accelerations.
     if (moves && found.outcome != LimitOutcome::moves) last = std::min(most, polished * found.iterations);
     found.outcome = moves ? LimitOutcome::moves : LimitOutcome::unknown;
-    // What comes to rest slowly is left to slow slip.
+    // Slow decay is left to slow slip.
     if (done || decay.ends()) break;
   }
   found.velocity = std::move(sweeps.velocity());

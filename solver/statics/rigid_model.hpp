@@ -72,10 +72,10 @@ struct RigidModel {
 /// Of a point, with friction, cohesion and tensile strength divided by a factor. @param factor > 0
 [[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor);
 
-/// Whether any joint loses strength for good when it fails, which limit analysis knows nothing of.
+/// True if any joint loses strength for good when it fails, which limit analysis knows nothing of.
 [[nodiscard]] bool loses_strength(const RigidModel& model);
 
-/// What points bear as contacts of their pairs of blocks, lower block first. @param force N, by point, in its frame
+/// Forces of points as contacts of their pairs of blocks, lower block first. @param force N, by point, in its frame
 [[nodiscard]] std::vector<PairRecord> contact_records(const RigidModel& model,
                                                       const std::vector<Eigen::Vector3d>& force);
 

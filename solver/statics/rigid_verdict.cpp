@@ -31,7 +31,7 @@ bool can_tell(const RunContext& run, double end_time) {
   });
 }
 
-/// Whether neither blocks nor joints give way.
+/// True if neither blocks nor joints give way.
 bool is_rigid(const RunContext& run, const RigidModel& model) {
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     if (run.system.moving()[k] && !run.blocks()[k].rigid()) return false;

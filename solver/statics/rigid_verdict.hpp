@@ -1,5 +1,5 @@
-// What limit analysis says of a static analysis that has ended (limit_analysis.hpp): of one without an answer, whether
-// blocks stand or move, and of one in equilibrium, whether that needs forces that only wedging could have put there.
+// The verdict of limit analysis on a static analysis that has ended (limit_analysis.hpp). One without an answer stands or
+// moves. One in equilibrium moves if that needs forces that only wedging could have put there.
 //
 // It speaks where rigid blocks tell: joints keep their strength when they slide, loads do not change on the way, no
 // support moves, and nothing was in equilibrium before under other loads, of which forces may be left. Where loads have

@@ -47,7 +47,7 @@ class Growth {
     ++count_;
   }
 
-  /// Whether slip comes to rest, whatever its direction does.
+  /// True if slip comes to rest, whatever its direction does.
   [[nodiscard]] bool ends() const { return decays_ >= fast_decays || total_ < std::log(no_slip); }
   [[nodiscard]] double limit() const { return limit_; }
   [[nodiscard]] bool settled(double margin) const {

@@ -13,7 +13,7 @@ namespace {
 
 /// Thrust beyond this multiple of all loads has no bound.
 constexpr double boundless = 1e3;
-/// What balance may lack, over the loads.
+/// Residual of balance that is allowed, over the loads.
 constexpr double balanced = 1e-4;
 
 /// Where the places of a support go when it gives way: level, away from the middle of what it holds.

@@ -1,0 +1,133 @@
+// `ashlar run` of scenes whose factor or thrust limit analysis finds.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "unit/apps/run_fixture.hpp"
+
+namespace ashlar {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// A stone whose sides lean by 30 degrees, wider at its top, between two fixed ones.
+std::string keystone(const std::string& analysis, const std::string& contact) {
+  return "[analysis]\n" + analysis + "\n[contact]\n" + contact + R"toml(
+[[material]]
+name = "rock"
+density = 2000
+young_modulus = 1e10
+poisson_ratio = 0.2
+[[block]]
+name = "stone"
+material = "rock"
+hull.points = [
+  [-0.5, 0, 0], [0.5, 0, 0], ["= 0.5 + tan(30*deg)", 0, 1], ["= -0.5 - tan(30*deg)", 0, 1],
+  [-0.5, 1, 0], [0.5, 1, 0], ["= 0.5 + tan(30*deg)", 1, 1], ["= -0.5 - tan(30*deg)", 1, 1]
+]
+[[block]]
+name = "left"
+fixed = true
+hull.points = [
+  [-0.5, 0, 0], ["= -0.5 - tan(30*deg)", 0, 1], [-3, 0, 1], [-3, 0, 0],
+  [-0.5, 1, 0], ["= -0.5 - tan(30*deg)", 1, 1], [-3, 1, 1], [-3, 1, 0]
+]
+[[block]]
+name = "right"
+fixed = true
+hull.points = [
+  [0.5, 0, 0], ["= 0.5 + tan(30*deg)", 0, 1], [3, 0, 1], [3, 0, 0],
+  [0.5, 1, 0], ["= 0.5 + tan(30*deg)", 1, 1], [3, 1, 1], [3, 1, 0]
+]
+)toml";
+}
+
+class LimitRun : public RunCommand {
+ protected:
+  nlohmann::json summary(const std::string& out) {
+    return nlohmann::json::parse(text(out + "/summary.json"));
+  }
+};
+
+TEST_F(LimitRun, ThrustIsBoundedByFrictionEitherWay) {
+  write_text(scene_, keystone("type = \"thrust\"", "friction_angle = 10"));
+  ASSERT_EQ(run("out"), 0) << faults_;
+  const nlohmann::json found = summary("out");
+  EXPECT_EQ(found.at("status"), "completed");
+  ASSERT_EQ(found.at("thrust").size(), 2U);
+  const double half = 0.5 * 2000 * 9.81 * (1.0 + std::tan(30 * degree));
+  for (const nlohmann::json& support : found.at("thrust")) {
+    EXPECT_NEAR(support.at("least").get<double>() * std::tan(40 * degree) / half, 1.0, 1e-5);
+    EXPECT_NEAR(support.at("most").get<double>() * std::tan(20 * degree) / half, 1.0, 1e-5);
+    EXPECT_FALSE(support.at("least_line").empty());
+  }
+  EXPECT_THAT(found.at("message").get<std::string>(), HasSubstr("thrust on left between"));
+  EXPECT_THAT(text("out/thrust.svg"), AllOf(HasSubstr("<svg"), HasSubstr("least thrust")));
+}
+
+TEST_F(LimitRun, ThrustOfWhatCannotStandSaysWhatMoves) {
+  // Half a ton hangs on the stone: nothing is below it.
+  write_text(scene_, keystone("type = \"thrust\"\ngravity = [0, 0, 9.81]", "friction_angle = 10"));
+  ASSERT_EQ(run("out"), 0) << faults_;
+  EXPECT_EQ(summary("out").at("status"), "moving");
+  EXPECT_THAT(summary("out").at("message").get<std::string>(),
+              AllOf(HasSubstr("nothing stands"), HasSubstr("stone")));
+}
+
+TEST_F(LimitRun, TheMethodFollowsTheJoints) {
+  const std::string safety = "type = \"factor-of-safety\"\ngravity = [3, 0, -9.81]";
+  write_text(scene_, keystone(safety, "friction_angle = 10"));
+  ASSERT_EQ(run("limit"), 0) << faults_;
+  const nlohmann::json found = summary("limit").at("factor_of_safety");
+  EXPECT_EQ(found.at("method"), "limit");
+  EXPECT_EQ(found.at("released"), found.at("lower"));
+  for (const char* key :
+       {"associated", "gap", "mode", "moving", "accelerations", "joints", "associated_motion"})
+    EXPECT_TRUE(found.contains(key)) << key;
+  EXPECT_THAT(found.at("kept_by_others"), IsEmpty());
+  // A joint that loses strength is for static analyses, unless the scene says otherwise.
+  const std::string brittle = "friction_angle = 10\nfriction_angle_residual = 9";
+  write_text(scene_, keystone(safety + "\nsafety.upper = 1.5", brittle));
+  ASSERT_EQ(run("auto"), 0) << faults_;
+  EXPECT_EQ(summary("auto").at("factor_of_safety").at("method"), "elastic");
+  EXPECT_FALSE(summary("auto").at("factor_of_safety").contains("limit"));
+  ASSERT_EQ(run("forced", {"--set", "analysis.method=limit"}), 0) << faults_;
+  EXPECT_EQ(summary("forced").at("factor_of_safety").at("method"), "limit");
+}
+
+TEST_F(LimitRun, ScenesWithNothingToFindAreRefused) {
+  write_text(scene_, keystone("type = \"factor-of-safety\"", "friction_angle = 10"));
+  EXPECT_EQ(run("fixed", {"--set", "block.stone.fixed=true"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("no block can move"));
+  EXPECT_EQ(run("unloaded", {"--set", "analysis.type=capacity"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("names no load"));
+}
+
+TEST_F(LimitRun, ABlockWithoutContactIsNamed) {
+  write_text(scene_, keystone("type = \"factor-of-safety\"", "friction_angle = 10") + R"(
+[[block]]
+name = "floating"
+material = "rock"
+box = { min = [0, 0, 5], max = [1, 1, 6] }
+)");
+  const int status = run("out");
+  if (status == 2) {
+    EXPECT_THAT(faults_, HasSubstr("floating"));
+    return;
+  }
+  ASSERT_EQ(status, 0) << faults_;
+  EXPECT_THAT(summary("out").at("factor_of_safety").at("without_contact"), ElementsAre("floating"));
+  EXPECT_THAT(summary("out").at("message").get<std::string>(),
+              HasSubstr("block floating touches no other block"));
+}
+
+}  // namespace
+}  // namespace ashlar
