@@ -102,9 +102,6 @@ std::string remarks(const LimitFindings& findings, const Simulation& simulation)
   if (!kept.empty())
     text += fmt::format("; {} would move below it but for the pressure of other blocks",
                         names_of(simulation, kept));
-  if (!findings.without_contact.empty())
-    text += fmt::format("; {} touch{} no other block", names_of(simulation, findings.without_contact),
-                        findings.without_contact.size() == 1 ? "es" : "");
   return text;
 }
 
@@ -164,7 +161,6 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
                           const std::function<bool()>& goes_on) {
   LimitFindings findings;
-  findings.without_contact = model.without_contact;
   const ReducedJoints reduced(scene);
   LimitAnalysis analysis(
       std::move(model),
@@ -201,7 +197,6 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
       released.lower && released.upper ? Json(*released.upper / *released.lower - 1.0) : Json(nullptr);
   add_motion(json, findings.released, simulation);
   json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
-  json["without_contact"] = names_in_json(findings.without_contact, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
   json["associated_motion"] = Json::object();
   add_motion(json["associated_motion"], findings.associated, simulation);

@@ -17,9 +17,8 @@ namespace ashlar {
 /// The answer of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
-  LimitMotion released;              ///< at the least factor that moves; empty: none does
-  LimitMotion associated;            ///< at the least factor that nothing stands above; empty: none is known
-  std::vector<int> without_contact;  ///< blocks that may move and touch nothing
+  LimitMotion released;    ///< at the least factor that moves; empty: none does
+  LimitMotion associated;  ///< at the least factor that nothing stands above; empty: none is known
 };
 
 /// The rigid blocks of a scene that seeks a factor or thrust. @param simulation as placed, without factors
@@ -42,7 +41,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
                                    const Simulation& simulation);
 
 /// method, lower, upper (of the released factor; null where there is none), released (the number to sign), associated,
-/// gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, kept_by_others, without_contact,
+/// gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, kept_by_others,
 /// associated_motion, trials.
 [[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
                                                    const Simulation& simulation);

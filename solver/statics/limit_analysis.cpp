@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "geometry/index.hpp"
@@ -14,9 +13,6 @@ namespace {
 constexpr double still = 1e-4;
 /// Of the tolerance: what slow slip may decay by and still count as motion, on the safe side.
 constexpr double margin_share = 0.1;
-/// From a motion to the next smaller factor at which it is looked for.
-constexpr double stride = 1.25, short_stride = 1.03, associated_stride = 2.0;
-constexpr int most_returns = 10;
 
 double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
   double sum = 0.0;
@@ -171,87 +167,24 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
   return trial;
 }
 
-double LimitAnalysis::most_that_stands(const LimitSearch& search) {
+double LimitAnalysis::most_that_stands(double most) {
   set_factors({});
   ConeQuestion asked;
   asked.load = load(0.0);
   asked.grows = model_.multiplied;
-  asked.most = search.upper;
+  asked.most = most;
   const ConeAnswer found = program_.solve(asked);
   return found.status == ConeStatus::solved && found.lacking < still ? found.factor : 0.0;
 }
 
-LimitAnswer LimitAnalysis::answer(Sought sought, const LimitSearch& search,
-                                  const std::function<bool()>& goes_on) {
-  LimitAnswer answer;
-  const auto factors = [&](double factor) {
-    return sought == Sought::strength ? LimitFactors{factor, 1.0} : LimitFactors{1.0, factor};
-  };
-  std::map<double, double> followed;  // factors of the motions that trials began with
-  const auto attempt = [&](bool released) {
-    return [&, released](double factor) -> std::optional<LimitTrial> {
-      if (!goes_on()) {
-        answer.interrupted = true;
-        return std::nullopt;
-      }
-      const std::optional<LimitTrial>& motion = answer.released.motion;
-      // A motion under larger loads says nothing of what smaller ones lead to from the steady ones.
-      const bool follows = sought == Sought::strength && motion && motion->released;
-      const LimitTrial* known = follows ? &*motion : nullptr;
-      if (released) followed[factor] = known != nullptr ? known->factors.strength : 0.0;
-      LimitTrial trial =
-          released ? this->released(factors(factor), search.tolerance, known) : associated(factors(factor));
-      if (sought == Sought::load) trial.estimate = 0.0;
-      LimitTrial& kept = answer.trials.emplace_back(trial);
-      kept.acceleration.clear();
-      kept.force.clear();
-      return trial;
-    };
-  };
-  const double guess = sought == Sought::load ? most_that_stands(search) : 0.0;
-  narrow(answer.associated, search, guess > 0.0 ? guess * (1.0 - 0.3 * search.tolerance) : 1.0, guess,
-         associated_stride, attempt(false));
-  if (answer.interrupted) return answer;
-  // A released motion may exist below: at the largest factor that stands, and down from there.
-  LimitBracket& released = answer.released;
-  if (answer.associated.upper) {
-    released.upper = answer.associated.upper;
-    released.motion = answer.associated.motion;
-  }
-  if (!answer.associated.lower) {
-    released.resolved = answer.associated.resolved;
-    return answer;
-  }
-  narrow(released, search, *answer.associated.lower, 0.0, stride, attempt(true));
-  // A factor that stood when a motion far above was followed is tried again from the last motion.
-  for (int n = 0; n < most_returns && released.resolved && released.lower && released.upper; ++n) {
-    if (sought == Sought::load || !released.motion->released || followed[*released.lower] == *released.upper)
-      break;
-    std::optional<LimitTrial> again = attempt(true)(*released.lower);
-    if (!again || again->outcome != LimitOutcome::moves) break;
-    released.upper = std::exchange(released.lower, std::nullopt);
-    released.motion = std::move(again);
-    released.rest.reset();
-    released.resolved = false;
-    narrow(released, search, *released.upper / (1.0 + search.tolerance), 0.0, short_stride, attempt(true));
-  }
-  if (answer.interrupted) return answer;
-  if (released.lower && model_.bodies.size() > 1) {
-    const std::vector<BodyVelocity> alone = single().motions(factors(*released.lower), search.tolerance);
-    for (std::size_t b = 0; b < alone.size(); ++b)
-      if (alone[b].squaredNorm() > 0.0)
-        answer.kept_by_others.insert(answer.kept_by_others.end(), model_.bodies[b].blocks.begin(),
-                                     model_.bodies[b].blocks.end());
-  }
-  return answer;
-}
-
-LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
-  return answer(Sought::strength, search, goes_on);
-}
-
-LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
-  return answer(Sought::load, search, goes_on);
+std::vector<int> LimitAnalysis::moving_alone(const LimitFactors& factors, double tolerance) {
+  std::vector<int> blocks;
+  if (model_.bodies.size() < 2) return blocks;
+  const std::vector<BodyVelocity> alone = single().motions(factors, tolerance);
+  for (std::size_t b = 0; b < alone.size(); ++b)
+    if (alone[b].squaredNorm() > 0.0)
+      blocks.insert(blocks.end(), model_.bodies[b].blocks.begin(), model_.bodies[b].blocks.end());
+  return blocks;
 }
 
 LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) {

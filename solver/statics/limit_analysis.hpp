@@ -51,6 +51,12 @@ class LimitAnalysis {
   [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3,
                                     const LimitTrial* known = nullptr);
 
+  /// The largest factor of the loads that are multiplied for which forces in balance exist, by one programme.
+  /// @param most that is looked for, > 0. @return 0: it was not found
+  [[nodiscard]] double most_that_stands(double most);
+  /// Blocks that move while all others are held, as far as it was found.
+  [[nodiscard]] std::vector<int> moving_alone(const LimitFactors& factors, double tolerance);
+
   /// The factor by which strengths of the chosen joints may be divided. @param goes_on asked before each trial
   [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
   /// The factor by which loads may be multiplied, the others as they are.
@@ -60,15 +66,10 @@ class LimitAnalysis {
   [[nodiscard]] LimitMotion motion_of(const LimitTrial& trial);
 
  private:
-  enum class Sought { strength, load };
-
   void set_factors(const LimitFactors& factors);
   [[nodiscard]] std::vector<BodyVelocity> load(double factor) const;
   [[nodiscard]] std::vector<double> dilation() const;
   [[nodiscard]] std::vector<BodyVelocity> without_friction(const LimitFactors& factors, LimitTrial& trial);
-  [[nodiscard]] double most_that_stands(const LimitSearch& search);
-  [[nodiscard]] LimitAnswer answer(Sought sought, const LimitSearch& search,
-                                   const std::function<bool()>& goes_on);
   [[nodiscard]] double estimate(const LimitTrial& trial) const;
   [[nodiscard]] SingleBodies& single();
   [[nodiscard]] bool multiplies_loads() const;

@@ -285,7 +285,6 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   };
   std::stable_sort(points.begin(), points.end(),
                    [&](const RigidPoint& x, const RigidPoint& y) { return key(x) < key(y); });
-  std::vector<bool> touched(model.bodies.size(), false);
   for (std::size_t k = 0; k < points.size(); ++k) {
     RigidPoint& point = points[k];
     if (k > 0 && key(point) == key(points[k - 1])) {
@@ -299,14 +298,8 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
     } else {
       model.pairs.push_back({bodies(point), k, k + 1});
     }
-    for (const int body : bodies(point))
-      if (body >= 0) touched[at(body)] = true;
   }
   model.points = std::move(points);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!touched[b])
-      model.without_contact.insert(model.without_contact.end(), model.bodies[b].blocks.begin(),
-                                   model.bodies[b].blocks.end());
   double mass = 0.0;
   for (const RigidBody& body : model.bodies) mass += body.mass;
   if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());

@@ -56,7 +56,6 @@ struct RigidModel {
   RigidUnits units;
   std::vector<BodyVelocity> steady;      ///< loads that are not multiplied, gravity included, in units
   std::vector<BodyVelocity> multiplied;  ///< the others
-  std::vector<int> without_contact;      ///< blocks that may move and touch nothing
 };
 
 /// @param end_time of the loads, s. @param multiplied by block: whether its loads are multiplied; empty: none

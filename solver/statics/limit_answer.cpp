@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "solver/statics/limit_analysis.hpp"
+
+namespace ashlar {
+namespace {
+
+/// From a motion to the next smaller factor at which it is looked for.
+constexpr double stride = 1.25, short_stride = 1.03, associated_stride = 2.0;
+/// Times that a motion is followed below a factor that was taken to stand.
+constexpr int most_returns = 30;
+
+enum class Sought { strength, load };
+
+/// The search for both limits of strengths or of loads.
+class LimitSearching {
+ public:
+  LimitSearching(LimitAnalysis& analysis, Sought sought, const LimitSearch& search,
+                 const std::function<bool()>& goes_on)
+      : analysis_(analysis), sought_(sought), search_(search), goes_on_(goes_on) {}
+
+  LimitAnswer run() {
+    const double guess = sought_ == Sought::load ? analysis_.most_that_stands(search_.upper) : 0.0;
+    const double first = guess > 0.0 ? guess * (1.0 - 0.3 * search_.tolerance) : 1.0;
+    narrow(answer_.associated, search_, first, guess, associated_stride,
+           [&](double factor) { return attempt(factor, false); });
+    if (!answer_.interrupted) look_below();
+    if (!answer_.interrupted && answer_.released.lower)
+      answer_.kept_by_others = analysis_.moving_alone(factors(*answer_.released.lower), search_.tolerance);
+    return std::move(answer_);
+  }
+
+ private:
+  [[nodiscard]] LimitFactors factors(double factor) const {
+    return sought_ == Sought::strength ? LimitFactors{factor, 1.0} : LimitFactors{1.0, factor};
+  }
+
+  /// The released motion to follow. One under larger loads says nothing of what smaller ones lead to from the steady
+  /// ones. @return null: none
+  [[nodiscard]] const LimitTrial* known() const {
+    const std::optional<LimitTrial>& motion = answer_.released.motion;
+    return sought_ == Sought::strength && motion && motion->released ? &*motion : nullptr;
+  }
+
+  std::optional<LimitTrial> attempt(double factor, bool released) {
+    if (!goes_on_()) {
+      answer_.interrupted = true;
+      return std::nullopt;
+    }
+    if (released) followed_[factor] = known() != nullptr ? known()->factors.strength : 0.0;
+    LimitTrial trial = released ? analysis_.released(factors(factor), search_.tolerance, known())
+                                : analysis_.associated(factors(factor));
+    if (sought_ == Sought::load) trial.estimate = 0.0;
+    LimitTrial& kept = answer_.trials.emplace_back(trial);
+    kept.acceleration.clear();
+    kept.force.clear();
+    return trial;
+  }
+
+  void narrow_released(double first, double most_stride) {
+    narrow(answer_.released, search_, first, 0.0, most_stride,
+           [&](double factor) { return attempt(factor, true); });
+  }
+
+  /// A released motion may exist below the associated limit: at the largest factor that stands, and down from there.
+  void look_below() {
+    const LimitBracket& associated = answer_.associated;
+    LimitBracket& released = answer_.released;
+    released.upper = associated.upper;
+    released.motion = associated.motion;
+    if (!associated.lower) {
+      released.resolved = associated.resolved;
+      return;
+    }
+    narrow_released(*associated.lower, stride);
+    int n = 0;
+    for (; n < most_returns && moves_at_lower(); ++n) {
+      released.upper = std::exchange(released.lower, std::nullopt);
+      released.rest.reset();
+      released.resolved = false;
+      narrow_released(*released.upper / (1.0 + search_.tolerance), short_stride);
+    }
+    if (n == most_returns) released.resolved = false;
+  }
+
+  /// A factor that stood when a motion far above was followed is tried again from the last motion.
+  bool moves_at_lower() {
+    LimitBracket& released = answer_.released;
+    if (!released.resolved || !released.lower || !released.upper) return false;
+    if (known() == nullptr || followed_[*released.lower] == *released.upper) return false;
+    std::optional<LimitTrial> again = attempt(*released.lower, true);
+    if (!again || again->outcome != LimitOutcome::moves) return false;
+    released.motion = std::move(again);
+    return true;
+  }
+
+  LimitAnalysis& analysis_;
+  Sought sought_;
+  const LimitSearch& search_;
+  const std::function<bool()>& goes_on_;
+  LimitAnswer answer_;
+  std::map<double, double> followed_;  ///< by factor, that of the motion that its trial began with; 0: none
+};
+
+}  // namespace
+
+LimitAnswer LimitAnalysis::strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
+  return LimitSearching(*this, Sought::strength, search, goes_on).run();
+}
+
+LimitAnswer LimitAnalysis::load_factor(const LimitSearch& search, const std::function<bool()>& goes_on) {
+  return LimitSearching(*this, Sought::load, search, goes_on).run();
+}
+
+}  // namespace ashlar
