@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -278,6 +279,22 @@ std::vector<RunOptions> runs_of(const SweepOptions& options, const std::vector<V
   return runs;
 }
 
+/// Samples may have drawn the same values.
+void run_each_once(std::vector<RunOptions>& runs, std::vector<std::string>& names) {
+  std::set<std::filesystem::path> known;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!known.insert(*runs[k].out).second) continue;
+    if (kept != k) {
+      runs[kept] = std::move(runs[k]);
+      names[kept] = std::move(names[k]);
+    }
+    ++kept;
+  }
+  runs.resize(kept);
+  names.resize(kept);
+}
+
 /// @throws std::invalid_argument if what has the names of the pictures is none
 void refuse_other_pictures(std::filesystem::path picture) {
   if (picture.extension() == ".png") refuse_other_file(picture, "PNG picture", {png_mark});
@@ -349,6 +366,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   std::vector<std::filesystem::path> folders;
   std::vector<RunOptions> runs = runs_of(options, keys, variants, folder, names);
   for (const RunOptions& run : runs) folders.push_back(*run.out);
+  run_each_once(runs, names);
   const int status = Runs(options, std::move(runs), std::move(names), err).go();
   const SweepTable table = sweep_table(keys, variants, folders, options.values);
   for (std::size_t k = 0; k < options.values.size(); ++k) {

@@ -63,13 +63,14 @@ std::string folder_of(const std::vector<VariedKey>& keys, const std::vector<std:
 std::size_t combinations(const std::vector<VariedKey>& keys, const Samples& samples) {
   std::set<std::string> known;
   std::size_t count = 1;
-  const std::size_t most = most_variants / std::clamp<std::size_t>(samples.count, 1, most_variants);
+  // Of each combination there are as many variants as samples.
+  const std::size_t most = most_variants / std::max<std::size_t>(samples.count, 1);
   const auto refuse_more = [&](std::size_t factor) {
     if (factor > most / count)
       throw std::invalid_argument(
           fmt::format("too many variants (more than {}), at most that many are allowed", most_variants));
   };
-  refuse_more(samples.count > most_variants ? samples.count : 1);
+  refuse_more(1);
   bool draws = false;
   for (const VariedKey& key : keys) {
     if (!known.insert(key.key).second)

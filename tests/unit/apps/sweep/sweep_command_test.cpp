@@ -1,6 +1,7 @@
 // `ashlar sweep`.
 #include "apps/sweep/sweep_command.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -108,6 +109,44 @@ TEST_F(Sweep, DrawsOneValueAgainstTheKeys) {
   EXPECT_THAT(faults_, HasSubstr("one such key is needed"));
   EXPECT_EQ(sweep({"--vary", "contact.friction_angle=20", "--picture", "p.jpg"}), exit_status::bad_input);
   EXPECT_THAT(faults_, HasSubstr(".svg or .png is needed"));
+}
+
+TEST_F(Sweep, SamplesHaveStatisticsAndAHistogram) {
+  // Way fallen in t seconds: g t^2 / 2, of 0.1 to 0.2 s between 0.04905 and 0.1962 m.
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=uniform(0.1,0.2)", "--samples", "5", "--seed", "3", "--value",
+                   "middle.uz", "--picture", (folder_ / "p.svg").string()}),
+            0)
+      << faults_;
+  const std::vector<std::string> table = lines("t.csv");
+  ASSERT_EQ(table.size(), 6U);
+  double mean = 0.0;
+  for (std::size_t k = 1; k < table.size(); ++k) {
+    const double time = std::stod(table[k]);
+    EXPECT_GE(time, 0.1);
+    EXPECT_LE(time, 0.2);
+    const double way = std::stod(table[k].substr(table[k].rfind(',') + 1));
+    EXPECT_NEAR(way, -0.5 * 9.81 * time * time, 1e-9);
+    mean += way / 5.0;
+  }
+  EXPECT_THAT(faults_, HasSubstr(fmt::format("middle.uz: 5 samples, mean {:.4g}", mean)));
+  EXPECT_THAT(text("p.svg"), HasSubstr("5 samples"));
+}
+
+TEST_F(Sweep, SamplesOfTheSameValuesAreRunOnce) {
+  ASSERT_EQ(sweep({"--vary", "analysis.end_time=normal(0.1,0)", "--samples", "3", "--value", "middle.uz"}), 0)
+      << faults_;
+  EXPECT_EQ(lines("t.csv").size(), 4U);
+  EXPECT_THAT(faults_,
+              AllOf(HasSubstr("1 of 1"), HasSubstr("middle.uz: 3 samples, mean -0.04905, deviation 0")));
+}
+
+TEST_F(Sweep, FaultsOfSamplesAreTold) {
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=uniform(0.1,0.2)"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("--samples is needed"));
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--samples", "2"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("--samples without a value that is drawn"));
+  EXPECT_EQ(sweep({"--vary", "analysis.end_time=normal(0.1)", "--samples", "2"}), 2);
+  EXPECT_THAT(faults_, HasSubstr("mean and deviation"));
 }
 
 TEST_F(Sweep, IsTheRunOfItsSettings) {
