@@ -34,7 +34,7 @@ struct FactorBracket {
   std::vector<FactorTrial> trials;  ///< in order
 };
 
-/// What another method has found of the limit, to be tried first.
+/// Bounds of the limit by another method, to be tried first.
 struct ExpectedFactor {
   double lower = 0.0;  ///< expected to stand
   double upper = 0.0;  ///< expected to move

@@ -151,9 +151,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
                       "no block can move (all are fixed or held by supports), one that can is needed");
     return;
   }
-  const bool loaded = std::any_of(model->multiplied.begin(), model->multiplied.end(),
-                                  [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
-  if (scene.analysis.type == SceneAnalysis::Type::capacity && !loaded)
+  if (scene.analysis.type == SceneAnalysis::Type::capacity && !multiplies_loads(*model))
     diagnostics.error(scene.places.value("analysis.capacity.blocks"),
                       "loads to multiply move no block (0 N in all), one that can move a block is needed");
 }
@@ -172,11 +170,11 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
   const LimitSearch search{asked.lower, asked.upper, asked.tolerance};
   findings.answer = is_safety(scene.analysis) ? analysis.strength_factor(search, goes_on)
                                               : analysis.load_factor(search, goes_on);
-  if (findings.answer.released.motion)
-    findings.released = analysis.motion_of(*findings.answer.released.motion);
+  const std::optional<LimitTrial>& released = findings.answer.released.motion;
   const std::optional<LimitTrial>& associated = findings.answer.associated.motion;
-  const bool same = associated && findings.answer.released.upper == findings.answer.associated.upper;
-  if (associated) findings.associated = same ? findings.released : analysis.motion_of(*associated);
+  if (associated) findings.associated = analysis.motion_of(*associated);
+  // Where nothing moves below the associated limit, its motion is both.
+  if (released) findings.released = released->released ? analysis.motion_of(*released) : findings.associated;
   return findings;
 }
 

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/lognormal.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/triangular.hpp>
+#include <boost/math/distributions/uniform.hpp>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -56,34 +60,6 @@ std::string fault_of(Kind kind, const std::vector<double>& p) {
   return "";
 }
 
-/// Of the normal distribution of mean 0 and deviation 1: Acklam's rational approximation and a step of Halley's method,
-/// to rounding.
-double normal_quantile(double share) {
-  constexpr std::array a = {-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
-                            1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
-  constexpr std::array b = {-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02,
-                            6.680131188771972e+01, -1.328068155288572e+01};
-  constexpr std::array c = {-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
-                            -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
-  constexpr std::array d = {7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
-                            3.754408661907416e+00};
-  constexpr double tail = 0.02425;
-  double x = 0.0;
-  if (share < tail || share > 1.0 - tail) {
-    const double q = std::sqrt(-2.0 * std::log(std::min(share, 1.0 - share)));
-    x = (((((c[0] * q + c[1]) * q + c[2]) * q + c[3]) * q + c[4]) * q + c[5]) /
-        ((((d[0] * q + d[1]) * q + d[2]) * q + d[3]) * q + 1.0);
-    if (share > 0.5) x = -x;
-  } else {
-    const double q = share - 0.5, r = q * q;
-    x = (((((a[0] * r + a[1]) * r + a[2]) * r + a[3]) * r + a[4]) * r + a[5]) * q /
-        (((((b[0] * r + b[1]) * r + b[2]) * r + b[3]) * r + b[4]) * r + 1.0);
-  }
-  const double error = 0.5 * std::erfc(-x / std::sqrt(2.0)) - share;
-  const double u = error * std::sqrt(2.0 * 3.14159265358979323846) * std::exp(0.5 * x * x);
-  return x - u / (1.0 + 0.5 * x * u);
-}
-
 }  // namespace
 
 std::optional<Distribution> parse_distribution(const std::string& text) {
@@ -106,21 +82,22 @@ std::optional<Distribution> parse_distribution(const std::string& text) {
 }
 
 double quantile(const Distribution& distribution, double share) {
+  namespace math = boost::math;
   const std::vector<double>& p = distribution.parameters;
+  const bool deviates = distribution.kind == Kind::normal || distribution.kind == Kind::lognormal;
+  if (deviates && p[1] == 0.0) return p[0];
   switch (distribution.kind) {
     case Kind::normal:
-      return p[0] + p[1] * normal_quantile(share);
+      return math::quantile(math::normal(p[0], p[1]), share);
     case Kind::lognormal: {
+      // Of the logarithm.
       const double square = std::log1p((p[1] / p[0]) * (p[1] / p[0]));
-      return p[0] * std::exp(std::sqrt(square) * normal_quantile(share) - 0.5 * square);
+      return math::quantile(math::lognormal(std::log(p[0]) - 0.5 * square, std::sqrt(square)), share);
     }
     case Kind::uniform:
-      return p[0] + share * (p[1] - p[0]);
-    case Kind::triangular: {
-      const double width = p[2] - p[0];
-      if (share * width < p[1] - p[0]) return p[0] + std::sqrt(share * width * (p[1] - p[0]));
-      return p[2] - std::sqrt((1.0 - share) * width * (p[2] - p[1]));
-    }
+      return math::quantile(math::uniform(p[0], p[1]), share);
+    case Kind::triangular:
+      return math::quantile(math::triangular(p[0], p[1], p[2]), share);
   }
   return p[0];
 }

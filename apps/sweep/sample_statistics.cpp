@@ -12,14 +12,6 @@
 namespace ashlar {
 namespace {
 
-std::optional<std::size_t> column_of(const SweepTable& table, const std::string& value) {
-  const auto column = std::find_if(table.columns.begin(), table.columns.end(), [&](const std::string& name) {
-    return name == value || name == quote_csv_field(value);
-  });
-  if (column == table.columns.end()) return std::nullopt;
-  return static_cast<std::size_t>(column - table.columns.begin());
-}
-
 std::vector<double> sorted_numbers(const std::vector<std::optional<double>>& values) {
   std::vector<double> numbers;
   for (const std::optional<double>& value : values)
@@ -59,9 +51,9 @@ SampleStatistics statistics_of(const std::vector<std::optional<double>>& values,
 }
 
 std::vector<SampleGroup> sample_groups(const std::vector<VariedKey>& keys, const SweepTable& table,
-                                       const std::string& value) {
-  const std::optional<std::size_t> column = column_of(table, value);
-  if (!column)
+                                       const std::string& value, double limit) {
+  const std::optional<std::size_t> column = column_of(table, value), status = column_of(table, "status");
+  if (!column || !status)
     throw std::invalid_argument(
         fmt::format("the table has no value of that name for its statistics ({})", value));
   std::optional<std::size_t> instead;
@@ -75,8 +67,10 @@ std::vector<SampleGroup> sample_groups(const std::vector<VariedKey>& keys, const
     auto group =
         std::find_if(groups.begin(), groups.end(), [&](const auto& one) { return one.name == name; });
     if (group == groups.end()) group = groups.insert(groups.end(), {name, {}});
-    group->values.push_back(csv_number(row[*column]));
-    if (!group->values.back() && instead) group->values.back() = csv_number(row[*instead]);
+    std::optional<double>& number = group->values.emplace_back(csv_number(row[*column]));
+    if (number || !instead || row[*status] != "completed") continue;
+    const std::optional<double> upper = csv_number(row[*instead]);
+    if (upper && *upper <= limit) number = upper;
   }
   return groups;
 }

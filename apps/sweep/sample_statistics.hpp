@@ -26,11 +26,12 @@ struct SampleGroup {
   std::vector<std::optional<double>> values;  ///< by sample
 };
 
-/// The values of a column. Of "factor_of_safety.lower" and "load_factor.lower", which are empty where even the least
-/// factor of the search moves, `upper` takes its place.
+/// The values of a column. "factor_of_safety.lower" and "load_factor.lower" are empty where even the least factor of the
+/// search moves: `upper` takes their place if it is no more than a limit, for the factor is below both.
 /// @throws std::invalid_argument if the table has no such column
 [[nodiscard]] std::vector<SampleGroup> sample_groups(const std::vector<VariedKey>& keys,
-                                                     const SweepTable& table, const std::string& value);
+                                                     const SweepTable& table, const std::string& value,
+                                                     double limit);
 
 /// "factor_of_safety.lower: 1000 samples, mean 1.21, deviation 0.1, from 0.9 to 1.5; 3.4 % below 1 (standard error 0.6 %)"
 [[nodiscard]] std::string to_string(const SampleStatistics& statistics, const std::string& value,

@@ -40,13 +40,10 @@ std::string name_of_line(const std::vector<VariedKey>& keys, const std::vector<s
 
 std::string sweep_svg(const std::vector<VariedKey>& keys, const SweepTable& table, const std::string& value) {
   const std::size_t along_x = key_along_x(keys);
-  const auto column = std::find_if(table.columns.begin(), table.columns.end(), [&](const std::string& name) {
-    return name == value || name == quote_csv_field(value);
-  });
-  if (column == table.columns.end())
+  const std::optional<std::size_t> of_value = column_of(table, value);
+  if (!of_value)
     throw std::invalid_argument(
         fmt::format("the table has no value of that name for the picture ({})", value));
-  const auto of_value = static_cast<std::size_t>(column - table.columns.begin());
   std::map<std::string, std::size_t> places;
   LogLogPlot plot{value, keys[along_x].key, value, {}, false};
   plot.linear = true;
@@ -57,7 +54,7 @@ std::string sweep_svg(const std::vector<VariedKey>& keys, const SweepTable& tabl
       plot.series.push_back({place->first, {}, {}});
       points.emplace_back();
     }
-    const std::optional<double> x = csv_number(row[along_x]), y = csv_number(row[of_value]);
+    const std::optional<double> x = csv_number(row[along_x]), y = csv_number(row[*of_value]);
     if (x && y) points[place->second].emplace_back(*x, *y);
   }
   for (std::size_t k = 0; k < points.size(); ++k) {

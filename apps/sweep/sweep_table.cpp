@@ -106,6 +106,14 @@ SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Var
   return table;
 }
 
+std::optional<std::size_t> column_of(const SweepTable& table, const std::string& name) {
+  for (const std::string& known : {name, quote_csv_field(name)}) {
+    const auto column = std::find(table.columns.begin(), table.columns.end(), known);
+    if (column != table.columns.end()) return static_cast<std::size_t>(column - table.columns.begin());
+  }
+  return std::nullopt;
+}
+
 std::string table_csv(const SweepTable& table) {
   std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
   for (const std::vector<std::string>& row : table.rows) text += fmt::format("{}\n", fmt::join(row, ","));

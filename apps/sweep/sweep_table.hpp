@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct SweepTable {
 [[nodiscard]] SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Variant>& variants,
                                      const std::vector<std::filesystem::path>& folders,
                                      const std::vector<std::string>& values);
+
+/// The index of the column of a key or a value. @return empty: there is none of that name
+[[nodiscard]] std::optional<std::size_t> column_of(const SweepTable& table, const std::string& name);
 
 /// As CSV, with a line of columns first.
 [[nodiscard]] std::string table_csv(const SweepTable& table);

@@ -80,6 +80,7 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   const double square = product(found.velocity, found.velocity);
   if (found.lacking < 0.1 * still && motion <= still) {
     trial.outcome = LimitOutcome::stands;
+    trial.balanced = true;
   } else if (motion > still && square > 2.0 * found.gap && found.lacking < 0.1 * still) {
     trial.outcome = LimitOutcome::moves;
     // Power of forces within the strengths that reduction takes: z . x of the cones is what is left of them.
@@ -117,14 +118,18 @@ SingleBodies& LimitAnalysis::single() {
   return *single_;
 }
 
-bool LimitAnalysis::multiplies_loads() const {
-  return std::any_of(model_.multiplied.begin(), model_.multiplied.end(),
-                     [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
-}
-
-LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance, const LimitTrial* known) {
+LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance, const LimitTrial* known,
+                                   bool balanced) {
   // Forces in balance have to exist for anything to stand, and slow slip needs them.
-  LimitTrial trial = associated(factors);
+  LimitTrial trial;
+  if (balanced) {
+    set_factors(factors);
+    trial.factors = factors;
+    trial.balanced = true;
+    trial.outcome = LimitOutcome::stands;
+  } else {
+    trial = associated(factors);
+  }
   trial.released = true;
   const std::vector<BodyVelocity> loads = load(factors.load);
   const std::vector<double> dilates = dilation();
@@ -150,16 +155,20 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
     if (product(start, start) == 0.0 ||
         !moves(slow_slip(program_, dilates, loads, start, margin_share * tolerance), true))
       return false;
-    // Slip may lead to a motion that exists below the factor at which slip begins to grow.
-    moves(motion_of_slip(program_, dilates, loads, trial.acceleration), false);
+    // Slip may lead to a motion that exists below the factor at which slip begins to grow. Where inertia finds none, it
+    // is hardly faster than rest.
+    if (!moves(motion_of_slip(program_, dilates, loads, trial.acceleration), false)) {
+      const double size = still / largest_motion(trial.acceleration, loads);
+      for (BodyVelocity& velocity : trial.acceleration) velocity *= size;
+    }
     return true;
   };
   // Loads that are multiplied come after the others, and slowly: under them there is no motion from no contact forces.
-  const bool follows = known != nullptr && !known->slow;
-  if (!multiplies_loads() && moves(motion_from_rest(program_, dilates, loads,
-                                                    follows ? known->force : std::vector<Eigen::Vector3d>()),
-                                   false))
-    return trial;
+  if (!multiplies_loads(model_)) {
+    const bool follows = known != nullptr && !known->slow;
+    std::vector<Eigen::Vector3d> force = follows ? known->force : std::vector<Eigen::Vector3d>();
+    if (moves(motion_from_rest(program_, dilates, loads, std::move(force)), false)) return trial;
+  }
   if (known != nullptr && slips(known->acceleration)) return trial;
   if (slips(without_friction(factors, trial)) || model_.bodies.size() < 2) return trial;
   for (const std::vector<BodyVelocity>& start : single().sets(factors, tolerance))
@@ -188,15 +197,10 @@ std::vector<int> LimitAnalysis::moving_alone(const LimitFactors& factors, double
 }
 
 LimitMotion LimitAnalysis::motion_of(const LimitTrial& trial) {
-  set_factors(trial.factors);
-  const std::vector<BodyVelocity> loads = load(trial.factors.load);
-  ReleasedMotion motion;
+  if (trial.released) return limit_motion(model_, program_, trial);
   // An associated motion opens joints by their friction angle.
-  if (trial.slow) {
-    motion = motion_of_slip(program_, dilation(), loads, trial.acceleration);
-  } else if (!trial.released) {
-    motion = motion_from_rest(program_, dilation(), loads, trial.force);
-  }
+  set_factors(trial.factors);
+  ReleasedMotion motion = motion_from_rest(program_, dilation(), load(trial.factors.load), trial.force);
   if (motion.outcome != LimitOutcome::moves) return limit_motion(model_, program_, trial);
   LimitTrial shown = trial;
   shown.acceleration = std::move(motion.velocity);

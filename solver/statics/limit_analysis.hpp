@@ -48,8 +48,9 @@ class LimitAnalysis {
   /// A motion from rest and from no contact forces that obeys Coulomb's law, if one is found.
   /// @param tolerance of the factor: how near to the limit it is to tell
   /// @param known a motion under other factors, which is followed first; null: none
+  /// @param balanced forces in balance are known to exist, and are not looked for
   [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3,
-                                    const LimitTrial* known = nullptr);
+                                    const LimitTrial* known = nullptr, bool balanced = false);
 
   /// The largest factor of the loads that are multiplied for which forces in balance exist, by one programme.
   /// @param most that is looked for, > 0. @return 0: it was not found
@@ -62,7 +63,7 @@ class LimitAnalysis {
   /// The factor by which loads may be multiplied, the others as they are.
   [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
 
-  /// The motion of a trial that moves. Slow slip is followed until it has accelerations.
+  /// The motion of a trial that moves; of an associated one the motion without dilation, if one is found.
   [[nodiscard]] LimitMotion motion_of(const LimitTrial& trial);
 
  private:
@@ -72,7 +73,6 @@ class LimitAnalysis {
   [[nodiscard]] std::vector<BodyVelocity> without_friction(const LimitFactors& factors, LimitTrial& trial);
   [[nodiscard]] double estimate(const LimitTrial& trial) const;
   [[nodiscard]] SingleBodies& single();
-  [[nodiscard]] bool multiplies_loads() const;
 
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point

@@ -52,7 +52,9 @@ class LimitSearching {
       return std::nullopt;
     }
     if (released) followed_[factor] = known() != nullptr ? known()->factors.strength : 0.0;
-    LimitTrial trial = released ? analysis_.released(factors(factor), search_.tolerance, known())
+    // More strength than balances the loads balances them too.
+    const bool balanced = sought_ == Sought::strength && factor <= answer_.associated.lower.value_or(0.0);
+    LimitTrial trial = released ? analysis_.released(factors(factor), search_.tolerance, known(), balanced)
                                 : analysis_.associated(factors(factor));
     if (sought_ == Sought::load) trial.estimate = 0.0;
     LimitTrial& kept = answer_.trials.emplace_back(trial);
@@ -80,7 +82,6 @@ class LimitSearching {
     int n = 0;
     for (; n < most_returns && moves_at_lower(); ++n) {
       released.upper = std::exchange(released.lower, std::nullopt);
-      released.rest.reset();
       released.resolved = false;
       narrow_released(*released.upper / (1.0 + search_.tolerance), short_stride);
     }

@@ -41,10 +41,9 @@ class Bracketing {
     if (!stands) estimate_ = trial.estimate;
     last_stands_ = stands;
     std::optional<double>& end = stands ? bracket_.lower : bracket_.upper;
-    std::optional<LimitTrial>& kept = stands ? bracket_.rest : bracket_.motion;
     if (end && (stands ? factor <= *end : factor >= *end)) return;
     end = factor;
-    kept = std::move(trial);
+    if (!stands) bracket_.motion = std::move(trial);
   }
 
   /// @return 0: the bracket is as narrow as it is to be

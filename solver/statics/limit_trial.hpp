@@ -20,7 +20,8 @@ struct LimitTrial {
   LimitFactors factors;
   bool released = false;  ///< which of the two limits it is of (limit_analysis.hpp)
   LimitOutcome outcome = LimitOutcome::unknown;
-  bool slow = false;                       ///< its motion is slow slip, of any size; else accelerations
+  bool balanced = false;  ///< forces within the strengths that balance the loads exist
+  bool slow = false;      ///< its motion is slow slip, of the size of rest; else accelerations
   std::vector<BodyVelocity> acceleration;  ///< by body, from rest, in coordinates and units of the model
   std::vector<Eigen::Vector3d> force;      ///< by point, in units of the model
   /// Of a trial that moves: the factor at which its motion would be in balance; 0: none.
@@ -42,7 +43,6 @@ struct LimitBracket {
   std::optional<double> upper;       ///< the least factor that moves; empty: even the largest stands
   bool resolved = false;             ///< upper / lower - 1 is within the tolerance, or one of them is empty
   std::optional<LimitTrial> motion;  ///< of `upper`
-  std::optional<LimitTrial> rest;    ///< of `lower`
 };
 
 /// @return empty: the search is to end

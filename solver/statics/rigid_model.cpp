@@ -384,6 +384,11 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
   return result;
 }
 
+bool multiplies_loads(const RigidModel& model) {
+  return std::any_of(model.multiplied.begin(), model.multiplied.end(),
+                     [](const BodyVelocity& load) { return load.squaredNorm() > 0.0; });
+}
+
 bool loses_strength(const RigidModel& model) {
   return std::any_of(model.points.begin(), model.points.end(),
                      [](const RigidPoint& point) { return point_law(point.law, 1.0, true).weakens(); });

@@ -71,6 +71,9 @@ struct RigidModel {
 /// Of a point, with friction, cohesion and tensile strength divided by a factor. @param factor > 0
 [[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor);
 
+/// True if any load on a body is multiplied.
+[[nodiscard]] bool multiplies_loads(const RigidModel& model);
+
 /// True if any joint loses strength for good when it fails, which limit analysis knows nothing of.
 [[nodiscard]] bool loses_strength(const RigidModel& model);
 

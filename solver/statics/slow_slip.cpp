@@ -79,29 +79,21 @@ ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilati
   question.balanced = true;
   Eigen::VectorXd shift = shifts_of(program, dilation, start);
   Growth growth;
+  if (shift.size() == 0 || !(shift.maxCoeff() > 0.0)) {
+    found.outcome = LimitOutcome::stands;
+    return found;
+  }
   for (int n = 0; n < most_programmes; ++n) {
-    const double size = shift.size() > 0 ? shift.maxCoeff() : 0.0;
-    if (!(size > 0.0)) {
-      found.outcome = LimitOutcome::stands;
-      return found;
-    }
-    shift /= size;
+    shift /= shift.maxCoeff();
     question.shift.assign(shift.begin(), shift.end());
     ConeAnswer answer = asked(program, question, found);
     found.velocity = std::move(answer.velocity);
     found.force = std::move(answer.force);
     Eigen::VectorXd next = shifts_of(program, dilation, found.velocity);
-    if (!(next.norm() > no_slip * shift.norm())) {
-      found.outcome = LimitOutcome::stands;
-      return found;
-    }
     growth.add(shift, next);
-    if (growth.ends()) {
-      found.outcome = LimitOutcome::stands;
-      return found;
-    }
-    if (growth.settled(margin)) {
-      found.outcome = growth.limit() > -margin ? LimitOutcome::moves : LimitOutcome::stands;
+    if (growth.ends() || growth.settled(margin)) {
+      const bool grows = !growth.ends() && growth.limit() > -margin;
+      found.outcome = grows ? LimitOutcome::moves : LimitOutcome::stands;
       return found;
     }
     shift = std::move(next);

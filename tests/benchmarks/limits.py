@@ -2,8 +2,8 @@
 
 use: python3 tests/benchmarks/limits.py build/release/apps/ashlar [--widths 12 48] [--tolerance 0.001]
 
-A row per scene: blocks, the bracket of the factor of safety, seconds of the run and of its slowest trial, and the exponent of
-growth against the row before. Slopes beyond --bracket-up-to blocks are tried at two factors only, beside the known limit.
+A row per scene: blocks, the bracket of the factor of safety, seconds of the run and the mean of its trials, and the exponent
+of growth against the row before. Slopes beyond --bracket-up-to blocks are tried between two factors beside the known limit.
 """
 import argparse
 import json
@@ -40,7 +40,8 @@ def row(name, blocks, factor, seconds, before):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("program")
-    parser.add_argument("--widths", nargs="+", type=float, default=[12, 48], help="of the slope, m; 257 blocks at 12 m, 10,240 and more than ten minutes at 480 m")
+    parser.add_argument("--widths", nargs="+", type=float, default=[12, 48],
+                        help="of the slope, m; 257 blocks at 12 m, 10,240 and more than ten minutes at 480 m")
     parser.add_argument("--tolerance", type=float, default=0.001)
     parser.add_argument("--bracket-up-to", type=int, default=2000, metavar="BLOCKS")
     options = parser.parse_args()

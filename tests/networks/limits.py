@@ -8,9 +8,8 @@ Each network is a slope of rigid blocks between fixed ground, back and walls, cu
 Its reference is the least factor by which friction is divided at which a block sets off: two steps of motion from rest,
 without forces of contact at the start. As outcomes may alternate, factors are tried from below, then bisected to 0.5 %.
 Scenes and references are kept in the folder and used again. A block that nothing else holds (`ashlar blocks --removable`)
-is a second bound, unless the answer says that the pressure of others keeps it. Where it is below the reference by more than
-1 %, motion is "jammed"; there, and where runs fail ("no reference"), factors are held against upper bounds only, and the row
-says so.
+is a second bound. Where it is below the reference by more than 1 %, motion is "jammed"; there, and where runs fail ("no
+reference"), factors are held against upper bounds only, and the row says so.
 
 Exit status: 0 no factor fails what it could be compared with, which for jammed networks is upper bounds only; 1 some do.
 """
@@ -211,8 +210,7 @@ def compared(options, name, of):
             faults.append(f"{above:.1f} % ABOVE")
         if of["exists"] and not of["jammed"] and below > 100 * TOLERANCE:
             faults.append(f"{below:.1f} % below")
-        alone = of["removable"] is not None and released > of["removable"] * (1 + REMOVABLE_TOLERANCE)
-        if alone and of["alone"] not in answer["kept_by_others"]:
+        if of["removable"] is not None and released > of["removable"] * (1 + REMOVABLE_TOLERANCE):
             faults.append(f"ABOVE {of['alone']} alone, {of['removable']:.4f}")
     passed = "ok" if of["exists"] and not of["jammed"] else "not above upper bounds, NOT COMPARED else"
     return (f"{text_of(name, of)}  released {number(released)} [{numbers[0]}, {numbers[1]}]  associated {numbers[2]}"

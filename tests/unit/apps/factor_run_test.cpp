@@ -19,13 +19,7 @@ using ::testing::StartsWith;
 
 /// A plate of 2 m x 2 m x 0.5 m on a slope of 30 degrees, 4000 kg: its weight meets the slope in its middle third.
 std::string plate_on_a_slope(const std::string& analysis, const std::string& contact) {
-  return analysis + "\n[contact]\n" + contact + R"(
-[[material]]
-name = "rock"
-density = 2000
-young_modulus = 1e10
-poisson_ratio = 0.2
-[[block]]
+  return analysis + "\n[contact]\n" + contact + "\n" + rock_text + R"([[block]]
 name = "slope"
 fixed = true
 box = { min = [-9, -4, -1], max = [9, 4, 0] }
@@ -122,17 +116,12 @@ TEST_F(FactorRun, WhatMovesAtAllStrengthsAndWhatNothingMoves) {
 
 TEST_F(FactorRun, CapacityIsTheLoadThatMovesABlock) {
   // A cube of 1 m and 2000 kg on level ground, pushed along its base by 1000 N: slides at W tan(30) = 11328 N.
-  write_text(scene_, R"([analysis]
+  write_text(scene_, std::string(R"([analysis]
 type = "capacity"
 capacity = { lower = 0.5, upper = 100, tolerance = 0.01 }
 [contact]
 friction_angle = 30
-[[material]]
-name = "rock"
-density = 2000
-young_modulus = 1e10
-poisson_ratio = 0.2
-[[block]]
+)") + rock_text + R"([[block]]
 name = "ground"
 fixed = true
 box = { min = [-4, -4, -1], max = [4, 4, 0] }
@@ -212,16 +201,11 @@ TEST_F(FactorRun, AnElasticSearchBeginsWithWhatLimitAnalysisFinds) {
 
 TEST_F(FactorRun, BlocksThatOthersHoldAreNamed) {
   // A stone between two that press on it from its sides: alone it falls.
-  write_text(scene_, R"([analysis]
+  write_text(scene_, std::string(R"([analysis]
 type = "factor-of-safety"
 [contact]
 friction_angle = 40
-[[material]]
-name = "rock"
-density = 2000
-young_modulus = 1e10
-poisson_ratio = 0.2
-[[block]]
+)") + rock_text + R"([[block]]
 name = "left"
 fixed = true
 box = { min = [-2, 0, 0], max = [-1, 1, 1] }

@@ -19,13 +19,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 /// A stone whose sides lean by 30 degrees, wider at its top, between two fixed ones.
 std::string keystone(const std::string& analysis, const std::string& contact) {
-  return "[analysis]\n" + analysis + "\n[contact]\n" + contact + R"toml(
-[[material]]
-name = "rock"
-density = 2000
-young_modulus = 1e10
-poisson_ratio = 0.2
-[[block]]
+  return "[analysis]\n" + analysis + "\n[contact]\n" + contact + "\n" + rock_text + R"toml([[block]]
 name = "stone"
 material = "rock"
 hull.points = [
@@ -73,7 +67,7 @@ TEST_F(LimitRun, ThrustIsBoundedByFrictionEitherWay) {
 }
 
 TEST_F(LimitRun, ThrustOfWhatCannotStandSaysWhatMoves) {
-  // Half a ton hangs on the stone: nothing is below it.
+  // Gravity lifts the stone out of its seat.
   write_text(scene_, keystone("type = \"thrust\"\ngravity = [0, 0, 9.81]", "friction_angle = 10"));
   ASSERT_EQ(run("out"), 0) << faults_;
   EXPECT_EQ(summary("out").at("status"), "moving");

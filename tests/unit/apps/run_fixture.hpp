@@ -48,6 +48,14 @@ point = [4, 0, 0]
 every = 10
 )";
 
+// Rock of 2000 kg/m^3, for scenes of a test's own.
+inline constexpr const char* rock_text = R"([[material]]
+name = "rock"
+density = 2000
+young_modulus = 1e10
+poisson_ratio = 0.2
+)";
+
 class RunCommand : public ::testing::Test {
  protected:
   RunCommand() { write_text(scene_, scene_text); }

@@ -29,6 +29,7 @@ SweepTable table() {
   return {{"phi", "dip", "folder", "status", "factor_of_safety.lower", "factor_of_safety.upper"},
           {{"30.1", "20", "a", "completed", "1.2", "1.21"},
            {"28.9", "20", "b", "completed", "", "0.1"},
+           {"27.2", "20", "e", "not converged", "", "0.1"},
            {"30.1", "25", "c", "completed", "10", ""},
            {"28.9", "25", "d", "failed", "", ""}}};
 }
@@ -38,13 +39,15 @@ std::vector<VariedKey> keys() {
 }
 
 TEST(SampleStatistics, SamplesAreGroupedByListedValues) {
-  const std::vector<SampleGroup> groups = sample_groups(keys(), table(), "factor_of_safety.lower");
+  const std::vector<SampleGroup> groups = sample_groups(keys(), table(), "factor_of_safety.lower", 1.0);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].name, "dip = 20");
-  // Where the least factor moves already, it is no more than that.
-  EXPECT_EQ(groups[0].values, (std::vector<std::optional<double>>{1.2, 0.1}));
+  // Where the least factor moves already, it is no more than that; a search without an answer says nothing.
+  EXPECT_EQ(groups[0].values, (std::vector<std::optional<double>>{1.2, 0.1, std::nullopt}));
   EXPECT_EQ(groups[1].values, (std::vector<std::optional<double>>{10.0, std::nullopt}));
-  EXPECT_THROW((void)sample_groups(keys(), table(), "other"), std::invalid_argument);
+  // The least factor that is tried may be above the limit: it is not known on which side of it the sample is.
+  EXPECT_FALSE(sample_groups(keys(), table(), "factor_of_safety.lower", 0.05)[0].values[1]);
+  EXPECT_THROW((void)sample_groups(keys(), table(), "other", 1.0), std::invalid_argument);
 }
 
 TEST(SampleStatistics, AHistogramCountsEachSampleOnce) {

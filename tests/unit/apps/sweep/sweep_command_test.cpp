@@ -132,6 +132,35 @@ TEST_F(Sweep, SamplesHaveStatisticsAndAHistogram) {
   EXPECT_THAT(text("p.svg"), HasSubstr("5 samples"));
 }
 
+TEST_F(Sweep, TheShareOfFailuresIsThatOfFactorsBelowOne) {
+  // A plate on a slope of 30 degrees stands if its friction angle is more: every row can be told by its key.
+  write_text(scene_, std::string("analysis = { type = \"factor-of-safety\", safety = { tolerance = 0.002 } "
+                                 "}\ncontact = { friction_angle = 30 }\n") +
+                         rock_text + R"([[block]]
+name = "slope"
+fixed = true
+box = { min = [-9, -4, -1], max = [9, 4, 0] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+[[block]]
+name = "stone"
+material = "rock"
+box = { min = [-1, -1, 0], max = [1, 1, 0.5] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+)");
+  ASSERT_EQ(sweep({"--vary", "contact.friction_angle=normal(31,3)", "--samples", "10"}), 0) << faults_;
+  const std::vector<std::string> table = lines("t.csv");
+  ASSERT_EQ(table.size(), 11U);
+  int failures = 0;
+  for (std::size_t k = 1; k < table.size(); ++k) {
+    const double angle = std::stod(table[k]);
+    ASSERT_GT(std::abs(angle - 30.0), 0.1);  // 0.4 % of the factor: no sample within its tolerance
+    failures += angle < 30.0 ? 1 : 0;
+  }
+  ASSERT_GT(failures, 0);
+  EXPECT_THAT(faults_, HasSubstr("factor_of_safety.lower: 10 samples, mean"));
+  EXPECT_THAT(faults_, HasSubstr(fmt::format("{} % below 1 (", 10 * failures)));
+}
+
 TEST_F(Sweep, SamplesOfTheSameValuesAreRunOnce) {
   ASSERT_EQ(sweep({"--vary", "analysis.end_time=normal(0.1,0)", "--samples", "3", "--value", "middle.uz"}), 0)
       << faults_;

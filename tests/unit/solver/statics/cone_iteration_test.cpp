@@ -75,7 +75,7 @@ struct RandomProgramme {
   std::mt19937_64 random_;
 };
 
-/// What an answer lacks at being one: balance, strength, flow.
+/// Residuals of an answer: balance, strength, flow.
 struct Lacking {
   double balance = 0.0;
   double strength = 0.0;  ///< by which forces exceed it

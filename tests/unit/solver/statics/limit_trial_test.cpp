@@ -34,7 +34,6 @@ void expect_bracket(const LimitBracket& bracket, double limit, double tolerance)
   EXPECT_GE(*bracket.upper, limit);
   EXPECT_LE(*bracket.upper, *bracket.lower * (1.0 + tolerance));
   EXPECT_EQ(bracket.motion->factors.strength, *bracket.upper);
-  EXPECT_EQ(bracket.rest->factors.strength, *bracket.lower);
 }
 
 TEST(LimitTrial, ASearchNarrowsAroundTheLimit) {

@@ -1,4 +1,4 @@
-// What limit analysis says of static analyses that end without an answer, or jammed.
+// Verdicts of limit analysis on static analyses that end without an answer, or jammed.
 #include "solver/statics/rigid_verdict.hpp"
 
 #include <gtest/gtest.h>
