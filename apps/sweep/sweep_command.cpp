@@ -126,6 +126,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   std::filesystem::create_directories(folder);
 
   std::vector<std::filesystem::path> folders;
+  folders.reserve(variants.size());
   for (const Variant& variant : variants) folders.push_back(folder / variant.folder);
   const int status = run_sweep(runs_of(options, keys, variants, folders), options.jobs, options.quiet, err);
   const SweepTable table = sweep_table(keys, variants, folders, options.values);

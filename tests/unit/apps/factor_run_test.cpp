@@ -19,17 +19,7 @@ using ::testing::StartsWith;
 
 /// A plate of 2 m x 2 m x 0.5 m on a slope of 30 degrees, 4000 kg: its weight meets the slope in its middle third.
 std::string plate_on_a_slope(const std::string& analysis, const std::string& contact) {
-  return analysis + "\n[contact]\n" + contact + "\n" + rock_text + R"([[block]]
-name = "slope"
-fixed = true
-box = { min = [-9, -4, -1], max = [9, 4, 0] }
-rotate = { axis = [0, -1, 0], angle = 30 }
-[[block]]
-name = "stone"
-material = "rock"
-box = { min = [-1, -1, 0], max = [1, 1, 0.5] }
-rotate = { axis = [0, -1, 0], angle = 30 }
-)";
+  return analysis + "\n[contact]\n" + contact + "\n" + rock_text + plate_text;
 }
 
 const char* const safety = "[analysis]\ntype = \"factor-of-safety\"\n";

@@ -56,6 +56,19 @@ young_modulus = 1e10
 poisson_ratio = 0.2
 )";
 
+// A plate of 2 m x 2 m x 0.5 m of that rock on a slope of 30 degrees: its weight meets the slope in its middle third.
+inline constexpr const char* plate_text = R"([[block]]
+name = "slope"
+fixed = true
+box = { min = [-9, -4, -1], max = [9, 4, 0] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+[[block]]
+name = "stone"
+material = "rock"
+box = { min = [-1, -1, 0], max = [1, 1, 0.5] }
+rotate = { axis = [0, -1, 0], angle = 30 }
+)";
+
 class RunCommand : public ::testing::Test {
  protected:
   RunCommand() { write_text(scene_, scene_text); }

@@ -136,17 +136,7 @@ TEST_F(Sweep, TheShareOfFailuresIsThatOfFactorsBelowOne) {
   // A plate on a slope of 30 degrees stands if its friction angle is more: every row can be told by its key.
   write_text(scene_, std::string("analysis = { type = \"factor-of-safety\", safety = { tolerance = 0.002 } "
                                  "}\ncontact = { friction_angle = 30 }\n") +
-                         rock_text + R"([[block]]
-name = "slope"
-fixed = true
-box = { min = [-9, -4, -1], max = [9, 4, 0] }
-rotate = { axis = [0, -1, 0], angle = 30 }
-[[block]]
-name = "stone"
-material = "rock"
-box = { min = [-1, -1, 0], max = [1, 1, 0.5] }
-rotate = { axis = [0, -1, 0], angle = 30 }
-)");
+                         rock_text + plate_text);
   ASSERT_EQ(sweep({"--vary", "contact.friction_angle=normal(31,3)", "--samples", "10"}), 0) << faults_;
   const std::vector<std::string> table = lines("t.csv");
   ASSERT_EQ(table.size(), 11U);
