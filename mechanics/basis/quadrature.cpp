@@ -142,15 +142,13 @@ void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, Pol
   }
 }
 
-/// Triangles from the centroid to the sides. Slivers that are no higher than rounding moves corners have
-/// none: their centroid might be anywhere.
-void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
+/// Centroid of a polygon; nothing of slivers that are no higher than rounding moves corners: it might be anywhere.
+std::optional<Eigen::Vector2d> centroid_of(const Corners& polygon) {
   constexpr double sliver = 1e-13;  // of the squared length, some hundred rounding errors
-  const std::size_t corners = polygon.size();
   double doubled_area = 0.0;
   double squared_length = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
-  for (std::size_t k = 1; k + 1 < corners; ++k) {
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const Eigen::Vector2d a = polygon[k] - polygon[0];
     const Eigen::Vector2d b = polygon[k + 1] - polygon[0];
     const double part = cross(a, b);
@@ -158,8 +156,16 @@ void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
     doubled_area += part;
     centroid += part * (a + b) / 3.0;
   }
-  if (!(doubled_area > sliver * squared_length)) return;
-  centroid = polygon[0] + centroid / doubled_area;
+  if (!(doubled_area > sliver * squared_length)) return std::nullopt;
+  return polygon[0] + centroid / doubled_area;
+}
+
+/// Triangles from the centroid to the sides.
+void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
+  const std::optional<Eigen::Vector2d> middle = centroid_of(polygon);
+  if (!middle) return;
+  const Eigen::Vector2d& centroid = *middle;
+  const std::size_t corners = polygon.size();
 
   const SegmentRule inward = radau_for_triangles((degree + 3) / 2);
   const SegmentRule along = gauss_lobatto((degree + 4) / 2);
@@ -183,6 +189,66 @@ void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
   }
 }
 
+/// Moments about the centroid.
+struct CornerMoments {
+  double area = 0.0;
+  std::vector<double> tributary;                         ///< area by corner, of the sum `area`
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();      ///< of the polygon
+  Eigen::Matrix2d of_corners = Eigen::Matrix2d::Zero();  ///< of the tributary areas in the corners
+};
+
+CornerMoments moments_of(const Corners& polygon, const Eigen::Vector2d& centroid) {
+  CornerMoments result;
+  const std::size_t corners = polygon.size();
+  result.tributary.assign(corners, 0.0);
+  for (std::size_t k = 0; k < corners; ++k) {
+    const std::size_t next = (k + 1) % corners;
+    const Eigen::Vector2d a = polygon[k] - centroid;
+    const Eigen::Vector2d b = polygon[next] - centroid;
+    const double area = 0.5 * cross(a, b);
+    const Eigen::Matrix2d squares = a * a.transpose() + b * b.transpose();
+    result.area += area;
+    result.tributary[k] += 0.5 * area;
+    result.tributary[next] += 0.5 * area;
+    result.second += area / 12.0 * (squares + (a + b) * (a + b).transpose());
+    result.of_corners += 0.5 * area * squares;
+  }
+  return result;
+}
+
+/// Corners and one or two points in the middle, see affine_rule().
+void add_corners_and_middle(const Corners& polygon, PolygonRule& rule) {
+  const std::optional<Eigen::Vector2d> centroid = centroid_of(polygon);
+  if (!centroid) return;
+  const CornerMoments moments = moments_of(polygon, *centroid);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shares(moments.second, moments.of_corners,
+                                                                         Eigen::EigenvaluesOnly);
+  // Bounds of every convex polygon; of needles rounding may leave anything.
+  constexpr double least = 1.0 / 6.0, most = 1.0 / 2.0;
+  const double found = shares.eigenvalues()[0];
+  const double share = found > least ? std::min(found, most) : least;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    if (!(moments.tributary[k] > 0.0)) continue;  // of corners that are one
+    rule.points.push_back(polygon[k]);
+    rule.weights.push_back(share * moments.tributary[k]);
+  }
+  const double left = (1.0 - share) * moments.area;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> rest(moments.second - share * moments.of_corners);
+  // Rounding alone leaves a rest of 1e-16, whose root is the distance of the points.
+  constexpr double apart = 1e-6;
+  const double squared = rest.eigenvalues()[1] / left;
+  if (squared <= apart * apart * moments.second.trace() / moments.area) {
+    rule.points.push_back(*centroid);
+    rule.weights.push_back(left);
+    return;
+  }
+  const Eigen::Vector2d arm = std::sqrt(squared) * rest.eigenvectors().col(1);
+  for (const double side : {-1.0, 1.0}) {
+    rule.points.emplace_back(*centroid + side * arm);
+    rule.weights.push_back(0.5 * left);
+  }
+}
+
 }  // namespace
 
 PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree) {
@@ -191,6 +257,15 @@ PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree
   Corners rest = polygon;
   while (const auto corner = take_flat_corner(rest)) add_triangle(*corner, degree, rule);
   add_fan(rest, degree, rule);
+  return rule;
+}
+
+PolygonRule affine_rule(const std::vector<Eigen::Vector2d>& polygon) {
+  PolygonRule rule;
+  if (polygon.size() < 3) return rule;
+  Corners rest = polygon;
+  while (const auto corner = take_flat_corner(rest)) add_triangle(*corner, 2, rule);
+  add_corners_and_middle(rest, rule);
   return rule;
 }
 

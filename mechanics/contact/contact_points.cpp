@@ -46,13 +46,16 @@ struct Search {
 
 /// The degree of an overlap's rule. A uniform pressure acts on every function exactly, however coarse the division is.
 /// Friction that turns over two faces has the direction of a vector that vanishes somewhere: no polynomial, and a rule
-/// for the blocks' order is wrong by up to 15 % (notes/turning_friction.md).
+/// for the blocks' order is wrong by up to 15 % (notes/turning_friction.md). Faces of blocks of order 0 and 1 are flat and
+/// their gap is affine, whatever they do.
 int degree_of(const Search& search, const CellOverlap& cells) {
-  constexpr int least = 2, least_where_friction_turns = 6;
+  constexpr int affine = 1, least = 2, least_where_friction_turns = 6;
   const FacePair faces{cell_of(search.a, cells.cell_a).face, cell_of(search.b, cells.cell_b).face};
   const bool turns = std::find(search.turning.begin(), search.turning.end(), faces) != search.turning.end();
-  return std::max(
-      {turns ? least_where_friction_turns : least, search.a.model->order(), search.b.model->order()});
+  const auto bends_by = [](const ContactBody& body) { return body.model->fixed() ? 0 : body.model->order(); };
+  const int order = std::max(bends_by(search.a), bends_by(search.b));
+  if (turns) return std::max(order, least_where_friction_turns);
+  return order <= affine ? affine : std::max(order, least);
 }
 
 /// Where an overlap is to be cut, if at all. @param points of the rule on all of it
@@ -88,7 +91,7 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
     for (std::size_t k = 0; k < rule.points.size(); ++k)
       points.push_back(make.at_place(rule.points[k], rule.weights[k]));
   };
-  const PolygonRule whole = polygon_rule(outline, degree);
+  const PolygonRule whole = rule_of(outline, degree);
   add_points(whole);
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
   const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
@@ -100,8 +103,8 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
   if (end) {
     result.overlaps.back().whole = std::move(points);
     points.clear();
-    add_points(polygon_rule(part_under_pressure(outline, *end), degree));
-    add_points(polygon_rule(part_without_pressure(outline, *end), degree));
+    add_points(rule_of(part_under_pressure(outline, *end), degree));
+    add_points(rule_of(part_without_pressure(outline, *end), degree));
     result.cuts.push_back(remembered(*end, overlap, !master_is_a, make, std::sqrt(area_of(outline))));
   }
   result.points.insert(result.points.end(), points.begin(), points.end());
@@ -199,11 +202,15 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
 
 }  // namespace
 
+PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree) {
+  return degree == 1 ? affine_rule(outline) : polygon_rule(outline, degree);
+}
+
 bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance) {
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   const bool may_end = !gaps.empty() && -*least > tolerance && *most > tolerance;
   if (!overlap.end && !may_end) return true;
-  const PolygonRule rule = polygon_rule(overlap.outline, overlap.degree);
+  const PolygonRule rule = rule_of(overlap.outline, overlap.degree);
   const std::optional<PressureEnd> end = end_of_pressure(overlap.outline, rule, gaps, tolerance, overlap.end);
   if (!end || !overlap.end) return !end && !overlap.end;
   return end->point == overlap.end->point && end->open == overlap.end->open;

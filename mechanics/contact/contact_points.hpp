@@ -47,12 +47,16 @@ using FacePair = std::array<int, 2>;
 /// An overlap whose points are those of area springs, and what it takes to tell where its pressure ends.
 struct RuledOverlap {
   std::vector<Eigen::Vector2d> outline;  ///< seen in the overlap's frame
-  int degree = 0;                        ///< of its rule
+  int degree = 0;                        ///< of its rule, see rule_of()
   std::size_t first = 0;                 ///< its first point among those of the pair
   std::size_t count = 0;                 ///< of the rule on all of it
   std::optional<PressureEnd> end;        ///< where it is cut
   std::vector<ContactPoint> whole;       ///< of the rule on all of it, if it is cut; else they are the pair's
 };
+
+/// The rule of a part of an overlap. @param degree 1: affine gaps of affine blocks (affine_rule()); 2 and more: of the
+/// functions that polygon_rule() integrates
+[[nodiscard]] PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree);
 
 /// Whether pressure ends where it did when the points were made, or nowhere inside as then.
 /// @param gaps of the rule on all of the overlap, m. @param tolerance m, gaps within it count as 0

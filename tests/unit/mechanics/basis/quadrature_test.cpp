@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 
 #include "mechanics/basis/moments.hpp"
@@ -82,6 +85,70 @@ double integrate(const PolygonRule& rule, const std::function<double(const Eigen
   double sum = 0.0;
   for (std::size_t k = 0; k < rule.points.size(); ++k) sum += rule.weights[k] * f(rule.points[k]);
   return sum;
+}
+
+// Moments of a polygon about its first corner, by triangles: the integral of a product of two affine functions that are
+// a_i in the corners of a triangle is  area / 12 (sum a_i b_i + sum a_i sum b_i).
+TEST(Quadrature, AffineRuleIsExactForProductsOfAffineFunctions) {
+  std::mt19937_64 random(20261127);
+  const auto any = [&] { return 0x1p-53 * static_cast<double>(random() >> 11U); };
+  for (int trial = 0; trial < 500; ++trial) {
+    std::vector<double> angles(static_cast<std::size_t>(3 + trial % 7));
+    for (double& angle : angles) angle = 2.0 * std::numbers::pi * any();
+    std::sort(angles.begin(), angles.end());
+    std::vector<Eigen::Vector2d> polygon;
+    for (const double angle : angles)
+      polygon.emplace_back(Eigen::Vector2d(2.0 + 3.0 * std::cos(angle), 0.1 * std::sin(angle)));
+    const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), one(0, 0, 1);
+    const std::array<std::array<Eigen::Vector3d, 2>, 6> pairs{
+        {{one, one}, {x, one}, {y, one}, {x, x}, {x, y}, {y, y}}};
+    const PolygonRule rule = affine_rule(polygon);
+    for (const auto& [f, g] : pairs) {
+      const auto value = [](const Eigen::Vector3d& function, const Eigen::Vector2d& at) {
+        return function.dot(Eigen::Vector3d(at.x(), at.y(), 1.0));
+      };
+      double exact = 0.0;
+      for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+        const std::array<Eigen::Vector2d, 3> corners{polygon[0], polygon[k], polygon[k + 1]};
+        const Eigen::Vector2d u = corners[1] - corners[0], v = corners[2] - corners[0];
+        double products_sum = 0.0, sum_f = 0.0, sum_g = 0.0;
+        for (const Eigen::Vector2d& corner : corners) {
+          products_sum += value(f, corner) * value(g, corner);
+          sum_f += value(f, corner);
+          sum_g += value(g, corner);
+        }
+        exact += 0.5 * (u.x() * v.y() - u.y() * v.x()) / 12.0 * (products_sum + sum_f * sum_g);
+      }
+      double sum = 0.0;
+      for (std::size_t k = 0; k < rule.points.size(); ++k)
+        sum += rule.weights[k] * value(f, rule.points[k]) * value(g, rule.points[k]);
+      EXPECT_NEAR(sum, exact, 1e-12) << trial;
+    }
+    for (const double weight : rule.weights) EXPECT_GT(weight, 0.0) << trial;
+    for (const Eigen::Vector2d& point : rule.points) {
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const Eigen::Vector2d side = polygon[(k + 1) % polygon.size()] - polygon[k];
+        const Eigen::Vector2d there = point - polygon[k];
+        EXPECT_GE(side.x() * there.y() - side.y() * there.x(), -1e-13) << trial;
+      }
+    }
+  }
+}
+
+// Simpson's rule in both directions at once has its corners and the middle: 1/12 of the area each, and 2/3. A triangle
+// has 1/12 and 3/4 (degree 2). A general polygon of n corners takes n + 2 points.
+TEST(Quadrature, AffineRuleHasCornersAndOneOrTwoPointsInTheMiddle) {
+  const PolygonRule square = affine_rule({{0, 0}, {2, 0}, {3, 1}, {1, 1}});
+  ASSERT_EQ(square.points.size(), 5U);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(square.weights[k], 2.0 / 12.0, 1e-15);
+  EXPECT_NEAR(square.weights[4], 4.0 / 3.0, 1e-15);
+  EXPECT_NEAR((square.points[4] - Eigen::Vector2d(1.5, 0.5)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(square.points[2], Eigen::Vector2d(3, 1));
+  const PolygonRule triangle = affine_rule({{0, 0}, {3, 0}, {0, 2}});
+  ASSERT_EQ(triangle.points.size(), 4U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(triangle.weights[k], 3.0 / 12.0, 1e-15);
+  EXPECT_EQ(affine_rule({{0, 0}, {2, 0}, {2, 0.5}, {1, 1}, {0, 1}}).points.size(), 7U);
+  EXPECT_TRUE(affine_rule({{0, 0}, {1, 0}, {2, 0}}).points.empty());
 }
 
 // The unit square with two corners that hardly stick out: exact as before, triangle by triangle.
