@@ -175,6 +175,20 @@ void take_for_multipliers(const RunContext& run, const ContactPair& pair, double
   run.state.ledger.multipliers_gave(book(work, run.state.pairs[{pair.a(), pair.b()}].taken));
 }
 
+/// In statics multipliers take over from springs that blocks have pressed together, pass by pass. Energy of springs of the
+/// pair's own stiffness that bear the same forces, J: motion from there may give it back (augmented_contact.md).
+double taken_in_statics(const ContactPair& pair, const PairResponse& response) {
+  double energy = 0.0;
+  for (std::size_t k = 0; k < response.points.size(); ++k) {
+    const PointLaw& law = pair.laws()[k];
+    if (!law.augmented) continue;
+    const Eigen::Vector3d& force = response.points[k].force;
+    energy += 0.5 * force[0] * force[0] / law.normal_stiffness;
+    if (law.shear_stiffness > 0.0) energy += 0.5 * force.tail<2>().squaredNorm() / law.shear_stiffness;
+  }
+  return energy;
+}
+
 /// @param acted forces of a pair's points over a step, impulses included
 void tally_friction(const std::vector<PointResponse>& acted, const std::vector<PointLaw>& laws, double step,
                     FrictionTally& tally) {
@@ -328,7 +342,9 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       const double slid = pair.friction_work(response, result.laws[n], ya, yb);
       friction += slid;
       damped += ContactPair::damped(response);
-      if (run.settings().augmented && !scheme.from_rest)
+      if (run.settings().augmented && scheme.from_rest)
+        run.state.pairs[{pair.a(), pair.b()}].taken = taken_in_statics(pair, response);
+      else if (run.settings().augmented)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
       count_states(response.points, report);
 
