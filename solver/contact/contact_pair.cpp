@@ -176,10 +176,6 @@ ContactPair ContactPair::moved_apart(double depth) const {
   return pair;
 }
 
-Eigen::Matrix3Xd ContactPair::relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  return after(motion(ya, yb));
-}
-
 Eigen::Matrix3Xd ContactPair::after(const Eigen::Matrix3Xd& moved) const {
   Eigen::Matrix3Xd result = start_ + moved;
   if (rows_.bent().size() > 0) result.row(0) += rows_.bent();
@@ -220,7 +216,7 @@ double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::Vecto
     return point.force[0] == 0.0 && point.tangent(0, 0) > 0.0;
   };
   if (std::none_of(response.points.begin(), response.points.end(), in_doubt)) return 0.0;
-  const Eigen::Matrix3Xd place = relative(ya, yb);
+  const Eigen::Matrix3Xd place = places(ya, yb);
   double sum = 0.0;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const double gap = place(0, static_cast<Eigen::Index>(k));
@@ -228,6 +224,14 @@ double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::Vecto
       sum += std::max(0.0, -trial_normal(laws[k], gap - response.points[k].dilation));
   }
   return std::max(rows_.longest_of_a(), rows_.longest_of_b()) * sum;
+}
+
+AveragedStep ContactPair::respond(std::size_t point, const Eigen::Vector3d& place, bool averaged,
+                                  const PointLaw& law) const {
+  if (averaged)
+    return averaged_step(law, start_responses_[point], start_.col(static_cast<Eigen::Index>(point)), place);
+  const PointResponse end = point_response(law, place[0], place.tail<2>());
+  return {end, end_response(law, end, place[0])};
 }
 
 PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
@@ -240,17 +244,10 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   Eigen::VectorXd forces(place.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    if (averaged) {
-      const AveragedStep step =
-          averaged_step(laws[k], start_responses_[k], start_.col(column), place.col(column));
-      response.points.push_back(step.end);
-      response.means.push_back(step.mean);
-    } else {
-      const PointResponse end = point_response(laws[k], place(0, column), place.col(column).tail<2>());
-      response.points.push_back(end);
-      response.means.push_back(end_response(laws[k], end, place(0, column)));
-    }
-    forces.segment<3>(3 * column) = response.means.back().force;
+    const AveragedStep step = respond(k, place.col(column), averaged, laws[k]);
+    response.points.push_back(step.end);
+    response.means.push_back(step.mean);
+    forces.segment<3>(3 * column) = step.mean.force;
   }
   rows_.set_forces(forces, response);
   rows_.set_shifts(moved, ya, yb, forces, response);
@@ -258,7 +255,7 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
 }
 
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  const Eigen::Matrix3Xd place = relative(ya, yb);
+  const Eigen::Matrix3Xd place = places(ya, yb);
   std::vector<double> result;
   for (Eigen::Index k = 0; k < place.cols(); ++k)
     result.push_back(rests_[static_cast<std::size_t>(k)] + place(0, k));
@@ -269,7 +266,7 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
                                                    const std::vector<PointLaw>& laws,
                                                    const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                                    double tearing_gap) const {
-  const Eigen::Matrix3Xd place = relative(ya, yb);
+  const Eigen::Matrix3Xd place = places(ya, yb);
   std::vector<PointMemory> result;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];

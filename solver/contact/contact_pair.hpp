@@ -94,6 +94,13 @@ class ContactPair {
                                      bool averaged) const {
     return respond(ya, yb, averaged, laws_);
   }
+  /// Gap over the rest and trial slip of every point at the end of the step, m. @return (3, #points)
+  [[nodiscard]] Eigen::Matrix3Xd places(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+    return after(motion(ya, yb));
+  }
+  /// Response of one point. @param place of places(), m
+  [[nodiscard]] AveragedStep respond(std::size_t point, const Eigen::Vector3d& place, bool averaged,
+                                     const PointLaw& law) const;
   /// Takes the springs to be at rest where, found anew, they hold no more than this (spring_energy.hpp);
   /// elastic slip shrinks in proportion. Pairs with bonds that can take tension, and tied ones, stay as they
   /// are, and so do pairs with multipliers.
@@ -237,9 +244,7 @@ class ContactPair {
   [[nodiscard]] Vector3 flat(std::size_t point, const Eigen::Vector2d& along) const;
   /// @param rests gap of each point at which its normal spring is at rest, m
   void rest_at(std::vector<double> rests);
-  /// Gap over the rest and trial slip of every point at the end of the step. @return (3, #points)
-  [[nodiscard]] Eigen::Matrix3Xd relative(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
-  /// The same of a motion that is known. @param moved (3, #points), m
+  /// places() of a motion that is known. @param moved (3, #points), m
   [[nodiscard]] Eigen::Matrix3Xd after(const Eigen::Matrix3Xd& moved) const;
 
   int a_;

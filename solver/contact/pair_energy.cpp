@@ -65,7 +65,7 @@ double ContactPair::spring_work(const PairResponse& response, const Eigen::Vecto
 
 double ContactPair::friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                   const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
-  const Eigen::Matrix3Xd place = relative(ya, yb);
+  const Eigen::Matrix3Xd place = places(ya, yb);
   double work = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];

@@ -98,11 +98,16 @@ PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector
     apart_.col(k) = in_frame(points[static_cast<std::size_t>(k)], apart_.col(k));
 }
 
-Eigen::Matrix3Xd PairRows::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+Eigen::Matrix3Xd PairRows::free_motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
   Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, count_);
   values_->a.add_motion(ya, 1.0, result);
   values_->b.add_motion(yb, -1.0, result);
   for (Eigen::Index k = 0; k < count_; ++k) result.col(k) = (frame(k).transpose() * result.col(k)).eval();
+  return result;
+}
+
+Eigen::Matrix3Xd PairRows::motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {
+  Eigen::Matrix3Xd result = free_motion(ya, yb);
   if (prescribed_.size() > 0) result += prescribed_;
   return result;
 }

@@ -90,6 +90,8 @@ class PairRows {
 
   /// @return (3, #points), m
   [[nodiscard]] Eigen::Matrix3Xd motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Its part that is linear in the changes: motion() without what supports prescribe.
+  [[nodiscard]] Eigen::Matrix3Xd free_motion(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
   /// What the gaps of the end of the step have beside the linear ones, m; empty: nothing.
   [[nodiscard]] const Eigen::RowVectorXd& bent() const { return bent_; }
 

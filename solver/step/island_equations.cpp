@@ -150,24 +150,43 @@ void IslandProblem::recall(const Balance& balance) const {
 
 Eigen::VectorXd IslandProblem::contact_forces() const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  add_contact_forces(responses_, sum);
+  return sum;
+}
+
+void IslandProblem::add_contact_forces(const std::vector<PairResponse>& responses,
+                                       Eigen::VectorXd& sum) const {
   const auto add = [&](int block, const Eigen::VectorXd& force) {
     if (const int body = place(block); body >= 0)
       sum.segment(solver_.matrix.offset(body), bodies_[at(block)].model->freedom()) +=
           bodies_[at(block)].in_equations(force);
   };
   for (std::size_t k = 0; k < pairs(); ++k) {
-    add(pair(k).a(), responses_[k].total_on_a());
-    add(pair(k).b(), responses_[k].total_on_b());
+    add(pair(k).a(), responses[k].total_on_a());
+    add(pair(k).b(), responses[k].total_on_b());
   }
-  return sum;
+}
+
+std::vector<Eigen::VectorXd> IslandProblem::changes(const Eigen::VectorXd& change) const {
+  std::vector<Eigen::VectorXd> result;
+  for (std::size_t k = 0; k < bodies(); ++k) {
+    const int offset = solver_.matrix.offset(static_cast<int>(k));
+    result.push_back(body(k).of_unknowns(change.segment(offset, body(k).model->freedom())));
+  }
+  return result;
+}
+
+Eigen::Matrix3Xd IslandProblem::motion(std::size_t k, const std::vector<Eigen::VectorXd>& changes) const {
+  const auto change_of = [&](int block) -> Eigen::VectorXd {
+    const int body = place(block);
+    return body < 0 ? Eigen::VectorXd::Zero(bodies_[at(block)].change.size()) : changes[at(body)];
+  };
+  return pair(k).rows().free_motion(change_of(pair(k).a()), change_of(pair(k).b()));
 }
 
 void IslandProblem::apply(const Eigen::VectorXd& change, double share) {
-  for (std::size_t k = 0; k < bodies(); ++k) {
-    BodyStep& body = bodies_[at(island_.bodies[k])];
-    const int offset = solver_.matrix.offset(static_cast<int>(k));
-    body.change += share * body.of_unknowns(change.segment(offset, body.model->freedom()));
-  }
+  const std::vector<Eigen::VectorXd> of_bodies = changes(change);
+  for (std::size_t k = 0; k < bodies(); ++k) bodies_[at(island_.bodies[k])].change += share * of_bodies[k];
   follow_rigid_bodies();
 }
 

@@ -58,7 +58,13 @@ class IslandProblem {
   void recall(const Balance& balance) const;
   /// Forces of the last responses alone, N, in the island's equations.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
+  /// Adds forces of pairs in the island's equations, N. @param responses of the island's pairs
+  void add_contact_forces(const std::vector<PairResponse>& responses, Eigen::VectorXd& sum) const;
   void apply(const Eigen::VectorXd& change, double share);
+  /// A change in the island's equations as one of the unknowns. @return by body
+  [[nodiscard]] std::vector<Eigen::VectorXd> changes(const Eigen::VectorXd& change) const;
+  /// Motion of a pair's points by changes of the bodies, in their frames, m. @return (3, #points)
+  [[nodiscard]] Eigen::Matrix3Xd motion(std::size_t pair, const std::vector<Eigen::VectorXd>& changes) const;
 
   [[nodiscard]] std::vector<Eigen::VectorXd> guess() const;
   void set_guess(const std::vector<Eigen::VectorXd>& guess);

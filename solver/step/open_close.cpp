@@ -8,16 +8,19 @@
 #include <utility>
 
 #include "solver/step/augmentation.hpp"
+#include "solver/step/contact_line.hpp"
 #include "solver/step/first_guess.hpp"
 #include "solver/step/island_tangent.hpp"
 #include "solver/step/joint_failure.hpp"
+#include "solver/step/proximal_guess.hpp"
 
 namespace ashlar {
 namespace {
 
 enum class Outcome {
   settled,
-  stalled,   ///< states came back, or what is left does not fall
+  stalled,  ///< states came back, or what is left does not fall
+  hard,     ///< the first lines are searched in vain: a guess by splitting may know more (proximal_guess.hpp)
   singular,  ///< the system could not be factorised
 };
 
@@ -29,7 +32,8 @@ class OpenClose {
         failure_(problem),
         augmentation_(problem),
         settings_(problem.settings()),
-        result_(result) {}
+        result_(result),
+        may_split_(!problem.scheme().from_rest) {}
 
   /// Blocks of the pair whose points have changed their states most often; -1: none did.
   [[nodiscard]] std::array<int, 2> alternating() const {
@@ -43,6 +47,11 @@ class OpenClose {
     known_balance_ = take_best_guess(problem_);
     for (int rounds = 0, evaluations = 0;;) {
       Outcome outcome = newton(settings_.iteration.newton_iterations, false);
+      if (outcome == Outcome::hard) {
+        may_split_ = false;
+        if (take_proximal_guess(problem_, tangent_)) known_balance_.reset();
+        outcome = newton(settings_.iteration.newton_iterations, false);
+      }
       if (outcome == Outcome::stalled) {
         ++result_.fallbacks;
         outcome = minimise();
@@ -156,7 +165,9 @@ class OpenClose {
         problem_.apply(change, 1.0);
         respond();
       } else {
-        search(change, balance.left.dot(change), settings_.iteration.newton_overshoot, 1.0);
+        const double share =
+            search(change, balance.left.dot(change), settings_.iteration.newton_overshoot, 1.0);
+        if (may_split_ && k <= hard_iterations && share < hard_share) return Outcome::hard;
       }
     }
     return Outcome::stalled;
@@ -256,11 +267,20 @@ class OpenClose {
     return Outcome::stalled;
   }
 
+  /// A guess on a line: its share of the change, and what is done there per share.
+  struct OnLine {
+    double share;
+    double work;      ///< of all forces, J
+    double contacts;  ///< of the contact forces, J
+  };
+
   /// Moves along a direction: by all of it, or to about where the forces do no more work along it, which for
-  /// forces with a potential is the minimum on this line.
+  /// forces with a potential is the minimum on this line. Beside contacts, work is nearly affine in the share: where it is
+  /// known at two guesses, contacts alone say where to evaluate all forces next (contact_line.hpp).
   /// @param work_at_start of the forces per share; none is searched for if it is not positive
   /// @param tolerance of the work, as a share of it; @param farthest share that is looked at, >= 1
-  void search(const Eigen::VectorXd& change, double work_at_start, double tolerance, double farthest) {
+  /// @return the share that is made
+  double search(const Eigen::VectorXd& change, double work_at_start, double tolerance, double farthest) {
     double at = 0.0;
     const auto work = [&](double share) {
       problem_.apply(change, share - at);
@@ -269,29 +289,49 @@ class OpenClose {
       known_balance_ = problem_.balance();
       return known_balance_->left.dot(change);
     };
-    double low = 0.0;
-    double work_low = work_at_start;
-    double high = 1.0;
-    double work_high = work(high);
+    const double work_at_end = work(1.0);
     const double enough = tolerance * work_at_start;
-    if (!(work_at_start > 0.0)) return;
-    while (work_high > enough && high < farthest) {
+    if (!(work_at_start > 0.0) || std::abs(work_at_end) <= enough) return at;
+    if (work_at_end > 0.0 && farthest <= 1.0) return at;
+    const ContactLine line(problem_, change, 1.0);
+    OnLine low{0.0, work_at_start, line.work(0.0)};
+    OnLine high{1.0, work_at_end, line.work(1.0)};
+    while (high.work > enough && high.share < farthest) {
       low = high;
-      work_low = work_high;
-      high *= 2.0;
-      work_high = work(high);
+      high = {2.0 * high.share, work(2.0 * high.share), line.work(2.0 * high.share)};
     }
-    double found = work_high;
-    for (int k = 0; k < settings_.iteration.line_search_steps && std::abs(found) > enough && work_high < 0.0;
+    double found = high.work;
+    for (int k = 0; k < settings_.iteration.line_search_steps && std::abs(found) > enough && high.work < 0.0;
          ++k) {
-      // False position, and every third time the middle: the work has kinks.
-      const double share =
-          k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * work_low / (work_low - work_high);
+      const double share = root_between(low, high, line, 0.5 * enough);
       found = work(share);
-      (found > 0.0 ? low : high) = share;
-      (found > 0.0 ? work_low : work_high) = found;
+      (found > 0.0 ? low : high) = {share, found, line.work(share)};
+    }
+    return at;
+  }
+
+  /// Where work ends between two guesses on a line, of which the first one's is positive and the second one's negative, if
+  /// all but contacts is affine in between. @param enough of the work, J
+  [[nodiscard]] double root_between(const OnLine& first, const OnLine& second, const ContactLine& line,
+                                    double enough) const {
+    const double rest = first.work - first.contacts;
+    const double slope = (second.work - second.contacts - rest) / (second.share - first.share);
+    OnLine low = first;
+    OnLine high = second;
+    for (int k = 0;; ++k) {
+      // False position, and every third time the middle: the work has kinks.
+      const double share = k % 3 == 2
+                               ? 0.5 * (low.share + high.share)
+                               : low.share + (high.share - low.share) * low.work / (low.work - high.work);
+      const double contacts = line.work(share);
+      const double found = contacts + rest + slope * (share - first.share);
+      if (k >= settings_.iteration.line_search_steps || !(std::abs(found) > enough)) return share;
+      (found > 0.0 ? low : high) = {share, found, contacts};
     }
   }
+
+  static constexpr int hard_iterations = 2;
+  static constexpr double hard_share = 0.2;
 
   IslandProblem& problem_;
   IslandTangent tangent_;
@@ -299,6 +339,7 @@ class OpenClose {
   Augmentation augmentation_;
   const SimulationSettings& settings_;
   IslandResult& result_;
+  bool may_split_;                        ///< into blocks and points, once a step of motion
   bool factorized_ = false;               ///< by newton()
   bool followed_ = false;                 ///< rows were taken anew since newton() was called
   std::optional<Balance> known_balance_;  ///< of the present guess, where it was found before it is asked for

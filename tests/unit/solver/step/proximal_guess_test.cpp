@@ -1,0 +1,48 @@
+#include "solver/step/proximal_guess.hpp"
+
+#include <gtest/gtest.h>
+
+#include "unit/solver/step/sample_problem.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::level_point;
+using test_support::SampleProblem;
+
+// A cube lands on three corners and slides over them: with springs of 1e9 N/m and a step of 1 ms they push ten times as
+// hard as the cube is heavy, and take friction from all of them.
+TEST(ProximalGuess, IsNearBalanceUnderTheTrueLaw) {
+  SampleProblem sample(JointLaw{1e9, 5e8, 0.5, 0.0, 0.0, true},
+                       {level_point({0, 0, 0}, 1e-6), level_point({1, 0, 0}, 1e-6),
+                        level_point({1, 1, 0}, 2e-6), level_point({0, 1, 0}, 5e-3)});
+  sample.bodies[0].free_change = sample.cube.space().restrict(
+      sample.cube.basis().linear_field({3e-4, 1e-4, -4e-4}, Eigen::Matrix3d::Zero()));
+  IslandProblem& problem = sample.problem;
+  problem.predict(FirstGuess::coasting);
+  problem.respond();
+  const double before = problem.balance().largest_part;
+  EXPECT_GT(before, 0.5);
+  IslandTangent tangent(problem);
+  ASSERT_TRUE(take_proximal_guess(problem, tangent));
+  const double after = problem.balance().largest_part;
+  EXPECT_LT(after, 0.1);
+  const std::vector<ContactState> states = problem.states();
+  EXPECT_EQ(states[0], ContactState::sliding);
+  EXPECT_EQ(states[3], ContactState::open);
+}
+
+TEST(ProximalGuess, IsNotTakenInPlaceOfABetterOne) {
+  SampleProblem sample(JointLaw{1e9, 5e8, 0.5, 0.0, 0.0, true}, {level_point({0.5, 0.5, 0}, 0.0)});
+  IslandProblem& problem = sample.problem;
+  problem.predict(FirstGuess::staying);
+  problem.respond();
+  ASSERT_EQ(problem.balance().worst, 0.0);  // without forces
+  IslandTangent tangent(problem);
+  EXPECT_FALSE(take_proximal_guess(problem, tangent));
+  EXPECT_EQ(problem.guess()[0].norm(), 0.0);
+  EXPECT_EQ(problem.balance().worst, 0.0);
+}
+
+}  // namespace
+}  // namespace ashlar
