@@ -7,19 +7,10 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "mechanics/block/rigid_body.hpp"
 #include "solver/state/automatic.hpp"
-#include "solver/statics/yielding_support.hpp"
 
 namespace ashlar {
 namespace {
-
-/// x -> A x + c of a block's coefficients.
-Eigen::MatrixX3d mapped(const BlockModel& block, const Eigen::MatrixX3d& position, const Eigen::Matrix3d& a,
-                        const Vector3& c) {
-  const Eigen::VectorXd one = constant_function(position.rows(), block.basis().volume());
-  return position * a.transpose() + one * c.transpose();
-}
 
 Eigen::Matrix3d turn_of(const Vector3& rotation) {
   const double angle = rotation.norm();
@@ -47,43 +38,6 @@ BlockSystem dry_system(const BlockSystem& system, double reach) {
 
 }  // namespace
 
-SupportWay::SupportWay(const RigidModel& model, int support, const Vector3& down,
-                       const std::optional<Vector3>& direction)
-    : support_(support), middle_(middle_of_bodies(model)), down_(down) {
-  std::map<int, int> count;
-  for (const RigidPoint& point : model.points) {
-    if (point.blocks[0] != support && point.blocks[1] != support) continue;
-    const int block = point.blocks[point.blocks[0] == support ? 1 : 0];
-    arms_.try_emplace(block, Vector3::Zero()).first->second += level_part(point.place - middle_, down_);
-    ++count[block];
-  }
-  if (arms_.empty()) throw std::invalid_argument("nothing bears on the support");
-  double sum = 0.0;
-  for (auto& [block, arm] : arms_) {
-    arm /= count[block];
-    sum += arm.norm();
-  }
-  direction_ = direction ? direction->normalized() : direction_away(model, support, down);
-  // A block in the very middle of its support stays where it is.
-  if (!direction_ && sum > 0.0) radius_ = sum / static_cast<double>(arms_.size());
-}
-
-Vector3 SupportWay::velocity(const RigidPoint& point, double q) const {
-  if (direction_) return *direction_;
-  const auto arm = arms_.find(point.blocks[point.blocks[0] == support_ ? 1 : 0]);
-  if (arm != arms_.end()) return arm->second / radius_;
-  return level_part(point.place - middle_, down_) / (radius_ + q);
-}
-
-Eigen::MatrixX3d SupportWay::placed(const BlockModel& support, const Eigen::MatrixX3d& position,
-                                    double q) const {
-  if (direction_) return mapped(support, position, Eigen::Matrix3d::Identity(), q * *direction_);
-  Eigen::Matrix3d level;
-  for (int k = 0; k < 3; ++k) level.col(k) = level_part(Vector3::Unit(k), down_);
-  const Eigen::Matrix3d stretch = q / radius_ * level;
-  return mapped(support, position, Eigen::Matrix3d::Identity() + stretch, -stretch * middle_);
-}
-
 FollowedBlocks::FollowedBlocks(const PlacedScene& scene, double reach)
     : scene_(scene), system_(dry_system(scene.system, reach)) {
   for (const BlockModel& block : system_.blocks()) {
@@ -94,14 +48,14 @@ FollowedBlocks::FollowedBlocks(const PlacedScene& scene, double reach)
   }
 }
 
-Placement FollowedBlocks::as_placed() const {
+FollowedPlace FollowedBlocks::as_placed() const {
   return {0.0,
           scene_.states,
           std::vector<Eigen::Matrix3d>(scene_.states.size(), Eigen::Matrix3d::Identity()),
           {}};
 }
 
-RigidModel FollowedBlocks::model_of(const Placement& placement) const {
+RigidModel FollowedBlocks::model_of(const FollowedPlace& placement) const {
   RunState state;
   state.states = placement.states;
   for (const auto& [blocks, history] : scene_.histories) state.pairs[blocks].overlap = history.overlap;
@@ -139,7 +93,7 @@ double FollowedBlocks::largest_way(const RigidModel& model, const std::vector<Bo
 }
 
 void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocity>& way,
-                          Placement& placement) const {
+                          FollowedPlace& placement) const {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const RigidBody& body = model.bodies[b];
     const RigidMotionOf motion = motion_of(body, way[b]);
@@ -153,7 +107,8 @@ void FollowedBlocks::move(const RigidModel& model, const std::vector<BodyVelocit
   }
 }
 
-void FollowedBlocks::place_support(int support, const SupportWay& way, double q, Placement& placement) const {
+void FollowedBlocks::place_support(int support, const SupportWay& way, double q,
+                                   FollowedPlace& placement) const {
   placement.states[at(support)].position =
       way.placed(system_.blocks()[at(support)], scene_.states[at(support)].position, q);
   placement.moved = q;

@@ -101,6 +101,10 @@ class Path {
     path_.end = MovementEnd::reaches_limit;
     double step = lengths_.longest_step;
     while (search.limit > moved()) {
+      if (!search.goes_on()) {
+        path_.end = MovementEnd::interrupted;
+        return;
+      }
       step = std::min(step, search.limit - moved());
       const StepEnd end = path_.programmes < most_programmes ? advance(step) : StepEnd::undetermined;
       if (end == StepEnd::equilibrium) {
@@ -132,7 +136,7 @@ class Path {
   }
 
   /// Goes on from an equilibrium.
-  void settle_at(Placement placement) {
+  void settle_at(FollowedPlace placement) {
     placement_ = std::move(placement);
     model_ = blocks_.model_of(placement_);
     program_.emplace(program_at(*model_, placement_.moved));
@@ -180,7 +184,7 @@ class Path {
     const std::vector<BodyVelocity> way = half_way(step, times(step, ahead->velocity));
     const double farthest = last_way_ = blocks_.largest_way(*model_, way);
     if (!(farthest <= lengths_.farthest)) return StepEnd::far;
-    Placement next = placement_;
+    FollowedPlace next = placement_;
     note_slip(*model_, *program_, way, force_, next);
     blocks_.move(*model_, way, next);
     blocks_.place_support(support_, way_, placement_.moved + sign_ * step, next);
@@ -192,7 +196,7 @@ class Path {
   }
 
   /// (close), until nothing moves. @param way m, that blocks may go
-  StepEnd close(Placement& placement, double way) {
+  StepEnd close(FollowedPlace& placement, double way) {
     for (int n = 0; n < most_closings; ++n) {
       const RigidModel model = blocks_.model_of(placement);
       ConeProgram program = program_of(model, threads_);
@@ -220,7 +224,7 @@ class Path {
   /// Adds what joints slide in a motion where they bear. @param way m
   static void note_slip(const RigidModel& model, const ConeProgram& program,
                         const std::vector<BodyVelocity>& way, const std::vector<Eigen::Vector3d>& force,
-                        Placement& placement) {
+                        FollowedPlace& placement) {
     constexpr double bears = 1e-3;  // of the largest force
     double largest = 0.0;
     for (const Eigen::Vector3d& f : force) largest = std::max(largest, f[0]);
@@ -287,7 +291,7 @@ class Path {
   double sign_;
   PathLengths lengths_;
   int threads_;
-  Placement placement_;
+  FollowedPlace placement_;
   std::optional<RigidModel> model_;     ///< at the placement
   std::optional<ConeProgram> program_;  ///< of it, with the support
   std::vector<Eigen::Vector3d> force_;  ///< of the last prediction, by point
@@ -305,17 +309,16 @@ double extent_of(const RigidModel& model) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-std::optional<std::string> movement_obstacle(const BlockSystem& system, const RigidModel& model) {
-  bool loaded = false;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const RigidBody& body = model.bodies[b];
-    loaded = loaded || model.steady[b].norm() + model.multiplied[b].norm() > 0.0;
-    if (body.freedom < 6)
-      return "supports hold block " + system.blocks()[at(body.blocks.front())].name() +
-             " in part: it cannot be followed where it turns";
-  }
-  if (!loaded) return "no load acts: nothing presses on supports";
+std::optional<int> block_held_in_part(const RigidModel& model) {
+  for (const RigidBody& body : model.bodies)
+    if (body.freedom < 6) return body.blocks.front();
   return std::nullopt;
+}
+
+bool is_loaded(const RigidModel& model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (model.steady[b].norm() + model.multiplied[b].norm() > 0.0) return true;
+  return false;
 }
 
 SupportMovement support_movement(const PlacedScene& scene, int support, const MovementSearch& search) {
@@ -323,11 +326,15 @@ SupportMovement support_movement(const PlacedScene& scene, int support, const Mo
   placed.states = scene.states;
   for (const auto& [blocks, history] : scene.histories) placed.pairs[blocks].overlap = history.overlap;
   const RigidModel model = rigid_model(scene.system, placed, scene.end_time, {});
-  if (const auto obstacle = movement_obstacle(scene.system, model)) throw std::invalid_argument(*obstacle);
+  if (block_held_in_part(model)) throw std::invalid_argument("supports hold a block in part");
+  if (!is_loaded(model)) throw std::invalid_argument("no load acts");
   const SupportWay way(model, support, scene.system.settings().gravity_at(scene.end_time), search.direction);
   const PathLengths lengths(smallest_size(scene.system, model));
   const FollowedBlocks blocks(scene, lengths.reach);
   SupportMovement movement{support, way.direction(), {}, {}};
+  movement.left_out_strength = std::any_of(
+      model.points.begin(), model.points.end(),
+      [](const RigidPoint& point) { return point.law.cohesion > 0.0 || point.law.tensile_strength > 0.0; });
   movement.out = Path(blocks, way, support, 1.0, lengths, scene.threads).follow(search);
   movement.in = Path(blocks, way, support, -1.0, lengths, scene.threads).follow(search);
   return movement;
@@ -345,6 +352,8 @@ const char* to_string(MovementEnd end) {
       return "not-balanced";
     case MovementEnd::not_determined:
       return "not-determined";
+    case MovementEnd::interrupted:
+      return "interrupted";
   }
   return "";
 }

@@ -23,8 +23,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "solver/contact/pair_history.hpp"
@@ -47,15 +47,17 @@ struct MovementSearch {
   std::optional<Vector3> direction;
   double limit = 0.0;      ///< m, > 0: movements beyond it are not looked for
   double tolerance = 0.0;  ///< m, > 0: width of the bracket, where rounding lets the programmes tell so much
+  std::function<bool()> goes_on = [] { return true; };  ///< asked before each step
 };
 
-/// Why a support moves no farther.
+/// Where a movement ends.
 enum class MovementEnd {
   collapses,       ///< no equilibrium in reach: blocks move on while the support stands
   jams,            ///< what stands at the support does not let it in, whatever presses
   reaches_limit,   ///< not limited as far as it was looked for: raise `limit` to look farther
   not_balanced,    ///< no equilibrium where it begins
   not_determined,  ///< programmes did not reach their tolerances: nothing is known beyond `lower`
+  interrupted,     ///< by goes_on
 };
 
 /// An equilibrium on the way.
@@ -91,22 +93,24 @@ struct SupportMovement {
   std::optional<Vector3> direction;  ///< of `out`, of length 1; empty: it spreads around the structure
   SupportPath out;                   ///< away from the structure, or along the direction
   SupportPath in;                    ///< the other way
+  bool left_out_strength = false;    ///< joints have cohesion or tensile strength
 };
 
 /// Size of what may move, m: the diagonal of the box around its contacts. 0: it has none
 [[nodiscard]] double extent_of(const RigidModel& model);
 
-/// Why supports of a model cannot be moved: a block that its supports hold in part, or no load. Empty: they can
-[[nodiscard]] std::optional<std::string> movement_obstacle(const BlockSystem& system,
-                                                           const RigidModel& model);
+/// A block that its supports hold in part: it cannot be followed where it turns. Empty: there is none
+[[nodiscard]] std::optional<int> block_held_in_part(const RigidModel& model);
+/// True if a load acts on any body.
+[[nodiscard]] bool is_loaded(const RigidModel& model);
 
 /// @param support block that does not move and touches one that does, of supports_of
-/// @throws std::invalid_argument if a block is incremental, if nothing bears on the support, or with the text of
-/// movement_obstacle
+/// @throws std::invalid_argument if a block is incremental or held in part, if nothing bears on the support, or if no
+/// load acts
 [[nodiscard]] SupportMovement support_movement(const PlacedScene& scene, int support,
                                                const MovementSearch& search);
 
-/// "collapses", "jams", "reaches-limit", "not-balanced", "not-determined"
+/// "collapses", "jams", "reaches-limit", "not-balanced", "not-determined", "interrupted"
 [[nodiscard]] const char* to_string(MovementEnd end);
 
 }  // namespace ashlar

@@ -23,7 +23,7 @@ class ThrustProgram {
     if (!is_balanced(answer) || boundless(question, answer)) return std::nullopt;
     ThrustState state;
     state.thrust = sign * answer.factor * model_.units.force();
-    state.gap = answer.gap / std::max(std::abs(answer.factor), 1e-300);
+    state.gap = answer.gap / std::max(std::abs(answer.factor), 1.0);
     state.force = forces_of(model_, answer);
     state.motion = answer.velocity;
     state.motion.pop_back();
@@ -32,14 +32,9 @@ class ThrustProgram {
 
  private:
   static ConeProgram made(const RigidModel& model, int support, const Vector3& down, int threads) {
-    const Vector3 middle = middle_of_bodies(model);
-    const std::optional<Vector3> away = direction_away(model, support, down);
-    const SupportVelocity velocity = [&](const RigidPoint& point) -> Vector3 {
-      if (away) return *away;
-      const Vector3 arm = level_part(point.place - middle, down);
-      return arm.norm() > 0.0 ? Vector3(arm.normalized()) : Vector3(Vector3::Zero());
-    };
-    return program_with_support(model, support, velocity, threads);
+    const SupportWay way(model, support, down, std::nullopt);
+    return program_with_support(
+        model, support, [&way](const RigidPoint& point) { return way.velocity(point, 0.0); }, threads);
   }
 
   const RigidModel& model_;

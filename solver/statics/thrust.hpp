@@ -16,8 +16,8 @@ namespace ashlar {
 
 /// An extreme of the thrust.
 struct ThrustState {
-  double thrust = 0.0;               ///< N, > 0 away from the structure
-  double gap = 0.0;                  ///< between primal and dual value, over the thrust
+  double thrust = 0.0;  ///< N, > 0 away from the structure
+  double gap = 0.0;  ///< between primal and dual value, over the thrust, or the unit of force if that is more
   std::vector<Vector3> force;        ///< N, by point of the model, on its first block
   std::vector<BodyVelocity> motion;  ///< how blocks move with the support, by body, over the support's way
 };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "mechanics/block/rigid_body.hpp"
 
 namespace ashlar {
 namespace {
@@ -13,16 +15,7 @@ bool touches(const RigidPoint& point, int block) {
   return point.blocks[0] == block || point.blocks[1] == block;
 }
 
-}  // namespace
-
-std::vector<int> supports_of(const RigidModel& model) {
-  std::set<int> supports;
-  for (const RigidPoint& point : model.points)
-    for (const int block : point.blocks)
-      if (model.body_of[at(block)] < 0) supports.insert(block);
-  return {supports.begin(), supports.end()};
-}
-
+/// Middle of gravity of all that may move, m. @pre there is a body
 Vector3 middle_of_bodies(const RigidModel& model) {
   Vector3 middle = Vector3::Zero();
   double mass = 0.0;
@@ -33,11 +26,14 @@ Vector3 middle_of_bodies(const RigidModel& model) {
   return middle / mass;
 }
 
+/// The part of a vector at right angles to gravity. @param down any length; zero: all of it
 Vector3 level_part(const Vector3& vector, const Vector3& down) {
   const double square = down.squaredNorm();
   return square > 0.0 ? Vector3(vector - vector.dot(down) / square * down) : vector;
 }
 
+/// The level direction in which a support on one side of the structure moves away from it, of length 1.
+/// @return empty: the support lies around the structure, or below its middle
 std::optional<Vector3> direction_away(const RigidModel& model, int support, const Vector3& down) {
   constexpr double one_side = 0.1;
   const Vector3 middle = middle_of_bodies(model);
@@ -51,6 +47,59 @@ std::optional<Vector3> direction_away(const RigidModel& model, int support, cons
   }
   if (!(sum.norm() > one_side * size)) return std::nullopt;
   return sum.normalized();
+}
+
+}  // namespace
+
+std::vector<int> supports_of(const RigidModel& model) {
+  std::set<int> supports;
+  for (const RigidPoint& point : model.points)
+    for (const int block : point.blocks)
+      if (model.body_of[at(block)] < 0) supports.insert(block);
+  return {supports.begin(), supports.end()};
+}
+
+Eigen::MatrixX3d mapped(const BlockModel& block, const Eigen::MatrixX3d& position, const Eigen::Matrix3d& a,
+                        const Vector3& c) {
+  const Eigen::VectorXd one = constant_function(position.rows(), block.basis().volume());
+  return position * a.transpose() + one * c.transpose();
+}
+
+SupportWay::SupportWay(const RigidModel& model, int support, const Vector3& down,
+                       const std::optional<Vector3>& direction)
+    : support_(support), middle_(middle_of_bodies(model)), down_(down) {
+  std::map<int, int> count;
+  for (const RigidPoint& point : model.points) {
+    if (point.blocks[0] != support && point.blocks[1] != support) continue;
+    const int block = point.blocks[point.blocks[0] == support ? 1 : 0];
+    arms_.try_emplace(block, Vector3::Zero()).first->second += level_part(point.place - middle_, down_);
+    ++count[block];
+  }
+  if (arms_.empty()) throw std::invalid_argument("nothing bears on the support");
+  double sum = 0.0;
+  for (auto& [block, arm] : arms_) {
+    arm /= count[block];
+    sum += arm.norm();
+  }
+  direction_ = direction ? direction->normalized() : direction_away(model, support, down);
+  // A block in the very middle of its support stays where it is.
+  if (!direction_ && sum > 0.0) radius_ = sum / static_cast<double>(arms_.size());
+}
+
+Vector3 SupportWay::velocity(const RigidPoint& point, double q) const {
+  if (direction_) return *direction_;
+  const auto arm = arms_.find(point.blocks[point.blocks[0] == support_ ? 1 : 0]);
+  if (arm != arms_.end()) return arm->second / radius_;
+  return level_part(point.place - middle_, down_) / (radius_ + q);
+}
+
+Eigen::MatrixX3d SupportWay::placed(const BlockModel& support, const Eigen::MatrixX3d& position,
+                                    double q) const {
+  if (direction_) return mapped(support, position, Eigen::Matrix3d::Identity(), q * *direction_);
+  Eigen::Matrix3d level;
+  for (int k = 0; k < 3; ++k) level.col(k) = level_part(Vector3::Unit(k), down_);
+  const Eigen::Matrix3d stretch = q / radius_ * level;
+  return mapped(support, position, Eigen::Matrix3d::Identity() + stretch, -stretch * middle_);
 }
 
 ConeProgram program_with_support(const RigidModel& model, int support, const SupportVelocity& velocity,

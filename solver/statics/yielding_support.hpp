@@ -2,11 +2,12 @@
 // beside it.
 //
 // Without a direction the support moves away from the structure at right angles to gravity: from the middle of gravity
-// of all that may move to the middle of its contacts. A support that lies around the structure spreads, each place away
-// from that middle.
+// of all that may move to the middle of its contacts. A support that lies around the structure spreads: each of its
+// joints moves away from that middle.
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -17,16 +18,36 @@ namespace ashlar {
 /// Blocks that do not move and that one presses on which does, in ascending order.
 [[nodiscard]] std::vector<int> supports_of(const RigidModel& model);
 
-/// Middle of gravity of all that may move, m. @pre there is a body
-[[nodiscard]] Vector3 middle_of_bodies(const RigidModel& model);
+/// How a support moves along its coordinate q: by q along a direction, or, where it lies around the structure, apart, as
+/// if it broke between the blocks that stand on it. What bears a block moves level and away from the middle of the
+/// structure, by q at the mean distance of such joints from there and in proportion elsewhere. A support that is
+/// stretched agrees with that in the middle of each joint.
+class SupportWay {
+ public:
+  /// @param model as placed. @param down of gravity, any length
+  /// @throws std::invalid_argument if the support touches no body
+  SupportWay(const RigidModel& model, int support, const Vector3& down,
+             const std::optional<Vector3>& direction);
 
-/// The part of a vector at right angles to gravity. @param down any length; zero: all of it
-[[nodiscard]] Vector3 level_part(const Vector3& vector, const Vector3& down);
+  /// Of length 1; empty: it spreads.
+  [[nodiscard]] const std::optional<Vector3>& direction() const { return direction_; }
+  /// m/m, of the support at a point that it has with a body, at q. @param q m
+  [[nodiscard]] Vector3 velocity(const RigidPoint& point, double q) const;
+  /// Coefficients of the support at q. @param position at 0
+  [[nodiscard]] Eigen::MatrixX3d placed(const BlockModel& support, const Eigen::MatrixX3d& position,
+                                        double q) const;
 
-/// The level direction in which a support on one side of the structure moves away from it, of length 1.
-/// @return empty: the support lies around the structure, or below its middle
-[[nodiscard]] std::optional<Vector3> direction_away(const RigidModel& model, int support,
-                                                    const Vector3& down);
+ private:
+  int support_;
+  Vector3 middle_, down_;
+  double radius_ = 1.0;          ///< m, mean distance of joints from the middle
+  std::map<int, Vector3> arms_;  ///< m, level, of the joint with each block
+  std::optional<Vector3> direction_;
+};
+
+/// x -> a x + c of the coefficients of a block. @param position (p, 3)
+[[nodiscard]] Eigen::MatrixX3d mapped(const BlockModel& block, const Eigen::MatrixX3d& position,
+                                      const Eigen::Matrix3d& a, const Vector3& c);
 
 /// Of the support at a point that it has with a body, in m per m of the coordinate.
 using SupportVelocity = std::function<Vector3(const RigidPoint& point)>;
