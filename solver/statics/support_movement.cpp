@@ -16,7 +16,8 @@ namespace {
 
 /// Lengths of a path; shares of the smallest block and of each other (notes/limit_analysis.md).
 struct PathLengths {
-  explicit PathLengths(double smallest_block) : reach(0.05 * smallest_block) {}
+  PathLengths(double smallest_block, double contact_distance)
+      : reach(std::clamp(contact_distance, 0.05 * smallest_block, 0.2 * smallest_block)) {}
 
   double reach;                        ///< m, gap up to which points are detected
   double farthest = 0.5 * reach;       ///< m, that a block may go in a step: two of them cannot meet unseen
@@ -329,7 +330,7 @@ SupportMovement support_movement(const PlacedScene& scene, int support, const Mo
   if (block_held_in_part(model)) throw std::invalid_argument("supports hold a block in part");
   if (!is_loaded(model)) throw std::invalid_argument("no load acts");
   const SupportWay way(model, support, scene.system.settings().gravity_at(scene.end_time), search.direction);
-  const PathLengths lengths(smallest_size(scene.system, model));
+  const PathLengths lengths(smallest_size(scene.system, model), scene.system.settings().contact_distance);
   const FollowedBlocks blocks(scene, lengths.reach);
   SupportMovement movement{support, way.direction(), {}, {}};
   movement.left_out_strength = std::any_of(

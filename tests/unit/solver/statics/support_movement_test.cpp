@@ -297,6 +297,15 @@ TEST(SupportMovement, OfARoundArchThatIsPressedInLiftsItsCrown) {
   }
 }
 
+TEST(SupportMovement, SettlingAndLiftingAreMirrorImages) {
+  // A support that settles leaves the arch as the other one does that is lifted, and the arch is its own mirror image.
+  const SupportMovement movement = moved(RoundArch{12, 0.15}.scene(), 13, {Vector3(0, 0, -2), 1.0, 1e-4});
+  EXPECT_EQ(movement.out.end, MovementEnd::collapses);
+  EXPECT_EQ(movement.in.end, MovementEnd::collapses);
+  EXPECT_GT(movement.out.lower, 0.1);
+  EXPECT_NEAR(movement.out.lower, movement.in.lower, 1e-4);
+}
+
 TEST(SupportMovement, BeginsAtTheLeastThrust) {
   const LimitScene scene = leaning_bars(1.0);
   const Simulation simulation = scene.build();
