@@ -25,6 +25,7 @@ struct PathLengths {
   double closed = 1e-4 * reach;        ///< m, motion that ends the closing of gaps
 };
 constexpr int most_closings = 30;
+constexpr int most_unknown = 10;  ///< steps within the tolerance that are not determined
 /// Programmes of a path: one that halves its step for ever ends.
 constexpr int most_programmes = 50000;
 
@@ -101,6 +102,7 @@ class Path {
   void take_steps(const MovementSearch& search) {
     path_.end = MovementEnd::reaches_limit;
     double step = lengths_.longest_step;
+    int unknown = 0;
     while (search.limit > moved()) {
       if (!search.goes_on()) {
         path_.end = MovementEnd::interrupted;
@@ -115,11 +117,14 @@ class Path {
         continue;
       }
       note_end(end, step, search.tolerance);
-      if (step <= search.tolerance || path_.programmes >= most_programmes) {
+      const bool narrow = step <= search.tolerance;
+      const bool known = narrow && path_.upper && *path_.upper - moved() <= 2.0 * search.tolerance;
+      // Rounding is another one beside a place that is not determined.
+      if (known || (narrow && ++unknown > most_unknown) || path_.programmes >= most_programmes) {
         if (!path_.upper) path_.end = MovementEnd::not_determined;
         return;
       }
-      step = std::max(next_step(step, 0.5), 0.5 * search.tolerance);
+      step = narrow ? 0.5 * step : std::max(next_step(step, 0.5), 0.5 * search.tolerance);
     }
   }
 

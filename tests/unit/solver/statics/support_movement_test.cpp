@@ -79,6 +79,18 @@ TEST(SupportMovement, OfAFlatArchEndsWhereItsHingesAreInLine) {
   }
 }
 
+TEST(SupportMovement, IsInTheBracketWhateverItsTolerance) {
+  const double value = 2.0 * (std::hypot(2.0, 0.5) - 2.0);
+  for (const double tolerance : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
+    const SupportPath path = moved(flat_arch(), 2, {std::nullopt, 1.0, tolerance}).out;
+    EXPECT_EQ(path.end, MovementEnd::collapses) << tolerance;
+    ASSERT_TRUE(path.upper);
+    EXPECT_LT(path.lower, value) << tolerance;
+    EXPECT_GT(*path.upper, value) << tolerance;
+    EXPECT_LE(*path.upper - path.lower, 2.0 * tolerance);
+  }
+}
+
 TEST(SupportMovement, OfAFlatArchThatIsPressedInJams) {
   const SupportPath path = moved(flat_arch(), 2, {std::nullopt, 1.0, 1e-4}).in;
   EXPECT_EQ(path.end, MovementEnd::jams);
