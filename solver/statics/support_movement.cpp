@@ -14,7 +14,7 @@
 namespace ashlar {
 namespace {
 
-/// Lengths of a path; shares of the smallest block and of each other (notes/limit_analysis.md).
+/// Lengths of a path (notes/limit_analysis.md).
 struct PathLengths {
   PathLengths(double smallest_block, double contact_distance)
       : reach(std::clamp(contact_distance, 0.05 * smallest_block, 0.2 * smallest_block)) {}
