@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "apps/results/atomic_file.hpp"
 #include "apps/run/drawing_view.hpp"
@@ -129,10 +130,11 @@ std::string describe(const SupportMovement& movement, const Simulation& simulati
   const auto path_in_words = [](const SupportPath& path, const char* way) {
     return fmt::format("{:.5g} m {} ({}{})", path.lower, way, end_in_words(path), slip_in_words(path));
   };
-  const bool spreads = !movement.direction;
+  const auto [out, in] = movement.away        ? std::pair("out", "in")
+                         : movement.direction ? std::pair("along its direction", "against it")
+                                              : std::pair("apart", "together");
   return fmt::format("{} can move {}, {}{}", name_of(simulation, movement.support),
-                     path_in_words(movement.out, spreads ? "apart" : "out"),
-                     path_in_words(movement.in, spreads ? "together" : "in"),
+                     path_in_words(movement.out, out), path_in_words(movement.in, in),
                      movement.left_out_strength ? ", by friction alone" : "");
 }
 

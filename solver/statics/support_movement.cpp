@@ -338,6 +338,7 @@ SupportMovement support_movement(const PlacedScene& scene, int support, const Mo
   const PathLengths lengths(smallest_size(scene.system, model), scene.system.settings().contact_distance);
   const FollowedBlocks blocks(scene, lengths.reach);
   SupportMovement movement{support, way.direction(), {}, {}};
+  movement.away = !search.direction && way.direction();
   movement.left_out_strength = std::any_of(
       model.points.begin(), model.points.end(),
       [](const RigidPoint& point) { return point.law.cohesion > 0.0 || point.law.tensile_strength > 0.0; });

@@ -93,6 +93,7 @@ struct SupportMovement {
   std::optional<Vector3> direction;  ///< of `out`, of length 1; empty: it spreads around the structure
   SupportPath out;                   ///< away from the structure, or along the direction
   SupportPath in;                    ///< the other way
+  bool away = false;                 ///< the direction is away from the structure, not one that was asked for
   bool left_out_strength = false;    ///< joints have cohesion or tensile strength
 };
 

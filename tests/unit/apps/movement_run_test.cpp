@@ -84,7 +84,7 @@ TEST_F(MovementRun, SaysThatCohesionIsLeftOut) {
                                "friction_angle = 45\ncohesion = 1e3"));
   ASSERT_EQ(run("out"), 0) << faults_;
   EXPECT_THAT(summary("out").at("message").get<std::string>(),
-              AllOf(HasSubstr("wall.2 can move 0.001 m out (not limited as far as was tried"),
+              AllOf(HasSubstr("wall.2 can move 0.001 m along its direction (not limited as far as was tried"),
                     HasSubstr("by friction alone"), Not(HasSubstr("wall.1 can move"))));
 }
 
