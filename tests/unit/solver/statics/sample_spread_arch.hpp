@@ -44,7 +44,7 @@ struct RoundArch {
     for (int k = 0; k < count; ++k) {
       std::vector<std::array<double, 2>> outline;
       for (const Point& p : voussoir(k)) outline.push_back({p.x(), p.y()});
-      scene.add("v" + std::to_string(k), prism(outline));
+      scene.add(std::to_string(k), prism(outline));
     }
     for (const double side : {-1.0, 1.0})
       scene.add_fixed(prism({{0.5 * side, 0}, {1.5 * side, 0}, {1.5 * side, -0.3}, {0.5 * side, -0.3}}));
