@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 #include <ostream>
 #include <system_error>
@@ -9,6 +10,7 @@
 #include "apps/results/contact_changes.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/interrupt_guard.hpp"
+#include "apps/run/movement_run.hpp"
 #include "apps/scene/added_blocks.hpp"
 #include "apps/scene/fault_text.hpp"
 #include "apps/scene/scene_stages.hpp"
@@ -188,9 +190,12 @@ RunStatus FolderRun::show_thrust(ProgressLine& progress) {
     record_step(schedule, progress);
   }
   draw_thrust(*thrust_, scene_, simulation, files_.tables().path() / "thrust.svg");
+  draw_movement(thrust_->movements, scene_, simulation, files_.tables().path() / "movement.svg");
   message_ = describe(*thrust_, simulation);
   if (!thrust_->collapse.empty()) return RunStatus::moving;
-  return thrust_->supports.empty() ? RunStatus::not_converged : RunStatus::completed;
+  const bool known = std::none_of(thrust_->movements.begin(), thrust_->movements.end(),
+                                  [](const SupportMovement& movement) { return is_open(movement); });
+  return thrust_->supports.empty() || !known ? RunStatus::not_converged : RunStatus::completed;
 }
 
 RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {

@@ -13,6 +13,7 @@
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/kept_trial.hpp"
 #include "apps/run/limit_run.hpp"
+#include "apps/run/movement_run.hpp"
 #include "apps/run/run_messages.hpp"
 #include "apps/scene/base_motion.hpp"
 #include "apps/scene/fault_text.hpp"
@@ -140,6 +141,13 @@ struct PreparedRun {
   [[nodiscard]] const LoadedScene& first() const { return staged ? *staged : *loaded; }
 };
 
+/// Refuses searches by limit analysis that have nothing to find.
+void refuse_idle_searches(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics) {
+  const std::optional<RigidModel> model = limit_model(scene, simulation);
+  refuse_idle_limits(scene, model, diagnostics);
+  refuse_movements(scene, model, diagnostics);
+}
+
 /// Reads, checks and builds. What is wrong is in the diagnostics.
 PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnostics, std::ostream& err) {
   PreparedRun run;
@@ -154,7 +162,7 @@ PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnos
   if (run.built && is_static(run.first().scene.analysis))
     refuse_loose_blocks(run.first().scene, run.built->simulation, diagnostics);
   if (run.built && diagnostics.good())
-    refuse_idle_limits(run.first().scene, limit_model(run.first().scene, run.built->simulation), diagnostics);
+    refuse_idle_searches(run.first().scene, run.built->simulation, diagnostics);
   return run;
 }
 
@@ -212,6 +220,16 @@ std::optional<LimitFindings> find_limits_first(const PreparedRun& run, RigidMode
   if (!findings.answer.interrupted) return findings;
   err << fmt::format("ashlar: interrupted after {} trials of limit analysis, which a new run begins with\n",
                      findings.answer.trials.size());
+  return std::nullopt;
+}
+
+/// Finds thrust and movements of supports. @return empty: interrupted, which was told
+std::optional<ThrustFindings> find_thrust_first(const Scene& scene, RigidModel model,
+                                                const Simulation& placed, int threads, std::ostream& err) {
+  ThrustFindings findings =
+      find_thrust(scene, std::move(model), placed, threads, [] { return !InterruptGuard::interrupted(); });
+  if (!InterruptGuard::interrupted()) return findings;
+  err << "ashlar: interrupted while supports moved, which a new run begins with\n";
   return std::nullopt;
 }
 
@@ -287,8 +305,10 @@ int run_command(const RunOptions& options, std::ostream& err) {
     const Simulation& as_placed = placed ? placed->simulation : prepared.built->simulation;
     const Scene& scene = prepared.loaded->scene;
     std::optional<RigidModel> model = limit_model(scene, as_placed);
-    if (scene.analysis.type == SceneAnalysis::Type::thrust)
-      thrust = find_thrust(scene, std::move(model.value()), as_placed, threads);
+    if (scene.analysis.type == SceneAnalysis::Type::thrust) {
+      thrust = find_thrust_first(scene, std::move(model.value()), as_placed, threads, err);
+      if (!thrust) return exit_status::interrupted;
+    }
     // A search by static analyses begins with what limit analysis says of the same strengths.
     const bool by_limits = uses_limit_analysis(scene, model);
     if (by_limits || (seeks_factor(scene.analysis) && model && !loses_strength(*model))) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 
 #include "apps/results/atomic_file.hpp"
+#include "apps/run/drawing_view.hpp"
 #include "apps/run/limit_run.hpp"
+#include "apps/run/movement_run.hpp"
 #include "solver/statics/limit_analysis.hpp"
 
 namespace ashlar {
@@ -35,58 +35,8 @@ Json to_json(const ThrustLine& line, const Simulation& simulation) {
   return json;
 }
 
-/// Where a drawing looks along, and how large it is.
-class View {
- public:
-  View(const Scene& scene, const Simulation& simulation) {
-    const Vector3& gravity = scene.analysis.gravity;
-    up_ = gravity.squaredNorm() > 0.0 ? Vector3(-gravity.normalized()) : Vector3(Vector3::UnitZ());
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    Vector3 middle = Vector3::Zero();
-    int count = 0;
-    for (const BlockModel& block : simulation.blocks()) {
-      if (block.fixed()) continue;
-      middle += block.basis().centroid();
-      ++count;
-    }
-    middle /= std::max(count, 1);
-    for (const BlockModel& block : simulation.blocks()) {
-      if (block.fixed()) continue;
-      const Vector3 arm = block.basis().centroid() - middle;
-      const Vector3 level = arm - arm.dot(up_) * up_;
-      spread += level * level.transpose();
-    }
-    along_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-    along_ -= along_.dot(up_) * up_;
-    if (along_.norm() < 1e-6) along_ = up_.unitOrthogonal();
-    along_.normalize();
-    for (const BlockModel& block : simulation.blocks()) {
-      if (block.fixed()) continue;
-      for (const Vector3& point : block.solid().mesh().points) {
-        const Eigen::Vector2d seen(point.dot(along_), point.dot(up_));
-        low_ = low_.cwiseMin(seen);
-        high_ = high_.cwiseMax(seen);
-      }
-    }
-    scale_ = (width - 2.0 * margin) / std::max((high_ - low_).maxCoeff(), 1e-300);
-  }
-
-  [[nodiscard]] std::string at(const Vector3& point) const {
-    return fmt::format("{:.2f},{:.2f}", margin + scale_ * (point.dot(along_) - low_.x()),
-                       margin + scale_ * (high_.y() - point.dot(up_)));
-  }
-  [[nodiscard]] double height() const { return 2.0 * margin + scale_ * (high_ - low_).y(); }
-
-  static constexpr double width = 900.0, margin = 30.0;
-
- private:
-  Vector3 up_, along_;
-  Eigen::Vector2d low_ = Eigen::Vector2d::Constant(1e300), high_ = Eigen::Vector2d::Constant(-1e300);
-  double scale_ = 1.0;
-};
-
 /// The line of thrust: through each block from joint to joint, by way of the middle where it has more than two.
-std::string drawn_line(const ThrustLine& line, const Simulation& simulation, const View& view,
+std::string drawn_line(const ThrustLine& line, const Simulation& simulation, const DrawingView& view,
                        const char* colour) {
   std::map<int, std::vector<const JointResultant*>> by_block;
   for (const JointResultant& joint : line.joints)
@@ -115,7 +65,8 @@ std::string drawn_line(const ThrustLine& line, const Simulation& simulation, con
 
 }  // namespace
 
-ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation, int threads) {
+ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation, int threads,
+                           const std::function<bool()>& goes_on) {
   ThrustFindings findings;
   for (const ThrustRange& range : thrust_ranges(model, scene.analysis.gravity, threads)) {
     SupportThrust support{range.support, line_of(model, *range.least), std::nullopt};
@@ -123,12 +74,15 @@ ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulatio
     findings.supports.push_back(std::move(support));
   }
   LimitAnalysis analysis(
-      std::move(model), [](int, int) { return false; }, threads);
+      model, [](int, int) { return false; }, threads);
   const LimitTrial trial = analysis.associated({});
   if (trial.outcome == LimitOutcome::moves) {
     findings.supports.clear();
     findings.collapse = words_of(analysis.motion_of(trial), simulation);
   }
+  if (findings.supports.empty()) return findings;
+  for (const int support : moved_supports(scene, model))
+    findings.movements.push_back(find_movement(scene, model, simulation, {support, threads, goes_on}));
   return findings;
 }
 
@@ -142,6 +96,7 @@ std::string describe(const ThrustFindings& findings, const Simulation& simulatio
                 ? fmt::format("between {:.5g} and {:.5g} N", support.least.thrust, support.most->thrust)
                 : fmt::format("at least {:.5g} N, without bound above", support.least.thrust);
   }
+  for (const SupportMovement& movement : findings.movements) text += "; " + describe(movement, simulation);
   return text;
 }
 
@@ -154,6 +109,8 @@ Json thrust_summary(const ThrustFindings& findings, const Simulation& simulation
                 {"gap", std::max(support.least.gap, support.most ? support.most->gap : 0.0)},
                 {"least_line", to_json(support.least, simulation)}};
     one["most_line"] = support.most ? to_json(*support.most, simulation) : Json(nullptr);
+    for (const SupportMovement& movement : findings.movements)
+      if (movement.support == support.support) one["movement"] = movement_summary(movement, simulation);
     json.push_back(std::move(one));
   }
   return json;
@@ -162,40 +119,15 @@ Json thrust_summary(const ThrustFindings& findings, const Simulation& simulation
 void draw_thrust(const ThrustFindings& findings, const Scene& scene, const Simulation& simulation,
                  const std::filesystem::path& path) {
   if (findings.supports.empty()) return;
-  const View view(scene, simulation);
-  std::string text = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" width=\"{0}\" "
-      "height=\"{1:.0f}\">\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-      View::width, view.height() + 40.0);
-  for (const BlockModel& block : simulation.blocks()) {
-    if (block.fixed()) continue;
-    const TriangleMesh& mesh = block.solid().mesh();
-    for (const auto& triangle : mesh.triangles) {
-      std::string points;
-      for (const int corner : triangle)
-        points += view.at(mesh.points[static_cast<std::size_t>(corner)]) + ' ';
-      text += fmt::format(
-          "<polygon points=\"{}\" fill=\"#d9d2c3\" stroke=\"#d9d2c3\" stroke-width=\"0.5\"/>\n", points);
-    }
-    for (const PolyhedronEdge& edge : block.solid().edges())
-      text +=
-          fmt::format("<polyline points=\"{} {}\" stroke=\"#8a8271\" stroke-width=\"0.7\" fill=\"none\"/>\n",
-                      view.at(mesh.points[static_cast<std::size_t>(edge.vertices[0])]),
-                      view.at(mesh.points[static_cast<std::size_t>(edge.vertices[1])]));
-  }
+  const DrawingView view(scene, simulation);
+  std::string text = view.head() + view.blocks(simulation);
   const SupportThrust& support = findings.supports.front();
   text += drawn_line(support.least, simulation, view, "#1f5fa8");
   if (support.most) text += drawn_line(*support.most, simulation, view, "#b3261e");
-  text += fmt::format(
-      "<text x=\"{0}\" y=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"14\"><tspan "
-      "fill=\"#1f5fa8\">least thrust "
-      "{2:.4g} N</tspan>",
-      View::margin, view.height() + 20.0, support.least.thrust);
-  if (support.most)
-    text += fmt::format("<tspan dx=\"20\" fill=\"#b3261e\">most {:.4g} N</tspan>", support.most->thrust);
-  text += "</text>\n</svg>\n";
-  write_file_atomically(path, text, Durability::process);
+  std::vector<DrawingView::Note> notes = {
+      {"#1f5fa8", fmt::format("least thrust {:.4g} N", support.least.thrust)}};
+  if (support.most) notes.push_back({"#b3261e", fmt::format("most {:.4g} N", support.most->thrust)});
+  write_file_atomically(path, text + view.foot(notes), Durability::process);
 }
 
 }  // namespace ashlar

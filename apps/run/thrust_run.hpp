@@ -2,12 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/scene/scene_loading.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/statics/support_movement.hpp"
 #include "solver/statics/thrust.hpp"
 
 namespace ashlar {
@@ -26,18 +28,19 @@ struct SupportThrust {
 
 struct ThrustFindings {
   std::vector<SupportThrust> supports;
+  std::vector<SupportMovement> movements;  ///< of supports that the scene moves, in the order of blocks
   std::string collapse;  ///< what moves, if no forces within the strengths balance the loads
 };
 
-/// @param model of limit_model
+/// @param model of limit_model. @param goes_on asked while supports move; if not, the last movement was interrupted
 [[nodiscard]] ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation,
-                                         int threads);
+                                         int threads, const std::function<bool()>& goes_on);
 
 /// "thrust on abutment between 1.2e+04 and 3.4e+04 N; ..."
 [[nodiscard]] std::string describe(const ThrustFindings& findings, const Simulation& simulation);
 
 /// An array: support, least and most (N; null: no bound), gap, least_line and most_line, each an array of blocks, place
-/// (m) and force (N, on the first block).
+/// (m) and force (N, on the first block); movement (movement_run.hpp) of supports that were moved.
 [[nodiscard]] nlohmann::ordered_json thrust_summary(const ThrustFindings& findings,
                                                     const Simulation& simulation);
 

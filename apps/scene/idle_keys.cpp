@@ -41,6 +41,8 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
     keys.warn("analysis.safety", "only type = \"factor-of-safety\" looks for one");
   if (analysis.type != SceneAnalysis::Type::capacity)
     keys.warn("analysis.capacity", "only type = \"capacity\" looks for one");
+  if (analysis.type != SceneAnalysis::Type::thrust)
+    keys.warn("analysis.movement", "only type = \"thrust\" looks for one");
   if (analysis.type != SceneAnalysis::Type::safety && analysis.type != SceneAnalysis::Type::capacity)
     keys.warn("analysis.method", "only a search for a factor has one");
   if (!analysis.gravity_history.empty()) keys.warn("analysis.gravity", "gravity_history is in its place");

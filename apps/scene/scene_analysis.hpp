@@ -22,7 +22,7 @@ struct SceneAnalysis {
     statics,   ///< "static": equilibrium
     safety,    ///< "factor-of-safety": static analyses with less and less strength
     capacity,  ///< "capacity": static analyses with more and more load
-    thrust,    ///< "thrust": least and most thrust on supports
+    thrust,    ///< "thrust": least and most thrust on supports, and how far these can move
   };
   /// How a factor is found (notes/factor_of_safety.md).
   enum class Method {
@@ -51,6 +51,13 @@ struct SceneAnalysis {
     double lower = 0.1;       ///< > 0
     double upper = 10.0;      ///< > lower
   };
+  /// movement = { supports, direction, limit, tolerance }
+  struct SupportSearch {
+    std::vector<std::string> supports;  ///< names or globs of blocks that do not move; empty: none is moved
+    std::optional<Vector3> direction;   ///< of any length > 0; empty: away from the structure
+    std::optional<double> limit;        ///< m, > 0; empty: half the structure's size
+    std::optional<double> tolerance;    ///< m, > 0; empty: 1e-4 of the structure's size
+  };
   struct Gravity {
     double time = 0.0;                ///< s
     Vector3 value = Vector3::Zero();  ///< m/s^2
@@ -76,6 +83,7 @@ struct SceneAnalysis {
   Method method = Method::automatic;   ///< of types safety and capacity
   FactorSearch safety;                 ///< of type safety
   FactorSearch capacity;               ///< of type capacity
+  SupportSearch movement;              ///< of type thrust
   std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto
 };
 

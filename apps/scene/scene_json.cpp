@@ -42,6 +42,14 @@ Json to_json(const SceneAnalysis::FactorSearch& search, const char* of) {
   return {{of, search.of}, {"tolerance", search.tolerance}, {"lower", search.lower}, {"upper", search.upper}};
 }
 
+Json to_json(const SceneAnalysis::SupportSearch& search) {
+  Json json = {{"supports", search.supports}};
+  if (search.direction) json["direction"] = to_json(*search.direction);
+  json["limit"] = or_auto(search.limit);
+  json["tolerance"] = or_auto(search.tolerance);
+  return json;
+}
+
 Json to_json(const SceneAnalysis& analysis) {
   Json json = {{"type", name_of(analysis_type_names, analysis.type)},
                {"end_time", analysis.end_time},
@@ -57,6 +65,7 @@ Json to_json(const SceneAnalysis& analysis) {
   json["method"] = name_of(method_names, analysis.method);
   json["safety"] = to_json(analysis.safety, "joints");
   json["capacity"] = to_json(analysis.capacity, "blocks");
+  json["movement"] = to_json(analysis.movement);
   json["sleeping"] = analysis.sleeping;
   json["memory_limit"] = or_auto(analysis.memory_limit);
   return json;

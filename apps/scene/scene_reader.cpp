@@ -39,6 +39,18 @@ void read_factor_search(TomlTableReader table, const char* of, SceneAnalysis::Fa
                                             search.upper, search.lower));
 }
 
+void read_support_search(TomlTableReader table, SceneAnalysis::SupportSearch& search) {
+  table.read_texts("supports", search.supports);
+  Vector3 direction;
+  if (table.read_vector("direction", direction)) {
+    search.direction = direction;
+    if (!(direction.norm() > 0.0))
+      table.error_at_value("direction", "direction is zero ([0, 0, 0]), a vector of any length is needed");
+  }
+  table.read_number_or_auto("limit", search.limit, range::positive);
+  table.read_number_or_auto("tolerance", search.tolerance, range::positive);
+}
+
 void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("type", analysis.type, analysis_type_names);
   table.read_number("end_time", analysis.end_time, range::positive);
@@ -61,6 +73,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_choice("method", analysis.method, method_names);
   read_factor_search(table.table_or_empty("safety"), "joints", analysis.safety);
   read_factor_search(table.table_or_empty("capacity"), "blocks", analysis.capacity);
+  read_support_search(table.table_or_empty("movement"), analysis.movement);
   table.read_bool("sleeping", analysis.sleeping);
   table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
 }

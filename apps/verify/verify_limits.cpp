@@ -17,6 +17,7 @@
 #include "apps/verify/verification_contacts.hpp"
 #include "apps/verify/voussoir_arch.hpp"
 #include "solver/statics/limit_analysis.hpp"
+#include "solver/statics/support_movement.hpp"
 
 namespace ashlar {
 namespace {
@@ -245,6 +246,33 @@ std::vector<VerificationCheck> limit_wall_capacity(const Placement& placement) {
   return checks;
 }
 
+/// Two blocks side by side between walls, half span L and depth h. They hinge at the lower corners at the walls and at the
+/// upper one between them, two bars D^2 = L^2 + h^2 that are in line where a wall has moved by 2 (D - L). On the way
+/// H y = W (L + s/2) / 2 with y^2 = D^2 - (L + s/2)^2.
+std::vector<VerificationCheck> limit_support_movement(const Placement& placement) {
+  constexpr double half = 2.0, depth = 0.5;
+  ContactScene scene(placement);
+  scene.add(box({-half, 0, 0}, {0, 1, depth}));
+  scene.add(box({0, 0, 0}, {half, 1, depth}));
+  scene.add_fixed(Polyhedron(make_box({-half - 1, 0, -1}, {-half, 1, 1})));
+  scene.add_fixed(Polyhedron(make_box({half, 0, -1}, {half + 1, 1, 1})));
+  *scene.law = joint(1.0);
+  const Simulation simulation = scene.build();
+  const SupportPath path =
+      support_movement({simulation.system(), simulation.states(), simulation.histories()}, 3,
+                       {std::nullopt, 1.0, 1e-5})
+          .out;
+  const double bar = std::hypot(half, depth);
+  double error = path.places.size() > 10 ? 0.0 : 1.0;
+  for (const MovedPlace& place : path.places) {
+    const double reach = half + 0.5 * place.moved, rise = std::sqrt(bar * bar - reach * reach);
+    const double thrust = half * depth * rock.density * gravity * reach / (2.0 * rise);
+    if (rise > 0.1 * depth) error = std::max(error, std::abs(place.thrust / thrust - 1.0));
+  }
+  return {check_relative("movement of a wall, m", path.lower, 2.0 * (bar - half), 1e-3),
+          check_absolute("thrust on the way, over its value", error, 0.0, 1e-3)};
+}
+
 constexpr VerificationCase cases[] = {
     {"limit-plane", "limit analysis: factor of safety of a block on a plane", limit_plane},
     {"limit-wedge", "limit analysis: factor of safety of a wedge", limit_wedge},
@@ -255,6 +283,7 @@ constexpr VerificationCase cases[] = {
     {"limit-portal", "limit analysis: posts and a lintel that are pushed", limit_portal},
     {"limit-wall-pushed", "limit analysis: a wall of 33 bricks pushed along at its top", limit_wall_pushed},
     {"limit-wall-capacity", "limit analysis: walls under a horizontal body force", limit_wall_capacity},
+    {"limit-support-movement", "limit analysis: a flat arch whose wall moves out", limit_support_movement},
 };
 
 }  // namespace

@@ -3,10 +3,8 @@
 // really does; a support that gives way by next to nothing takes the thrust to the least, one that presses in to the
 // most (Heyman, The stone skeleton, Int. J. Solids Struct. 2 (1966) 249).
 //
-// The support is let go along one coordinate, in which it moves away from the structure at right angles to gravity: from
-// the middle of gravity of all that may move to the middle of its contacts. A support that lies around the structure
-// spreads, each place away from that middle. Thrust is the load on that coordinate, in balance with the others; its
-// extremes are a limit load each (cone_program.hpp).
+// The support is let go along one coordinate (yielding_support.hpp). Thrust is the load on that coordinate, in balance
+// with the others; its extremes are a limit load each (cone_program.hpp).
 #pragma once
 
 #include <optional>
@@ -18,8 +16,8 @@ namespace ashlar {
 
 /// An extreme of the thrust.
 struct ThrustState {
-  double thrust = 0.0;               ///< N, > 0 away from the structure
-  double gap = 0.0;                  ///< between primal and dual value, over the thrust
+  double thrust = 0.0;  ///< N, > 0 away from the structure
+  double gap = 0.0;  ///< between primal and dual value, over the thrust, or the unit of force if that is more
   std::vector<Vector3> force;        ///< N, by point of the model, on its first block
   std::vector<BodyVelocity> motion;  ///< how blocks move with the support, by body, over the support's way
 };

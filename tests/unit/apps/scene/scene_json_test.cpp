@@ -22,6 +22,7 @@ TEST(SceneJson, HoldsTheSceneAsUsedWithDefaultsAndOverrides) {
                  "solver": "auto", "mass_damping": 0.0, "stiffness_damping": 0.0, "method": "auto",
                  "safety": {"joints": ["*"], "tolerance": 0.01, "lower": 0.1, "upper": 10.0},
                  "capacity": {"blocks": ["*"], "tolerance": 0.01, "lower": 0.1, "upper": 10.0},
+                 "movement": {"supports": [], "limit": "auto", "tolerance": "auto"},
                  "sleeping": true, "memory_limit": "auto"},
     "contact": {"springs": "area", "surface": "curved", "normal_stiffness": "auto", "shear_stiffness": "auto",
                 "friction_angle": 30.0, "cohesion": 0.0, "tensile_strength": 0.0, "distance": "auto",

@@ -107,8 +107,9 @@ std::string joined(const std::string& table, const std::string& key) {
 // Every key that the reader knows.
 std::set<std::string> known_keys() {
   std::string text = fmt::format("unknown = 0\n{}", least_scene);
-  text.replace(text.find("[analysis]\n"), 11,
-               "[analysis]\nsafety = { tolerance = 1 }\ncapacity = { tolerance = 1 }\n");
+  text.replace(
+      text.find("[analysis]\n"), 11,
+      "[analysis]\nsafety = { tolerance = 1 }\ncapacity = { tolerance = 1 }\nmovement = { limit = 1 }\n");
   for (const std::string header : {"[analysis]\n", "[contact]\n", "[[joint]]\n", "[[material]]\n",
                                    "[[block]]\n", "[[block.fix]]\n", "[[block.load]]\n", "[[masonry]]\n",
                                    "[[assign]]\n", "[[cut]]\n", "[[measure]]\n", "[[stage]]\n", "[output]\n"})

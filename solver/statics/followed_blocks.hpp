@@ -1,0 +1,56 @@
+// Rigid blocks on their way behind a support that moves (support_movement.hpp): where they lie, what their joints have
+// been through, and the rigid model of the place.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "solver/statics/rigid_model.hpp"
+#include "solver/statics/support_movement.hpp"
+#include "solver/statics/yielding_support.hpp"
+
+namespace ashlar {
+
+/// Where blocks lie, as a value.
+struct FollowedPlace {
+  double moved = 0.0;                         ///< q of the support, m
+  std::vector<BlockState> states;             ///< by block
+  std::vector<Eigen::Matrix3d> turn;          ///< of each block since it was placed
+  std::map<std::array<int, 2>, double> slip;  ///< m, way of joints under pressure
+};
+
+class FollowedBlocks {
+ public:
+  /// @param reach m, gap up to which points are detected
+  /// @throws std::invalid_argument as support_movement
+  FollowedBlocks(const PlacedScene& scene, double reach);
+
+  [[nodiscard]] FollowedPlace as_placed() const;
+  /// Bodies and all points in reach, gaps in RigidPoint::contact.
+  [[nodiscard]] RigidModel model_of(const FollowedPlace& placement) const;
+
+  /// The farthest that a place of any body goes, m. @param way by body, in coordinates of the model
+  [[nodiscard]] double largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const;
+  /// Moves bodies by exact rotations.
+  void move(const RigidModel& model, const std::vector<BodyVelocity>& way, FollowedPlace& placement) const;
+  void place_support(int support, const SupportWay& way, double q, FollowedPlace& placement) const;
+
+ private:
+  [[nodiscard]] double radius_about(const RigidBody& body) const;
+
+  const PlacedScene& scene_;
+  BlockSystem system_;          ///< with friction only, and points up to the reach
+  std::vector<double> radius_;  ///< m, of each block about its centroid
+};
+
+/// The model half way through a motion: middles, places and frames of its points. Loads and gaps are as they were.
+/// @param program its own, with or without the support. @param way m, by body of the programme
+[[nodiscard]] RigidModel midway(const RigidModel& model, const ConeProgram& program,
+                                const std::vector<BodyVelocity>& way);
+
+/// Size of the smallest block that may move, m: the edge of the cube of its volume.
+[[nodiscard]] double smallest_size(const BlockSystem& system, const RigidModel& model);
+
+}  // namespace ashlar
