@@ -273,6 +273,24 @@ std::vector<VerificationCheck> limit_support_movement(const Placement& placement
           check_absolute("thrust on the way, over its value", error, 0.0, 1e-3)};
 }
 
+/// A square slab of side a that a couple twists: mu W times the mean distance of its base from the middle,
+/// a/6 (sqrt(2) + asinh(1)), if its pressure is uniform.
+std::vector<VerificationCheck> limit_twist(const Placement& placement) {
+  constexpr double side = 2.0, depth = 0.3, force = 1000.0;
+  const auto add = [&](ContactScene& scene) {
+    scene.add_fixed(Polyhedron(make_box({-1, -1, -1}, {side + 1, side + 1, 0})));
+    BlockDefinition slab = box({0, 0, 0}, {side, side, depth});
+    slab.loads.push_back({Vector3(0, side / 2, depth), false, {0, -force, 0}, {}});
+    slab.loads.push_back({Vector3(side, side / 2, depth), false, {0, force, 0}, {}});
+    scene.add(std::move(slab));
+  };
+  const double weight = side * side * depth * rock.density * gravity;
+  const double couple = 0.6 * weight * side / 6.0 * (std::sqrt(2.0) + std::asinh(1.0));
+  std::vector<VerificationCheck> checks;
+  add_both(checks, "couple on a slab, N m", load_of(joint(0.6), add, placement), force * side, couple, 1e-3);
+  return checks;
+}
+
 constexpr VerificationCase cases[] = {
     {"limit-plane", "limit analysis: factor of safety of a block on a plane", limit_plane},
     {"limit-wedge", "limit analysis: factor of safety of a wedge", limit_wedge},
@@ -283,6 +301,7 @@ constexpr VerificationCase cases[] = {
     {"limit-portal", "limit analysis: posts and a lintel that are pushed", limit_portal},
     {"limit-wall-pushed", "limit analysis: a wall of 33 bricks pushed along at its top", limit_wall_pushed},
     {"limit-wall-capacity", "limit analysis: walls under a horizontal body force", limit_wall_capacity},
+    {"limit-twist", "limit analysis: a slab twisted by a couple", limit_twist},
     {"limit-support-movement", "limit analysis: a flat arch whose wall moves out", limit_support_movement},
 };
 

@@ -44,18 +44,34 @@ struct Search {
   const std::vector<FacePair>& turning;
 };
 
+constexpr int affine = 1, least_degree = 2;
+
 /// The degree of an overlap's rule. A uniform pressure acts on every function exactly, however coarse the division is.
 /// Friction that turns over two faces has the direction of a vector that vanishes somewhere: no polynomial, and a rule
 /// for the blocks' order is wrong by up to 15 % (notes/turning_friction.md). Faces of blocks of order 0 and 1 are flat and
-/// their gap is affine, whatever they do.
+/// their gap is affine, whatever they do (notes/affine_rule.md).
 int degree_of(const Search& search, const CellOverlap& cells) {
-  constexpr int affine = 1, least = 2, least_where_friction_turns = 6;
+  constexpr int least_where_friction_turns = 6;
   const FacePair faces{cell_of(search.a, cells.cell_a).face, cell_of(search.b, cells.cell_b).face};
   const bool turns = std::find(search.turning.begin(), search.turning.end(), faces) != search.turning.end();
   const auto bends_by = [](const ContactBody& body) { return body.model->fixed() ? 0 : body.model->order(); };
   const int order = std::max(bends_by(search.a), bends_by(search.b));
   if (turns) return std::max(order, least_where_friction_turns);
-  return order <= affine ? affine : std::max(order, least);
+  // Gaps of multipliers do not tell where pressure ends.
+  return order <= affine && !search.settings.multipliers ? affine : std::max(order, least_degree);
+}
+
+/// True if some gaps are closed and others open: pressure ends between them.
+bool is_partly_open(const std::vector<double>& gaps, double tolerance) {
+  const auto open = [tolerance](double gap) { return gap > tolerance; };
+  return std::any_of(gaps.begin(), gaps.end(), open) && !std::all_of(gaps.begin(), gaps.end(), open);
+}
+
+std::vector<double> gaps_of(const std::vector<ContactPoint>& points) {
+  std::vector<double> gaps;
+  gaps.reserve(points.size());
+  for (const ContactPoint& point : points) gaps.push_back(point.gap);
+  return gaps;
 }
 
 /// Where an overlap is to be cut, if at all. @param points of the rule on all of it
@@ -63,9 +79,7 @@ std::optional<PressureEnd> cut_of(const JoinedOverlap& joined, const std::vector
                                   const PolygonRule& rule, const std::vector<ContactPoint>& points,
                                   const OverlapPoints& make, const Search& search) {
   const double rounding = coordinate_rounding(*search.a.placed, *search.b.placed);
-  std::vector<double> gaps;
-  gaps.reserve(points.size());
-  for (const ContactPoint& point : points) gaps.push_back(point.gap);
+  const std::vector<double> gaps = gaps_of(points);
   const auto cut = std::find_if(search.known.begin(), search.known.end(), [&](const PressureCut& one) {
     return std::any_of(joined.cells.begin(), joined.cells.end(), [&](std::size_t n) {
       return one.cell_a == search.overlaps[n].cell_a && one.cell_b == search.overlaps[n].cell_b;
@@ -81,7 +95,7 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
                       ContactPoints& result) {
   const auto& [a, b, overlaps, settings, known, turning] = search;
   const CellOverlap& overlap = overlaps[joined.cells.front()];
-  const int degree = degree_of(search, overlap);
+  int degree = degree_of(search, overlap);
   const OverlapPoints make(a, b, overlap, joined.whole, master_is_a, settings);
   const std::vector<Eigen::Vector2d> outline =
       outline_of(make.polygon(), outline_tolerance(*a.placed, *b.placed));
@@ -91,8 +105,14 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
     for (std::size_t k = 0; k < rule.points.size(); ++k)
       points.push_back(make.at_place(rule.points[k], rule.weights[k]));
   };
-  const PolygonRule whole = rule_of(outline, degree);
+  PolygonRule whole = rule_of(outline, degree);
   add_points(whole);
+  if (degree == affine && is_partly_open(gaps_of(points), coordinate_rounding(*a.placed, *b.placed))) {
+    degree = least_degree;
+    whole = rule_of(outline, degree);
+    points.clear();
+    add_points(whole);
+  }
   // Where flat sub-faces of blocks that bend part is not where their pressure ends.
   const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
   std::optional<PressureEnd> end;
@@ -207,6 +227,7 @@ PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree) {
 }
 
 bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance) {
+  if (overlap.degree == affine && is_partly_open(gaps, tolerance)) return false;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   const bool may_end = !gaps.empty() && -*least > tolerance && *most > tolerance;
   if (!overlap.end && !may_end) return true;

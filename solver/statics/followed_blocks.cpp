@@ -130,7 +130,10 @@ RigidModel midway(const RigidModel& model, const ConeProgram& program, const std
       Eigen::Vector3d both = Eigen::Vector3d::Zero();
       if (a >= 0) both += point.first * way[at(a)];
       if (b >= 0) both += point.second * way[at(b)];
-      mid.points[k].place += 0.25 * model.points[k].frame.transpose() * both;
+      RigidPoint& moved = mid.points[k];
+      moved.friction_place = turn * (moved.friction_place - moved.place);
+      moved.place += 0.25 * model.points[k].frame.transpose() * both;
+      moved.friction_place += moved.place;
       mid.points[k].frame = model.points[k].frame * turn.transpose();
     }
   }

@@ -29,16 +29,23 @@ std::vector<bool> reduced_points(const RigidModel& model, const LimitAnalysis::C
 }  // namespace
 
 LimitAnalysis::LimitAnalysis(RigidModel model, std::vector<bool> reduced, int threads)
-    : model_(std::move(model)), reduced_(std::move(reduced)), program_(program_of(model_, threads)) {}
+    : model_(std::move(model)),
+      reduced_(std::move(reduced)),
+      bound_(program_of(model_, threads, FrictionAt::uniform_pressure)),
+      program_(program_of(model_, threads)) {}
 
 LimitAnalysis::LimitAnalysis(RigidModel model, const Chosen& reduced, int threads)
     : model_(std::move(model)),
       reduced_(reduced_points(model_, reduced)),
+      bound_(program_of(model_, threads, FrictionAt::uniform_pressure)),
       program_(program_of(model_, threads)) {}
 
 void LimitAnalysis::set_factors(const LimitFactors& factors) {
-  for (std::size_t k = 0; k < model_.points.size(); ++k)
-    program_.set_strength(k, strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0));
+  for (std::size_t k = 0; k < model_.points.size(); ++k) {
+    const ConeStrength strength = strength_of(model_, model_.points[k], reduced_[k] ? factors.strength : 1.0);
+    bound_.set_strength(k, strength);
+    program_.set_strength(k, strength);
+  }
 }
 
 std::vector<BodyVelocity> LimitAnalysis::load(double factor) const {
@@ -71,7 +78,7 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   set_factors(factors);
   ConeQuestion asked;
   asked.load = load(factors.load);
-  ConeAnswer found = program_.solve(asked);
+  ConeAnswer found = bound_.solve(asked);
   LimitTrial trial;
   trial.factors = factors;
   trial.programmes = 1;
@@ -87,7 +94,7 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
     double strength_power = 0.0;
     for (std::size_t k = 0; k < model_.points.size(); ++k) {
       if (!reduced_[k]) continue;
-      const ConeStrength& s = program_.points()[k].strength;
+      const ConeStrength& s = bound_.points()[k].strength;
       strength_power += found.opening[k][0] * (s.friction * found.force[k][0] + s.cohesion) +
                         found.opening[k][1] * s.tension;
     }
@@ -182,7 +189,7 @@ double LimitAnalysis::most_that_stands(double most) {
   asked.load = load(0.0);
   asked.grows = model_.multiplied;
   asked.most = most;
-  const ConeAnswer found = program_.solve(asked);
+  const ConeAnswer found = bound_.solve(asked);
   return found.status == ConeStatus::solved && found.lacking < still ? found.factor : 0.0;
 }
 

@@ -76,7 +76,8 @@ class LimitAnalysis {
 
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
-  ConeProgram program_;
+  ConeProgram bound_;    ///< of what any forces balance, with the twisting resistance of uniform pressure
+  ConeProgram program_;  ///< of motions
   std::optional<SingleBodies> single_;  ///< once it was asked for
 };
 

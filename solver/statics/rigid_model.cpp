@@ -12,6 +12,7 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "mechanics/block/rigid_motions.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/statics/rigid_points.hpp"
 
 namespace ashlar {
 namespace {
@@ -138,133 +139,14 @@ BodyVelocity load_on(const BlockSystem& system, const RunState& state, const Rig
   return body.motion.transpose() * wrench;
 }
 
-/// The system with springs at the corners of overlaps, and no ties.
-BlockSystem with_corners(const BlockSystem& system) {
-  SimulationSettings settings = system.settings();
-  settings.area_springs = false;
-  settings.curved_surface = false;
-  settings.augmented = false;
-  settings.search.subdivisions = 0;
-  settings.search.chord_tolerance = std::numeric_limits<double>::infinity();
-  return BlockSystem(
-      system.blocks(),
-      [&system](int a, int b) {
-        JointLaw law = system.law(a, b);
-        law.area_springs = false;
-        return law;
-      },
-      settings, {}, system.absent());
-}
-
-/// Divides the overlaps of two blocks into parts.
-class OverlapParts {
- public:
-  OverlapParts(const ContactFinder& finder, const FoundContacts& found, const ContactPair& pair, double reach)
-      : a_(finder.placed(found.blocks[0])),
-        b_(finder.placed(found.blocks[1])),
-        found_(found),
-        pair_(pair),
-        reach_(reach) {}
-
-  /// @param law of the two blocks
-  void add(const JointLaw& law, std::vector<RigidPoint>& points) const {
-    for (const CellOverlap& overlap : found_.contacts.overlaps) {
-      const ContactPoint* corner = corner_of(overlap);
-      if (corner == nullptr) continue;
-      double gap = 0.0;
-      for (const double g : overlap.gaps) gap += g / static_cast<double>(overlap.gaps.size());
-      if (gap > reach_) continue;
-      for (std::size_t k = 2; k < overlap.corners.size(); ++k)
-        add_triangle({overlap.corners[0].place, overlap.corners[k - 1].place, overlap.corners[k].place},
-                     overlap, *corner, law, points);
-    }
-  }
-
- private:
-  using Triangle = std::array<Eigen::Vector2d, 3>;
-
-  [[nodiscard]] const ContactPoint* corner_of(const CellOverlap& overlap) const {
-    const int face_a = a_.surface().cells[at(overlap.cell_a)].face;
-    const int face_b = b_.surface().cells[at(overlap.cell_b)].face;
-    for (const ContactPoint& point : pair_.points())
-      if (point.type == ContactPointType::face_face && point.face_a == face_a && point.face_b == face_b)
-        return &point;
-    return nullptr;
-  }
-
-  static ContactPoint part_of(ContactPoint corner, const Vector3& place, double area) {
-    for (Vector3* material : {&corner.material_a, &corner.material_b}) *material += place - corner.place_a;
-    corner.place_a = corner.place_b = place;
-    corner.area = area;
-    corner.gap = 0.0;
-    return corner;
-  }
-
-  void add_triangle(const Triangle& t, const CellOverlap& overlap, const ContactPoint& corner,
-                    const JointLaw& law, std::vector<RigidPoint>& points) const {
-    const Eigen::Vector2d m01 = 0.5 * (t[0] + t[1]), m12 = 0.5 * (t[1] + t[2]), m20 = 0.5 * (t[2] + t[0]);
-    for (const Triangle& part : {Triangle{t[0], m01, m20}, Triangle{t[1], m12, m01}, Triangle{t[2], m20, m12},
-                                 Triangle{m01, m12, m20}}) {
-      const Eigen::Vector2d u = part[1] - part[0], v = part[2] - part[0];
-      const double area = 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
-      if (!(area > 0.0)) continue;
-      const Eigen::Vector2d middle = (part[0] + part[1] + part[2]) / 3.0;
-      const ViewFrame& frame = overlap.frame;
-      Eigen::Matrix3d axes;
-      axes << corner.normal.transpose(), corner.tangent_1.transpose(), corner.tangent_2.transpose();
-      points.push_back({{pair_.a(), pair_.b()},
-                        frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2,
-                        axes,
-                        area,
-                        law,
-                        part_of(corner, frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2, area)});
-    }
-  }
-
-  const PlacedSurface& a_;
-  const PlacedSurface& b_;
-  const FoundContacts& found_;
-  const ContactPair& pair_;
-  double reach_;
-};
-
-/// Points of all pairs of blocks, in the order of the pairs.
-std::vector<RigidPoint> points_of(const BlockSystem& system, const RunState& state,
-                                  const std::vector<int>& body_of) {
-  BlockSystem view = with_corners(system);
-  RunState copy;
-  copy.states = state.states;
-  for (const auto& [blocks, history] : state.pairs) copy.pairs[blocks].overlap = history.overlap;
-  copy.clock = state.clock;
-  StepContacts contacts(view);
-  std::vector<FoundContacts> found = contacts.detect(view, copy, 0.0);
-  std::erase_if(found, [&](const FoundContacts& one) {
-    const auto [a, b] = one.blocks;
-    const bool same = body_of[at(a)] >= 0 && body_of[at(a)] == body_of[at(b)];
-    return same || (body_of[at(a)] < 0 && body_of[at(b)] < 0) || system.left_out().contains(one.blocks);
-  });
-  const double reach = system.settings().contact_distance;
-  std::vector<RigidPoint> points;
-  auto next = found.begin();
-  for (const ContactPair& pair : contacts.pairs(view, copy, found, PairUse::statics)) {
-    while (next->blocks != PairKey{pair.a(), pair.b()}) ++next;
-    const JointLaw law = system.law(pair.a(), pair.b());
-    for (const ContactPoint& point : pair.points()) {
-      if (point.gap > reach) continue;
-      Eigen::Matrix3d frame;
-      frame << point.normal.transpose(), point.tangent_1.transpose(), point.tangent_2.transpose();
-      points.push_back({{pair.a(), pair.b()}, 0.5 * (point.place_a + point.place_b), frame, 0.0, law, point});
-    }
-    if (law.cohesion > 0.0 || law.tensile_strength > 0.0)
-      OverlapParts(contacts.finder(), *next, pair, reach).add(law, points);
-  }
-  return points;
-}
-
-ConeRows rows_of(const RigidBody& body, const RigidPoint& point) {
+ConeRows rows_of(const RigidBody& body, const RigidPoint& point, FrictionAt friction) {
   Eigen::Matrix<double, 3, 6> field;
   field << Eigen::Matrix3d::Identity(), -cross_matrix(point.place - body.middle);
-  return point.frame * field * body.motion;
+  Eigen::Matrix<double, 3, 6> rows = point.frame * field;
+  if (friction == FrictionAt::corners) return rows * body.motion;
+  field.rightCols<3>() = -cross_matrix(point.friction_place - body.middle);
+  rows.bottomRows<2>() = point.frame.bottomRows<2>() * field;
+  return rows * body.motion;
 }
 
 }  // namespace
@@ -274,7 +156,7 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   RigidModel model;
   model.body_of.assign(at(system.count()), -1);
   model.bodies = bodies_of(system, state, model.body_of);
-  std::vector<RigidPoint> points = points_of(system, state, model.body_of);
+  std::vector<RigidPoint> points = rigid_points(system, state, model.body_of);
   // Points of the same two bodies follow each other.
   const auto bodies = [&](const RigidPoint& point) {
     return std::array<int, 2>{model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
@@ -334,13 +216,14 @@ ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, doubl
   return {friction, cohesion, friction > 0.0 ? std::min(tension, cohesion / friction) : tension};
 }
 
-std::vector<ConePoint> cone_points(const RigidModel& model) {
+std::vector<ConePoint> cone_points(const RigidModel& model, FrictionAt friction) {
   std::vector<ConePoint> points;
   for (const ConePair& pair : model.pairs) {
     for (std::size_t k = pair.begin; k < pair.end; ++k) {
       ConePoint point;
-      if (pair.bodies[0] >= 0) point.first = rows_of(model.bodies[at(pair.bodies[0])], model.points[k]);
-      if (pair.bodies[1] >= 0) point.second = rows_of(model.bodies[at(pair.bodies[1])], model.points[k]);
+      const auto rows = [&](int body) { return rows_of(model.bodies[at(body)], model.points[k], friction); };
+      if (pair.bodies[0] >= 0) point.first = rows(pair.bodies[0]);
+      if (pair.bodies[1] >= 0) point.second = rows(pair.bodies[1]);
       point.strength = strength_of(model, model.points[k], 1.0);
       points.push_back(point);
     }
@@ -348,10 +231,10 @@ std::vector<ConePoint> cone_points(const RigidModel& model) {
   return points;
 }
 
-ConeProgram program_of(const RigidModel& model, int threads) {
+ConeProgram program_of(const RigidModel& model, int threads, FrictionAt friction) {
   std::vector<int> freedom;
   for (const RigidBody& body : model.bodies) freedom.push_back(body.freedom);
-  return ConeProgram(std::move(freedom), model.pairs, cone_points(model), threads);
+  return ConeProgram(std::move(freedom), model.pairs, cone_points(model, friction), threads);
 }
 
 std::vector<PairRecord> contact_records(const RigidModel& model, const std::vector<Eigen::Vector3d>& force) {

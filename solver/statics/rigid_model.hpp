@@ -27,6 +27,9 @@ struct RigidPoint {
   Eigen::Matrix3d frame;      ///< rows: normal out of the second block, two tangents
   double area = 0.0;          ///< m^2, of a part of an overlap; 0: a corner, or a single place
   JointLaw law;
+  /// m, of FrictionAt::uniform_pressure: in the face, as near to the middle of the overlap as makes forces in its corners
+  /// resist twisting as uniform pressure does (face_friction.hpp); of all but corners of faces `place`
+  Vector3 friction_place;
   ContactPoint
       contact;  ///< that it comes from: of a part, a corner of its overlap. Normals out of its own second block
 };
@@ -63,10 +66,15 @@ struct RigidModel {
 [[nodiscard]] RigidModel rigid_model(const BlockSystem& system, const RunState& state, double end_time,
                                      const std::vector<bool>& multiplied);
 
+/// Where friction of the corners of faces acts: where their pressure does, or where it resists twisting as uniform pressure.
+enum class FrictionAt { corners, uniform_pressure };
+
 /// Its points in the programme, with the strengths of the joints.
-[[nodiscard]] std::vector<ConePoint> cone_points(const RigidModel& model);
+[[nodiscard]] std::vector<ConePoint> cone_points(const RigidModel& model,
+                                                 FrictionAt friction = FrictionAt::corners);
 /// Its programme, with the strengths of the joints.
-[[nodiscard]] ConeProgram program_of(const RigidModel& model, int threads);
+[[nodiscard]] ConeProgram program_of(const RigidModel& model, int threads,
+                                     FrictionAt friction = FrictionAt::corners);
 
 /// Of a point, with friction, cohesion and tensile strength divided by a factor. @param factor > 0
 [[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor);

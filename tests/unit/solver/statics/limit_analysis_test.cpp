@@ -192,6 +192,25 @@ TEST(LimitAnalysis, APushOfABlockIsBoundBySlidingAndToppling) {
   }
 }
 
+// A square slab resists twisting by mu W times the mean distance of its base from the middle, a/6 (sqrt(2) + asinh(1)), if
+// its pressure is uniform; corners alone would resist by 1.85 times that.
+TEST(LimitAnalysis, ATwistedSlabResistsAsUniformPressureDoes) {
+  for (const double side : {1.0, 3.0}) {
+    Scene scene;
+    scene.add("slab", Polyhedron(make_box({0, 0, 0}, {side, side, 0.2})));
+    scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {side + 2, side + 2, 0})));
+    for (const double end : {0.0, 1.0}) {
+      const Vector3 corner(end * side, 0.5 * side, 0.1);
+      scene.blocks[0].loads.push_back({corner, false, {0.0, (end - 0.5) * 2000.0, 0.0}, {}});
+    }
+    const LimitAnswer answer =
+        scene.analysis({true, false}).load_factor({0.1, 1000.0, 1e-3}, [] { return true; });
+    const double weight = rock.density * side * side * 0.2 * g;
+    const double couple = 0.5 * weight * side / 6.0 * (std::sqrt(2.0) + std::asinh(1.0));
+    expect_factors(answer, couple / (1000.0 * side), std::to_string(side));
+  }
+}
+
 TEST(LimitAnalysis, AStoneBelowARoofMovesAwayFromIt) {
   // It slides down its plane and leaves the roof: tan(phi)/tan(45). Forces that wedge it below the roof balance it up
   // to 2.04: a linear programme of the plane problem gave 2.04024.

@@ -17,8 +17,7 @@ struct SampleProblem {
                law,
                points,
                std::vector<PointMemory>(points.size())}},
-        bodies(2),
-        problem(island, with_models(), pairs, scheme, settings,
+        problem(island, bodies, pairs, scheme, settings,
                 solver_of(island, bodies, pairs, SystemRole::step, solvers)) {}
 
   BlockModel cube{block_of("cube", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2500, 1e9, 0.2}, 1)};
@@ -26,7 +25,7 @@ struct SampleProblem {
   BlockState at_rest = cube.initial_state();
   BlockState of_ground = ground.initial_state();
   std::vector<ContactPair> pairs;
-  std::vector<BodyStep> bodies;
+  std::vector<BodyStep> bodies = bodies_at_rest();
   Island island{{0}, {0}};
   IslandSolvers solvers{LinearMethod::cholesky};
   SimulationSettings settings;
@@ -34,13 +33,14 @@ struct SampleProblem {
   IslandProblem problem;
 
  private:
-  std::vector<BodyStep>& with_models() {
-    for (BodyStep& body : bodies) {
-      body.model = &body == bodies.data() ? &cube : &ground;
-      body.state = &body == bodies.data() ? &at_rest : &of_ground;
+  [[nodiscard]] std::vector<BodyStep> bodies_at_rest() const {
+    std::vector<BodyStep> result(2);
+    for (BodyStep& body : result) {
+      body.model = &body == result.data() ? &cube : &ground;
+      body.state = &body == result.data() ? &at_rest : &of_ground;
       body.free_change = body.external_force = body.change = Eigen::VectorXd::Zero(body.model->unknowns());
     }
-    return bodies;
+    return result;
   }
 };
 

@@ -1,0 +1,103 @@
+#include "solver/statics/face_friction.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Area, and its first moment.
+struct AreaMoment {
+  double area = 0.0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+};
+
+AreaMoment moment_of(const std::vector<Polygon>& polygons) {
+  AreaMoment sum;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t k = 2; k < polygon.size(); ++k) {
+      const double area = 0.5 * cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+      sum.area += area;
+      sum.first += area / 3.0 * (polygon[0] + polygon[k - 1] + polygon[k]);
+    }
+  }
+  return sum;
+}
+
+/// Integral of the distance from the origin over the triangle from there to a side, signed as its area:
+/// h^3 / 6 (tan t / cos t + asinh tan t) between the angles t of its ends from the foot at the distance h.
+double distance_over_triangle(const Eigen::Vector2d& start, const Eigen::Vector2d& end) {
+  const double length = (end - start).norm();
+  if (!(length > 0.0)) return 0.0;
+  const Eigen::Vector2d along = (end - start) / length;
+  const double height = cross(start, along);
+  if (height == 0.0) return 0.0;
+  const auto up_to = [&](double place) {
+    return place * std::hypot(place, height) + height * height * std::asinh(place / std::abs(height));
+  };
+  return height / 6.0 * (up_to(along.dot(end)) - up_to(along.dot(start)));
+}
+
+}  // namespace
+
+Vector3 middle_of_point(const ContactPoint& point) {
+  return 0.5 * (point.place_a + point.place_b);
+}
+
+double mean_distance(const std::vector<Polygon>& polygons, const Eigen::Vector2d& about) {
+  double sum = 0.0;
+  for (const Polygon& polygon : polygons)
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      sum += distance_over_triangle(polygon[k] - about, polygon[(k + 1) % polygon.size()] - about);
+  return sum / moment_of(polygons).area;
+}
+
+std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurface& b,
+                                        const std::vector<CellOverlap>& overlaps,
+                                        const std::vector<ContactPoint>& points) {
+  using Faces = std::array<int, 2>;
+  std::map<Faces, std::vector<std::size_t>> corners;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (points[k].type == ContactPointType::face_face)
+      corners[{points[k].face_a, points[k].face_b}].push_back(k);
+  std::vector<Vector3> places;
+  for (const ContactPoint& point : points) places.push_back(middle_of_point(point));
+  for (const auto& [faces, of_overlap] : corners) {
+    const ViewFrame frame(places[of_overlap.front()], points[of_overlap.front()].normal);
+    std::vector<Polygon> polygons;
+    for (const CellOverlap& overlap : overlaps) {
+      if (a.surface().cells[at(overlap.cell_a)].face != faces[0] ||
+          b.surface().cells[at(overlap.cell_b)].face != faces[1])
+        continue;
+      Polygon& polygon = polygons.emplace_back();
+      const ViewFrame& seen = overlap.frame;
+      for (const OverlapCorner& corner : overlap.corners)
+        polygon.push_back(
+            frame.project(seen.origin + corner.place.x() * seen.e1 + corner.place.y() * seen.e2));
+    }
+    const AreaMoment moment = moment_of(polygons);
+    if (!(std::abs(moment.area) > 0.0)) continue;
+    const Eigen::Vector2d middle = moment.first / moment.area;
+    double farthest = 0.0;
+    for (const std::size_t k : of_overlap)
+      farthest = std::max(farthest, (frame.project(places[k]) - middle).norm());
+    const double share = std::min(1.0, mean_distance(polygons, middle) / farthest);
+    for (const std::size_t k : of_overlap) {
+      const Eigen::Vector2d arm = (share - 1.0) * (frame.project(places[k]) - middle);
+      places[k] += arm.x() * frame.e1 + arm.y() * frame.e2;
+    }
+  }
+  return places;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,150 @@
+#include "solver/statics/rigid_points.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/index.hpp"
+#include "solver/state/automatic.hpp"
+#include "solver/statics/face_friction.hpp"
+#include "solver/step/step_contacts.hpp"
+
+namespace ashlar {
+namespace {
+
+/// The system with springs at the corners of overlaps, and no ties.
+BlockSystem with_corners(const BlockSystem& system) {
+  SimulationSettings settings = system.settings();
+  settings.area_springs = false;
+  settings.curved_surface = false;
+  settings.augmented = false;
+  settings.search.subdivisions = 0;
+  settings.search.chord_tolerance = std::numeric_limits<double>::infinity();
+  return BlockSystem(
+      system.blocks(),
+      [&system](int a, int b) {
+        JointLaw law = system.law(a, b);
+        law.area_springs = false;
+        return law;
+      },
+      settings, {}, system.absent());
+}
+
+/// Divides the overlaps of two blocks into parts.
+class OverlapParts {
+ public:
+  OverlapParts(const ContactFinder& finder, const FoundContacts& found, const ContactPair& pair, double reach)
+      : a_(finder.placed(found.blocks[0])),
+        b_(finder.placed(found.blocks[1])),
+        found_(found),
+        pair_(pair),
+        reach_(reach) {}
+
+  /// @param law of the two blocks
+  void add(const JointLaw& law, std::vector<RigidPoint>& points) const {
+    for (const CellOverlap& overlap : found_.contacts.overlaps) {
+      const ContactPoint* corner = corner_of(overlap);
+      if (corner == nullptr) continue;
+      double gap = 0.0;
+      for (const double g : overlap.gaps) gap += g / static_cast<double>(overlap.gaps.size());
+      if (gap > reach_) continue;
+      for (std::size_t k = 2; k < overlap.corners.size(); ++k)
+        add_triangle({overlap.corners[0].place, overlap.corners[k - 1].place, overlap.corners[k].place},
+                     overlap, *corner, law, points);
+    }
+  }
+
+ private:
+  using Triangle = std::array<Eigen::Vector2d, 3>;
+
+  [[nodiscard]] const ContactPoint* corner_of(const CellOverlap& overlap) const {
+    const int face_a = a_.surface().cells[at(overlap.cell_a)].face;
+    const int face_b = b_.surface().cells[at(overlap.cell_b)].face;
+    for (const ContactPoint& point : pair_.points())
+      if (point.type == ContactPointType::face_face && point.face_a == face_a && point.face_b == face_b)
+        return &point;
+    return nullptr;
+  }
+
+  static ContactPoint part_of(ContactPoint corner, const Vector3& place, double area) {
+    for (Vector3* material : {&corner.material_a, &corner.material_b}) *material += place - corner.place_a;
+    corner.place_a = corner.place_b = place;
+    corner.area = area;
+    corner.gap = 0.0;
+    return corner;
+  }
+
+  void add_triangle(const Triangle& t, const CellOverlap& overlap, const ContactPoint& corner,
+                    const JointLaw& law, std::vector<RigidPoint>& points) const {
+    const Eigen::Vector2d m01 = 0.5 * (t[0] + t[1]), m12 = 0.5 * (t[1] + t[2]), m20 = 0.5 * (t[2] + t[0]);
+    for (const Triangle& part : {Triangle{t[0], m01, m20}, Triangle{t[1], m12, m01}, Triangle{t[2], m20, m12},
+                                 Triangle{m01, m12, m20}}) {
+      const Eigen::Vector2d u = part[1] - part[0], v = part[2] - part[0];
+      const double area = 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
+      if (!(area > 0.0)) continue;
+      const Eigen::Vector2d middle = (part[0] + part[1] + part[2]) / 3.0;
+      const ViewFrame& frame = overlap.frame;
+      Eigen::Matrix3d axes;
+      axes << corner.normal.transpose(), corner.tangent_1.transpose(), corner.tangent_2.transpose();
+      const Vector3 place = frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2;
+      points.push_back({.blocks = {pair_.a(), pair_.b()},
+                        .place = place,
+                        .frame = axes,
+                        .area = area,
+                        .law = law,
+                        .friction_place = place,
+                        .contact = part_of(corner, place, area)});
+    }
+  }
+
+  const PlacedSurface& a_;
+  const PlacedSurface& b_;
+  const FoundContacts& found_;
+  const ContactPair& pair_;
+  double reach_;
+};
+
+}  // namespace
+
+std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& state,
+                                     const std::vector<int>& body_of) {
+  BlockSystem view = with_corners(system);
+  RunState copy;
+  copy.states = state.states;
+  for (const auto& [blocks, history] : state.pairs) copy.pairs[blocks].overlap = history.overlap;
+  copy.clock = state.clock;
+  StepContacts contacts(view);
+  std::vector<FoundContacts> found = contacts.detect(view, copy, 0.0);
+  std::erase_if(found, [&](const FoundContacts& one) {
+    const auto [a, b] = one.blocks;
+    const bool same = body_of[at(a)] >= 0 && body_of[at(a)] == body_of[at(b)];
+    return same || (body_of[at(a)] < 0 && body_of[at(b)] < 0) || system.left_out().contains(one.blocks);
+  });
+  const double reach = system.settings().contact_distance;
+  std::vector<RigidPoint> points;
+  auto next = found.begin();
+  for (const ContactPair& pair : contacts.pairs(view, copy, found, PairUse::statics)) {
+    while (next->blocks != PairKey{pair.a(), pair.b()}) ++next;
+    const JointLaw law = system.law(pair.a(), pair.b());
+    const std::vector<Vector3> friction_places =
+        places_of_friction(contacts.finder().placed(pair.a()), contacts.finder().placed(pair.b()),
+                           next->contacts.overlaps, pair.points());
+    for (std::size_t k = 0; k < pair.points().size(); ++k) {
+      const ContactPoint& point = pair.points()[k];
+      if (point.gap > reach) continue;
+      Eigen::Matrix3d frame;
+      frame << point.normal.transpose(), point.tangent_1.transpose(), point.tangent_2.transpose();
+      points.push_back({.blocks = {pair.a(), pair.b()},
+                        .place = middle_of_point(point),
+                        .frame = frame,
+                        .area = 0.0,
+                        .law = law,
+                        .friction_place = friction_places[k],
+                        .contact = point});
+    }
+    if (law.cohesion > 0.0 || law.tensile_strength > 0.0)
+      OverlapParts(contacts.finder(), *next, pair, reach).add(law, points);
+  }
+  return points;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,16 @@
+// Places where the blocks of a scene bear on each other as rigid bodies (rigid_model.hpp).
+#pragma once
+
+#include <vector>
+
+#include "solver/statics/rigid_model.hpp"
+
+namespace ashlar {
+
+/// Of all pairs of blocks, in the order of the pairs: corners of overlaps, single places, and parts of overlaps with cohesion
+/// or tensile strength. Pairs within a body and pairs that cannot move are left out.
+/// @param body_of by block; -1: it does not move
+[[nodiscard]] std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& state,
+                                                   const std::vector<int>& body_of);
+
+}  // namespace ashlar
