@@ -330,6 +330,7 @@ class OpenClose {
     }
   }
 
+  // notes/hard_steps.md
   static constexpr int hard_iterations = 2;
   static constexpr double hard_share = 0.2;
 
