@@ -216,36 +216,36 @@ CornerMoments moments_of(const Corners& polygon, const Eigen::Vector2d& centroid
   return result;
 }
 
-/// Corners and one or two points in the middle, see affine_rule().
-void add_corners_and_middle(const Corners& polygon, PolygonRule& rule) {
+/// Corners, as many points within them, and two points for what both leave, see affine_rule().
+void add_two_rings(const Corners& polygon, PolygonRule& rule) {
   const std::optional<Eigen::Vector2d> centroid = centroid_of(polygon);
   if (!centroid) return;
   const CornerMoments moments = moments_of(polygon, *centroid);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shares(moments.second, moments.of_corners,
-                                                                         Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shares(moments.second, moments.of_corners);
   // Bounds of every convex polygon; of needles rounding may leave anything.
-  constexpr double least = 1.0 / 6.0, most = 1.0 / 2.0;
-  const double found = shares.eigenvalues()[0];
-  const double share = found > least ? std::min(found, most) : least;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    if (!(moments.tributary[k] > 0.0)) continue;  // of corners that are one
-    rule.points.push_back(polygon[k]);
-    rule.weights.push_back(share * moments.tributary[k]);
+  const auto bounded = [](double found) { return found > 1.0 / 6.0 ? std::min(found, 0.5) : 1.0 / 6.0; };
+  const double share = bounded(shares.eigenvalues()[0]);
+  // Rounding alone leaves 1e-16.
+  constexpr double none = 1e-12;
+  const double left = 1.0 - share / bounded(shares.eigenvalues()[1]);
+  const double middle = left > none ? left : 0.0;
+  const double outer = 0.5 * share;
+  const double inner = 1.0 - outer - middle;
+  const double scale = std::sqrt((share - outer) / inner);
+  for (const auto& [weight, size] : {std::pair(outer, 1.0), std::pair(inner, scale)}) {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      if (!(moments.tributary[k] > 0.0)) continue;  // of corners that are one
+      rule.points.emplace_back(size == 1.0 ? polygon[k] : *centroid + size * (polygon[k] - *centroid));
+      rule.weights.push_back(weight * moments.tributary[k]);
+    }
   }
-  const double left = (1.0 - share) * moments.area;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> rest(moments.second - share * moments.of_corners);
-  // Rounding alone leaves a rest of 1e-16, whose root is the distance of the points.
-  constexpr double apart = 1e-6;
-  const double squared = rest.eigenvalues()[1] / left;
-  if (squared <= apart * apart * moments.second.trace() / moments.area) {
-    rule.points.push_back(*centroid);
-    rule.weights.push_back(left);
-    return;
-  }
-  const Eigen::Vector2d arm = std::sqrt(squared) * rest.eigenvectors().col(1);
+  if (middle == 0.0) return;
+  // M - b S = (1 - b/b') (M x) (M x)' of the eigenvector x of b', x' M x = 1.
+  const Eigen::Vector2d moment = moments.second * shares.eigenvectors().col(1);
+  const Eigen::Vector2d arm = moment / std::sqrt(shares.eigenvectors().col(1).dot(moment) * moments.area);
   for (const double side : {-1.0, 1.0}) {
     rule.points.emplace_back(*centroid + side * arm);
-    rule.weights.push_back(0.5 * left);
+    rule.weights.push_back(0.5 * middle * moments.area);
   }
 }
 
@@ -265,7 +265,7 @@ PolygonRule affine_rule(const std::vector<Eigen::Vector2d>& polygon) {
   if (polygon.size() < 3) return rule;
   Corners rest = polygon;
   while (const auto corner = take_flat_corner(rest)) add_triangle(*corner, 2, rule);
-  add_corners_and_middle(rest, rule);
+  add_two_rings(rest, rule);
   return rule;
 }
 

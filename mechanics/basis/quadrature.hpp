@@ -42,11 +42,10 @@ struct PolygonRule {
 /// @param degree polynomials integrated exactly, 1 to 60
 [[nodiscard]] PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree);
 
-/// The rule for products of two affine functions with the fewest points that has the corners of a convex polygon: exact to
-/// degree 2. A corner has a share of the tributary area that the triangles from the centroid give it, as large as leaves
-/// the rest, in the middle, a second moment of rank one: two points on a line through the centroid, or one point there
-/// if the rest has no second moment, as in triangles and parallelograms (notes/affine_rule.md). Nearly straight corners as
-/// in polygon_rule().
+/// A rule for products of two affine functions, exact to degree 2, that has the corners of a convex polygon of n corners:
+/// two rings of n points, the corners and their images nearer to the centroid, and two points where that leaves a second
+/// moment, as it does not in triangles and parallelograms: 2 n or 2 n + 2 points, none at the centroid
+/// (notes/affine_rule.md). Nearly straight corners as in polygon_rule().
 /// @param polygon as that of polygon_rule()
 [[nodiscard]] PolygonRule affine_rule(const std::vector<Eigen::Vector2d>& polygon);
 

@@ -33,7 +33,7 @@ class OpenClose {
         augmentation_(problem),
         settings_(problem.settings()),
         result_(result),
-        may_split_(!problem.scheme().from_rest) {}
+        may_split_(!problem.scheme().from_rest && problem.pairs() >= many_pairs) {}
 
   /// Blocks of the pair whose points have changed their states most often; -1: none did.
   [[nodiscard]] std::array<int, 2> alternating() const {
@@ -333,6 +333,7 @@ class OpenClose {
   // notes/hard_steps.md
   static constexpr int hard_iterations = 2;
   static constexpr double hard_share = 0.2;
+  static constexpr std::size_t many_pairs = 32;
 
   IslandProblem& problem_;
   IslandTangent tangent_;

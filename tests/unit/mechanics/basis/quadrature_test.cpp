@@ -135,19 +135,26 @@ TEST(Quadrature, AffineRuleIsExactForProductsOfAffineFunctions) {
   }
 }
 
-// Simpson's rule in both directions at once has its corners and the middle: 1/12 of the area each, and 2/3. A triangle
-// has 1/12 and 3/4 (degree 2). A general polygon of n corners takes n + 2 points.
-TEST(Quadrature, AffineRuleHasCornersAndOneOrTwoPointsInTheMiddle) {
+// A parallelogram: corners of 1/24 of the area each have half of its second moment, 1/3 of that of its corners, and the
+// other half is that of 5/6 of the area at the distance of sqrt(1/5) of the corners. A triangle, 1/4: 1/8, 1/8 and 7/8.
+TEST(Quadrature, AffineRuleHasTheCornersAndARingWithinThem) {
   const PolygonRule square = affine_rule({{0, 0}, {2, 0}, {3, 1}, {1, 1}});
-  ASSERT_EQ(square.points.size(), 5U);
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(square.weights[k], 2.0 / 12.0, 1e-15);
-  EXPECT_NEAR(square.weights[4], 4.0 / 3.0, 1e-15);
-  EXPECT_NEAR((square.points[4] - Eigen::Vector2d(1.5, 0.5)).norm(), 0.0, 1e-15);
+  const Eigen::Vector2d middle(1.5, 0.5);
+  ASSERT_EQ(square.points.size(), 8U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(square.weights[k], 2.0 / 24.0, 1e-15);
+    EXPECT_NEAR(square.weights[k + 4], 2.0 * 5.0 / 24.0, 1e-15);
+    EXPECT_NEAR((square.points[k + 4] - middle - std::sqrt(0.2) * (square.points[k] - middle)).norm(), 0.0,
+                1e-15);
+  }
   EXPECT_EQ(square.points[2], Eigen::Vector2d(3, 1));
   const PolygonRule triangle = affine_rule({{0, 0}, {3, 0}, {0, 2}});
-  ASSERT_EQ(triangle.points.size(), 4U);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(triangle.weights[k], 3.0 / 12.0, 1e-15);
-  EXPECT_EQ(affine_rule({{0, 0}, {2, 0}, {2, 0.5}, {1, 1}, {0, 1}}).points.size(), 7U);
+  ASSERT_EQ(triangle.points.size(), 6U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(triangle.weights[k], 3.0 / 24.0, 1e-15);
+    EXPECT_NEAR(triangle.weights[k + 3], 3.0 * 7.0 / 24.0, 1e-15);
+  }
+  EXPECT_EQ(affine_rule({{0, 0}, {2, 0}, {2, 0.5}, {1, 1}, {0, 1}}).points.size(), 12U);
   EXPECT_TRUE(affine_rule({{0, 0}, {1, 0}, {2, 0}}).points.empty());
 }
 
