@@ -61,10 +61,11 @@ int degree_of(const Search& search, const CellOverlap& cells) {
   return order <= affine && !search.settings.multipliers ? affine : std::max(order, least_degree);
 }
 
-/// True if some gaps are closed and others open: pressure ends between them.
-bool is_partly_open(const std::vector<double>& gaps, double tolerance) {
+/// True where a face is neither wholly pressed nor wholly open: pressure may end inside, or begin anywhere.
+bool may_open_in_part(const std::vector<double>& gaps, double tolerance) {
+  const auto pressed = [tolerance](double gap) { return gap < -tolerance; };
   const auto open = [tolerance](double gap) { return gap > tolerance; };
-  return std::any_of(gaps.begin(), gaps.end(), open) && !std::all_of(gaps.begin(), gaps.end(), open);
+  return !std::all_of(gaps.begin(), gaps.end(), pressed) && !std::all_of(gaps.begin(), gaps.end(), open);
 }
 
 std::vector<double> gaps_of(const std::vector<ContactPoint>& points) {
@@ -107,7 +108,7 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
   };
   PolygonRule whole = rule_of(outline, degree);
   add_points(whole);
-  if (degree == affine && is_partly_open(gaps_of(points), coordinate_rounding(*a.placed, *b.placed))) {
+  if (degree == affine && may_open_in_part(gaps_of(points), coordinate_rounding(*a.placed, *b.placed))) {
     degree = least_degree;
     whole = rule_of(outline, degree);
     points.clear();
@@ -227,7 +228,7 @@ PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree) {
 }
 
 bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance) {
-  if (overlap.degree == affine && is_partly_open(gaps, tolerance)) return false;
+  if (overlap.degree == affine && may_open_in_part(gaps, tolerance)) return false;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
   const bool may_end = !gaps.empty() && -*least > tolerance && *most > tolerance;
   if (!overlap.end && !may_end) return true;
