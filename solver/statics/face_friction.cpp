@@ -71,6 +71,7 @@ std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurf
     if (points[k].type == ContactPointType::face_face)
       corners[{points[k].face_a, points[k].face_b}].push_back(k);
   std::vector<Vector3> places;
+  places.reserve(points.size());
   for (const ContactPoint& point : points) places.push_back(middle_of_point(point));
   for (const auto& [faces, of_overlap] : corners) {
     const ViewFrame frame(places[of_overlap.front()], points[of_overlap.front()].normal);
@@ -80,6 +81,7 @@ std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurf
           b.surface().cells[at(overlap.cell_b)].face != faces[1])
         continue;
       Polygon& polygon = polygons.emplace_back();
+      polygon.reserve(overlap.corners.size());
       const ViewFrame& seen = overlap.frame;
       for (const OverlapCorner& corner : overlap.corners)
         polygon.push_back(

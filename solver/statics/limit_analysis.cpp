@@ -76,9 +76,18 @@ double LimitAnalysis::estimate(const LimitTrial& trial) const {
 
 LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
   set_factors(factors);
+  LimitTrial trial = balanced_by(bound_, factors);
+  if (trial.outcome != LimitOutcome::stands) return trial;
+  LimitTrial in_corners = balanced_by(program_, factors);
+  in_corners.programmes += trial.programmes;
+  in_corners.iterations += trial.iterations;
+  return in_corners;
+}
+
+LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& factors) const {
   ConeQuestion asked;
   asked.load = load(factors.load);
-  ConeAnswer found = bound_.solve(asked);
+  ConeAnswer found = program.solve(asked);
   LimitTrial trial;
   trial.factors = factors;
   trial.programmes = 1;
@@ -94,7 +103,7 @@ LimitTrial LimitAnalysis::associated(const LimitFactors& factors) {
     double strength_power = 0.0;
     for (std::size_t k = 0; k < model_.points.size(); ++k) {
       if (!reduced_[k]) continue;
-      const ConeStrength& s = bound_.points()[k].strength;
+      const ConeStrength& s = program.points()[k].strength;
       strength_power += found.opening[k][0] * (s.friction * found.force[k][0] + s.cohesion) +
                         found.opening[k][1] * s.tension;
     }
@@ -189,8 +198,13 @@ double LimitAnalysis::most_that_stands(double most) {
   asked.load = load(0.0);
   asked.grows = model_.multiplied;
   asked.most = most;
-  const ConeAnswer found = bound_.solve(asked);
-  return found.status == ConeStatus::solved && found.lacking < still ? found.factor : 0.0;
+  double stands = most;
+  for (ConeProgram* program : {&bound_, &program_}) {
+    const ConeAnswer found = program->solve(asked);
+    if (found.status != ConeStatus::solved || !(found.lacking < still)) return 0.0;
+    stands = std::min(stands, found.factor);
+  }
+  return stands;
 }
 
 std::vector<int> LimitAnalysis::moving_alone(const LimitFactors& factors, double tolerance) {

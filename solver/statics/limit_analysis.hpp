@@ -69,6 +69,7 @@ class LimitAnalysis {
  private:
   void set_factors(const LimitFactors& factors);
   [[nodiscard]] std::vector<BodyVelocity> load(double factor) const;
+  [[nodiscard]] LimitTrial balanced_by(ConeProgram& program, const LimitFactors& factors) const;
   [[nodiscard]] std::vector<double> dilation() const;
   [[nodiscard]] std::vector<BodyVelocity> without_friction(const LimitFactors& factors, LimitTrial& trial);
   [[nodiscard]] double estimate(const LimitTrial& trial) const;
@@ -76,8 +77,9 @@ class LimitAnalysis {
 
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
-  ConeProgram bound_;    ///< of what any forces balance, with the twisting resistance of uniform pressure
-  ConeProgram program_;  ///< of motions
+  ConeProgram
+      bound_;  ///< with the twisting resistance of uniform pressure: what stands has to stand in it too
+  ConeProgram program_;                 ///< with forces in the corners
   std::optional<SingleBodies> single_;  ///< once it was asked for
 };
 

@@ -293,21 +293,30 @@ class OpenClose {
     const double enough = tolerance * work_at_start;
     if (!(work_at_start > 0.0) || std::abs(work_at_end) <= enough) return at;
     if (work_at_end > 0.0 && farthest <= 1.0) return at;
-    const ContactLine line(problem_, change, 1.0);
-    OnLine low{0.0, work_at_start, line.work(0.0)};
-    OnLine high{1.0, work_at_end, line.work(1.0)};
+    std::optional<ContactLine> line;  // Of few contacts all forces are evaluated as soon.
+    if (problem_.pairs() >= many_pairs) line.emplace(problem_, change, 1.0);
+    const auto contacts = [&line](double share) { return line ? line->work(share) : 0.0; };
+    OnLine low{0.0, work_at_start, contacts(0.0)};
+    OnLine high{1.0, work_at_end, contacts(1.0)};
     while (high.work > enough && high.share < farthest) {
       low = high;
-      high = {2.0 * high.share, work(2.0 * high.share), line.work(2.0 * high.share)};
+      high = {2.0 * high.share, work(2.0 * high.share), contacts(2.0 * high.share)};
     }
     double found = high.work;
     for (int k = 0; k < settings_.iteration.line_search_steps && std::abs(found) > enough && high.work < 0.0;
          ++k) {
-      const double share = root_between(low, high, line, 0.5 * enough);
+      const double share = line ? root_between(low, high, *line, 0.5 * enough) : next_share(low, high, k);
       found = work(share);
-      (found > 0.0 ? low : high) = {share, found, line.work(share)};
+      (found > 0.0 ? low : high) = {share, found, contacts(share)};
     }
     return at;
+  }
+
+  /// Where to look next between two guesses with work of either sign: false position, and every third time the middle, as
+  /// the work has kinks.
+  [[nodiscard]] static double next_share(const OnLine& low, const OnLine& high, int k) {
+    return k % 3 == 2 ? 0.5 * (low.share + high.share)
+                      : low.share + (high.share - low.share) * low.work / (low.work - high.work);
   }
 
   /// Where work ends between two guesses on a line, of which the first one's is positive and the second one's negative, if
@@ -319,10 +328,7 @@ class OpenClose {
     OnLine low = first;
     OnLine high = second;
     for (int k = 0;; ++k) {
-      // False position, and every third time the middle: the work has kinks.
-      const double share = k % 3 == 2
-                               ? 0.5 * (low.share + high.share)
-                               : low.share + (high.share - low.share) * low.work / (low.work - high.work);
+      const double share = next_share(low, high, k);
       const double contacts = line.work(share);
       const double found = contacts + rest + slope * (share - first.share);
       if (k >= settings_.iteration.line_search_steps || !(std::abs(found) > enough)) return share;

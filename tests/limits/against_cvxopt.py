@@ -61,12 +61,23 @@ def contacts(boxes):
                     if any(low >= high - 1e-12 for low, high in spans):
                         continue
                     unit = [[float(k == j) for j in range(3)] for k in range(3)]
+                    center = [sum(span) / 2 for span in spans]
+                    share = twist_share(*(high - low for low, high in spans))
                     for u in spans[0]:
                         for v in spans[1]:
-                            place = [0.0, 0.0, 0.0]
-                            place[axis], place[across[0]], place[across[1]] = upper[axis][0], u, v
-                            found.append((one, other, place, unit[axis], unit[across[0]], unit[across[1]]))
+                            place, rubs = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+                            place[axis] = rubs[axis] = upper[axis][0]
+                            for k, c, value in zip(across, center, (u, v)):
+                                place[k], rubs[k] = value, c + share * (value - c)
+                            found.append((one, other, place, rubs, unit[axis], unit[across[0]], unit[across[1]]))
     return found
+
+
+def twist_share(a, b):
+    """Mean distance of a rectangle's points from its middle, over that of its corners."""
+    p, q = a / 2, b / 2
+    mean = math.hypot(p, q) / 3 + p * p / (6 * q) * math.asinh(q / p) + q * q / (6 * p) * math.asinh(p / q)
+    return mean / math.hypot(p, q)
 
 
 def wrench(force, place, middle):
@@ -76,6 +87,11 @@ def wrench(force, place, middle):
 
 
 def largest_factor(boxes, loads, friction):
+    """What both programmes balance: friction in the corners, and where it resists twisting as uniform pressure does."""
+    return min(largest_factor_of(boxes, loads, friction, near) for near in (False, True))
+
+
+def largest_factor_of(boxes, loads, friction, nearer):
     points = contacts(boxes)
     count = 3 * len(points) + 1
     middle = [[(low + high) / 2 for low, high in box] for box in boxes]
@@ -87,10 +103,11 @@ def largest_factor(boxes, loads, friction):
             for k, value in enumerate(wrench(force, place, middle[box])):
                 balance[6 * (box - 1) + k, column] += value
 
-    for n, (one, other, place, *frame) in enumerate(points):
+    for n, (one, other, place, rubs, *frame) in enumerate(points):
         for k, direction in enumerate(frame):
-            add(one, 3 * n + k, direction, place)
-            add(other, 3 * n + k, [-d for d in direction], place)
+            at = rubs if nearer and k > 0 else place
+            add(one, 3 * n + k, direction, at)
+            add(other, 3 * n + k, [-d for d in direction], at)
     for box, place, force in loads:
         add(box, count - 1, [f / unit for f in force], place)
     for box in range(1, len(boxes)):
