@@ -224,7 +224,7 @@ void add_edge(const ContactBody& a, const ContactBody& b, const EdgeContact& con
 }  // namespace
 
 PolygonRule rule_of(const std::vector<Eigen::Vector2d>& outline, int degree) {
-  return degree == 1 ? affine_rule(outline) : polygon_rule(outline, degree);
+  return degree == affine ? affine_rule(outline) : polygon_rule(outline, degree);
 }
 
 bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<double>& gaps, double tolerance) {

@@ -253,10 +253,7 @@ class Path {
     constexpr double turned = 1e-4;  // rad
     std::map<std::array<int, 2>, JointResultant> bearing;
     if (force_.size() == model_->points.size()) {
-      std::vector<Vector3> forces;
-      for (std::size_t k = 0; k < force_.size(); ++k)
-        forces.emplace_back(model_->units.force() * (model_->points[k].frame.transpose() * force_[k]));
-      for (const JointResultant& joint : joint_resultants(*model_, forces))
+      for (const JointResultant& joint : joint_resultants(*model_, forces_of(*model_, force_)))
         bearing.emplace(ordered(joint.blocks), joint);
     }
     std::map<std::array<int, 2>, Vector3> places;

@@ -24,7 +24,7 @@ class ThrustProgram {
     ThrustState state;
     state.thrust = sign * answer.factor * model_.units.force();
     state.gap = answer.gap / std::max(std::abs(answer.factor), 1.0);
-    state.force = forces_of(model_, answer);
+    state.force = forces_of(model_, answer.force);
     state.motion = answer.velocity;
     state.motion.pop_back();
     return state;

@@ -70,7 +70,7 @@ SupportWay::SupportWay(const RigidModel& model, int support, const Vector3& down
     : support_(support), middle_(middle_of_bodies(model)), down_(down) {
   std::map<int, int> count;
   for (const RigidPoint& point : model.points) {
-    if (point.blocks[0] != support && point.blocks[1] != support) continue;
+    if (!touches(point, support)) continue;
     const int block = point.blocks[point.blocks[0] == support ? 1 : 0];
     arms_.try_emplace(block, Vector3::Zero()).first->second += level_part(point.place - middle_, down_);
     ++count[block];
@@ -153,10 +153,10 @@ bool is_balanced(const ConeAnswer& answer) {
   return answer.status == ConeStatus::solved && answer.lacking <= residual;
 }
 
-std::vector<Vector3> forces_of(const RigidModel& model, const ConeAnswer& answer) {
+std::vector<Vector3> forces_of(const RigidModel& model, const std::vector<Eigen::Vector3d>& in_frames) {
   std::vector<Vector3> forces;
   for (std::size_t k = 0; k < model.points.size(); ++k)
-    forces.emplace_back(model.units.force() * (model.points[k].frame.transpose() * answer.force[k]));
+    forces.emplace_back(model.units.force() * (model.points[k].frame.transpose() * in_frames[k]));
   return forces;
 }
 

@@ -67,7 +67,8 @@ using SupportVelocity = std::function<Vector3(const RigidPoint& point)>;
 /// Forces in balance were found.
 [[nodiscard]] bool is_balanced(const ConeAnswer& answer);
 
-/// N, by point of the model, on its first block.
-[[nodiscard]] std::vector<Vector3> forces_of(const RigidModel& model, const ConeAnswer& answer);
+/// N, by point of the model, on its first block. @param in_frames in units of the model, as ConeAnswer::force
+[[nodiscard]] std::vector<Vector3> forces_of(const RigidModel& model,
+                                             const std::vector<Eigen::Vector3d>& in_frames);
 
 }  // namespace ashlar

@@ -201,7 +201,7 @@ class Splitting {
     }
   }
 
-  /// Forces of points on the unknowns of their blocks. @param of (SplitPair) -> (3, #points), N
+  /// Forces of points on the unknowns of their blocks. @param of (pair) -> (3, #points), N
   template <class Forces>
   [[nodiscard]] std::vector<PairResponse> on_blocks(const Forces& of) const {
     std::vector<PairResponse> responses(pairs_.size());
@@ -210,7 +210,7 @@ class Splitting {
     return responses;
   }
 
-  /// What bodies lack at the places of the points under their laws, of the largest force on each.
+  /// Residual at the places of the points under their laws: of the largest force on each body the largest part.
   /// @param right_side of the last solution: A x is that less the forces of the penalty springs
   [[nodiscard]] double largest_part_left(const Eigen::VectorXd& right_side) const {
     Eigen::VectorXd left = beside_contacts_ - right_side;

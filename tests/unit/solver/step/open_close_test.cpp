@@ -177,6 +177,33 @@ TEST(OpenClose, AWallAtRestIsGuessedToStay) {
   EXPECT_TRUE(simulation.rejections().empty());
 }
 
+// 410 bricks that are placed without stress bounce: a sound wave changes the states of most joints in each step. Newton's
+// method alone takes 59 iterations and a fallback in the fifth step (notes/hard_steps.md).
+TEST(OpenClose, AWallThatBouncesIsSplitInHardSteps) {
+  constexpr int courses = 20;
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(fixed_box({-90, -90, -5}, {90, 90, 0}));
+  for (int row = 0; row < courses; ++row) {
+    const double shift = 0.5 * (row % 2);
+    for (int k = 0; k < courses + row % 2; ++k) {
+      const double left = std::max(0.0, k - shift), right = std::min<double>(courses, k + 1 - shift);
+      blocks.emplace_back(
+          block_of("brick", Polyhedron(make_box({left, -0.25, 0.5 * row}, {right, 0.25, 0.5 * row + 0.5})),
+                   {2600, 1e10, 0.2}, 1));
+    }
+  }
+  SimulationSettings settings;
+  settings.time_step = 1.0 / 240.0;
+  std::vector<InitialMotion> at_rest(blocks.size());
+  Simulation simulation(std::move(blocks), at_rest, same_law({4e11, 4e11, 0.5, 0.0, 0.0, true}), settings);
+  for (int step = 1; step <= 6; ++step) {
+    ASSERT_TRUE(run_until(simulation, step * settings.time_step));
+    EXPECT_LE(simulation.report().iterations, 20) << step;
+  }
+  EXPECT_EQ(simulation.counts().open_close_fallbacks, 0U);
+  EXPECT_TRUE(simulation.rejections().empty());
+}
+
 // Corners that are rounded once leave neighbours 1e-15 m in each other or apart: forces that are nothing for a block,
 // but more than slivers weigh.
 TEST(OpenClose, PiecesOfACutBlockFallTogether) {
