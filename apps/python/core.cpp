@@ -83,7 +83,7 @@ py::tuple run_scene(const std::filesystem::path& scene, const std::optional<std:
   int status = 0;
   {
     const py::gil_scoped_release released;
-    status = run_command(options, err);
+    status = run_command(options, err, err);
   }
   return py::make_tuple(status, err.str());
 }

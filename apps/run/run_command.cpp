@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "apps/command_line.hpp"
+#include "apps/run/contact_report.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/folder_run.hpp"
 #include "apps/run/interrupt_guard.hpp"
@@ -136,6 +137,7 @@ struct PreparedRun {
   std::optional<LoadedScene> staged;     ///< its first stage, if it has any
   std::optional<BuiltSimulation> built;  ///< of the stage that the run begins or goes on in
   std::optional<RunCheckpoint> earlier;  ///< what it goes on from
+  std::optional<PairKey> explained;      ///< blocks whose contacts are explained at the end
 
   /// The scene that the run starts with. Not before there is one.
   [[nodiscard]] const LoadedScene& first() const { return staged ? *staged : *loaded; }
@@ -163,6 +165,8 @@ PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnos
     refuse_loose_blocks(run.first().scene, run.built->simulation, diagnostics);
   if (run.built && diagnostics.good())
     refuse_idle_searches(run.first().scene, run.built->simulation, diagnostics);
+  if (run.built && !options.explained_pair.empty())
+    run.explained = pair_by_names(options.explained_pair, run.built->simulation, diagnostics);
   return run;
 }
 
@@ -275,7 +279,7 @@ void tell_missing_memory(const std::bad_alloc& error, const FolderRun& run,
 
 }  // namespace
 
-int run_command(const RunOptions& options, std::ostream& err) {
+int run_command(const RunOptions& options, std::ostream& out, std::ostream& err) {
   const double began = seconds_now();
   const std::filesystem::path folder = result_folder_of(options);
   const int threads = std::max(options.threads, 1);
@@ -340,6 +344,7 @@ int run_command(const RunOptions& options, std::ostream& err) {
     const RunEnd end = run->go(err);
     status = end.status;
     tell_results(*run, end, folder, options.quiet, err);
+    if (prepared.explained) out << contact_report(run->simulation(), *prepared.explained);
   } catch (const std::bad_alloc& error) {
     tell_missing_memory(error, *run, folder, err);
     return exit_status::failed;

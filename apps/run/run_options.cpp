@@ -32,7 +32,12 @@ void declare_run_command(CLI::App& program, CommandContext& context) {
       ->check(CLI::Range(1, std::numeric_limits<int>::max(), ">= 1"));
   command->add_flag("--quiet", options->quiet, "No progress on stderr");
   command->add_flag("--view", options->view, "Write view.html into the result folder at the end");
-  command->callback([options, &context] { context.status = run_command(*options, context.err); });
+  command
+      ->add_option("--explain-contacts", options->explained_pair,
+                   "Print the contacts of two blocks at the end, and why others were left out")
+      ->type_name("A,B");
+  command->callback(
+      [options, &context] { context.status = run_command(*options, context.out, context.err); });
 }
 
 }  // namespace ashlar

@@ -81,7 +81,7 @@ int run_over_results(RunOptions run, const Json& summary, std::ostream& log) {
                        run.out->string(), changes);
     return exit_status::bad_input;
   }
-  return run_command(run, log);
+  return run_command(run, log, log);
 }
 
 /// True if a run that did not end left a state to go on from.
@@ -108,7 +108,7 @@ int run_variant(RunOptions run, std::ostream& log) {
   if (!summary.is_null()) return run_over_results(std::move(run), summary, log);
   run.resume = has_state(*run.out) && (!run.force || is_of_this_scene(run));
   run.force = run.force && !run.resume;
-  return run_command(run, log);
+  return run_command(run, log, log);
 }
 
 /// The same with whatever is thrown in the log.

@@ -44,8 +44,9 @@ std::vector<bool> fixed_and_present(const std::vector<BlockModel>& blocks, const
 }  // namespace
 
 ContactFinder::ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
-                             std::set<PairKey> left_out, std::vector<bool> absent)
+                             std::set<PairKey> left_out, std::vector<bool> absent, ContactObserver observer)
     : settings_(settings),
+      observer_(std::move(observer)),
       axes_(axes_of(blocks)),
       absent_(std::move(absent)),
       left_out_(std::move(left_out)),
@@ -326,10 +327,17 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
   parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
     const auto& [a, b] = searched[k].blocks;
     searched[k].contacts = find_contacts(placed(a), placed(b), limits[k]);
+  });
+  observe(ContactStage::search, searched);
+  parallel_for(settings_.threads, searched.size(), [&](std::size_t k) {
+    const auto& [a, b] = searched[k].blocks;
     leave_out_slivers(placed(a), placed(b), searched[k].contacts);
   });
+  observe(ContactStage::area, searched);
   search_hidden(searched, known, limits);
+  observe(ContactStage::hidden_faces, searched);
   settle_convex_pairs(searched, known, histories);
+  observe(ContactStage::entrance, searched);
   std::vector<FoundContacts> found;
   for (FoundContacts& pair : searched) {
     counts_.predicates.filter += pair.contacts.counts.filter;

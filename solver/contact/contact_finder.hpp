@@ -16,6 +16,7 @@
 #include "geometry/contacts/convex_search.hpp"
 #include "geometry/contacts/motion_check.hpp"
 #include "mechanics/block/block_surface.hpp"
+#include "solver/contact/contact_stages.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/contact/sides_of_step.hpp"
 #include "solver/settings.hpp"
@@ -88,8 +89,10 @@ class ContactFinder {
   /// @param blocks must outlive this and stay where they are
   /// @param left_out pairs of blocks between which no contacts are looked for
   /// @param absent by block, or empty: blocks that nothing touches
+  /// @param observer of the stages up to the entrance; empty: none
   ContactFinder(const std::vector<BlockModel>& blocks, const SimulationSettings& settings,
-                std::set<PairKey> left_out = {}, std::vector<bool> absent = {});
+                std::set<PairKey> left_out = {}, std::vector<bool> absent = {},
+                ContactObserver observer = {});
 
   /// Takes note which blocks may move; no contacts are looked for between two that do not. @param moving by
   /// block, of fixed blocks false
@@ -185,8 +188,13 @@ class ContactFinder {
   /// Completes the contacts of pairs of convex solids, with history.
   void settle_convex_pairs(std::vector<FoundContacts>& searched, const KnownContacts& known,
                            PairHistories& histories);
+  void observe(ContactStage stage, const std::vector<FoundContacts>& searched) const {
+    if (!observer_) return;
+    for (const FoundContacts& pair : searched) observer_(stage, pair.blocks, pair.contacts);
+  }
 
   SimulationSettings settings_;
+  ContactObserver observer_;
   Eigen::Matrix3d axes_;  ///< of the boxes below
   std::vector<bool> absent_;
   std::vector<bool> moving_;  ///< false for fixed blocks, and for those that sleep

@@ -9,6 +9,7 @@
 #include "geometry/index.hpp"
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/run/checkpoint.hpp"
+#include "solver/run/contact_explanation.hpp"
 #include "solver/run/stage_start.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/rigid_verdict.hpp"
@@ -162,6 +163,10 @@ DroppedByOrder Simulation::change_order(int block, int order) {
   wake_all(context());
   state_.sleep.rests.at(at(block)) = BlockRest{};
   return ashlar::change_order(context(), block, order);
+}
+
+ContactExplanation Simulation::explain_contacts(int a, int b) const {
+  return ashlar::explain_contacts(system_, state_, contacts_.finder().state(), a, b);
 }
 
 SimulationSnapshot Simulation::snapshot() const {

@@ -31,6 +31,7 @@ struct RigidDisplacement {
   Vector3 rotation;     ///< rad, along its axis
 };
 
+struct ContactExplanation;  // contact_explanation.hpp
 struct RigidModel;          // rigid_model.hpp
 struct SimulationSnapshot;  // checkpoint.hpp
 
@@ -136,6 +137,9 @@ class Simulation {
   [[nodiscard]] const FrictionTally& sliding_friction() const { return state_.extremes.sliding_friction; }
   /// Of all steps. 0 where no joint dilates.
   [[nodiscard]] const DilatingSlip& dilating_slip() const { return state_.extremes.dilating_slip; }
+  /// Contacts of two blocks as the next step will find them, and those that it will leave out, each with its reason.
+  /// @throws std::invalid_argument if there are no such blocks or they are the same
+  [[nodiscard]] ContactExplanation explain_contacts(int a, int b) const;
   /// Measures how deep blocks are in each other now. @return the pair that is too deep by most
   std::optional<StateFault> audit();
   /// What was wrong with the end of the last rejected step, if that was why.

@@ -138,8 +138,9 @@ std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
   return found;
 }
 
-StepContacts::StepContacts(const BlockSystem& system)
-    : finder_(system.blocks(), system.settings(), system.left_out(), system.absent()),
+StepContacts::StepContacts(const BlockSystem& system, ContactObserver observer)
+    : observer_(std::move(observer)),
+      finder_(system.blocks(), system.settings(), system.left_out(), system.absent(), observer_),
       order_(system.blocks(), system.settings().gravity_at(0.0)) {}
 
 std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockSystem& system,
@@ -242,6 +243,7 @@ void StepContacts::leave_out_seams_of(const BlockSystem& system, const RunState&
     leave_out_seams(a, b,
                     ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
                     stands, pair.contacts);
+    if (observer_) observer_(ContactStage::internal_edge, pair.blocks, pair.contacts);
   }
 }
 

@@ -31,8 +31,8 @@ enum class PairUse {
 /// Keeps surfaces from step to step.
 class StepContacts {
  public:
-  /// @param system its blocks must stay where they are
-  explicit StepContacts(const BlockSystem& system);
+  /// @param system its blocks must stay where they are. @param observer of the stages of detect(); empty: none
+  explicit StepContacts(const BlockSystem& system, ContactObserver observer = {});
 
   /// All contacts at the present state. @param step s, in which blocks may come near; 0: in an iteration of a
   /// static analysis
@@ -75,6 +75,7 @@ class StepContacts {
   [[nodiscard]] std::function<bool(const WayOut&)> standing_ways(
       const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
 
+  ContactObserver observer_;
   ContactFinder finder_;
   ReferenceOrder order_;
   std::optional<WaysOut> ways_out_;  ///< of the step

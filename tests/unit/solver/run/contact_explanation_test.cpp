@@ -1,0 +1,134 @@
+// Contacts of two blocks with the stage that found each and the one that left it out.
+#include "solver/run/contact_explanation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solver/run/checkpoint.hpp"
+#include "solver/run/simulation.hpp"
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::run_until;
+using test_support::same_law;
+
+const Material rock{2500.0, 1e10, 0.2};
+
+/// @param speed m/s along x, of blocks that are not fixed
+Simulation boxes(const std::vector<std::pair<Vector3, Vector3>>& corners, const std::vector<bool>& fixed,
+                 double speed, const std::vector<TieRequest>& ties = {}, std::vector<bool> absent = {}) {
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    BlockDefinition block =
+        block_of("block", Polyhedron(make_box(corners[k].first, corners[k].second)), rock, 1);
+    block.fixed = fixed[k];
+    blocks.emplace_back(std::move(block));
+    motions.emplace_back();
+    if (!fixed[k]) motions.back().velocity = {speed, 0, 0};
+  }
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  return {std::move(blocks), motions, same_law({1e9, 1e9, 0.0, 0.0, 0.0, true}),
+          settings,          ties,    std::move(absent)};
+}
+
+std::size_t count(const ContactExplanation& explanation, std::optional<ContactStage> removed) {
+  return static_cast<std::size_t>(
+      std::count_if(explanation.contacts.begin(), explanation.contacts.end(),
+                    [&](const ExplainedContact& one) { return one.removed == removed; }));
+}
+
+TEST(ContactExplanation, ACubeOnASlabHasOneContact) {
+  const Simulation simulation =
+      boxes({{{-1, -1, -1}, {2, 2, 0}}, {{0, 0, 0}, {1, 1, 1}}}, {true, false}, 0.0);
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
+    const ContactExplanation explanation = simulation.explain_contacts(a, b);
+    EXPECT_EQ(explanation.blocks, (PairKey{0, 1}));
+    EXPECT_EQ(explanation.search, PairSearch::searched);
+    // Contact distance, and half of g dt^2 that gravity moves a block at rest by.
+    EXPECT_NEAR(explanation.reach, 1e-3 + 0.5 * 9.81 * 1e-6, 1e-12);
+    EXPECT_EQ(explanation.type, ContactType::face_face);
+    double area = 0.0;
+    for (const ExplainedContact& contact : explanation.contacts) {
+      if (contact.removed) continue;
+      EXPECT_EQ(contact.features, ContactFeatures::faces);
+      EXPECT_NEAR(contact.gap, 0.0, 1e-15);
+      // Out of the second block, which is the cube.
+      EXPECT_NEAR((contact.normal + Vector3::UnitZ()).norm(), 0.0, 1e-15);
+      EXPECT_NEAR(contact.place.z(), 0.0, 1e-15);
+      area += contact.area;
+    }
+    EXPECT_NEAR(area, 1.0, 1e-12);
+  }
+}
+
+TEST(ContactExplanation, TheSideOfTheNextSlabIsAnInternalEdge) {
+  // The cube has sunk by its weight, and its front comes to the side of the next slab at x = 1 after 0.1 s.
+  Simulation simulation =
+      boxes({{{-1, -1, -1}, {1, 1, 0}}, {{1, -1, -1}, {3, 1, 0}}, {{-0.5, -0.5, 0}, {0.5, 0.5, 1}}},
+            {true, true, false}, 5.0);
+  ASSERT_TRUE(run_until(simulation, 0.0995));
+  const ContactExplanation explanation = simulation.explain_contacts(1, 2);
+  ASSERT_GT(count(explanation, ContactStage::internal_edge), 0U);
+  for (const ExplainedContact& contact : explanation.contacts) {
+    if (contact.removed != ContactStage::internal_edge) continue;
+    EXPECT_GT(std::abs(contact.normal.x()), 0.9) << "only the side is left out";
+  }
+  // The slab that it lies on holds it.
+  EXPECT_GT(count(simulation.explain_contacts(0, 2), std::nullopt), 0U);
+}
+
+TEST(ContactExplanation, FacesThatOnlyShareAnEdgeHaveNoArea) {
+  // The cube stands on the second slab, its side flush with the first one's: their tops share a line.
+  const Simulation simulation = boxes({{{-1, 0, -1}, {0, 1, 0}}, {{0, 0, 0}, {1, 1, 1}}}, {true, false}, 0.0);
+  const ContactExplanation explanation = simulation.explain_contacts(0, 1);
+  EXPECT_EQ(std::count_if(explanation.contacts.begin(), explanation.contacts.end(),
+                          [](const ExplainedContact& one) {
+                            return !one.removed && one.features == ContactFeatures::faces;
+                          }),
+            0);
+}
+
+TEST(ContactExplanation, SaysWhyAPairIsNotSearched) {
+  const std::vector<std::pair<Vector3, Vector3>> corners = {
+      {{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}, {{0, 0, 1}, {1, 1, 2}}, {{50, 0, 0}, {51, 1, 1}}};
+  const Simulation simulation = boxes(corners, {true, true, false, false}, 0.0, {{0, 2, 1e12}});
+  EXPECT_EQ(simulation.explain_contacts(0, 1).search, PairSearch::both_held);
+  EXPECT_EQ(simulation.explain_contacts(0, 2).search, PairSearch::tied);
+  EXPECT_EQ(simulation.explain_contacts(3, 0).search, PairSearch::far_apart);
+  const Simulation without = boxes(corners, {true, true, false, false}, 0.0, {}, {false, false, true, false});
+  EXPECT_EQ(without.explain_contacts(0, 2).search, PairSearch::absent);
+  EXPECT_THROW((void)simulation.explain_contacts(1, 1), std::invalid_argument);
+  EXPECT_THROW((void)simulation.explain_contacts(0, 4), std::invalid_argument);
+  EXPECT_THROW((void)simulation.explain_contacts(-1, 0), std::invalid_argument);
+}
+
+TEST(ContactExplanation, OfBlocksInReachOfTheirBoxesTellsADistance) {
+  // Boxes that meet, surfaces that do not: a cube over the inner corner of an L would need a mesh; here 1.5 mm of gap with
+  // 1 mm of reach and boxes that grow by both blocks' motion.
+  const Simulation simulation =
+      boxes({{{0, 0, 0}, {1, 1, 1}}, {{0, 0, 1.002}, {1, 1, 2.002}}}, {false, false}, 1.0);
+  const ContactExplanation explanation = simulation.explain_contacts(0, 1);
+  EXPECT_EQ(explanation.search, PairSearch::searched);
+  // Both may move 1 mm in the step, towards each other for all that is known.
+  EXPECT_NEAR(explanation.reach, 1e-3 + 2.0 * (1e-3 + 0.5 * 9.81e-6), 1e-8);
+  ASSERT_EQ(explanation.contacts.size(), count(explanation, std::nullopt));
+  for (const ExplainedContact& contact : explanation.contacts) EXPECT_NEAR(contact.gap, 2e-3, 1e-12);
+}
+
+TEST(ContactExplanation, ChangesNothingOfTheRun) {
+  Simulation simulation = boxes({{{-1, -1, -1}, {2, 2, 0}}, {{0, 0, 0}, {1, 1, 1}}}, {true, false}, 1.0);
+  ASSERT_TRUE(run_until(simulation, 0.01));
+  const std::string before = to_bytes(simulation.snapshot());
+  (void)simulation.explain_contacts(0, 1);
+  EXPECT_EQ(to_bytes(simulation.snapshot()), before);
+}
+
+}  // namespace
+}  // namespace ashlar
