@@ -1,4 +1,5 @@
-// Every number the solver uses, with unit, default, range and consequence.
+// Every number the solver uses, with unit, default, range and consequence. Those that are `static constexpr` belong to the
+// method: nobody sets them, and a change of one is a change of results everywhere.
 #pragma once
 
 #include <limits>
@@ -36,12 +37,12 @@ struct SearchSettings {
   int subdivisions = 2;  ///< 0 to 8, uniform levels for the faces of blocks of order >= 2 to start from
   /// m, > 0, as a share of contact_distance: two blocks may get this far into each other in a step that no
   /// contact was found for; deeper, and the step is cut to the first touch
-  double passing_share = 0.01;
+  static constexpr double passing_share = 0.01;
   /// >= 0, of contact_distance: how far two blocks may have moved relative to each other for what was found of them
   /// to last (notes/lasting_contacts.md); 0: contacts are found in each step
   double lasting_share = 1e-3;
   /// of a step: blocks that would pass earlier than this are kept apart by a contact, not by a shorter step
-  double smallest_cut = 0.01;
+  static constexpr double smallest_cut = 0.01;
 };
 
 /// What a step may end in (step/end_state.hpp).
@@ -49,43 +50,49 @@ struct DepthSettings {
   /// m, > 0: how deep a corner or edge may be in another block beyond what contacts know, and in all where
   /// springs only stand for contact that does not give way. 0: the shares below of the smaller block's size
   double allowed_depth = 0.0;
-  double unknown_depth_share = 0.01;  ///< beyond what contacts know: such contact is not what was computed
+  static constexpr double unknown_depth_share =
+      0.01;  ///< beyond what contacts know: such contact is not what was computed
   /// in all: blocks that are so far in each other are not what their springs stand for; from the share above
   /// on a run says so
-  double allowed_depth_share = 0.1;
+  static constexpr double allowed_depth_share = 0.1;
   /// steps between audits in which depths of edges in solids that are not convex are exact to passing_share
   /// of the contact distance; in the others they are to the contact distance
-  int fine_interval = 10;
+  static constexpr int fine_interval = 10;
   /// of its size: a block that has gone so far that its coordinates are rounded to more is lost
   /// (notes/lost_blocks.md)
-  double lost_share = 1e-6;
+  static constexpr double lost_share = 1e-6;
 };
 
 /// Of an open-close iteration (open_close.hpp). The first five bound work that is then done by the fallback;
 /// where the others are exceeded the step is cut.
 struct IterationSettings {
-  int newton_iterations = 60;     ///< newton_patience ends them before
-  double newton_overshoot = 0.3;  ///< 0 to 1: work along a change that may be undone by going all its way
-  int newton_patience = 8;        ///< iterations in which the sum of what is left is not halved
-  int krylov_iterations = 30;     ///< of one linear system with friction's coupling to normal forces
-  int old_factor_iterations =
+  static constexpr int newton_iterations = 60;  ///< newton_patience ends them before
+  static constexpr double newton_overshoot =
+      0.3;  ///< 0 to 1: work along a change that may be undone by going all its way
+  static constexpr int newton_patience = 8;  ///< iterations in which the sum of what is left is not halved
+  static constexpr int krylov_iterations =
+      30;  ///< of one linear system with friction's coupling to normal forces
+  static constexpr int old_factor_iterations =
       10;  ///< of one linear system with a factor of an earlier step: more cost a new one
-  double old_factor_gain = 20.0;   ///< solutions that a new factor has to cost for an old one to be kept
-  double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
-  int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
-  int minimiser_iterations = 150;  ///< of one pass
-  double minimiser_share = 1e-2;   ///< of what is left under Coulomb's law: how well one pass is solved
-  int line_search_steps = 30;
-  double line_search_tolerance = 0.05;  ///< of the work at the start of a line
-  int plain_passes = 8;                 ///< before bounds are extrapolated
-  double nearly_settled = 30.0;  ///< multiple of what bodies may lack from which on the last factor will do
+  static constexpr double old_factor_gain =
+      20.0;  ///< solutions that a new factor has to cost for an old one to be kept
+  static constexpr double krylov_tolerance = 1e-4;  ///< 0 to 1: larger, and Newton takes more iterations
+  static constexpr int fallback_passes = 60;        ///< times the bounds of shear forces are set anew
+  static constexpr int minimiser_iterations = 150;  ///< of one pass
+  static constexpr double minimiser_share =
+      1e-2;  ///< of what is left under Coulomb's law: how well one pass is solved
+  static constexpr int line_search_steps = 30;
+  static constexpr double line_search_tolerance = 0.05;  ///< of the work at the start of a line
+  static constexpr int plain_passes = 8;                 ///< before bounds are extrapolated
+  static constexpr double nearly_settled =
+      30.0;  ///< multiple of what bodies may lack from which on the last factor will do
   double residual_tolerance =
       1e-10;  ///< of the largest force of a block: when an open-close iteration has settled
   /// of the largest force of a block, at most: what points that only rounding has closed may leave unbalanced
-  double doubt_share = 1e-7;
+  static constexpr double doubt_share = 1e-7;
   /// >= 0, of contact points in a step after the first: each leaves about a thousandth of what the last left
   /// out
-  int contact_evaluations = 3;
+  static constexpr int contact_evaluations = 3;
 };
 
 /// Of contact that multipliers hold (notes/augmented_contact.md).
@@ -94,32 +101,32 @@ struct MultiplierSettings {
       1e-6;  ///< m, > 0: no contact is deeper, no locked one slips farther in a step
   /// 0 to 1/3, of penetration_tolerance: how far springs beside multipliers give way in a step. Blocks are
   /// moved apart where they are so near to the tolerance that a step could exceed it, to twice this at most
-  double share = 0.25;
+  static constexpr double share = 0.25;
   /// Depth at which multipliers may leave a point, m: a step may add what springs give way by.
   [[nodiscard]] double tolerated_depth() const { return (1.0 - share) * penetration_tolerance; }
   /// 0 to 1, of penetration_tolerance: how exactly multipliers do not give more than they took
-  double accuracy = 1e-6;
+  static constexpr double accuracy = 1e-6;
 
   /// >= 0: points that push at the end of a step keep 1/(1 + this) of their velocity (velocity_contact.hpp).
   /// Larger makes more of rounding, smaller lets forces alternate longer
   double stop_stiffness = 300.0;
   /// before a step, of blocks that are deeper in each other: contacts are others after each
   /// (position_projection.hpp)
-  int moves_apart = 4;
-  double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart
-  int rounds = 40;               ///< balances of a step with other stiffness or multipliers; more: it is cut
+  static constexpr int moves_apart = 4;
+  static constexpr double apart_residual = 1e-8;  ///< as residual_tolerance, where blocks are moved apart
+  int rounds = 40;  ///< balances of a step with other stiffness or multipliers; more: it is cut
 };
 
 /// When islands of blocks are put to sleep (step/sleeping_islands.hpp).
 struct RestSettings {
   bool sleeps = true;
-  int window = 30;  ///< steps, > 0: longer is surer and later
+  static constexpr int window = 30;  ///< steps, > 0: longer is surer and later
   /// >= 0, of contact_distance: how far blocks may have moved in two windows
-  double way_share = 0.01;
+  static constexpr double way_share = 0.01;
   /// 0 to 1: how much of the way of a window may be left in the next one. Motion that grows or goes on is no rest
-  double fading = 0.9;
+  static constexpr double fading = 0.9;
   /// >= 0, of the largest force on a block: what it may lack to be in balance
-  double unbalanced_share = 1e-4;
+  static constexpr double unbalanced_share = 1e-4;
 };
 
 /// Of a static analysis (statics/static_analysis.hpp).
@@ -129,26 +136,26 @@ struct StaticSettings {
   double tolerance = 1e-10;  ///< what equilibrium may lack, as a share of a block's largest force
   /// of the largest force of a block: what an iteration may lack whose friction does not settle. The next one goes on
   /// from there, and is no balance unless it lacks `tolerance` at most (notes/when_statics_end.md)
-  double unsettled_share = 1e-3;
+  static constexpr double unsettled_share = 1e-3;
   /// how far a block moves in one iteration at most, as a share of its size: larger takes fewer iterations,
   /// smaller follows contacts better
   double motion = 0.05;
   /// in block sizes: blocks in balance that move less in an iteration stand still, whatever points at the limit of
   /// friction do (notes/when_statics_end.md)
-  double stillness = 1e-8;
+  static constexpr double stillness = 1e-8;
   /// by how much multipliers may change in an iteration that is in balance, as a share of the largest force
   /// of a point: what they do not hold yet, blocks are strained by
-  double multiplier_tolerance = 1e-6;
+  static constexpr double multiplier_tolerance = 1e-6;
   /// in balance, at one load level, for them to come to that; multipliers that do not are left as they are
-  int multiplier_iterations = 15;
-  double travel = 1.0;   ///< in block sizes: farther without coming nearer to balance is moving
-  int iterations = 500;  ///< at one load level; more: not converged
-  int cuts = 60;         ///< of one iteration; more: not converged
+  static constexpr int multiplier_iterations = 15;
+  double travel = 1.0;             ///< in block sizes: farther without coming nearer to balance is moving
+  int iterations = 500;            ///< at one load level; more: not converged
+  static constexpr int cuts = 60;  ///< of one iteration; more: not converged
   /// of the stiffest block: the inertia that stands in for stiffness where a block has none. Smaller
   /// converges in fewer iterations, larger lets rounding move a free block less
-  double inertia_share = 1e-9;
+  static constexpr double inertia_share = 1e-9;
   /// the same where supports and ties hold every block without contacts: nothing needs inertia then
-  double held_inertia_share = 1e-16;
+  static constexpr double held_inertia_share = 1e-16;
 };
 
 /// Settings of a simulation. Those that several parts of it read stand here, the others by who reads them.
@@ -182,7 +189,8 @@ struct SimulationSettings {
   bool augmented = false;  ///< multipliers take over from springs, see augmentation.hpp
   double contact_distance =
       1e-3;  ///< m, > 0: gaps up to this are looked at beyond what this step's motion can close
-  double tearing_share = 1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
+  static constexpr double tearing_share =
+      1e-6;  ///< of contact_distance: joints that open farther have lost their cohesion
 
   /// What a point without pressure may be open by and still have its cohesion, m.
   [[nodiscard]] double tearing_gap() const { return tearing_share * contact_distance; }
@@ -205,7 +213,7 @@ struct SimulationSettings {
   int max_step_cuts = 12;  ///< halvings of time_step before a run ends as failed
   /// with which an incremental block goes to its initial equilibrium at most; a fifth of them is ample for
   /// small deflections
-  int settling_steps = 50;
+  static constexpr int settling_steps = 50;
   int threads = 1;  ///< >= 1: for finding contacts; results do not depend on it
 };
 
