@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -82,6 +83,18 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
 
 #else
 
+namespace {
+
+/// An arena costs more to make than a short loop takes: they are made once for each number of threads.
+tbb::task_arena& arena_of(int threads) {
+  static std::mutex mutex;
+  static std::map<int, tbb::task_arena> arenas;
+  const std::scoped_lock lock(mutex);
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
+}  // namespace
+
 void parallel_for(int threads, std::size_t count, const std::function<void(std::size_t)>& work) {
   if (threads == 1 || count < 2) {
     for (std::size_t k = 0; k < count; ++k) work(k);
@@ -89,8 +102,9 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
   }
   Pieces pieces(work);
   // More than the machine has would make TBB print a warning and go on with fewer.
-  tbb::task_arena arena(std::min(threads, available_threads()));
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) { pieces(k); }); });
+  arena_of(std::min(threads, available_threads())).execute([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) { pieces(k); });
+  });
   pieces.check();
 }
 

@@ -75,12 +75,6 @@ void BlockRows::add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3
     motion.row(axis).transpose() += sign * (values(axis) * y.segment(start(axis), count(axis)));
 }
 
-Eigen::VectorXd BlockRows::force(const Eigen::Matrix3Xd& forces) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(unknowns());
-  add_force(forces, 1.0, result);
-  return result;
-}
-
 void BlockRows::add_force(const Eigen::Matrix3Xd& forces, double sign, Eigen::VectorXd& sum) const {
   if (is_affine()) {
     AffineUnknowns all = AffineUnknowns::Zero();

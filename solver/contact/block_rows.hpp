@@ -32,9 +32,7 @@ class BlockRows {
 
   /// Adds `sign` times the motion of all points. @param y (unknowns). @param motion (3, #points)
   void add_motion(const Eigen::VectorXd& y, double sign, Eigen::Matrix3Xd& motion) const;
-  /// Forces on the unknowns. @param forces (3, #points) along x, y, z
-  [[nodiscard]] Eigen::VectorXd force(const Eigen::Matrix3Xd& forces) const;
-  /// Adds `sign` times the forces on the unknowns. @param sum (unknowns)
+  /// Adds `sign` times the forces on the unknowns. @param forces (3, #points) along x, y, z. @param sum (unknowns)
   void add_force(const Eigen::Matrix3Xd& forces, double sign, Eigen::VectorXd& sum) const;
   /// Tangent of this block's unknowns with those of another one at the same points. (unknowns, other's unknowns)
   [[nodiscard]] Eigen::MatrixXd tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const;

@@ -234,11 +234,12 @@ AveragedStep ContactPair::respond(std::size_t point, const Eigen::Vector3d& plac
   return {end, end_response(law, end, place[0])};
 }
 
-PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
-                                  const std::vector<PointLaw>& laws) const {
+void ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
+                          const std::vector<PointLaw>& laws, PairResponse& response) const {
   const Eigen::Matrix3Xd moved = motion(ya, yb);
   const Eigen::Matrix3Xd place = after(moved);
-  PairResponse response;
+  response.points.clear();
+  response.means.clear();
   response.points.reserve(points_.size());
   response.means.reserve(points_.size());
   Eigen::VectorXd forces(place.size());
@@ -251,7 +252,6 @@ PairResponse ContactPair::respond(const Eigen::VectorXd& ya, const Eigen::Vector
   }
   rows_.set_forces(forces, response);
   rows_.set_shifts(moved, ya, yb, forces, response);
-  return response;
 }
 
 std::vector<double> ContactPair::gaps(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const {

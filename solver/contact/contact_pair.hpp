@@ -86,10 +86,16 @@ class ContactPair {
   /// Laws of the points at the start of the step.
   [[nodiscard]] const std::vector<PointLaw>& laws() const { return laws_; }
 
-  /// @param averaged false: forces are those at the end of the step; true: see averaged_step
-  /// @param laws of the points, as an open-close iteration has them
+  /// Takes the place of a response, whose room it uses. @param averaged false: forces are those at the end of the step;
+  /// true: see averaged_step. @param laws of the points, as an open-close iteration has them
+  void respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
+               const std::vector<PointLaw>& laws, PairResponse& response) const;
   [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, bool averaged,
-                                     const std::vector<PointLaw>& laws) const;
+                                     const std::vector<PointLaw>& laws) const {
+    PairResponse response;
+    respond(ya, yb, averaged, laws, response);
+    return response;
+  }
   [[nodiscard]] PairResponse respond(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                      bool averaged) const {
     return respond(ya, yb, averaged, laws_);

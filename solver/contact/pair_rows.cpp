@@ -56,11 +56,14 @@ MeanDeformation mean_deformation(const ContactBody& body) {
 
 }  // namespace
 
-Eigen::MatrixX3d MeanDeformation::levers(const Eigen::VectorXd& change) const {
+void MeanDeformation::lever(const Eigen::VectorXd& change, const Eigen::Matrix3d& m,
+                            Eigen::VectorXd& result) const {
   const Eigen::MatrixX3d& gradients = parts->mean_gradients;
   const Eigen::Map<const Eigen::MatrixX3d> motion(change.data(), gradients.rows(), 3);
-  const Eigen::Matrix3d middle = start + 0.5 * motion.transpose() * gradients;
-  return gradients * middle.inverse();
+  const Eigen::Matrix3d middle = start + 0.5 * motion.transpose().lazyProduct(gradients);
+  const Eigen::Matrix3d product = middle.inverse() * m;
+  result.resize(gradients.size());
+  Eigen::Map<Eigen::MatrixX3d>(result.data(), gradients.rows(), 3) = gradients.lazyProduct(product);
 }
 
 std::shared_ptr<const PairRows::Values> PairRows::values_of(const BlockModel& a, const BlockModel& b,
@@ -180,8 +183,12 @@ Eigen::Matrix3Xd PairRows::along_axes(const Eigen::VectorXd& forces) const {
 
 void PairRows::set_forces(const Eigen::VectorXd& forces, PairResponse& response) const {
   const Eigen::Matrix3Xd acting = along_axes(forces);
-  if (!values_->a.fixed()) response.force_on_a = values_->a.force(acting);
-  if (!values_->b.fixed()) response.force_on_b = -values_->b.force(acting);
+  const auto set = [&acting](const BlockRows& rows, double sign, Eigen::VectorXd& force) {
+    force.setZero(rows.unknowns());
+    if (!rows.fixed()) rows.add_force(acting, sign, force);
+  };
+  set(values_->a, 1.0, response.force_on_a);
+  set(values_->b, -1.0, response.force_on_b);
 }
 
 void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd& ya,
@@ -197,8 +204,9 @@ void PairRows::set_shifts(const Eigen::Matrix3Xd& motion, const Eigen::VectorXd&
     moment += push * (frame(k) * across) * frame(k).col(0).transpose() +
               (frame(k) * r) * (frame(k) * along).transpose();
   }
-  response.shift_on_a = (-0.5 * deformation_a_.levers(ya) * moment).reshaped();
-  response.shift_on_b = (-0.5 * deformation_b_.levers(yb) * moment).reshaped();
+  const Eigen::Matrix3d half = -0.5 * moment;
+  deformation_a_.lever(ya, half, response.shift_on_a);
+  deformation_b_.lever(yb, half, response.shift_on_b);
 }
 
 PointStiffnesses PairRows::stiffnesses(const PairResponse& response) const {

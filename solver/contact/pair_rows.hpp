@@ -37,8 +37,8 @@ struct MeanDeformation {
   std::shared_ptr<const BlockParts> parts;
   Eigen::Matrix3d start = Eigen::Matrix3d::Identity();  ///< gradient at the start of the step
 
-  /// B of PairRows. @param change of the unknowns. @return (p, 3)
-  [[nodiscard]] Eigen::MatrixX3d levers(const Eigen::VectorXd& change) const;
+  /// Sets B m of PairRows. @param change of the unknowns. @param m (3, 3). @param result (3 p)
+  void lever(const Eigen::VectorXd& change, const Eigen::Matrix3d& m, Eigen::VectorXd& result) const;
 };
 
 /// A block in the middle and at the end of a step, at a guess of its unknowns.

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/contact/contact_points.hpp"
 #include "solver/contact/contact_finder.hpp"
-#include "solver/contact/contact_pair.hpp"
 #include "solver/contact/depth_audit.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/linear/linear_solver.hpp"

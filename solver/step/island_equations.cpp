@@ -13,8 +13,12 @@ IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies
                              const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                              const SimulationSettings& settings, IslandSolvers::Entry& solver)
     : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme), solver_(solver) {
-  for (const int body : island.bodies) place_[body] = static_cast<int>(place_.size());
-  for (const int pair : island.pairs) laws_.push_back(pairs[at(pair)].laws());
+  std::vector<int> place(bodies.size(), -1);
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) place[at(island.bodies[k])] = static_cast<int>(k);
+  for (const int pair : island.pairs) {
+    laws_.push_back(pairs[at(pair)].laws());
+    places_.push_back({place[at(pairs[at(pair)].a())], place[at(pairs[at(pair)].b())]});
+  }
   follow_rigid_bodies();
 }
 
@@ -25,11 +29,6 @@ void IslandProblem::follow_rigid_bodies() {
 int IslandProblem::threads() const {
   constexpr std::size_t worth_it = 32;  // pairs: less work than it takes to share it out
   return pairs() < worth_it ? 1 : settings_.threads;
-}
-
-int IslandProblem::place(int block) const {
-  const auto found = place_.find(block);
-  return found == place_.end() ? -1 : found->second;
 }
 
 const ContactPair& IslandProblem::pair(std::size_t k) const {
@@ -58,10 +57,11 @@ void IslandProblem::respond() {
     BodyStep& body = bodies_[at(island_.bodies[k])];
     body.elastic = body.model->elastic(taken_at(body));
   });
-  responses_.assign(pairs(), {});
+  responses_.resize(pairs());
   parallel_for(threads(), pairs(), [&](std::size_t k) {
-    responses_[k] = pair(k).respond(bodies_[at(pair(k).a())].change, bodies_[at(pair(k).b())].change,
-                                    scheme_.mean_contacts, laws_[k]);
+    const ContactPair& one = pair(k);
+    one.respond(bodies_[at(one.a())].change, bodies_[at(one.b())].change, scheme_.mean_contacts, laws_[k],
+                responses_[k]);
   });
 }
 
@@ -80,8 +80,7 @@ void IslandProblem::add_contacts(Balance& balance, std::vector<ForceErrors>& err
                    pair(k).force_in_doubt(ya, yb, laws_[k], responses_[k])};
   });
   for (std::size_t k = 0; k < pairs(); ++k) {
-    const int a = place(pair(k).a());
-    const int b = place(pair(k).b());
+    const auto& [a, b] = places_[k];
     if (a >= 0) add_force(balance, a, responses_[k].total_on_a());
     if (b >= 0) add_force(balance, b, responses_[k].total_on_b());
     for (const int body : {a, b}) {
@@ -122,7 +121,7 @@ Balance IslandProblem::balance() const {
   result.left = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
   result.shares.assign(bodies, 0.0);
   result.scales.assign(bodies, 0.0);
-  for (std::size_t k = 0; k < bodies; ++k) {
+  parallel_for(threads(), bodies, [&](std::size_t k) {
     const BodyStep& body = bodies_[at(island_.bodies[k])];
     const int place = static_cast<int>(k);
     add_force(result, place, scheme_.force_weight * body.external_force);
@@ -130,7 +129,7 @@ Balance IslandProblem::balance() const {
               -scheme_.force_weight * body.model->space().restrict(body.internal_force(scheme_)));
     add_force(result, place,
               -body.model->material().density * scheme_.inertia * (body.change - body.free_change));
-  }
+  });
   std::vector<ForceErrors> errors(bodies);
   add_contacts(result, errors);
   judge(result, errors);
@@ -156,14 +155,14 @@ Eigen::VectorXd IslandProblem::contact_forces() const {
 
 void IslandProblem::add_contact_forces(const std::vector<PairResponse>& responses,
                                        Eigen::VectorXd& sum) const {
-  const auto add = [&](int block, const Eigen::VectorXd& force) {
-    if (const int body = place(block); body >= 0)
-      sum.segment(solver_.matrix.offset(body), bodies_[at(block)].model->freedom()) +=
-          bodies_[at(block)].in_equations(force);
+  const auto add = [&](int place, const Eigen::VectorXd& force) {
+    if (place < 0) return;
+    const BodyStep& body = this->body(at(place));
+    sum.segment(solver_.matrix.offset(place), body.model->freedom()) += body.in_equations(force);
   };
   for (std::size_t k = 0; k < pairs(); ++k) {
-    add(pair(k).a(), responses[k].total_on_a());
-    add(pair(k).b(), responses[k].total_on_b());
+    add(places_[k][0], responses[k].total_on_a());
+    add(places_[k][1], responses[k].total_on_b());
   }
 }
 
@@ -177,11 +176,11 @@ std::vector<Eigen::VectorXd> IslandProblem::changes(const Eigen::VectorXd& chang
 }
 
 Eigen::Matrix3Xd IslandProblem::motion(std::size_t k, const std::vector<Eigen::VectorXd>& changes) const {
-  const auto change_of = [&](int block) -> Eigen::VectorXd {
-    const int body = place(block);
-    return body < 0 ? Eigen::VectorXd::Zero(bodies_[at(block)].change.size()) : changes[at(body)];
+  const auto change_of = [&](int place, int block) -> Eigen::VectorXd {
+    return place < 0 ? Eigen::VectorXd::Zero(bodies_[at(block)].change.size()) : changes[at(place)];
   };
-  return pair(k).rows().free_motion(change_of(pair(k).a()), change_of(pair(k).b()));
+  return pair(k).rows().free_motion(change_of(places_[k][0], pair(k).a()),
+                                    change_of(places_[k][1], pair(k).b()));
 }
 
 void IslandProblem::apply(const Eigen::VectorXd& change, double share) {

@@ -2,6 +2,7 @@
 // left, move on. island_tangent.hpp linearises and solves them.
 #pragma once
 
+#include <array>
 #include <map>
 #include <vector>
 
@@ -79,8 +80,8 @@ class IslandProblem {
   [[nodiscard]] const BodyStep& body(std::size_t place) const { return bodies_[at(island_.bodies[place])]; }
   /// A block of the step, moving or not.
   [[nodiscard]] const BodyStep& block(int index) const { return bodies_[at(index)]; }
-  /// Of a block among the island's bodies; -1: it does not move.
-  [[nodiscard]] int place(int block) const;
+  /// Of a pair's blocks among the island's bodies; -1: it does not move.
+  [[nodiscard]] const std::array<int, 2>& places(std::size_t pair) const { return places_[pair]; }
   /// Where the elastic force of a body is taken. @return position, (p, 3)
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   [[nodiscard]] IslandSolvers::Entry& solver() const { return solver_; }
@@ -132,7 +133,7 @@ class IslandProblem {
     Eigen::Matrix3Xd motion;  ///< of its points then
   };
 
-  std::map<int, int> place_;
+  std::vector<std::array<int, 2>> places_;  ///< by pair
   std::map<std::size_t, ContactPair> replaced_;
   std::map<std::size_t, Followed> followed_;
   std::vector<PairResponse> responses_;

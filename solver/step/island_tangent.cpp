@@ -58,8 +58,7 @@ void IslandTangent::assemble(bool positive) {
   });
   for (std::size_t k = 0; k < problem_.pairs(); ++k) {
     const PairTangent& tangent = tangents[k];
-    const int a = problem_.place(problem_.pair(k).a());
-    const int b = problem_.place(problem_.pair(k).b());
+    const auto& [a, b] = problem_.places(k);
     if (a >= 0) matrix.add_diagonal(a, tangent.aa);
     if (b >= 0) matrix.add_diagonal(b, tangent.bb);
     if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
@@ -106,11 +105,11 @@ bool IslandTangent::products_pay() const {
     product += n * n;
   }
   for (std::size_t k = 0; k < problem_.pairs(); ++k) {
-    const auto unknowns = [&](int block) {
-      return problem_.place(block) < 0 ? 0.0 : static_cast<double>(problem_.block(block).model->unknowns());
+    const auto unknowns = [&](int place) {
+      return place < 0 ? 0.0 : static_cast<double>(problem_.body(at(place)).model->unknowns());
     };
-    const double a = unknowns(problem_.pair(k).a());
-    const double b = unknowns(problem_.pair(k).b());
+    const double a = unknowns(problem_.places(k)[0]);
+    const double b = unknowns(problem_.places(k)[1]);
     const auto points = static_cast<double>(problem_.responses()[k].means.size());
     to_assemble += points * 2.0 / 3.0 * (a * a + a * b + b * b);
     product += points * 2.0 * (a + b);
@@ -132,7 +131,7 @@ void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force)
   }
 }
 
-void IslandTangent::add_pairs(const std::vector<PairStiffnesses>& stiffnesses, const Eigen::VectorXd& x,
+void IslandTangent::add_pairs(std::vector<PairProduct>& products, const Eigen::VectorXd& x,
                               Eigen::VectorXd& force) const {
   const auto equations = [&](auto& of_island, std::size_t k) {
     return of_island.segment(solver_.matrix.offset(static_cast<int>(k)), problem_.body(k).model->freedom());
@@ -142,33 +141,52 @@ void IslandTangent::add_pairs(const std::vector<PairStiffnesses>& stiffnesses, c
     changes.push_back(problem_.body(k).of_unknowns(equations(x, k)));
     forces.emplace_back(Eigen::VectorXd::Zero(changes[k].size()));
   }
-  Eigen::VectorXd none;  // of fixed blocks
-  for (const auto& [k, points] : stiffnesses) {
-    const ContactPair& pair = problem_.pair(k);
-    const int a = problem_.place(pair.a());
-    const int b = problem_.place(pair.b());
-    pair.rows().add_product(points, a < 0 ? none : changes[at(a)], b < 0 ? none : changes[at(b)],
-                            a < 0 ? none : forces[at(a)], b < 0 ? none : forces[at(b)]);
+  const Eigen::VectorXd none;  // of fixed blocks
+  const auto of = [](int place, const auto& of_bodies, const auto& otherwise) -> const auto& {
+    return place < 0 ? otherwise : of_bodies[at(place)];
+  };
+  parallel_for(problem_.threads(), products.size(), [&](std::size_t n) {
+    PairProduct& one = products[n];
+    const auto& [a, b] = problem_.places(one.pair);
+    const Eigen::VectorXd& of_a = of(a, changes, none);
+    const Eigen::VectorXd& of_b = of(b, changes, none);
+    one.on_a.setZero(of_a.size());
+    one.on_b.setZero(of_b.size());
+    problem_.pair(one.pair).rows().add_product(one.points, of_a, of_b, one.on_a, one.on_b);
+  });
+  // In the order of pairs, whatever thread has done which.
+  for (const PairProduct& one : products) {
+    const auto& [a, b] = problem_.places(one.pair);
+    if (a >= 0) forces[at(a)] += one.on_a;
+    if (b >= 0) forces[at(b)] += one.on_b;
   }
   for (std::size_t k = 0; k < problem_.bodies(); ++k)
     equations(force, k) += problem_.body(k).in_equations(forces[k]);
 }
 
+std::vector<IslandTangent::PairProduct> IslandTangent::products_of(
+    const std::function<PointStiffnesses(std::size_t)>& stiffnesses) const {
+  std::vector<PointStiffnesses> all(problem_.pairs());
+  parallel_for(problem_.threads(), all.size(), [&](std::size_t k) { all[k] = stiffnesses(k); });
+  std::vector<PairProduct> products;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].cols() > 0) products.push_back({k, std::move(all[k]), {}, {}});
+  return products;
+}
+
 Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const {
   const IterationSettings& settings = problem_.settings().iteration;
-  std::vector<PairStiffnesses> stiffnesses;
-  for (std::size_t k = 0; k < problem_.pairs(); ++k) {
+  std::vector<PairProduct> products = products_of([&](std::size_t k) {
     const PairResponse& response = problem_.responses()[k];
     const PairRows& rows = problem_.pair(k).rows();
     PointStiffnesses points;
     if (!assembled_) points = rows.stiffnesses(response);
-    if (coupled) points = sum(std::move(points), rows.couplings(response));
-    if (points.cols() > 0) stiffnesses.push_back({k, std::move(points)});
-  }
+    return coupled ? sum(std::move(points), rows.couplings(response)) : points;
+  });
   const auto preconditioned = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = assembled_ ? times(solver_.matrix.matrix(), x) : Eigen::VectorXd::Zero(x.size());
     if (!assembled_) add_blocks(x, force);
-    add_pairs(stiffnesses, x, force);
+    add_pairs(products, x, force);
     return solver_.factor->solve(force, false);
   };
   const KrylovSolution found = gmres(preconditioned, solver_.factor->solve(right_side, false),
@@ -184,11 +202,10 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
     if (factorize_assembled(true) != FactorStatus::success)
       return Eigen::VectorXd::Constant(right_side.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  std::vector<PairStiffnesses> couplings;
-  for (std::size_t k = 0; coupled && k < problem_.pairs(); ++k) {
-    PointStiffnesses points = problem_.pair(k).rows().couplings(problem_.responses()[k]);
-    if (points.cols() > 0) couplings.push_back({k, std::move(points)});
-  }
+  std::vector<PairProduct> couplings;
+  if (coupled)
+    couplings = products_of(
+        [&](std::size_t k) { return problem_.pair(k).rows().couplings(problem_.responses()[k]); });
   if (couplings.empty()) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "solver/step/island_equations.hpp"
@@ -31,10 +32,12 @@ class IslandTangent {
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool coupled);
 
  private:
-  /// Stiffnesses of the points of one of the island's pairs, along x, y, z.
-  struct PairStiffnesses {
+  /// Product of the stiffnesses of the points of one of the island's pairs, along x, y, z, and a change.
+  struct PairProduct {
     std::size_t pair;
     PointStiffnesses points;
+    Eigen::VectorXd on_a;  ///< the product, forces on the unknowns of a, N; empty: it does not move
+    Eigen::VectorXd on_b;
   };
 
   /// @param positive leave out what may make it indefinite
@@ -47,9 +50,11 @@ class IslandTangent {
   [[nodiscard]] double weight_of_blocks() const;
   /// Adds what the blocks' inertia and stiffness make of a change. @param x (equations)
   void add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
-  /// Adds what stiffnesses of contact points make of a change.
-  void add_pairs(const std::vector<PairStiffnesses>& stiffnesses, const Eigen::VectorXd& x,
-                 Eigen::VectorXd& force) const;
+  /// Of pairs that have stiffnesses. @param stiffnesses of the points of a pair, without columns: none
+  [[nodiscard]] std::vector<PairProduct> products_of(
+      const std::function<PointStiffnesses(std::size_t pair)>& stiffnesses) const;
+  /// Adds products of the stiffnesses of contact points and a change. @param x (equations)
+  void add_pairs(std::vector<PairProduct>& products, const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
   /// Solves with an old factor. @return empty if it is none any more
   [[nodiscard]] Eigen::VectorXd solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const;
 

@@ -227,11 +227,12 @@ class Splitting {
     problem_.add_contact_forces(contacts, left);
     std::vector<double> scales = scales_;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const ContactPair& pair = problem_.pair(k);
-      for (const auto& [block, force] :
-           {std::pair(pair.a(), contacts[k].force_on_a), std::pair(pair.b(), contacts[k].force_on_b)}) {
-        if (const int body = problem_.place(block); body >= 0)
-          scales[at(body)] = std::max(scales[at(body)], problem_.block(block).in_equations(force).norm());
+      const auto& [a, b] = problem_.places(k);
+      for (const auto& [body, force] :
+           {std::pair(a, contacts[k].force_on_a), std::pair(b, contacts[k].force_on_b)}) {
+        if (body < 0) continue;
+        double& scale = scales[at(body)];
+        scale = std::max(scale, problem_.body(at(body)).in_equations(force).norm());
       }
     }
     double largest = 0.0;
