@@ -22,7 +22,7 @@ const char* reason_of(ContactStage stage) {
       return "outside of the reach";
     case ContactStage::area:
       return "the faces have no area in common beyond rounding";
-    case ContactStage::hidden_faces:
+    case ContactStage::occluded_faces:
       return "the face lies on a third block there, nothing can enter through it";
     case ContactStage::entrance:
       return "these convex blocks meet through another face";
@@ -35,7 +35,7 @@ const char* reason_of(ContactStage stage) {
 /// Where a contact comes from, unless the search found it.
 const char* origin_of(ContactStage stage) {
   switch (stage) {
-    case ContactStage::hidden_faces:
+    case ContactStage::occluded_faces:
       return ", found below a face that lies on a third block";
     case ContactStage::entrance:
       return ", from the exact contact of both convex blocks";

@@ -59,7 +59,7 @@ struct CellBelow {
 };
 
 /// Where a block's face lies on a third block.
-using Hides = HiddenPlaces::Hides;
+using Hides = OccludedPlaces::Hides;
 
 /// Vertices of one surface over the cells of the other one.
 struct VertexSearch {
@@ -312,7 +312,7 @@ void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& ve
 [[gnu::noinline]] PairContacts find_contacts_rounding_to_nearest(const PlacedSurface& a,
                                                                  const PlacedSurface& b,
                                                                  const ContactLimits& limits,
-                                                                 const HiddenPlaces& hidden) {
+                                                                 const OccludedPlaces& hidden) {
   PairContacts contacts;
   const double margin = std::max(limits.reach, limits.penetration);
   if (!a.box().grown(margin).meets(b.box())) return contacts;
@@ -354,9 +354,9 @@ double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cel
 }
 
 PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b, const ContactLimits& limits,
-                           const HiddenPlaces* hidden) {
+                           const OccludedPlaces* hidden) {
   const NearestRounding rounding;
-  return find_contacts_rounding_to_nearest(a, b, limits, hidden == nullptr ? HiddenPlaces{} : *hidden);
+  return find_contacts_rounding_to_nearest(a, b, limits, hidden == nullptr ? OccludedPlaces{} : *hidden);
 }
 
 }  // namespace ashlar

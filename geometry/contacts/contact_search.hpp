@@ -69,7 +69,7 @@ struct PairContacts {
 [[nodiscard]] double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cells);
 
 /// Places of a pair's faces that lie on a third block: no way leads in or out there, but through that block.
-struct HiddenPlaces {
+struct OccludedPlaces {
   using Hides = std::function<bool(int face, const Vector3& place)>;
   Hides of_a;
   Hides of_b;
@@ -79,6 +79,6 @@ struct HiddenPlaces {
 /// @param hidden of a vertex in a block, faces that are hidden where it is below them are taken only if no
 /// other face bounds the block there, and the faces beside them go on behind them; null: none are
 [[nodiscard]] PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b,
-                                         const ContactLimits& limits, const HiddenPlaces* hidden = nullptr);
+                                         const ContactLimits& limits, const OccludedPlaces* hidden = nullptr);
 
 }  // namespace ashlar

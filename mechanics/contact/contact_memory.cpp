@@ -151,7 +151,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     result.compression += weight * memory.compression;
     result.normal_multiplier += weight * memory.normal_multiplier;
     result.shear_multiplier += weight * memory.shear_multiplier;
-    result.unrubbed += weight * memory.unrubbed;
+    result.deferred_friction += weight * memory.deferred_friction;
     result.dilation += weight * memory.dilation;
     result.level_dilation += weight * memory.level_dilation;
     if (memory.intact) intact += weight;
@@ -164,7 +164,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   result.compression /= sum;
   result.normal_multiplier /= sum;
   result.shear_multiplier /= sum;
-  result.unrubbed /= sum;
+  result.deferred_friction /= sum;
   result.dilation /= sum;
   result.level_dilation /= sum;
   return found;

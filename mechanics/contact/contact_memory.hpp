@@ -25,7 +25,7 @@ struct PointMemory {
   double normal_multiplier = 0.0;  ///< of augmented contact, Pa, of point springs N
   Vector3 shear_multiplier = Vector3::Zero();
   /// Normal impulse whose friction is still to act, of augmented contact, Pa s, of point springs N s
-  double unrubbed = 0.0;
+  double deferred_friction = 0.0;
   double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
   /// Of a static analysis (solver/statics/static_analysis.hpp): what the trial slip would be if the blocks were where
   /// they were when the present load level began, m

@@ -241,16 +241,17 @@ bool pressure_ends_as_before(const RuledOverlap& overlap, const std::vector<doub
 namespace {
 
 ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
-                        const std::vector<bool>& masters, const ContactPointSettings& settings,
+                        const std::vector<bool>& references_on_a, const ContactPointSettings& settings,
                         const std::vector<PressureCut>& known, const std::vector<FacePair>& turning) {
   const Search search{a, b, contacts.overlaps, settings, known, turning};
   ContactPoints result;
   if (settings.area_springs) {
     for (const JoinedOverlap& joined : join_whole_faces(a, b, contacts.overlaps, settings.curved))
-      add_area_springs(search, joined, masters[joined.cells.front()], result);
+      add_area_springs(search, joined, references_on_a[joined.cells.front()], result);
   } else {
     for (const FaceOverlap& face : join_by_faces(*a.placed, *b.placed, contacts.overlaps))
-      add_point_springs(search, face, contacts.overlaps, masters[at(face.cells.front())], result.points);
+      add_point_springs(search, face, contacts.overlaps, references_on_a[at(face.cells.front())],
+                        result.points);
   }
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
@@ -262,13 +263,13 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
 }  // namespace
 
 ContactPoints contact_points(const ContactBody& a, const ContactBody& b, const PairContacts& contacts,
-                             const std::vector<bool>& masters, const ContactPointSettings& settings,
+                             const std::vector<bool>& references_on_a, const ContactPointSettings& settings,
                              const std::vector<PressureCut>& known, const std::vector<FacePair>& turning) {
-  if (!settings.curved) return points_of(a, b, contacts, masters, settings, known, turning);
+  if (!settings.curved) return points_of(a, b, contacts, references_on_a, settings, known, turning);
   const PlacedBlock of_a(*a.model, a.state->position);
   const PlacedBlock of_b(*b.model, b.state->position);
   return points_of({a.model, a.state, a.placed, &of_a}, {b.model, b.state, b.placed, &of_b}, contacts,
-                   masters, settings, known, turning);
+                   references_on_a, settings, known, turning);
 }
 
 }  // namespace ashlar

@@ -71,12 +71,13 @@ struct ContactPoints {
   std::vector<FacePair> turning;       ///< as they were made for, see contact_points()
 };
 
-/// All contact points of a pair, in a fixed order. @param masters whether a is the master, on whose surface
-/// feet and normals are taken, in each of the overlaps (contact_master.hpp). @param known cuts of the step
+/// All contact points of a pair, in a fixed order. @param references_on_a whether a is the master, on whose surface
+/// feet and normals are taken, in each of the overlaps (reference_face.hpp). @param known cuts of the step
 /// before
 /// @param turning faces over which friction turned in the step before (ContactMemory::turning): their rules are finer
 [[nodiscard]] ContactPoints contact_points(const ContactBody& a, const ContactBody& b,
-                                           const PairContacts& contacts, const std::vector<bool>& masters,
+                                           const PairContacts& contacts,
+                                           const std::vector<bool>& references_on_a,
                                            const ContactPointSettings& settings,
                                            const std::vector<PressureCut>& known,
                                            const std::vector<FacePair>& turning = {});

@@ -210,8 +210,8 @@ Clearance ContactFinder::clearance_of(const PairKey& pair) const {
   return {bound * (1.0 - 1e-6), tracks_[at(pair[0])].path + tracks_[at(pair[1])].path};
 }
 
-void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const KnownContacts& known,
-                                  const std::vector<ContactLimits>& limits) {
+void ContactFinder::search_below_occluded(std::vector<FoundContacts>& searched, const KnownContacts& known,
+                                          const std::vector<ContactLimits>& limits) {
   std::vector<PairOfContacts> all;
   for (const auto& pair : searched) all.emplace_back(pair.blocks, &pair.contacts);
   for (std::size_t n = 0; n < near_.size(); ++n)
@@ -222,7 +222,7 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const Kn
   for (std::size_t k = 0; k < searched.size(); ++k) {
     const auto& blocks = searched[k].blocks;
     const auto& contacts = searched[k].contacts;
-    const HiddenPlaces places = sides_.hidden().of_pair(blocks);
+    const OccludedPlaces places = sides_.hidden().of_pair(blocks);
     const bool below =
         std::any_of(contacts.vertices.begin(), contacts.vertices.end(), [&](const auto& contact) {
           const PlacedSurface& with_cell = placed(blocks[contact.vertex_of_a ? 1 : 0]);
@@ -237,7 +237,7 @@ void ContactFinder::search_hidden(std::vector<FoundContacts>& searched, const Kn
   parallel_for(settings_.threads, again.size(), [&](std::size_t n) {
     const PairKey& blocks = searched[again[n]].blocks;
     PairContacts& contacts = searched[again[n]].contacts;
-    const HiddenPlaces places = sides_.hidden().of_pair(blocks);
+    const OccludedPlaces places = sides_.hidden().of_pair(blocks);
     const DecisionCounts counts = contacts.counts;
     contacts = find_contacts(placed(blocks[0]), placed(blocks[1]), limits[again[n]], &places);
     contacts.counts.filter += counts.filter;
@@ -334,8 +334,8 @@ std::vector<FoundContacts> ContactFinder::find(const std::vector<BlockState>& st
     leave_out_slivers(placed(a), placed(b), searched[k].contacts);
   });
   observe(ContactStage::area, searched);
-  search_hidden(searched, known, limits);
-  observe(ContactStage::hidden_faces, searched);
+  search_below_occluded(searched, known, limits);
+  observe(ContactStage::occluded_faces, searched);
   settle_convex_pairs(searched, known, histories);
   observe(ContactStage::entrance, searched);
   std::vector<FoundContacts> found;

@@ -17,8 +17,8 @@
 #include "geometry/contacts/motion_check.hpp"
 #include "mechanics/block/block_surface.hpp"
 #include "solver/contact/contact_stages.hpp"
+#include "solver/contact/occluded_faces_of_step.hpp"
 #include "solver/contact/pair_history.hpp"
-#include "solver/contact/sides_of_step.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -183,8 +183,8 @@ class ContactFinder {
   [[nodiscard]] ContactLimits limits_of(const NearPair& pair, const PairHistories& histories) const;
   /// Searches pairs again in which a vertex is in a block below a hidden part of its face.
   /// @param limits of the pairs
-  void search_hidden(std::vector<FoundContacts>& searched, const KnownContacts& known,
-                     const std::vector<ContactLimits>& limits);
+  void search_below_occluded(std::vector<FoundContacts>& searched, const KnownContacts& known,
+                             const std::vector<ContactLimits>& limits);
   /// Completes the contacts of pairs of convex solids, with history.
   void settle_convex_pairs(std::vector<FoundContacts>& searched, const KnownContacts& known,
                            PairHistories& histories);
@@ -206,7 +206,7 @@ class ContactFinder {
   std::vector<std::optional<PlacedSurface>> placed_;  ///< none: no other block is near
   std::vector<BlockTrack> tracks_;                    ///< by block
   std::vector<NearPair> near_;                        ///< of the step
-  SidesOfStep sides_;                                 ///< that lie on other blocks
+  OccludedFacesOfStep sides_;                         ///< that lie on other blocks
   std::set<PairKey> hidden_;  ///< pairs of the last search that were searched again for hidden sides
   FinderCounts counts_;
 };

@@ -113,7 +113,7 @@ void ContactPair::touch_within(double depth) {
   rest_at(std::move(rests));
 }
 
-void ContactPair::hold_where_found(double taken) {
+void ContactPair::freeze_at_gap(double taken) {
   taken_ = taken;
   std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k)
@@ -154,7 +154,7 @@ double ContactPair::depth_found() const {
   return depth;
 }
 
-ContactPair ContactPair::moved_apart(double depth) const {
+ContactPair ContactPair::projected(double depth) const {
   ContactPair pair = *this;
   pair.start_.setZero();
   pair.rows_.prescribe_nothing();
@@ -286,7 +286,7 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     const bool torn =
         laws_[k].tension > 0.0 ? open || laws[k].tension < laws_[k].tension : open && gap > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].weakens_by_sliding();
-    memory.intact = memory_[k].intact && (kind_.holds_bonds || (!torn && !sheared));
+    memory.intact = memory_[k].intact && (kind_.freezes_failure || (!torn && !sheared));
     if (laws[k].augmented && point.state != ContactState::open) {
       const Eigen::Vector2d shear = point.force.tail<2>();
       const double scale = multiplier_scale(points_[k]);
@@ -298,8 +298,8 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
   return result;
 }
 
-ContactPair ContactPair::setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
-                                     double reach) const {
+ContactPair ContactPair::at_rigid_onset(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                        double reach) const {
   ContactPair pair = *this;
   pair.rows_.prescribe_nothing();
   pair.start_.setZero();

@@ -49,7 +49,7 @@ class ContactPair {
               std::vector<FacePair> turning = {});
 
   /// Contacts that were known (lasting_contacts.hpp). @param memory of the same points. Springs go on from where the
-  /// last step left them, multipliers as hold_where_found() says
+  /// last step left them, multipliers as freeze_at_gap() says
   ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
               std::vector<PointMemory> memory);
 
@@ -117,7 +117,7 @@ class ContactPair {
   /// Points with multipliers, which hold no energy, are held where they are found below the surface, bonds
   /// also above it.
   /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
-  void hold_where_found(double taken);
+  void freeze_at_gap(double taken);
   /// Dashpots beside the springs, for a step of this length (mechanics/notes/joint_damping.md). @param step s, > 0
   void damp(double step);
   /// By how much the rest of a point's normal spring is above the surface for what has slid before the step, m, >= 0.
@@ -130,14 +130,14 @@ class ContactPair {
   /// Whether any point of a contact has strength to lose.
   [[nodiscard]] bool bonded() const;
   /// Bonds neither tear nor slide whatever pulls, and none is lost in the step.
-  void hold_bonds();
-  /// What hold_where_found() was told.
+  void freeze_failure();
+  /// What freeze_at_gap() was told.
   [[nodiscard]] double taken() const { return taken_; }
   /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.
   [[nodiscard]] double depth_found() const;
   /// The pair without friction and forces, for moving blocks apart: points push from a depth on, bonds and
   /// ties hold blocks as they are to each other. @param depth m, >= 0
-  [[nodiscard]] ContactPair moved_apart(double depth) const;
+  [[nodiscard]] ContactPair projected(double depth) const;
   [[nodiscard]] bool can_be_bounded() const;
   /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
   /// 3), empty: none
@@ -183,7 +183,7 @@ class ContactPair {
                                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
                                       const std::vector<bool>& let_go) const;
   /// Lets friction of the step make up for impulses of the last one, which had none. @param step s, > 0
-  void rub_impulses(double step);
+  void apply_deferred_friction(double step);
   /// Of points with multipliers, the normal impulse that friction has still to count: what it did not in this
   /// step, those at its end first, less what it counted too much. Locked points have nothing left of earlier
   /// ones.
@@ -197,8 +197,8 @@ class ContactPair {
   /// their forces as multipliers, those that it has opened never touch. Ties stay as they are.
   /// @param laws that gave the response
   /// @param reach m, >= 0: points that are found this far apart or less touch, without force
-  [[nodiscard]] ContactPair setting_off(const PairResponse& response, const std::vector<PointLaw>& laws,
-                                        double reach) const;
+  [[nodiscard]] ContactPair at_rigid_onset(const PairResponse& response, const std::vector<PointLaw>& laws,
+                                           double reach) const;
   /// Whether strength is lost in the step anywhere. @param memory after it
   [[nodiscard]] bool fails(const std::vector<PointMemory>& memory) const;
   /// Of points that had strength to lose at the start of the step. @param memory after it
@@ -230,7 +230,7 @@ class ContactPair {
     double dilation;    ///< tan(psi)
     double damping;     ///< share of critical
     bool counts_slip = false;
-    bool holds_bonds = false;
+    bool freezes_failure = false;
     bool goes_on = false;
   };
 

@@ -13,9 +13,9 @@ namespace ashlar {
 
 /// In the order in which they follow each other.
 enum class ContactStage {
-  search,         ///< features within reach that face each other (geometry/contacts/contact_search.hpp)
-  area,           ///< overlaps without an area beyond rounding are removed (overlap_outline.hpp)
-  hidden_faces,   ///< vertices below a face that lies on a third block are searched again (sides_of_step.hpp)
+  search,  ///< features within reach that face each other (geometry/contacts/contact_search.hpp)
+  area,    ///< overlaps without an area beyond rounding are removed (overlap_outline.hpp)
+  occluded_faces,  ///< vertices below a face that lies on a third block are searched again (occluded_faces_of_step.hpp)
   entrance,       ///< convex blocks: completed and reduced by the exact contact of both (convex_search.hpp)
   internal_edge,  ///< contacts that only penetration has made are removed (internal_edges.hpp)
 };

@@ -84,7 +84,7 @@ bool ends_there(const PlacedSurface& s, int point, const Vector3& direction) {
 
 /// Whether all of b that touches is below all of a when a has moved along the way, and the blocks end there.
 template <class Contact>
-bool undoes(const WayOut& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
+bool undoes(const Retraction& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
   const Vector3& direction = way.direction;
   const Touching found = touching(a, b, contact);
   if (largest_cosine(direction, found.normals) > (way.own ? steep_sides : faces_across)) return false;
@@ -118,7 +118,7 @@ ContactNormals normals_of(const PlacedSurface& a, const PlacedSurface& b, const 
   return {std::visit([&](const auto& contact) { return touching(a, b, contact).normals; }, touch.contact)};
 }
 
-WaysOut::WaysOut(const PairHistories& histories, const std::vector<bool>& moving) {
+Retractions::Retractions(const PairHistories& histories, const std::vector<bool>& moving) {
   for (const auto& [blocks, pair] : histories) {
     if (!moving[at(blocks[0])] && !moving[at(blocks[1])]) continue;
     if (!(pair.memory.deepest() > 0.0)) continue;
@@ -128,7 +128,7 @@ WaysOut::WaysOut(const PairHistories& histories, const std::vector<bool>& moving
   }
 }
 
-void WaysOut::add(const std::array<int, 2>& blocks, const Vector3& normal, double depth) {
+void Retractions::add(const std::array<int, 2>& blocks, const Vector3& normal, double depth) {
   const double height = depth > 0.0 ? 2.0 * depth : depth;
   const auto add_to = [&](int block, int other, const Vector3& direction) {
     std::vector<Bundle>& bundles = ways_[block];
@@ -149,8 +149,8 @@ void WaysOut::add(const std::array<int, 2>& blocks, const Vector3& normal, doubl
   add_to(blocks[1], blocks[0], -normal);
 }
 
-void WaysOut::add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
-                           const PairContacts& contacts) {
+void Retractions::add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a,
+                               const PlacedSurface& b, const PairContacts& contacts) {
   const double rounding = coordinate_rounding(a, b);
   for (const CellOverlap& overlap : contacts.overlaps)
     add(blocks, overlap.frame.w, rounding - *std::min_element(overlap.gaps.begin(), overlap.gaps.end()));
@@ -163,7 +163,8 @@ void WaysOut::add_touching(const std::array<int, 2>& blocks, const PlacedSurface
   }
 }
 
-double WaysOut::sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const {
+double Retractions::sunk(int block, int but, const Vector3& direction,
+                         const BlockCompression& compression_of) const {
   double highest = 0.0;
   if (const auto known = ways_.find(block); known != ways_.end()) {
     for (const Bundle& bundle : known->second) {
@@ -172,12 +173,12 @@ double WaysOut::sunk(int block, int but, const Vector3& direction, const GivenWa
       highest = std::max(highest, high.height);
     }
   }
-  return given_way ? highest + 2.0 * given_way(block, direction) : highest;
+  return compression_of ? highest + 2.0 * compression_of(block, direction) : highest;
 }
 
-std::vector<WayOut> WaysOut::of_pair(int a, int b, const ContactNormals& normals,
-                                     const GivenWay& given_way) const {
-  std::vector<std::pair<std::size_t, WayOut>> numbered;
+std::vector<Retraction> Retractions::of_pair(int a, int b, const ContactNormals& normals,
+                                             const BlockCompression& compression_of) const {
+  std::vector<std::pair<std::size_t, Retraction>> numbered;
   const auto across_all = [&](const Vector3& direction) {
     return std::all_of(normals.begin(), normals.end(), [&](const std::vector<Vector3>& of_contact) {
       return largest_cosine(direction, of_contact) > bundle_across;
@@ -192,19 +193,19 @@ std::vector<WayOut> WaysOut::of_pair(int a, int b, const ContactNormals& normals
         const bool own = other == side;
         for (const OutOf& way : ways) {
           const double supports = own ? 0.0
-                                      : sunk(other, block, way.direction, given_way) +
-                                            sunk(side, block, way.direction, given_way);
-          numbered.emplace_back(way.number, WayOut{sign * way.direction,
-                                                   way.height + supports,
-                                                   {std::min(block, other), std::max(block, other)},
-                                                   own});
+                                      : sunk(other, block, way.direction, compression_of) +
+                                            sunk(side, block, way.direction, compression_of);
+          numbered.emplace_back(way.number, Retraction{sign * way.direction,
+                                                       way.height + supports,
+                                                       {std::min(block, other), std::max(block, other)},
+                                                       own});
         }
       }
     }
     std::sort(numbered.begin(), numbered.end(),
               [](const auto& x, const auto& y) { return x.first < y.first; });
   };
-  std::vector<WayOut> ways;
+  std::vector<Retraction> ways;
   for (const auto& [block, side, sign] : {std::tuple{a, b, 1.0}, std::tuple{b, a, -1.0}}) {
     numbered.clear();
     add(block, side, sign);
@@ -213,9 +214,9 @@ std::vector<WayOut> WaysOut::of_pair(int a, int b, const ContactNormals& normals
   return ways;
 }
 
-bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
-                     const std::function<const PlacedSurface&(int)>& placed,
-                     const GivenWay& given_way) const {
+bool Retractions::stands(const Retraction& way, const std::vector<FoundContacts>& found,
+                         const std::function<const PlacedSurface&(int)>& placed,
+                         const BlockCompression& compression_of) const {
   const auto pair = std::lower_bound(found.begin(), found.end(), way.out_of,
                                      [](const FoundContacts& contacts, const std::array<int, 2>& blocks) {
                                        return contacts.blocks < blocks;
@@ -223,19 +224,20 @@ bool WaysOut::stands(const WayOut& way, const std::vector<FoundContacts>& found,
   if (pair == found.end() || pair->blocks != way.out_of) return false;
   const PlacedSurface& a = placed(pair->blocks[0]);
   const PlacedSurface& b = placed(pair->blocks[1]);
-  const std::vector<WayOut> others =
-      of_pair(pair->blocks[0], pair->blocks[1], normals_of(a, b, pair->contacts), given_way);
+  const std::vector<Retraction> others =
+      of_pair(pair->blocks[0], pair->blocks[1], normals_of(a, b, pair->contacts), compression_of);
   const Vector3& direction = way.direction;
   return any_of(pair->contacts, [&](const auto& contact) {
     return largest_cosine(direction, touching(a, b, contact).normals) > faces_across &&
            std::none_of(others.begin(), others.end(),
-                        [&](const WayOut& other) { return undoes(other, a, b, contact); });
+                        [&](const Retraction& other) { return undoes(other, a, b, contact); });
   });
 }
 
-void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-                     const std::function<bool(const WayOut&)>& stands, PairContacts& contacts) {
-  for (const WayOut& way : ways) {
+void remove_internal_edges(const PlacedSurface& a, const PlacedSurface& b,
+                           const std::vector<Retraction>& ways,
+                           const std::function<bool(const Retraction&)>& stands, PairContacts& contacts) {
+  for (const Retraction& way : ways) {
     const auto undone = [&](const auto& contact) { return undoes(way, a, b, contact); };
     // Asked before any is removed: the contacts may be among those that are looked at.
     if (!any_of(contacts, undone) || !stands(way)) continue;
@@ -245,9 +247,9 @@ void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::
   }
 }
 
-bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-             const std::function<bool(const WayOut&)>& stands, const Touch& touch) {
-  return std::any_of(ways.begin(), ways.end(), [&](const WayOut& way) {
+bool at_internal_edge(const PlacedSurface& a, const PlacedSurface& b, const std::vector<Retraction>& ways,
+                      const std::function<bool(const Retraction&)>& stands, const Touch& touch) {
+  return std::any_of(ways.begin(), ways.end(), [&](const Retraction& way) {
     return std::visit([&](const auto& contact) { return undoes(way, a, b, contact); }, touch.contact) &&
            stands(way);
   });

@@ -21,7 +21,7 @@
 namespace ashlar {
 
 /// A motion of a block a relative to a block b that takes either of them out of what it had sunk into.
-struct WayOut {
+struct Retraction {
   Vector3 direction;          ///< unit
   double height;              ///< m; negative: it has as far to go until it touches
   std::array<int, 2> out_of;  ///< the two blocks that were in each other, the lower number first
@@ -31,7 +31,7 @@ struct WayOut {
 };
 
 /// By how much a block is shorter or longer along a unit direction than it is without load, m, >= 0.
-using GivenWay = std::function<double(int block, const Vector3& direction)>;
+using BlockCompression = std::function<double(int block, const Vector3& direction)>;
 
 /// Unit normals across which each contact of a pair touches; only their lines count.
 using ContactNormals = std::vector<std::vector<Vector3>>;
@@ -41,11 +41,11 @@ using ContactNormals = std::vector<std::vector<Vector3>>;
 
 /// Ways out of what each block had sunk into at the end of the last step. A block has one bundle of ways for each
 /// direction, however many blocks lie on it: work is proportional to the ways that may matter to a pair.
-class WaysOut {
+class Retractions {
  public:
-  WaysOut() = default;  ///< none
+  Retractions() = default;  ///< none
   /// @param moving by block: two blocks that do not move are left out
-  WaysOut(const PairHistories& histories, const std::vector<bool>& moving);
+  Retractions(const PairHistories& histories, const std::vector<bool>& moving);
   /// Two blocks a < b that are in each other or about to touch. @param normal out of b. @param depth m;
   /// negative: the gap between them
   void add(const std::array<int, 2>& blocks, const Vector3& normal, double depth);
@@ -53,16 +53,16 @@ class WaysOut {
   void add_touching(const std::array<int, 2>& blocks, const PlacedSurface& a, const PlacedSurface& b,
                     const PairContacts& contacts);
   /// Ways of a pair, less those that are across the faces of all its contacts, which they do not undo.
-  /// @param given_way empty: blocks are rigid
-  [[nodiscard]] std::vector<WayOut> of_pair(int a, int b, const ContactNormals& normals,
-                                            const GivenWay& given_way) const;
+  /// @param compression_of empty: blocks are rigid
+  [[nodiscard]] std::vector<Retraction> of_pair(int a, int b, const ContactNormals& normals,
+                                                const BlockCompression& compression_of) const;
   /// Whether a block still lies on what a way leads out of, by a contact that no other way undoes: of two
   /// flanks of a ridge that has hardly gone in, each is beside the way out of the other.
   /// @param found contacts, ordered by blocks, with or without those of seams. @param placed surfaces of
   /// blocks that have contacts
-  [[nodiscard]] bool stands(const WayOut& way, const std::vector<FoundContacts>& found,
+  [[nodiscard]] bool stands(const Retraction& way, const std::vector<FoundContacts>& found,
                             const std::function<const PlacedSurface&(int)>& placed,
-                            const GivenWay& given_way) const;
+                            const BlockCompression& compression_of) const;
 
  private:
   struct OutOf {
@@ -82,19 +82,22 @@ class WaysOut {
   };
   /// Height of the highest of a block's ways out of any but another one, along a direction or against it, and
   /// twice what the block itself has given way, m.
-  [[nodiscard]] double sunk(int block, int but, const Vector3& direction, const GivenWay& given_way) const;
+  [[nodiscard]] double sunk(int block, int but, const Vector3& direction,
+                            const BlockCompression& compression_of) const;
 
   std::map<int, std::vector<Bundle>> ways_;  ///< by block
   std::size_t count_ = 0;
 };
 
-/// Removes the contacts of a pair that one of the ways undoes. @param ways as WaysOut::of_pair returns
+/// Removes the contacts of a pair that one of the ways undoes. @param ways as Retractions::of_pair returns
 /// @param stands which of them count
-void leave_out_seams(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-                     const std::function<bool(const WayOut&)>& stands, PairContacts& contacts);
+void remove_internal_edges(const PlacedSurface& a, const PlacedSurface& b,
+                           const std::vector<Retraction>& ways,
+                           const std::function<bool(const Retraction&)>& stands, PairContacts& contacts);
 
 /// Whether one of the ways undoes a touch.
-[[nodiscard]] bool at_seam(const PlacedSurface& a, const PlacedSurface& b, const std::vector<WayOut>& ways,
-                           const std::function<bool(const WayOut&)>& stands, const Touch& touch);
+[[nodiscard]] bool at_internal_edge(const PlacedSurface& a, const PlacedSurface& b,
+                                    const std::vector<Retraction>& ways,
+                                    const std::function<bool(const Retraction&)>& stands, const Touch& touch);
 
 }  // namespace ashlar

@@ -10,7 +10,7 @@ namespace {
 
 class OpenFaces {
  public:
-  OpenFaces(const MovingSurface& a, const MovingSurface& b, const HiddenPlaces& hidden)
+  OpenFaces(const MovingSurface& a, const MovingSurface& b, const OccludedPlaces& hidden)
       : a_(a), b_(b), hidden_(hidden) {}
 
   void turn(std::vector<Touch>& touches) const {
@@ -75,12 +75,12 @@ class OpenFaces {
 
   const MovingSurface a_;
   const MovingSurface b_;
-  const HiddenPlaces& hidden_;
+  const OccludedPlaces& hidden_;
 };
 
 }  // namespace
 
-void turn_to_open_faces(const MovingSurface& a, const MovingSurface& b, const HiddenPlaces& hidden,
+void turn_to_open_faces(const MovingSurface& a, const MovingSurface& b, const OccludedPlaces& hidden,
                         std::vector<Touch>& touches) {
   OpenFaces(a, b, hidden).turn(touches);
 }

@@ -64,9 +64,9 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
   return result;
 }
 
-void ContactPair::rub_impulses(double step) {
+void ContactPair::apply_deferred_friction(double step) {
   for (std::size_t k = 0; k < laws_.size(); ++k)
-    laws_[k].impulse_force = multiplier_scale(points_[k]) * memory_[k].unrubbed / step;
+    laws_[k].impulse_force = multiplier_scale(points_[k]) * memory_[k].deferred_friction / step;
 }
 
 void ContactPair::remember_impulses(const PairResponse& response, const std::vector<PointLaw>& laws,
@@ -85,7 +85,7 @@ void ContactPair::remember_impulses(const PairResponse& response, const std::vec
                             ? std::numeric_limits<double>::infinity()
                             : std::max(impulses[k][0], 0.0);
     const double left = std::min(most, due - rubbed);
-    memory[k].unrubbed = step * left / multiplier_scale(points_[k]);
+    memory[k].deferred_friction = step * left / multiplier_scale(points_[k]);
   }
 }
 

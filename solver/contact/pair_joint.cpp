@@ -13,8 +13,8 @@ bool ContactPair::bonded() const {
          std::any_of(laws_.begin(), laws_.end(), [](const PointLaw& law) { return law.weakens(); });
 }
 
-void ContactPair::hold_bonds() {
-  kind_.holds_bonds = true;
+void ContactPair::freeze_failure() {
+  kind_.freezes_failure = true;
   const JointLaw bond = unbreakable_law(1.0);
   for (PointLaw& law : laws_) {
     if (tied() || !law.weakens() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;

@@ -85,7 +85,7 @@ std::vector<PassingBlocks> ContactFinder::check_motion(const std::vector<BlockSt
     touches[k] = find_touches({&placed(a), &end_a}, {&placed(b), &end_b},
                               in_contact ? known->contacts : PairContacts{}, limits);
     if (sides_.hidden().empty()) return;
-    const HiddenPlaces hidden = sides_.hidden().of_pair(pairs[k]);
+    const OccludedPlaces hidden = sides_.hidden().of_pair(pairs[k]);
     turn_to_open_faces({&placed(a), &end_a}, {&placed(b), &end_b}, hidden, touches[k]);
   });
   std::vector<PassingBlocks> passing;

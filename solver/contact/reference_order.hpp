@@ -1,4 +1,4 @@
-// Which of two blocks has the reference face where neither rims nor kinds tell (mechanics/contact/contact_master.hpp).
+// Which of two blocks has the reference face where neither rims nor kinds tell (mechanics/contact/reference_face.hpp).
 //
 // The order of blocks in a scene must not tell, nor what is left and right: equal blocks that slide on each other
 // would move otherwise by 1e-6 of their way. Heights against gravity and distances from the middle of all blocks are

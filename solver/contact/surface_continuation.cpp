@@ -14,8 +14,8 @@ double height(const PlacedSurface& surface, int cell, const ViewFrame& frame, co
 
 }  // namespace
 
-CoveredFaces::CoveredFaces(const std::vector<FoundContacts>& found,
-                           const std::function<const PlacedSurface&(int)>& placed, double reach)
+SurfaceContinuation::SurfaceContinuation(const std::vector<FoundContacts>& found,
+                                         const std::function<const PlacedSurface&(int)>& placed, double reach)
     : reach_(reach) {
   for (const FoundContacts& pair : found) {
     const PairKey& blocks = pair.blocks;
@@ -32,7 +32,7 @@ CoveredFaces::CoveredFaces(const std::vector<FoundContacts>& found,
   }
 }
 
-bool CoveredFaces::goes_on(const Cover& cover, const RimPlace& rim) const {
+bool SurfaceContinuation::goes_on(const Cover& cover, const RimPlace& rim) const {
   const CellOverlap& overlap = *cover.overlap;
   const Eigen::Vector2d place = overlap.frame.project(rim.place);
   const std::size_t count = overlap.corners.size();
@@ -52,7 +52,7 @@ bool CoveredFaces::goes_on(const Cover& cover, const RimPlace& rim) const {
   return gap(place) <= rim.near && rise <= rounding;
 }
 
-bool CoveredFaces::goes_on(int block, int with_rim, const RimPlace& rim) const {
+bool SurfaceContinuation::goes_on(int block, int with_rim, const RimPlace& rim) const {
   const auto covers = of_faces_.find({block, rim.face});
   if (covers == of_faces_.end()) return false;
   return std::any_of(covers->second.begin(), covers->second.end(),

@@ -1,22 +1,22 @@
 // Which blocks lie on a face, and where: a block that spans several others lies on one surface, and the rims
-// between them are no ends of it (mechanics/contact/contact_master.hpp).
+// between them are no ends of it (mechanics/contact/reference_face.hpp).
 #pragma once
 
 #include <functional>
 #include <map>
 #include <vector>
 
-#include "mechanics/contact/contact_master.hpp"
+#include "mechanics/contact/reference_face.hpp"
 #include "solver/contact/contact_finder.hpp"
 
 namespace ashlar {
 
-class CoveredFaces {
+class SurfaceContinuation {
  public:
   /// @param found, placed must outlive this. @param placed surfaces of the blocks that have contacts
   /// @param reach m, how far apart the blocks may be that make one surface
-  CoveredFaces(const std::vector<FoundContacts>& found,
-               const std::function<const PlacedSurface&(int)>& placed, double reach);
+  SurfaceContinuation(const std::vector<FoundContacts>& found,
+                      const std::function<const PlacedSurface&(int)>& placed, double reach);
 
   /// Whether another block than the one with the rim goes on behind it.
   /// @param block that lies on the rim. @param with_rim the other one

@@ -18,14 +18,14 @@ struct StaticProgress {
   std::vector<double> forces;
   std::vector<double> travels;  ///< from there, in parts of the block's size
   /// What it lacked in the last iteration, (p, 3), N m^-3/2; no blocks before the first
-  std::vector<Eigen::MatrixX3d> lacking;
+  std::vector<Eigen::MatrixX3d> residuals;
 };
 
-/// How blocks set off that no equilibrium holds, since the last iteration in which nothing was lacking or a joint
+/// How blocks set off that no equilibrium holds, since the last iteration in equilibrium, or in which a joint
 /// lost its strength.
 struct StaticOnset {
   std::vector<std::array<int, 2>> sliding;   ///< joints that slid in the last iteration
-  double least_lacking = 0.0;                ///< least sum of squares of what blocks lacked, N^2
+  double least_residual = 0.0;               ///< least sum of squares of what blocks lacked, N^2
   std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
   bool rigid = false;                        ///< whether these are those of rigid blocks
   std::vector<int>
@@ -37,9 +37,9 @@ struct StaticOnset {
 struct StaticState {
   double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0 before the first
   int iterations = 0;             ///< at the present loads
-  int still_iterations = 0;       ///< in which nothing was lacking and no contact changed, one after another
-  bool holds_bonds = false;       ///< until all is in balance once with bonds that hold
-  int multiplier_iterations = 0;  ///< in which nothing was lacking but that multipliers repeat themselves
+  int still_iterations = 0;       ///< in equilibrium with unchanged contacts, one after another
+  bool freezes_failure = false;   ///< until all is in balance once with bonds that hold
+  int multiplier_iterations = 0;  ///< in equilibrium whose multipliers had not converged
   bool balanced = false;          ///< equilibrium at the present loads
   bool moving = false;
   std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on

@@ -230,7 +230,7 @@ void ConeIteration::finish(ConeAnswer& answer) const {
   answer.factor = factor_;
   answer.gap = gap_;
   for (const BodyVelocity& lack : lack_v_)
-    answer.lacking = std::max(answer.lacking, lack.norm() / load_scale_);
+    answer.residual = std::max(answer.residual, lack.norm() / load_scale_);
 }
 
 }  // namespace ashlar

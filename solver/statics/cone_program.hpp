@@ -80,7 +80,8 @@ struct ConeAnswer {
   std::vector<Eigen::Vector2d> opening;  ///< duals: of the cone's axis, and of the bound of tension; >= 0
   double factor = 0.0;                   ///< a, of `factor`
   double gap = 0.0;                      ///< between primal and dual value, >= 0
-  double lacking = 0.0;  ///< most that |F + G'p + a F1| of a body is beside v, over the largest load
+  double residual =
+      0.0;  ///< largest |F + G'p + a F1| of a body that v does not balance, over the largest load
   int iterations = 0;
 };
 

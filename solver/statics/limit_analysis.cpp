@@ -94,10 +94,10 @@ LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& 
   trial.iterations = found.iterations;
   const double motion = largest_motion(found.velocity, asked.load);
   const double square = product(found.velocity, found.velocity);
-  if (found.lacking < 0.1 * still && motion <= still) {
+  if (found.residual < 0.1 * still && motion <= still) {
     trial.outcome = LimitOutcome::stands;
     trial.balanced = true;
-  } else if (motion > still && square > 2.0 * found.gap && found.lacking < 0.1 * still) {
+  } else if (motion > still && square > 2.0 * found.gap && found.residual < 0.1 * still) {
     trial.outcome = LimitOutcome::moves;
     // Power of forces within the strengths that reduction takes: z . x of the cones is what is left of them.
     double strength_power = 0.0;
@@ -201,7 +201,7 @@ double LimitAnalysis::most_that_stands(double most) {
   double stands = most;
   for (ConeProgram* program : {&bound_, &program_}) {
     const ConeAnswer found = program->solve(asked);
-    if (found.status != ConeStatus::solved || !(found.lacking < still)) return 0.0;
+    if (found.status != ConeStatus::solved || !(found.residual < still)) return 0.0;
     stands = std::min(stands, found.factor);
   }
   return stands;

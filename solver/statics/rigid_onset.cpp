@@ -120,7 +120,7 @@ bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem&
     const Onset onset = prepare(run, island, problem, states, bodies);
     for (std::size_t n = 0; n < island.pairs.size(); ++n) {
       ContactPair& pair = pairs[at(island.pairs[n])];
-      pair = pair.setting_off(result.responses[n], result.laws[n], opened_by * onset.farthest);
+      pair = pair.at_rigid_onset(result.responses[n], result.laws[n], opened_by * onset.farthest);
     }
     TimeScheme let_go = scheme;
     let_go.inertia = scheme.inertia * motion / way;
@@ -128,8 +128,8 @@ bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem&
     settings.multipliers.penetration_tolerance = depth_share * way * onset.smallest;
     const IslandResult off = solve_island(island, bodies, pairs, let_go, settings, run.factors.islands);
     run.state.log.counts.open_close_iterations += static_cast<std::uint64_t>(off.iterations);
-    const bool rigid =
-        off.status == IslandStatus::settled && take_over(run, island, bodies, let_go.inertia, accelerations);
+    const bool rigid = off.status == IslandStatus::converged &&
+                       take_over(run, island, bodies, let_go.inertia, accelerations);
     all = all && rigid;
   }
   return all;

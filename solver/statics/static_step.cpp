@@ -76,13 +76,13 @@ void start_load_level(const RunContext& run, double end_time) {
   statics.progress.forces.assign(run.blocks().size(), std::numeric_limits<double>::infinity());
   statics.progress.travels.assign(run.blocks().size(), 0.0);
   for (auto& [blocks, pair] : run.state.pairs) pair.memory.start_level();
-  statics.holds_bonds = true;
+  statics.freezes_failure = true;
   forget_accelerations(run);
 }
 
 /// From now on bonds fail where balances ask for more than their strength.
 void let_bonds_go(const RunContext& run) {
-  run.state.statics.holds_bonds = false;
+  run.state.statics.freezes_failure = false;
   // What bonds that do not fail do is no motion of these blocks.
   forget_accelerations(run);
   // How multipliers share a force is left from the way here; springs share it as stiff joints would.
@@ -100,8 +100,9 @@ class StaticIteration {
         found_(run.contacts.detect(run.system, run.state, 0.0)) {
     pair_up();
     StaticState& statics = run.state.statics;
-    statics.holds_bonds = statics.holds_bonds && std::any_of(problem_.pairs.begin(), problem_.pairs.end(),
-                                                             [](const ContactPair& p) { return p.bonded(); });
+    statics.freezes_failure =
+        statics.freezes_failure && std::any_of(problem_.pairs.begin(), problem_.pairs.end(),
+                                               [](const ContactPair& p) { return p.bonded(); });
   }
 
   StaticStatus run() {
@@ -125,9 +126,9 @@ class StaticIteration {
   std::optional<StaticStatus> attempt(const TimeScheme& scheme, double& raise) {
     const double step = step_of(scheme);
     const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
-    if (status != IslandStatus::settled) {
+    if (status != IslandStatus::converged) {
       reject_unsettled(run_, step, status, problem_);
-      if (run_.state.statics.holds_bonds) {
+      if (run_.state.statics.freezes_failure) {
         let_bonds_go(run_);
         pair_up();
       }
@@ -188,7 +189,7 @@ class StaticIteration {
     note_lacking(run_, scheme, problem_);
     accept(run_, scheme, problem_);
     run_.state.report.step = step_of(scheme);
-    if (statics.holds_bonds && (balanced || has_set_off(run_))) let_bonds_go(run_);
+    if (statics.freezes_failure && (balanced || has_set_off(run_))) let_bonds_go(run_);
     if (!is_settled(problem_)) {
       statics.inertia = 10.0 * scheme.inertia;
     } else if (!cut_) {

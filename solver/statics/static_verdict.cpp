@@ -94,7 +94,7 @@ bool has_set_off(const RunContext& run) {
 
 bool is_settled(const StepProblem& problem) {
   return std::none_of(problem.bodies.begin(), problem.bodies.end(),
-                      [](const BodyStep& body) { return body.lacking > 0.0; });
+                      [](const BodyStep& body) { return body.residual > 0.0; });
 }
 
 bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
@@ -104,7 +104,7 @@ bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepPro
     if (!run.system.moving()[k]) continue;
     const BodyStep& body = problem.bodies[k];
     const BlockModel& block = run.blocks()[k];
-    const double lacking = block.material().density * scheme.inertia * body.change.norm() + body.lacking;
+    const double lacking = block.material().density * scheme.inertia * body.change.norm() + body.residual;
     const Eigen::MatrixX3d position = run.state.states[k].position + body.motion();
     if (lacking <= run.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
       run.state.statics.progress.travels[k] = 0.0;
@@ -126,7 +126,7 @@ bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepPro
 }
 
 void forget_accelerations(const RunContext& run) {
-  run.state.statics.onset.least_lacking = std::numeric_limits<double>::infinity();
+  run.state.statics.onset.least_residual = std::numeric_limits<double>::infinity();
   run.state.statics.onset.unbalanced.clear();
   run.state.statics.onset.rigid = false;
   run.state.statics.onset.gives_way.assign(run.blocks().size(), 0);
@@ -145,7 +145,7 @@ void note_accelerations(const RunContext& run, const TimeScheme& scheme, const S
   const bool settled = is_settled(problem) && sliding == run.state.statics.onset.sliding;
   run.state.statics.onset.sliding = std::move(sliding);
   // Until joints slide twice alike the last iteration knows best: in the first ones inertia bears most of the weight.
-  if (!settled && std::isfinite(run.state.statics.onset.least_lacking)) return;
+  if (!settled && std::isfinite(run.state.statics.onset.least_residual)) return;
   bool near_start = true;
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     near_start = near_start && !(run.system.moving()[k] &&
@@ -160,8 +160,8 @@ void note_accelerations(const RunContext& run, const TimeScheme& scheme, const S
     double lacking = 0.0;
     for (std::size_t k = 0; k < run.blocks().size(); ++k)
       lacking += std::pow(run.blocks()[k].material().density * accelerations[k].norm(), 2);
-    if (!(lacking < run.state.statics.onset.least_lacking)) return;
-    run.state.statics.onset.least_lacking = lacking;
+    if (!(lacking < run.state.statics.onset.least_residual)) return;
+    run.state.statics.onset.least_residual = lacking;
     run.state.statics.onset.rigid = rigid;
   }
   run.state.statics.onset.unbalanced = std::move(accelerations);

@@ -16,7 +16,7 @@ namespace {
 constexpr double meeting_share = 0.1;
 
 /// What a block lacks, N m^-3/2. @return (p, 3)
-Eigen::MatrixX3d lacking_of(const TimeScheme& scheme, const BodyStep& body) {
+Eigen::MatrixX3d residual_of(const TimeScheme& scheme, const BodyStep& body) {
   return body.model->material().density * scheme.inertia * body.model->space().expand(body.change);
 }
 
@@ -81,11 +81,11 @@ class WayOn {
   [[nodiscard]] bool lacks_the_same(const TimeScheme& scheme, std::size_t k) const {
     const StaticProgress& progress = run_.state.statics.progress;
     const BodyStep& body = problem_.bodies[k];
-    if (progress.lacking.empty() || body.prescribed.size() > 0) return false;
-    const Eigen::MatrixX3d lacking = lacking_of(scheme, body);
+    if (progress.residuals.empty() || body.prescribed.size() > 0) return false;
+    const Eigen::MatrixX3d lacking = residual_of(scheme, body);
     const double norm = lacking.norm();
     if (!(norm > run_.settings().statics.tolerance * body.largest_force + body.roundoff_force)) return false;
-    return (lacking - progress.lacking[k]).norm() * far_ <= ways_[k] * norm;
+    return (lacking - progress.residuals[k]).norm() * far_ <= ways_[k] * norm;
   }
 
   /// How often the way of the iteration makes up the way on of the block that goes farthest.
@@ -144,10 +144,10 @@ void note_way_on(const RunContext& run, const StraightWay& way) {
 }
 
 void note_lacking(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
-  std::vector<Eigen::MatrixX3d>& lacking = run.state.statics.progress.lacking;
+  std::vector<Eigen::MatrixX3d>& lacking = run.state.statics.progress.residuals;
   lacking.resize(run.blocks().size());
   for (std::size_t k = 0; k < lacking.size(); ++k)
-    if (run.system.moving()[k]) lacking[k] = lacking_of(scheme, problem.bodies[k]);
+    if (run.system.moving()[k]) lacking[k] = residual_of(scheme, problem.bodies[k]);
 }
 
 }  // namespace ashlar

@@ -150,7 +150,7 @@ bool boundless(const ConeQuestion& question, const ConeAnswer& answer) {
 
 bool is_balanced(const ConeAnswer& answer) {
   constexpr double residual = 1e-4;  // over the loads
-  return answer.status == ConeStatus::solved && answer.lacking <= residual;
+  return answer.status == ConeStatus::solved && answer.residual <= residual;
 }
 
 std::vector<Vector3> forces_of(const RigidModel& model, const std::vector<Eigen::Vector3d>& in_frames) {

@@ -10,8 +10,8 @@ namespace {
 // How far a point is from where multipliers alone would hold it, as a share of what it may give way by:
 // settings.multipliers.share of the tolerance, and of a point that goes deeper as much less as the depth
 // where it was found leaves.
-double given_way(const PointLaw& law, const PointResponse& point, double gap,
-                 const SimulationSettings& settings) {
+double compression_of(const PointLaw& law, const PointResponse& point, double gap,
+                      const SimulationSettings& settings) {
   constexpr double least = 0.01;  // of what a point at the surface may give way by
   if (!law.augmented || point.state == ContactState::open) return 0.0;
   const double allowed = settings.multipliers.share * settings.multipliers.penetration_tolerance;
@@ -36,7 +36,8 @@ bool Augmentation::stiffen() {
     for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {
       PointLaw& law = problem_.laws()[pair][k];
       const double gap = problem_.pair(pair).points()[k].gap - problem_.pair(pair).dilation_before(k);
-      const double found = given_way(law, problem_.responses()[pair].points[k], gap, problem_.settings());
+      const double found =
+          compression_of(law, problem_.responses()[pair].points[k], gap, problem_.settings());
       if (found <= 1.0) continue;
       stiffer = true;
       const double factor = std::min(margin * found, most);

@@ -27,7 +27,7 @@ class DynamicStep {
     while (cuts_ <= settings.max_step_cuts && additions_ <= settings.max_step_cuts) {
       const TimeScheme scheme = time_scheme(settings, step_);
       const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
-      if (status != IslandStatus::settled) {
+      if (status != IslandStatus::converged) {
         reject_unsettled(run_, step_, status, problem_);
         unsettled_ = true;
         cut(0.5);

@@ -156,13 +156,13 @@ void reject_unsettled(const RunContext& run, double step, IslandStatus status, c
   run.fault.reset();
   const auto found =
       std::find_if(problem.results.begin(), problem.results.end(), [](const IslandResult& result) {
-        return result.status == IslandStatus::not_settled && result.alternating[0] >= 0;
+        return result.status == IslandStatus::not_converged && result.alternating[0] >= 0;
       });
-  if (status == IslandStatus::not_settled && found != problem.results.end())
+  if (status == IslandStatus::not_converged && found != problem.results.end())
     return reject(run, step, StateFault{RejectionReason::open_close_not_settled, found->alternating});
   reject(run, step,
-         status == IslandStatus::not_settled ? RejectionReason::open_close_not_settled
-                                             : RejectionReason::not_positive_definite);
+         status == IslandStatus::not_converged ? RejectionReason::open_close_not_settled
+                                               : RejectionReason::not_positive_definite);
 }
 
 }  // namespace ashlar

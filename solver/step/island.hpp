@@ -17,8 +17,8 @@ namespace ashlar {
 
 /// How an open-close iteration ended.
 enum class IslandStatus {
-  settled,
-  not_settled,            ///< not even the fallback balanced the forces: cut the step
+  converged,
+  not_converged,          ///< not even the fallback balanced the forces: cut the step
   not_positive_definite,  ///< the system could not be factorised: cut the step
 };
 
@@ -31,7 +31,7 @@ struct BodyStep {
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
   Eigen::VectorXd change;          ///< D, the result
   double largest_force = 0.0;      ///< norm of the largest force that acts on it
-  double lacking = 0.0;            ///< norm of what is left of its equations, N; 0: no more than it may lack
+  double residual = 0.0;           ///< norm of that of its equations, N; 0: within its tolerance
   ElasticResponse elastic;         ///< where the integrator takes it
   Eigen::MatrixX3d prescribed;     ///< what supports that move add to the position, (p, 3); empty: nothing
   /// Of damping by stiffness: the elastic force at the start of the step in the frame that turns with the block, (p, 3)
@@ -61,7 +61,7 @@ struct BodyStep {
 
 /// Result of one island.
 struct IslandResult {
-  IslandStatus status = IslandStatus::settled;
+  IslandStatus status = IslandStatus::converged;
   int iterations = 0;                       ///< guesses that were balanced or found not to be
   int fallbacks = 0;                        ///< times the fallback was needed
   std::vector<PairResponse> responses;      ///< of the island's pairs, at the end of the step

@@ -36,13 +36,13 @@ const ContactPair& IslandProblem::pair(std::size_t k) const {
   return pairs_[at(island_.pairs[k])];
 }
 
-void IslandProblem::predict(FirstGuess guess) {
+void IslandProblem::predict(Predictor guess) {
   for (const int index : island_.bodies) {
     BodyStep& body = bodies_[at(index)];
     const double mass = scheme_.inertia * body.model->material().density;
     body.change = body.free_change;
-    if (guess == FirstGuess::staying) body.change.setZero();
-    if (guess != FirstGuess::falling || scheme_.from_rest) continue;
+    if (guess == Predictor::at_rest) body.change.setZero();
+    if (guess != Predictor::free_motion || scheme_.from_rest) continue;
     body.change += scheme_.force_weight / mass * body.external_force;
   }
   follow_rigid_bodies();
@@ -65,13 +65,13 @@ void IslandProblem::respond() {
   });
 }
 
-void IslandProblem::add_force(Balance& balance, int place, const Eigen::VectorXd& on_unknowns) const {
+void IslandProblem::add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const {
   const Eigen::VectorXd force = bodies_[at(island_.bodies[at(place)])].in_equations(on_unknowns);
-  balance.left.segment(solver_.matrix.offset(place), force.size()) += force;
-  balance.scales[at(place)] = std::max(balance.scales[at(place)], force.norm());
+  residual.force.segment(solver_.matrix.offset(place), force.size()) += force;
+  residual.scales[at(place)] = std::max(residual.scales[at(place)], force.norm());
 }
 
-void IslandProblem::add_contacts(Balance& balance, std::vector<ForceErrors>& errors) const {
+void IslandProblem::add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const {
   std::vector<ForceErrors> of_pairs(pairs());
   parallel_for(threads(), pairs(), [&](std::size_t k) {
     const Eigen::VectorXd& ya = bodies_[at(pair(k).a())].change;
@@ -81,8 +81,8 @@ void IslandProblem::add_contacts(Balance& balance, std::vector<ForceErrors>& err
   });
   for (std::size_t k = 0; k < pairs(); ++k) {
     const auto& [a, b] = places_[k];
-    if (a >= 0) add_force(balance, a, responses_[k].total_on_a());
-    if (b >= 0) add_force(balance, b, responses_[k].total_on_b());
+    if (a >= 0) add_force(residual, a, responses_[k].total_on_a());
+    if (b >= 0) add_force(residual, b, responses_[k].total_on_b());
     for (const int body : {a, b}) {
       if (body < 0) continue;
       errors[at(body)].rounding += of_pairs[k].rounding;
@@ -91,35 +91,36 @@ void IslandProblem::add_contacts(Balance& balance, std::vector<ForceErrors>& err
   }
 }
 
-void IslandProblem::judge(Balance& balance, const std::vector<ForceErrors>& errors) const {
+void IslandProblem::judge(Residual& residual, const std::vector<ForceErrors>& errors) const {
   const double tolerance =
       scheme_.from_rest ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
-    const double scale = balance.scales[k];
+    const double scale = residual.scales[k];
     const double rounding = body.roundoff_force + errors[k].rounding +
                             std::min(errors[k].in_doubt, settings_.iteration.doubt_share * scale) +
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =
-        balance.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
+        residual.force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
     if (left == 0.0) continue;
     const double share = left / (tolerance * scale + rounding);
     // Numbers that overflowed have settled nothing, and no comparison with them may say so.
     const bool finite = std::isfinite(share) && std::isfinite(scale);
-    balance.shares[k] = finite ? share : std::numeric_limits<double>::infinity();
-    balance.worst = std::max(balance.worst, balance.shares[k]);
-    balance.sum += balance.shares[k];
-    balance.largest_part = std::max(balance.largest_part, finite ? left / scale : balance.shares[k]);
+    residual.relative[k] = finite ? share : std::numeric_limits<double>::infinity();
+    residual.largest = std::max(residual.largest, residual.relative[k]);
+    residual.sum += residual.relative[k];
+    residual.largest_by_force =
+        std::max(residual.largest_by_force, finite ? left / scale : residual.relative[k]);
   }
-  recall(balance);
+  recall(residual);
 }
 
-Balance IslandProblem::balance() const {
+Residual IslandProblem::residual() const {
   const std::size_t bodies = island_.bodies.size();
-  Balance result;
-  result.left = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
-  result.shares.assign(bodies, 0.0);
+  Residual result;
+  result.force = Eigen::VectorXd::Zero(solver_.matrix.matrix().size);
+  result.relative.assign(bodies, 0.0);
   result.scales.assign(bodies, 0.0);
   parallel_for(threads(), bodies, [&](std::size_t k) {
     const BodyStep& body = bodies_[at(island_.bodies[k])];
@@ -136,14 +137,15 @@ Balance IslandProblem::balance() const {
   return result;
 }
 
-void IslandProblem::recall(const Balance& balance) const {
+void IslandProblem::recall(const Residual& residual) const {
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
-    body.largest_force = balance.scales[k];
-    body.lacking =
-        balance.shares[k] <= 1.0
+    body.largest_force = residual.scales[k];
+    body.residual =
+        residual.relative[k] <= 1.0
             ? 0.0
-            : balance.left.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
+            : residual.force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom())
+                  .norm();
   }
 }
 

@@ -11,21 +11,21 @@
 
 namespace ashlar {
 
-/// What is left of the equations of motion.
-struct Balance {
-  Eigen::VectorXd left;        ///< N, in the island's equations
-  std::vector<double> shares;  ///< of what each body may lack, what is left on it
-  double worst = 0.0;          ///< the largest share; <= 1: settled
-  double sum = 0.0;            ///< of shares: falls from guess to guess where the largest does not yet
-  double largest_part = 0.0;   ///< of the largest force on each body, what is left on it: the largest
-  std::vector<double> scales;  ///< norm of the largest force on each body
-  [[nodiscard]] bool settled() const { return worst <= 1.0; }
+/// Residual of the equations of motion at a guess.
+struct Residual {
+  Eigen::VectorXd force;         ///< N, in the island's equations
+  std::vector<double> relative;  ///< norm on each body over its tolerance
+  double largest = 0.0;          ///< of `relative`; <= 1: converged
+  double sum = 0.0;  ///< of `relative`: decreases from guess to guess where the largest does not yet
+  double largest_by_force = 0.0;  ///< norm on a body over the largest force on it: the largest
+  std::vector<double> scales;     ///< norm of the largest force on each body, N
+  [[nodiscard]] bool converged() const { return largest <= 1.0; }
 };
 
-/// What is not known of the contact forces on a body, N.
+/// Uncertainty of the contact forces on a body, N.
 struct ForceErrors {
   double rounding = 0.0;
-  double in_doubt = 0.0;  ///< forces of points that only rounding has closed
+  double in_doubt = 0.0;  ///< of points that are closed within rounding error only
 };
 
 /// A guess with its responses.
@@ -35,11 +35,11 @@ struct Evaluation {
   std::vector<PairResponse> responses;   ///< by pair
 };
 
-/// Where a body is taken to go first.
-enum class FirstGuess {
-  falling,   ///< free motion under the external forces
-  coasting,  ///< free motion under none
-  staying,   ///< it stays: what hardly moves in its contacts, whichever way it is vibrating
+/// Motion of a body that the iteration of a step starts from.
+enum class Predictor {
+  free_motion,  ///< under the external forces, without contacts
+  inertial,     ///< without any force
+  at_rest,      ///< none: a block in contact hardly moves, whichever way it vibrates
 };
 
 /// Owns the laws of the island's contact points while a step is solved: limits that are held, joints that
@@ -49,14 +49,14 @@ class IslandProblem {
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
                 const TimeScheme& scheme, const SimulationSettings& settings, IslandSolvers::Entry& solver);
 
-  void predict(FirstGuess guess);
+  void predict(Predictor guess);
   /// Elastic and contact responses at the present guess.
   void respond();
   /// Takes responses that are not those of the laws. @param responses of the island's pairs
   void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
-  [[nodiscard]] Balance balance() const;
-  /// Takes a balance that was found at the present guess for that of the last call of balance().
-  void recall(const Balance& balance) const;
+  [[nodiscard]] Residual residual() const;
+  /// Takes a residual that was found at the present guess for that of the last call of residual().
+  void recall(const Residual& residual) const;
   /// Forces of the last responses alone, N, in the island's equations.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
   /// Adds forces of pairs in the island's equations, N. @param responses of the island's pairs
@@ -85,7 +85,7 @@ class IslandProblem {
   /// Where the elastic force of a body is taken. @return position, (p, 3)
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   [[nodiscard]] IslandSolvers::Entry& solver() const { return solver_; }
-  /// That work over pairs is shared out to; what is found does not depend on it.
+  /// Worker threads for loops over pairs; results are independent of their number.
   [[nodiscard]] int threads() const;
 
   [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
@@ -108,12 +108,12 @@ class IslandProblem {
   void hand_over(IslandResult& result);
 
  private:
-  /// Adds forces of pairs to a balance. @param errors by body: what rounding leaves of them, and what is in doubt, N
-  void add_contacts(Balance& balance, std::vector<ForceErrors>& errors) const;
-  /// Adds the force on a body's unknowns to a balance.
-  void add_force(Balance& balance, int place, const Eigen::VectorXd& on_unknowns) const;
-  /// What each body lacks, as a share of what it may lack.
-  void judge(Balance& balance, const std::vector<ForceErrors>& errors) const;
+  /// Adds forces of pairs to a residual. @param errors by body: what rounding leaves of them, and what is in doubt, N
+  void add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const;
+  /// Adds the force on a body's unknowns to a residual.
+  void add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const;
+  /// Residual of each body relative to its tolerance.
+  void judge(Residual& residual, const std::vector<ForceErrors>& errors) const;
   /// After each change of the guess.
   void follow_rigid_bodies();
   [[nodiscard]] BlockInStep placed(const BodyStep& body) const;

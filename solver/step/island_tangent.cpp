@@ -71,7 +71,7 @@ FactorStatus IslandTangent::factorize_assembled(bool kept) {
   solver_.inertia = 0.0;
   FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
   if (status == FactorStatus::not_positive_definite) {
-    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces balance.
+    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces residual.
     assemble(true);
     status = solver_.factor->factorize(solver_.matrix.matrix());
   }

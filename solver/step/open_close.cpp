@@ -9,18 +9,18 @@
 
 #include "solver/step/augmentation.hpp"
 #include "solver/step/contact_line.hpp"
-#include "solver/step/first_guess.hpp"
 #include "solver/step/island_tangent.hpp"
 #include "solver/step/joint_failure.hpp"
+#include "solver/step/predictor.hpp"
 #include "solver/step/proximal_guess.hpp"
 
 namespace ashlar {
 namespace {
 
 enum class Outcome {
-  settled,
-  stalled,  ///< states came back, or what is left does not fall
-  hard,     ///< the first lines are searched in vain: a guess by splitting may know more (proximal_guess.hpp)
+  converged,
+  stalled,  ///< states repeat, or the residual does not decrease
+  hard,  ///< short steps of the first line searches: a guess by splitting may be better (proximal_guess.hpp)
   singular,  ///< the system could not be factorised
 };
 
@@ -44,19 +44,19 @@ class OpenClose {
   }
 
   Outcome run() {
-    known_balance_ = take_best_guess(problem_);
+    known_residual_ = take_best_predictor(problem_);
     for (int rounds = 0, evaluations = 0;;) {
       Outcome outcome = newton(settings_.iteration.newton_iterations, false);
       if (outcome == Outcome::hard) {
         may_split_ = false;
-        if (take_proximal_guess(problem_, tangent_)) known_balance_.reset();
+        if (take_proximal_guess(problem_, tangent_)) known_residual_.reset();
         outcome = newton(settings_.iteration.newton_iterations, false);
       }
       if (outcome == Outcome::stalled) {
         ++result_.fallbacks;
         outcome = minimise();
       }
-      if (outcome != Outcome::settled) return outcome;
+      if (outcome != Outcome::converged) return outcome;
       if (!failure_.break_joints()) {
         if (settings_.augmented && augmentation_.adjust()) {
           if (++rounds > settings_.multipliers.rounds) return Outcome::stalled;
@@ -72,17 +72,17 @@ class OpenClose {
   }
 
  private:
-  /// What a settled step may still lack is as good as random: steps would hand it on, and motions that
-  /// nothing damps make more of it. The last factor takes most of it away.
+  /// The residual of a converged step is as good as random: later steps inherit it, and undamped motions amplify it. One
+  /// more solution with the last factor removes most of it.
   void polish() {
-    const Balance balance = next_balance();
-    const Eigen::VectorXd change = tangent_.solve(balance.left, true);
+    const Residual residual = next_residual();
+    const Eigen::VectorXd change = tangent_.solve(residual.force, true);
     Evaluation before = problem_.set_aside();
     problem_.apply(change, 1.0);
     respond();
-    if (problem_.balance().settled()) return;
+    if (problem_.residual().converged()) return;
     problem_.take_back(std::move(before));
-    problem_.recall(balance);
+    problem_.recall(residual);
   }
 
   /// Takes rows of contact points to where they act. @return whether any were elsewhere
@@ -90,22 +90,22 @@ class OpenClose {
     return followed_ = !problem_.scheme().from_rest && problem_.follow_contacts(settings_.followed_gap());
   }
 
-  /// That of the present guess, found anew unless it is known.
-  [[nodiscard]] Balance next_balance() {
-    if (!known_balance_) return problem_.balance();
-    Balance balance = std::move(*known_balance_);
-    known_balance_.reset();
-    problem_.recall(balance);
-    return balance;
+  /// That of the present guess, evaluated unless it is known.
+  [[nodiscard]] Residual next_residual() {
+    if (!known_residual_) return problem_.residual();
+    Residual residual = std::move(*known_residual_);
+    known_residual_.reset();
+    problem_.recall(residual);
+    return residual;
   }
 
   /// Contact and elastic responses at a guess that has changed.
   void respond() {
-    known_balance_.reset();
+    known_residual_.reset();
     problem_.respond();
   }
 
-  /// @param closing goes on only while what is left falls, and counts what it does as part of a fallback
+  /// @param closing continues only while the residual decreases, as part of a fallback
   Outcome newton(int most, bool closing) {
     std::vector<std::vector<ContactState>> seen;
     if (!closing) nearest_ = {};
@@ -122,26 +122,27 @@ class OpenClose {
         std::exchange(followed_, false) && factorized_ ? std::numeric_limits<double>::infinity() : 0.0;
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
-      Balance balance = next_balance();
+      Residual residual = next_residual();
       // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
       // wide.
-      if (balance.settled() &&
-          (balance.left.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1))) {
-        known_balance_ = std::move(balance);
-        return Outcome::settled;
+      if (residual.converged() &&
+          (residual.force.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1))) {
+        known_residual_ = std::move(residual);
+        return Outcome::converged;
       }
       // Slip that turns round leaves the states as they are.
-      const bool halved = balance.sum < 0.5 * last_gain;
+      const bool halved = residual.sum < 0.5 * last_gain;
       without_gain = halved ? 0 : without_gain + 1;
-      if (halved) last_gain = balance.sum;
-      if (!std::isfinite(balance.worst) || without_gain > (closing ? 0 : settings_.iteration.newton_patience))
+      if (halved) last_gain = residual.sum;
+      if (!std::isfinite(residual.largest) ||
+          without_gain > (closing ? 0 : settings_.iteration.newton_patience))
         return Outcome::stalled;
-      if (balance.worst < least_) {
-        least_ = balance.worst;
+      if (residual.largest < least_) {
+        least_ = residual.largest;
         if (!closing) best_ = problem_.guess();
       }
-      if (problem_.scheme().from_rest && balance.sum < nearest_.sum)
-        nearest_ = {balance.sum, balance.largest_part, problem_.guess()};
+      if (problem_.scheme().from_rest && residual.sum < nearest_.sum)
+        nearest_ = {residual.sum, residual.largest_by_force, problem_.guess()};
       std::vector<ContactState> states = problem_.states();
       const bool as_before = !seen.empty() && states == seen.back();
       if (!as_before && std::find(seen.begin(), seen.end(), states) != seen.end()) {
@@ -151,22 +152,23 @@ class OpenClose {
       if (!seen.empty()) note_changes(seen.back(), states);
       seen.push_back(std::move(states));
       // The last system will do for what is left.
-      const bool falls = balance.worst < most_of_it * last;
-      last = falls ? balance.worst : 0.0;
-      const double worst_before = std::exchange(before, balance.worst);
-      const bool contracts = as_before && balance.worst < nearly_all * worst_before;
-      const bool nearly = falls || contracts ||
-                          (as_before && !last_factor && balance.worst <= settings_.iteration.nearly_settled);
+      const bool falls = residual.largest < most_of_it * last;
+      last = falls ? residual.largest : 0.0;
+      const double worst_before = std::exchange(before, residual.largest);
+      const bool contracts = as_before && residual.largest < nearly_all * worst_before;
+      const bool nearly =
+          falls || contracts ||
+          (as_before && !last_factor && residual.largest <= settings_.iteration.nearly_settled);
       last_factor = nearly;
       factorized_ = true;
       if (!nearly && tangent_.update_factor() != FactorStatus::success) return Outcome::singular;
-      const Eigen::VectorXd change = tangent_.solve(balance.left, true);
+      const Eigen::VectorXd change = tangent_.solve(residual.force, true);
       if (closing) {
         problem_.apply(change, 1.0);
         respond();
       } else {
         const double share =
-            search(change, balance.left.dot(change), settings_.iteration.newton_overshoot, 1.0);
+            search(change, residual.force.dot(change), settings_.iteration.newton_overshoot, 1.0);
         if (may_split_ && k <= hard_iterations && share < hard_share) return Outcome::hard;
       }
     }
@@ -210,10 +212,10 @@ class OpenClose {
   /// Takes the nearest guess for the answer of an iteration of a static analysis: the next one goes on from there.
   /// @return false unless it is near enough
   bool take_nearest() {
-    if (nearest_.largest_part > settings_.statics.unsettled_share) return false;
+    if (nearest_.largest_by_force > settings_.statics.unsettled_share) return false;
     problem_.set_guess(nearest_.guess);
     respond();
-    known_balance_ = problem_.balance();
+    known_residual_ = problem_.residual();
     return true;
   }
 
@@ -226,13 +228,13 @@ class OpenClose {
       hold(limits);
       // A minimum need not be met better than its bounds are known; newton() sees to the rest.
       const double target = std::max(1.0, settings_.iteration.minimiser_share * least_);
-      if (const Outcome inner = minimise_held(target); inner != Outcome::settled) return inner;
+      if (const Outcome inner = minimise_held(target); inner != Outcome::converged) return inner;
       release();
       const std::vector<Eigen::VectorXd> guess = problem_.guess();
       const std::vector<double> next = bounds();
       const Outcome finished = newton(settings_.iteration.newton_iterations, true);
-      if (finished == Outcome::settled) return finished;
-      if (pass + 1 >= settings_.iteration.plain_passes && take_nearest()) return Outcome::settled;
+      if (finished == Outcome::converged) return finished;
+      if (pass + 1 >= settings_.iteration.plain_passes && take_nearest()) return Outcome::converged;
       problem_.set_guess(guess);
       Eigen::Map<Eigen::VectorXd> held(limits.data(), static_cast<Eigen::Index>(limits.size()));
       const Eigen::VectorXd change = Eigen::Map<const Eigen::VectorXd>(next.data(), held.size()) - held;
@@ -253,16 +255,16 @@ class OpenClose {
     return 1.0 / std::max(1.0 / farthest, 1.0 - factor);
   }
 
-  /// The minimum with the present bounds held. @param target of Balance::worst
+  /// The minimum with the present bounds held. @param target of Residual::largest
   Outcome minimise_held(double target) {
     for (int k = 0; k < settings_.iteration.minimiser_iterations; ++k) {
       ++result_.iterations;
-      const Balance balance = next_balance();
-      if (balance.worst <= target) return Outcome::settled;
-      if (!std::isfinite(balance.worst)) return Outcome::stalled;
+      const Residual residual = next_residual();
+      if (residual.largest <= target) return Outcome::converged;
+      if (!std::isfinite(residual.largest)) return Outcome::stalled;
       if (tangent_.factorize() != FactorStatus::success) return Outcome::singular;
-      const Eigen::VectorXd change = tangent_.solve(balance.left, false);
-      search(change, balance.left.dot(change), settings_.iteration.line_search_tolerance, 16.0);
+      const Eigen::VectorXd change = tangent_.solve(residual.force, false);
+      search(change, residual.force.dot(change), settings_.iteration.line_search_tolerance, 16.0);
     }
     return Outcome::stalled;
   }
@@ -286,8 +288,8 @@ class OpenClose {
       problem_.apply(change, share - at);
       at = share;
       respond();
-      known_balance_ = problem_.balance();
-      return known_balance_->left.dot(change);
+      known_residual_ = problem_.residual();
+      return known_residual_->force.dot(change);
     };
     const double work_at_end = work(1.0);
     const double enough = tolerance * work_at_start;
@@ -347,18 +349,19 @@ class OpenClose {
   Augmentation augmentation_;
   const SimulationSettings& settings_;
   IslandResult& result_;
-  bool may_split_;                        ///< into blocks and points, once a step of motion
-  bool factorized_ = false;               ///< by newton()
-  bool followed_ = false;                 ///< rows were taken anew since newton() was called
-  std::optional<Balance> known_balance_;  ///< of the present guess, where it was found before it is asked for
-  double least_ = 0.0;                    ///< Balance::worst of the last newton() at its best
-  std::vector<int> changes_;              ///< by pair: of states of its points, from guess to guess
-  std::vector<Eigen::VectorXd> best_;     ///< the guess that was the best of the first newton()
+  bool may_split_;           ///< into blocks and points, once a step of motion
+  bool factorized_ = false;  ///< by newton()
+  bool followed_ = false;    ///< rows were taken anew since newton() was called
+  std::optional<Residual>
+      known_residual_;                 ///< of the present guess, where it was found before it is asked for
+  double least_ = 0.0;                 ///< Residual::largest of the last newton() at its best
+  std::vector<int> changes_;           ///< by pair: of states of its points, from guess to guess
+  std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
   struct {
     double sum = std::numeric_limits<double>::infinity();
-    double largest_part = std::numeric_limits<double>::infinity();
+    double largest_by_force = std::numeric_limits<double>::infinity();
     std::vector<Eigen::VectorXd> guess;
-  } nearest_;  ///< in statics: of the least Balance::sum since the last newton() that was not closing began
+  } nearest_;  ///< in statics: of the least Residual::sum since the last newton() that was not closing began
 };
 
 }  // namespace
@@ -366,11 +369,11 @@ class OpenClose {
 void iterate_open_close(IslandProblem& problem, IslandResult& result) {
   OpenClose iteration(problem, result);
   const Outcome outcome = iteration.run();
-  if (outcome != Outcome::settled) result.alternating = iteration.alternating();
+  if (outcome != Outcome::converged) result.alternating = iteration.alternating();
   problem.hand_over(result);
-  result.status = outcome == Outcome::settled    ? IslandStatus::settled
+  result.status = outcome == Outcome::converged  ? IslandStatus::converged
                   : outcome == Outcome::singular ? IslandStatus::not_positive_definite
-                                                 : IslandStatus::not_settled;
+                                                 : IslandStatus::not_converged;
 }
 
 }  // namespace ashlar

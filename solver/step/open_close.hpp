@@ -1,7 +1,7 @@
 // The open-close iteration of an island (theory.md section 8).
 //
 // The first guess is that all stay, if each then lacks less than a tenth of the largest force on it: blocks at rest need
-// one evaluation. Otherwise it is of each body that it falls, coasts or stays, whichever leaves it nearest to balance.
+// one evaluation. Otherwise it is of each body that it falls, coasts or stays, whichever leaves it nearest to residual.
 //
 // First a semismooth Newton iteration: states, slip directions and elastic frames come from the last guess,
 // the linear system, friction's dependence on normal forces included, gives the next. It needs two to five

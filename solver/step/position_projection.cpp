@@ -48,7 +48,7 @@ StepProblem pose(const RunContext& run, const std::vector<ContactPair>& pairs) {
   const double pushed_from =
       run.settings().multipliers.share * run.settings().multipliers.penetration_tolerance;
   StepProblem problem;
-  for (const ContactPair& pair : pairs) problem.pairs.push_back(pair.moved_apart(pushed_from));
+  for (const ContactPair& pair : pairs) problem.pairs.push_back(pair.projected(pushed_from));
   problem.islands = find_islands(run.system.moving(), problem.pairs);
   problem.bodies.resize(run.blocks().size());
   for (int k = 0; k < run.system.count(); ++k) {
@@ -109,7 +109,7 @@ std::vector<MovedIsland> solve_deep(const RunContext& run, double step,
     run.state.log.counts.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
     double energy = energy_of_motion(run, island, problem.bodies);
     const double limit = funds.available(n);
-    const bool settled = result.status == IslandStatus::settled;
+    const bool settled = result.status == IslandStatus::converged;
     const double share = !settled ? 0.0 : energy > limit ? limit / energy : 1.0;
     for (const int k : island.bodies) {
       problem.bodies[at(k)].change *= share;

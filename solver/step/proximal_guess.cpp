@@ -89,10 +89,10 @@ Eigen::Vector3d proximal_point(const LawAt& law_at, const PointLaw& law, const E
 
 class Splitting {
  public:
-  Splitting(IslandProblem& problem, const Balance& balance)
+  Splitting(IslandProblem& problem, const Residual& residual)
       : problem_(problem),
         first_guess_(problem.guess()),
-        beside_contacts_(balance.left - problem.contact_forces()),
+        beside_contacts_(residual.force - problem.contact_forces()),
         pairs_(problem.pairs()) {
     for (std::size_t k = 0; k < problem.bodies(); ++k) {
       const BodyStep& body = problem.body(k);
@@ -257,18 +257,18 @@ class Splitting {
 }  // namespace
 
 bool take_proximal_guess(IslandProblem& problem, IslandTangent& tangent) {
-  const Balance before = problem.balance();
+  const Residual before = problem.residual();
   Evaluation present = problem.set_aside();
-  problem.predict(FirstGuess::staying);
+  problem.predict(Predictor::at_rest);
   problem.respond();
-  Splitting splitting(problem, problem.balance());
+  Splitting splitting(problem, problem.residual());
   problem.set_responses(splitting.penalties());
   if (tangent.factorize() == FactorStatus::success) splitting.iterate();
   if (splitting.best().size() > 0) {
     problem.set_guess(splitting.first_guess());
     problem.apply(splitting.best(), 1.0);
     problem.respond();
-    if (problem.balance().largest_part < before.largest_part) return true;
+    if (problem.residual().largest_by_force < before.largest_by_force) return true;
   }
   problem.take_back(std::move(present));
   problem.recall(before);

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "geometry/index.hpp"
-#include "mechanics/contact/contact_master.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
+#include "mechanics/contact/reference_face.hpp"
 #include "solver/contact/energy_bounds.hpp"
 #include "solver/parallel_for.hpp"
 #include "solver/state/automatic.hpp"
@@ -18,7 +18,7 @@ namespace ashlar {
 namespace {
 
 /// By how much a block is shorter or longer along a unit direction, in the mean, than it is without load, m.
-double way_given(const BlockModel& model, const BlockState& state, const Vector3& direction) {
+double compression_along(const BlockModel& model, const BlockState& state, const Vector3& direction) {
   const Eigen::Matrix3d gradient = state.position.transpose() * model.parts()->mean_gradients;
   // F maps lines along F^-1 n to lines along n and stretches them by 1/|F^-1 n|.
   const Vector3 undeformed = gradient.inverse() * direction;
@@ -179,7 +179,7 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   const ExpectedMotion motion = driven.empty() ? finder_.expected_motion(state.states, step)
                                                : finder_.expected_motion(driven, step > 0.0 ? step : 1.0);
   finder_.watch(system.moving());
-  ways_out_.reset();
+  retractions_.reset();
   const std::vector<NearPair> near = finder_.near_pairs(state.states, motion, state.pairs);
   std::vector<std::shared_ptr<const KeptContacts>> kept(near.size());
   if (step > 0.0) kept = this->kept(system, state, near);
@@ -200,7 +200,7 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   }
   std::sort(found.begin(), found.end(),
             [](const FoundContacts& x, const FoundContacts& y) { return x.blocks < y.blocks; });
-  if (any_new) leave_out_seams_of(system, state, found);
+  if (any_new) remove_internal_edges_of(system, state, found);
   return found;
 }
 
@@ -219,30 +219,30 @@ void StepContacts::note_apart(const BlockSystem& system, RunState& state, const 
   }
 }
 
-const WaysOut& StepContacts::ways_out(const RunState& state, const std::vector<bool>& moving,
-                                      const std::vector<FoundContacts>& found) {
-  if (ways_out_) return *ways_out_;
-  ways_out_ = WaysOut(state.pairs, moving);
+const Retractions& StepContacts::retractions(const RunState& state, const std::vector<bool>& moving,
+                                             const std::vector<FoundContacts>& found) {
+  if (retractions_) return *retractions_;
+  retractions_ = Retractions(state.pairs, moving);
   for (const auto& pair : found) {
     if (!(history_of(state.pairs, pair.blocks).memory.deepest() > 0.0))
-      ways_out_->add_touching(pair.blocks, finder_.placed(pair.blocks[0]), finder_.placed(pair.blocks[1]),
-                              pair.contacts);
+      retractions_->add_touching(pair.blocks, finder_.placed(pair.blocks[0]), finder_.placed(pair.blocks[1]),
+                                 pair.contacts);
   }
-  return *ways_out_;
+  return *retractions_;
 }
 
-void StepContacts::leave_out_seams_of(const BlockSystem& system, const RunState& state,
-                                      std::vector<FoundContacts>& found) {
-  const WaysOut& ways = ways_out(state, system.moving(), found);
-  const auto stands = standing_ways(system, state, found);
-  const GivenWay given = given_way(system, state);
+void StepContacts::remove_internal_edges_of(const BlockSystem& system, const RunState& state,
+                                            std::vector<FoundContacts>& found) {
+  const Retractions& ways = retractions(state, system.moving(), found);
+  const auto stands = standing_retractions(system, state, found);
+  const BlockCompression given = compression_of(system, state);
   for (FoundContacts& pair : found) {
     if (pair.kept != nullptr) continue;
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
-    leave_out_seams(a, b,
-                    ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given),
-                    stands, pair.contacts);
+    remove_internal_edges(
+        a, b, ways.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.contacts), given), stands,
+        pair.contacts);
     if (observer_) observer_(ContactStage::internal_edge, pair.blocks, pair.contacts);
   }
 }
@@ -255,13 +255,13 @@ ContactPair StepContacts::kept_pair(const BlockSystem& system, const RunState& s
   ContactPair pair(
       PairBodies{a, b, body_at_start(system, state, a, nullptr), body_at_start(system, state, b, nullptr)},
       law, *found.kept, known.memory.of_same(found.kept->points));
-  if (law.augmented) pair.hold_where_found(known.taken);
+  if (law.augmented) pair.freeze_at_gap(known.taken);
   return pair;
 }
 
 std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, const RunState& state,
                                                  const FoundContacts& found, JointLaw law, PairUse use,
-                                                 const CoveredFaces& covered) const {
+                                                 const SurfaceContinuation& covered) const {
   const PairKey& blocks = found.blocks;
   const PairContacts& contacts = found.contacts;
   const auto [a, b] = blocks;
@@ -272,14 +272,14 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   const bool goes_on = use == PairUse::motion && state.has_begun();
   const ContactPointSettings point_settings{settings.area_springs, settings.curved_surface, law.augmented,
                                             known.overlap};
-  const std::vector<bool> masters = first_is_master(
+  const std::vector<bool> references_on_a = reference_is_on_a(
       body_a, body_b, contacts.overlaps,
       [&covered, a = a, b = b](const RimPlace& rim) {
         return rim.of_a ? covered.goes_on(b, a, rim) : covered.goes_on(a, b, rim);
       },
       order_.is_before(a, b));
-  ContactPoints made = contact_points(body_a, body_b, contacts, masters, point_settings, known.memory.cuts(),
-                                      known.memory.turning());
+  ContactPoints made = contact_points(body_a, body_b, contacts, references_on_a, point_settings,
+                                      known.memory.cuts(), known.memory.turning());
   std::vector<ContactPoint> points = made.points;
   // Faces that share no area to the last bit are found, but have no points.
   if (points.empty()) return std::nullopt;
@@ -302,9 +302,9 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
     pair.may_last(std::make_shared<const LastingContacts>(std::move(lasting)));
   }
   if (use == PairUse::motion && !state.has_begun()) pair.touch_within(law.rounding);
-  if (goes_on && law.augmented) pair.hold_where_found(known.taken);
+  if (goes_on && law.augmented) pair.freeze_at_gap(known.taken);
   if (!moved.empty()) pair.count_slip(moved);
-  if (use == PairUse::statics && state.statics.holds_bonds) pair.hold_bonds();
+  if (use == PairUse::statics && state.statics.freezes_failure) pair.freeze_failure();
   return pair;
 }
 
@@ -317,7 +317,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   const bool all_kept =
       std::all_of(found.begin(), found.end(), [](const FoundContacts& pair) { return pair.kept != nullptr; });
   const std::vector<FoundContacts> none;
-  const CoveredFaces covered(
+  const SurfaceContinuation covered(
       all_kept ? none : found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
       settings.contact_distance);
   // Laws are the caller's, who need not expect several threads.
@@ -363,32 +363,32 @@ std::vector<PassingBlocks> StepContacts::check_motion(const BlockSystem& system,
   const Stopwatch watch(state.log.seconds.motion_check);
   std::vector<PassingBlocks> passing = finder_.check_motion(state.states, after, found, state.pairs);
   if (passing.empty()) return passing;
-  const WaysOut& ways_out = this->ways_out(state, system.moving(), found);
-  const auto stands = standing_ways(system, state, found);
-  const GivenWay given = given_way(system, state);
+  const Retractions& retractions = this->retractions(state, system.moving(), found);
+  const auto stands = standing_retractions(system, state, found);
+  const BlockCompression given = compression_of(system, state);
   std::erase_if(passing, [&](const PassingBlocks& pair) {
     const PlacedSurface& a = finder_.placed(pair.blocks[0]);
     const PlacedSurface& b = finder_.placed(pair.blocks[1]);
-    const std::vector<WayOut> ways =
-        ways_out.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
-    return at_seam(a, b, ways, stands, pair.touch);
+    const std::vector<Retraction> ways =
+        retractions.of_pair(pair.blocks[0], pair.blocks[1], normals_of(a, b, pair.touch), given);
+    return at_internal_edge(a, b, ways, stands, pair.touch);
   });
   return passing;
 }
 
-GivenWay StepContacts::given_way(const BlockSystem& system, const RunState& state) {
+BlockCompression StepContacts::compression_of(const BlockSystem& system, const RunState& state) {
   return [&system, &state](int block, const Vector3& direction) {
     const BlockModel& model = system.blocks()[at(block)];
     if (!system.moving()[at(block)] || model.incremental() != nullptr) return 0.0;
-    return way_given(model, state.states[at(block)], direction);
+    return compression_along(model, state.states[at(block)], direction);
   };
 }
 
-std::function<bool(const WayOut&)> StepContacts::standing_ways(
+std::function<bool(const Retraction&)> StepContacts::standing_retractions(
     const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const {
-  return [this, given = given_way(system, state), &found](const WayOut& way) {
+  return [this, given = compression_of(system, state), &found](const Retraction& way) {
     const auto placed = [this](int block) -> const PlacedSurface& { return finder_.placed(block); };
-    return ways_out_->stands(way, found, placed, given);
+    return retractions_->stands(way, found, placed, given);
   };
 }
 

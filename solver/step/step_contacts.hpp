@@ -57,28 +57,28 @@ class StepContacts {
   void note_apart(const BlockSystem& system, RunState& state, const std::vector<NearPair>& near,
                   const KnownContacts& known, const std::vector<FoundContacts>& found) const;
   /// Contacts of seams are left out of those that were found anew.
-  void leave_out_seams_of(const BlockSystem& system, const RunState& state,
-                          std::vector<FoundContacts>& found);
+  void remove_internal_edges_of(const BlockSystem& system, const RunState& state,
+                                std::vector<FoundContacts>& found);
   /// One pair whose contacts were known.
   [[nodiscard]] static ContactPair kept_pair(const BlockSystem& system, const RunState& state,
                                              const FoundContacts& found, JointLaw law);
   /// Ways out of the step, found when first asked for.
-  const WaysOut& ways_out(const RunState& state, const std::vector<bool>& moving,
-                          const std::vector<FoundContacts>& found);
+  const Retractions& retractions(const RunState& state, const std::vector<bool>& moving,
+                                 const std::vector<FoundContacts>& found);
   /// One pair of a list; none if its contacts have no points.
   [[nodiscard]] std::optional<ContactPair> pair_of(const BlockSystem& system, const RunState& state,
                                                    const FoundContacts& found, JointLaw law, PairUse use,
-                                                   const CoveredFaces& covered) const;
+                                                   const SurfaceContinuation& covered) const;
   /// By how much blocks have given way, at the present state.
-  [[nodiscard]] static GivenWay given_way(const BlockSystem& system, const RunState& state);
+  [[nodiscard]] static BlockCompression compression_of(const BlockSystem& system, const RunState& state);
   /// Which ways out count among some contacts. All must outlive the answer.
-  [[nodiscard]] std::function<bool(const WayOut&)> standing_ways(
+  [[nodiscard]] std::function<bool(const Retraction&)> standing_retractions(
       const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
 
   ContactObserver observer_;
   ContactFinder finder_;
   ReferenceOrder order_;
-  std::optional<WaysOut> ways_out_;  ///< of the step
+  std::optional<Retractions> retractions_;  ///< of the step
 };
 
 }  // namespace ashlar

@@ -80,17 +80,17 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   for (ContactPair& pair : problem.pairs) {
     pair.prescribe(system.blocks()[at(pair.a())], problem.bodies[at(pair.a())].prescribed,
                    system.blocks()[at(pair.b())], problem.bodies[at(pair.b())].prescribed);
-    if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.rub_impulses(scheme.step);
+    if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.apply_deferred_friction(scheme.step);
     if (!scheme.from_rest) pair.damp(scheme.step);
   }
   problem.results = solve_islands(problem, scheme, settings, factors);
   SimulationCounts& counts = state.log.counts;
-  IslandStatus status = IslandStatus::settled;
+  IslandStatus status = IslandStatus::converged;
   for (IslandResult& result : problem.results) {
     swap_followed(result);
     counts.open_close_iterations += static_cast<std::uint64_t>(result.iterations);
     counts.open_close_fallbacks += static_cast<std::uint64_t>(result.fallbacks);
-    if (status == IslandStatus::settled) status = result.status;
+    if (status == IslandStatus::converged) status = result.status;
   }
   return status;
 }

@@ -294,7 +294,7 @@ TEST(ContactSearch, BehindAHiddenSideTheFaceBesideItHolds) {
   const PairContacts open = find_contacts(falling.placed, half.placed, limits);
   ASSERT_EQ(open.vertices.size(), 1U);
   EXPECT_NEAR(open.vertices[0].gap, -0.001, 1e-15);
-  const HiddenPlaces hidden{nothing, side};
+  const OccludedPlaces hidden{nothing, side};
   const PairContacts behind = find_contacts(falling.placed, half.placed, limits, &hidden);
   ASSERT_EQ(behind.vertices.size(), 1U);
   EXPECT_NEAR(behind.vertices[0].gap, -0.008, 1e-15);

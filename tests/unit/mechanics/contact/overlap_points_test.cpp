@@ -54,8 +54,8 @@ struct Body {
 std::vector<ContactPoint> points_between(const Body& a, const Body& b, bool master_is_a) {
   const ContactLimits limits{0.1, 0.1, 10.0 * std::numbers::pi / 180.0};
   const PairContacts contacts = find_contacts(*a.placed, *b.placed, limits);
-  const std::vector<bool> masters(contacts.overlaps.size(), master_is_a);
-  return contact_points(a.contact(), b.contact(), contacts, masters, {}, {}).points;
+  const std::vector<bool> references_on_a(contacts.overlaps.size(), master_is_a);
+  return contact_points(a.contact(), b.contact(), contacts, references_on_a, {}, {}).points;
 }
 
 const Vector3 low(-1, -0.5, -1);

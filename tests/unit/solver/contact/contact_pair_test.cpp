@@ -183,7 +183,7 @@ TEST(ContactPair, MultipliersHoldPointsWhereTheyAreFound) {
   const auto start_force = [&](double gap) {
     const Setting setting = skew_setting(gap);
     ContactPair pair = pair_of(setting, multiplier_law(), memory);
-    pair.hold_where_found(2.0);
+    pair.freeze_at_gap(2.0);
     EXPECT_EQ(pair.taken(), 2.0);
     EXPECT_EQ(pair.depth_found(), std::max(0.0, -gap));
     EXPECT_EQ(pair.start_energy(), 0.0);
@@ -207,10 +207,10 @@ TEST(ContactPair, MovedApartPushesFromADepthOnAndKeepsBonds) {
     law.cohesion = 1e5;
     const Setting setting = skew_setting(gap);
     ContactPair pair = pair_of(setting, law, memory);
-    pair.hold_where_found(0.0);
+    pair.freeze_at_gap(0.0);
     EXPECT_EQ(pair.depth_found(), intact && tensile_strength > 0.0 ? 0.0 : std::max(0.0, -gap));
     return Eigen::Vector3d(
-        pair.moved_apart(2e-6).respond(none(setting.a), none(setting.b), false).points[0].force);
+        pair.projected(2e-6).respond(none(setting.a), none(setting.b), false).points[0].force);
   };
   // From 9e-6 m deep to 2e-6 m: 5e8 N/m times 7e-6 m, without shear; nothing from less deep or above.
   EXPECT_NEAR((force_at(-9e-6, 0.0, false) - Eigen::Vector3d(3500, 0, 0)).norm(), 0.0, 1e-6);

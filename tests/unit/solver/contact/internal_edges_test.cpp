@@ -68,7 +68,7 @@ Vector3 travel(const Simulation& simulation) {
   return place_of(simulation, cube, start) - start;
 }
 
-TEST(Seams, ACubeSlidesOverThemAsOverOneFloor) {
+TEST(InternalEdges, ACubeSlidesOverThemAsOverOneFloor) {
   for (const int order : {1, 2}) {
     for (const bool area : {true, false}) {
       Crossing crossing;
@@ -86,14 +86,14 @@ TEST(Seams, ACubeSlidesOverThemAsOverOneFloor) {
   }
 }
 
-TEST(Seams, FrictionGoesOnOverThem) {
+TEST(InternalEdges, FrictionGoesOnOverThem) {
   // 3 t - mu g t^2 / 2 = 1.2 - 0.2 * 9.81 * 0.08
   Crossing crossing;
   crossing.friction = 0.2;
   EXPECT_NEAR(travel(crossed(crossing)).x(), 1.2 - 0.2 * 9.81 * 0.08, 1e-3);
 }
 
-TEST(Seams, OnASlopeToo) {
+TEST(InternalEdges, OnASlopeToo) {
   // Against gravity's share along the slope.
   Crossing crossing;
   crossing.degrees = 10.0;
@@ -102,7 +102,7 @@ TEST(Seams, OnASlopeToo) {
   EXPECT_NEAR(travel(crossed(crossing)).norm(), expected, 2e-3);
 }
 
-TEST(Seams, StonesWithSidesThatLeanOutSlideOverThem) {
+TEST(InternalEdges, StonesWithSidesThatLeanOutSlideOverThem) {
   // The edges of strips are under such sides before the sole has come to them.
   for (const int order : {1, 2}) {
     for (const bool area : {true, false}) {
@@ -175,7 +175,7 @@ Vector3 velocity_of_stone(const Simulation& simulation) {
   return simulation.blocks()[3].momentum(simulation.states()[3]) / simulation.blocks()[3].mass();
 }
 
-TEST(Seams, StonesMayStartOnThem) {
+TEST(InternalEdges, StonesMayStartOnThem) {
   const Polyhedron stone = test_support::box({-0.3, -0.3, 0}, {0.3, 0.3, 0.2});
   std::vector<Vector3> knife;
   for (const double y : {-0.3, 0.3}) {
@@ -192,7 +192,7 @@ TEST(Seams, StonesMayStartOnThem) {
   }
 }
 
-TEST(Seams, StonesMayLandOnThem) {
+TEST(InternalEdges, StonesMayLandOnThem) {
   // Its sides lean out, and come over the edge of the block ahead before it has landed, 0.02 m to the right.
   std::vector<Vector3> points;
   for (const double y : {-0.3, 0.3}) {
@@ -219,7 +219,7 @@ double speed_over_loose_slabs(OverJoint scene, double height, double modulus, do
   return velocity_of_stone(over_joint(scene, test_support::box({-0.3, -0.3, 0}, {0.3, 0.3, height}))).x();
 }
 
-TEST(Seams, LooseBlocksMakeThemToo) {
+TEST(InternalEdges, LooseBlocksMakeThemToo) {
   // The one that carries the stone lies deeper in what is below than the next.
   for (const bool augmented : {false, true}) {
     OverJoint scene;
@@ -230,7 +230,7 @@ TEST(Seams, LooseBlocksMakeThemToo) {
   }
 }
 
-TEST(Seams, BlocksThatAreSofterThanTheirSpringsMakeThemToo) {
+TEST(InternalEdges, BlocksThatAreSofterThanTheirSpringsMakeThemToo) {
   // The one that carries the stone has been pressed to less than the height of the next, by far more than
   // contacts are deep.
   for (const bool augmented : {false, true}) {
@@ -247,12 +247,13 @@ TEST(Seams, BlocksThatAreSofterThanTheirSpringsMakeThemToo) {
 PairContacts left_by(const Vector3& direction, const test_support::PlacedBody& a,
                      const test_support::PlacedBody& b) {
   PairContacts contacts = find_contacts(a.placed, b.placed, {1e-3, 1e-3, 1e-4});
-  leave_out_seams(
-      a.placed, b.placed, {{direction, 1e-2, {0, 2}, false}}, [](const WayOut&) { return true; }, contacts);
+  remove_internal_edges(
+      a.placed, b.placed, {{direction, 1e-2, {0, 2}, false}}, [](const Retraction&) { return true; },
+      contacts);
   return contacts;
 }
 
-TEST(Seams, BlocksOfOneHeightPush) {
+TEST(InternalEdges, BlocksOfOneHeightPush) {
   // Two boxes whose upper rims cross, or of which one has a corner in a side of the other. Where they lie on
   // or under another block, they have a way up or down out of that.
   const test_support::PlacedBody first(test_support::tilted_box({-1, 0, -1}, {0, 1, 0}, -0.5));
@@ -293,7 +294,7 @@ double deepest_on_mirror_image(const std::vector<Vector3>& corners, int order, d
   return deepest;
 }
 
-TEST(Seams, ARidgeStandsOnARidge) {
+TEST(InternalEdges, ARidgeStandsOnARidge) {
   // Both flanks of a ridge are narrow while it has hardly gone in, and each is beside the way out of the
   // other: none of the two may be taken for a seam. d deep, each of two parallel pairs of flanks has a width
   // and a depth of d/sqrt(2), and they hold k L d^2/sqrt(2).
@@ -314,7 +315,7 @@ TEST(Seams, ARidgeStandsOnARidge) {
   }
 }
 
-TEST(Seams, ATipStandsOnATip) {
+TEST(InternalEdges, ATipStandsOnATip) {
   // Pyramids with slopes of 45 degrees: seen from above they share a square of d^2, d deep in its middle and
   // 0 at its sides, and four flanks hold k d^3/3.
   const std::vector<Vector3> corners = {
@@ -327,17 +328,17 @@ TEST(Seams, ATipStandsOnATip) {
 }
 
 /// A cube that is `deep` in a floor and runs against a step of a height.
-PairContacts against_step(double deep, double height, const std::vector<WayOut>& ways) {
+PairContacts against_step(double deep, double height, const std::vector<Retraction>& ways) {
   const test_support::PlacedBody cube(test_support::box({0, 0, -deep}, {1, 1, 1}));
   const test_support::PlacedBody step(test_support::box({1 - 1e-4, 0, -1}, {2, 1, height}));
   PairContacts contacts = find_contacts(cube.placed, step.placed, {1e-3, 1e-3, 0.1});
-  leave_out_seams(
-      cube.placed, step.placed, ways, [](const WayOut&) { return true; }, contacts);
+  remove_internal_edges(
+      cube.placed, step.placed, ways, [](const Retraction&) { return true; }, contacts);
   return contacts;
 }
 
-TEST(Seams, OnlyWhatSinkingMakesIsLeftOut) {
-  const std::vector<WayOut> ways = {{Vector3::UnitZ(), 2e-5, {0, 2}, false}};
+TEST(InternalEdges, OnlyWhatSinkingMakesIsLeftOut) {
+  const std::vector<Retraction> ways = {{Vector3::UnitZ(), 2e-5, {0, 2}, false}};
   const auto faces_along = [](const PairContacts& contacts, int axis) {
     return std::count_if(
         contacts.overlaps.begin(), contacts.overlaps.end(),

@@ -26,7 +26,7 @@ bool goes_on(double second_start, double second_top, double cube_bottom, double 
   std::vector<FoundContacts> found;
   for (const int slab : {0, 1})
     found.push_back({{slab, 2}, find_contacts(*placed[static_cast<std::size_t>(slab)], cube.placed, limits)});
-  const CoveredFaces covered(
+  const SurfaceContinuation covered(
       found, [&](int block) -> const PlacedSurface& { return *placed[static_cast<std::size_t>(block)]; },
       1e-3);
   EXPECT_FALSE(found[0].contacts.overlaps.empty());
@@ -41,14 +41,14 @@ bool goes_on(double second_start, double second_top, double cube_bottom, double 
   return covered.goes_on(2, 0, {true, bottom, Vector3(0, 0, 0), right, near});
 }
 
-TEST(CoveredFaces, ABlockOnTwoLiesOnOneSurface) {
+TEST(SurfaceContinuation, ABlockOnTwoLiesOnOneSurface) {
   EXPECT_TRUE(goes_on(0.0, 0.0, 0.0));
   EXPECT_TRUE(goes_on(0.0, 0.0, 1e-4)) << "as near as the first";
   EXPECT_TRUE(goes_on(0.0, -1e-5, -2e-5)) << "lower, but touched";
   EXPECT_TRUE(goes_on(5e-4, 0.0, -1e-5)) << "a narrow joint";
 }
 
-TEST(CoveredFaces, RimsAreEndsWhereNothingIsBehindThem) {
+TEST(SurfaceContinuation, RimsAreEndsWhereNothingIsBehindThem) {
   EXPECT_FALSE(goes_on(2e-3, 0.0, -1e-5)) << "a wide joint";
   EXPECT_FALSE(goes_on(0.0, -1e-4, -1e-5)) << "lower, not touched";
   EXPECT_FALSE(goes_on(0.0, -1e-4, 1e-5)) << "lower";

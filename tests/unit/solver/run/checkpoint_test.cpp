@@ -247,7 +247,7 @@ TEST(Checkpoint, EverySnapshotMemberIsStored) {
   EXPECT_EQ(entry.memory.slip, Vector3(6, 7, 8));
   EXPECT_EQ(entry.memory.state, ContactState::sliding);
   EXPECT_TRUE(entry.memory.intact);
-  EXPECT_EQ(entry.memory.unrubbed, 27.0);
+  EXPECT_EQ(entry.memory.deferred_friction, 27.0);
   EXPECT_EQ(entry.memory.compression, 26.0);
   EXPECT_EQ(entry.memory.level_slip, Vector3(36, 37, 38));
   EXPECT_TRUE(entry.memory.in_level);

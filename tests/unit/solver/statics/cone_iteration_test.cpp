@@ -171,7 +171,7 @@ TEST(ConeIteration, RandomFactorMeetsAllConditions) {
 
 bool same_bits(const ConeAnswer& a, const ConeAnswer& b) {
   return a.velocity == b.velocity && a.force == b.force && a.opening == b.opening && a.factor == b.factor &&
-         a.gap == b.gap && a.lacking == b.lacking && a.iterations == b.iterations && a.status == b.status;
+         a.gap == b.gap && a.residual == b.residual && a.iterations == b.iterations && a.status == b.status;
 }
 
 TEST(ConeIteration, AnswersDependOnTheQuestionOnly) {

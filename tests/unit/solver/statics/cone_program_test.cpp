@@ -97,7 +97,7 @@ TEST(ConeProgram, AShiftOfWhatFrictionOpensIsCoulombsLaw) {
 }
 
 TEST(ConeProgram, SlowSlipSinksIntoItsShiftWhereFrictionHolds) {
-  // Balance leaves one force, inside of the cone: the point may neither slide nor open, v_n + s = 0.
+  // Residual leaves one force, inside of the cone: the point may neither slide nor open, v_n + s = 0.
   ConeProgram program = one_point({0.6, 0.0, 0.0});
   ConeQuestion question;
   question.load = {coordinates(-1.0, 0.3)};
@@ -129,7 +129,7 @@ TEST(ConeProgram, TheFactorOfAPushIsFriction) {
     EXPECT_NEAR(answer.velocity[0][1], 1.0, 1e-5);
     EXPECT_NEAR(answer.velocity[0][0], mu, 1e-5);
     expect_near(answer.force[0], {1.0, -mu, 0.0});
-    EXPECT_LT(answer.lacking, 1e-6);
+    EXPECT_LT(answer.residual, 1e-6);
   }
 }
 

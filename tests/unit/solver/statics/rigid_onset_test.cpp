@@ -53,7 +53,7 @@ double tipping(const Wall& wall) {
   return moving.empty() ? 0.0 : moving[0].angular_acceleration.y();
 }
 
-TEST(SettingOff, AWallTipsOverItsEdgeHoweverSoftItsSpringsAre) {
+TEST(RigidOnset, AWallTipsOverItsEdgeHoweverSoftItsSpringsAre) {
   // About the edge, m g (H/2 sin - B/2 cos) over m (B^2 + H^2)/3.
   for (const double share : {1.02, 1.2}) {
     const double tilt = std::atan(share / 3.0);
@@ -83,17 +83,17 @@ double over_the_pressed_strip(double share, double stiffness) {
   return (moment + normal * (pressed / 3.0 + 1.5 * turn)) / (7500.0 * 10.0 / 3.0);
 }
 
-TEST(SettingOff, AJointOfGivenStiffnessGivesWay) {
+TEST(RigidOnset, AJointOfGivenStiffnessGivesWay) {
   EXPECT_NEAR(tipping({1.2, 1e10, 2e11, false}) / over_the_pressed_strip(1.2, 2e11), 1.0, 2e-2);
 }
 
-TEST(SettingOff, WhereRigidBlocksWouldStayThoseThatGiveWayCount) {
+TEST(RigidOnset, WhereRigidBlocksWouldStayThoseThatGiveWayCount) {
   // Not by what rigid ones do on the way, which is nothing where they stand on the edge. An iteration takes
   // the wall far: it sees the strip as it is at its end, and the weight's arm as at its start.
   EXPECT_NEAR(tipping({0.95, 1e10, 2e8}) / over_the_pressed_strip(0.95, 2e8), 1.0, 0.2);
 }
 
-TEST(SettingOff, ItIsThatOfTheStartAlsoWhereBlocksTurnLater) {
+TEST(RigidOnset, ItIsThatOfTheStartAlsoWhereBlocksTurnLater) {
   // A plate at the end of a slope of 25 degrees turns over the brink before it has gone far. At first g (sin
   // - cos tan phi), and the resultant, 0.04 m off its middle, does not turn it.
   const double degree = std::numbers::pi / 180.0;
@@ -111,7 +111,7 @@ TEST(SettingOff, ItIsThatOfTheStartAlsoWhereBlocksTurnLater) {
   EXPECT_NEAR(moving[0].angular_acceleration.y(), 0.0, 1e-3 * expected);
 }
 
-TEST(SettingOff, ABondThatBreaksHoldsNoMore) {
+TEST(RigidOnset, ABondThatBreaksHoldsNoMore) {
   // A block on a slope of 45 degrees, bonded by a part of what it takes beside friction of 30 degrees: g (sin
   // - cos tan phi) once the bond is broken, however little was lacking when it broke.
   SimulationSettings settings;

@@ -20,13 +20,13 @@ TEST(ProximalGuess, IsNearBalanceUnderTheTrueLaw) {
   sample.bodies[0].free_change = sample.cube.space().restrict(
       sample.cube.basis().linear_field({3e-4, 1e-4, -4e-4}, Eigen::Matrix3d::Zero()));
   IslandProblem& problem = sample.problem;
-  problem.predict(FirstGuess::coasting);
+  problem.predict(Predictor::inertial);
   problem.respond();
-  const double before = problem.balance().largest_part;
+  const double before = problem.residual().largest_part;
   EXPECT_GT(before, 0.5);
   IslandTangent tangent(problem);
   ASSERT_TRUE(take_proximal_guess(problem, tangent));
-  const double after = problem.balance().largest_part;
+  const double after = problem.residual().largest_part;
   EXPECT_LT(after, 0.1);
   const std::vector<ContactState> states = problem.states();
   EXPECT_EQ(states[0], ContactState::sliding);
@@ -36,13 +36,13 @@ TEST(ProximalGuess, IsNearBalanceUnderTheTrueLaw) {
 TEST(ProximalGuess, IsNotTakenInPlaceOfABetterOne) {
   SampleProblem sample(JointLaw{1e9, 5e8, 0.5, 0.0, 0.0, true}, {level_point({0.5, 0.5, 0}, 0.0)});
   IslandProblem& problem = sample.problem;
-  problem.predict(FirstGuess::staying);
+  problem.predict(Predictor::at_rest);
   problem.respond();
-  ASSERT_EQ(problem.balance().worst, 0.0);  // without forces
+  ASSERT_EQ(problem.residual().worst, 0.0);  // without forces
   IslandTangent tangent(problem);
   EXPECT_FALSE(take_proximal_guess(problem, tangent));
   EXPECT_EQ(problem.guess()[0].norm(), 0.0);
-  EXPECT_EQ(problem.balance().worst, 0.0);
+  EXPECT_EQ(problem.residual().worst, 0.0);
 }
 
 }  // namespace

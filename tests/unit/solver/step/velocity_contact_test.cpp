@@ -76,7 +76,7 @@ double rebound(double share_of_step, int order, double stop_stiffness) {
   return largest / speed;
 }
 
-TEST(ContactImpulses, WhatMeetsStopsWhereItMeetsWheneverInTheStep) {
+TEST(VelocityContact, WhatMeetsStopsWhereItMeetsWheneverInTheStep) {
   for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     for (const int order : {1, 2})
       EXPECT_NEAR(rebound(share, order, SimulationSettings{}.multipliers.stop_stiffness), 0.0, 1e-2) << share;
@@ -85,7 +85,7 @@ TEST(ContactImpulses, WhatMeetsStopsWhereItMeetsWheneverInTheStep) {
   }
 }
 
-TEST(ContactImpulses, ForcesGiveEachBlockItsMomentum) {
+TEST(VelocityContact, ForcesGiveEachBlockItsMomentum) {
   // A cube drops on another one on a plate; the upper one slides.
   for (const Integrator integrator :
        {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
@@ -118,7 +118,7 @@ TEST(ContactImpulses, ForcesGiveEachBlockItsMomentum) {
   }
 }
 
-TEST(ContactImpulses, ASupportThatMovesPushesAndWorks) {
+TEST(VelocityContact, ASupportThatMovesPushesAndWorks) {
   // The step alone would end at twice the speed.
   constexpr double speed = 1.0, time_step = 1e-2;
   const SupportHistory up{{0.0, 10.0}, {Vector3::Zero(), {0, 0, 10.0 * speed}}};
@@ -130,7 +130,7 @@ TEST(ContactImpulses, ASupportThatMovesPushesAndWorks) {
   EXPECT_LT(simulation.largest_step_residual(), 1e-11 * simulation.largest_energy());
 }
 
-TEST(ContactImpulses, FrictionIsThatOfAllThatBears) {
+TEST(VelocityContact, FrictionIsThatOfAllThatBears) {
   // Steady impulses would bear a quarter of the weight, without friction, where generalized-alpha's velocity
   // of what stands still were taken for motion.
   constexpr double speed = 1.0, friction = 0.3, time = 0.2;
@@ -164,7 +164,7 @@ Vector3 carried(const Vector3& acceleration, const Vector3& velocity, double fri
   return velocity_of(simulation, 1, {0.5, 0.5, 0.5});
 }
 
-TEST(ContactImpulses, FrictionOnSupportsThatSpeedUpIsThatOfAllThatBears) {
+TEST(VelocityContact, FrictionOnSupportsThatSpeedUpIsThatOfAllThatBears) {
   constexpr double g = 9.81, time = 0.1, friction = 0.2, speed = 1.0;
   for (const Integrator integrator :
        {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
@@ -208,7 +208,7 @@ double roughness_of_bearing_force(Integrator integrator, double stop_stiffness) 
   return second / first;
 }
 
-TEST(ContactImpulses, BearingForcesSwingAsTheBeamDoes) {
+TEST(VelocityContact, BearingForcesSwingAsTheBeamDoes) {
   // The beam swings in ten steps and more.
   for (const Integrator integrator :
        {Integrator::dda, Integrator::average_acceleration, Integrator::generalized_alpha}) {
@@ -242,7 +242,7 @@ std::array<double, 2> rocking_tilts(Integrator integrator) {
   return largest;
 }
 
-TEST(ContactImpulses, ARockingBlockLosesWhatAnInelasticImpactTakes) {
+TEST(VelocityContact, ARockingBlockLosesWhatAnInelasticImpactTakes) {
   // Housner (1963): about an edge a block has w'^2 = 2 p^2 (cos(a - tilt) - cos(a)), p^2 = 3 g/4R, tan(a) =
   // b/h; at an impact it keeps 1 - 3/2 sin(a)^2 of its w.
   const double slope = std::atan2(0.25, 1.0);
@@ -260,7 +260,7 @@ TEST(ContactImpulses, ARockingBlockLosesWhatAnInelasticImpactTakes) {
   }
 }
 
-TEST(ContactImpulses, FrictionThatIsDueAndThatActedIsCounted) {
+TEST(VelocityContact, FrictionThatIsDueAndThatActedIsCounted) {
   // 0.2 s on fixed ground, from 3 m/s down to 2: an impulse of m g t presses, half of it rubs.
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-4, -4, -1}, {8, 5, 0}));

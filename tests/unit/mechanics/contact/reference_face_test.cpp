@@ -1,4 +1,4 @@
-#include "mechanics/contact/contact_master.hpp"
+#include "mechanics/contact/reference_face.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,13 +36,13 @@ bool nothing(const RimPlace&) {
 }
 
 /// Of all overlaps of two blocks, the same with the blocks swapped.
-std::vector<bool> masters(const Body& a, const Body& b) {
+std::vector<bool> references_on_a(const Body& a, const Body& b) {
   const ContactLimits limits{0.1, 0.1, 10.0 * std::numbers::pi / 180.0};
   const std::vector<CellOverlap> overlaps = find_contacts(a.placed, b.placed, limits).overlaps;
   EXPECT_FALSE(overlaps.empty());
-  std::vector<bool> result = first_is_master(a.contact(), b.contact(), overlaps, nothing);
-  std::vector<bool> swapped =
-      first_is_master(b.contact(), a.contact(), find_contacts(b.placed, a.placed, limits).overlaps, nothing);
+  std::vector<bool> result = reference_is_on_a(a.contact(), b.contact(), overlaps, nothing);
+  std::vector<bool> swapped = reference_is_on_a(b.contact(), a.contact(),
+                                                find_contacts(b.placed, a.placed, limits).overlaps, nothing);
   swapped.flip();
   EXPECT_EQ(swapped, result);
   return result;
@@ -55,14 +55,15 @@ Polyhedron rising_block(double low_y = -0.4, double high_y = 0.4) {
 
 TEST(ContactMaster, BelongsToTheFaceThatARimIsOn) {
   // The edge of the larger block stands on the smaller one's face.
-  EXPECT_EQ(masters(Body(rising_block()), Body(Polyhedron(make_box({-1, -1, -0.1}, {2, 1, 0})))),
+  EXPECT_EQ(references_on_a(Body(rising_block()), Body(Polyhedron(make_box({-1, -1, -0.1}, {2, 1, 0})))),
             std::vector{false});
   // The larger one's face lies on the edge of the smaller one, of one of equal size, and of a fixed one.
   for (const double bottom : {-0.1, -0.4, -3.0}) {
     const Body support(Polyhedron(make_box({0.3, -1, bottom}, {2, 1, 0.02})));
-    EXPECT_EQ(masters(Body(rising_block()), support), std::vector{true}) << bottom;
+    EXPECT_EQ(references_on_a(Body(rising_block()), support), std::vector{true}) << bottom;
   }
-  EXPECT_EQ(masters(Body(rising_block()), Body(fixed_box({0.3, -1, -3}, {2, 1, 0.02}))), std::vector{true});
+  EXPECT_EQ(references_on_a(Body(rising_block()), Body(fixed_box({0.3, -1, -3}, {2, 1, 0.02}))),
+            std::vector{true});
 }
 
 TEST(ContactMaster, IsTheFixedOrLargerOneWhereRimsDoNotTell) {
@@ -71,9 +72,11 @@ TEST(ContactMaster, IsTheFixedOrLargerOneWhereRimsDoNotTell) {
     // Parallel, and with both rims on each other; narrower in y so that only those matter.
     const double start = degrees == level ? -1.0 : 0.0;
     const Body rising(tilted_box({0, -0.4, 0}, {1, 0.4, 2}, degrees));
-    EXPECT_EQ(masters(rising, Body(fixed_box({start, -1, -0.1}, {2, 1, 0}))), std::vector{false});
-    EXPECT_EQ(masters(rising, Body(Polyhedron(make_box({start, -1, -0.1}, {2, 1, 0})))), std::vector{true});
-    EXPECT_EQ(masters(rising, Body(Polyhedron(make_box({start, -1, -3}, {2, 1, 0})))), std::vector{false});
+    EXPECT_EQ(references_on_a(rising, Body(fixed_box({start, -1, -0.1}, {2, 1, 0}))), std::vector{false});
+    EXPECT_EQ(references_on_a(rising, Body(Polyhedron(make_box({start, -1, -0.1}, {2, 1, 0})))),
+              std::vector{true});
+    EXPECT_EQ(references_on_a(rising, Body(Polyhedron(make_box({start, -1, -3}, {2, 1, 0})))),
+              std::vector{false});
   }
 }
 
@@ -92,7 +95,7 @@ TEST(ContactMaster, IsNotChosenBySidesBesideARimThatGoesOn) {
     const std::vector<CellOverlap> overlaps = find_contacts(rising.placed, support.placed, limits).overlaps;
     const auto behind_support = [](const RimPlace& rim) { return !rim.of_a; };
     // The larger one.
-    EXPECT_EQ(first_is_master(rising.contact(), support.contact(), overlaps, behind_support),
+    EXPECT_EQ(reference_is_on_a(rising.contact(), support.contact(), overlaps, behind_support),
               std::vector{true})
         << roll;
   }
@@ -102,8 +105,8 @@ TEST(ContactMaster, IsNotChosenByTheCornerWhereTwoRimsCross) {
   // A plank across a beam, its low edge down and its far end a little lower than the near one: the deepest
   // corner is where the edge of the plank leaves the beam.
   for (const double roll : {-0.5, 0.0, 0.5}) {
-    EXPECT_EQ(masters(Body(rolled(rising_block(-2, 2), roll)),
-                      Body(Polyhedron(make_box({-1, -0.5, -0.2}, {2, 0.5, 0})))),
+    EXPECT_EQ(references_on_a(Body(rolled(rising_block(-2, 2), roll)),
+                              Body(Polyhedron(make_box({-1, -0.5, -0.2}, {2, 0.5, 0})))),
               std::vector{false})
         << roll;
   }
@@ -125,7 +128,7 @@ TEST(ContactMaster, EndsOfFacesCountWhereTheSurfaceTurnsAway) {
     const ContactLimits limits{0.1, 0.1, 20.0 * std::numbers::pi / 180.0};
     const std::vector<CellOverlap> overlaps = find_contacts(rising.placed, roof.placed, limits).overlaps;
     ASSERT_EQ(overlaps.size(), 2U);
-    const std::vector<bool> result = first_is_master(rising.contact(), roof.contact(), overlaps, nothing);
+    const std::vector<bool> result = reference_is_on_a(rising.contact(), roof.contact(), overlaps, nothing);
     for (std::size_t k = 0; k < 2; ++k) {
       // The roof is larger.
       EXPECT_EQ(result[k], fall == 8.0) << fall << " " << overlaps[k].cell_b;
@@ -141,8 +144,8 @@ TEST(ContactMaster, OfEqualBlocksIsWhatIsSaid) {
   const std::vector<CellOverlap> equal = find_contacts(a.placed, b.placed, limits).overlaps;
   const std::vector<CellOverlap> unequal = find_contacts(a.placed, larger.placed, limits).overlaps;
   for (const bool said : {false, true}) {
-    EXPECT_EQ(first_is_master(a.contact(), b.contact(), equal, nothing, said), std::vector{said});
-    EXPECT_EQ(first_is_master(a.contact(), larger.contact(), unequal, nothing, said), std::vector{false});
+    EXPECT_EQ(reference_is_on_a(a.contact(), b.contact(), equal, nothing, said), std::vector{said});
+    EXPECT_EQ(reference_is_on_a(a.contact(), larger.contact(), unequal, nothing, said), std::vector{false});
   }
 }
 

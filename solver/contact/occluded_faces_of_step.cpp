@@ -1,4 +1,4 @@
-#include "solver/contact/sides_of_step.hpp"
+#include "solver/contact/occluded_faces_of_step.hpp"
 
 #include <algorithm>
 
@@ -7,12 +7,12 @@
 
 namespace ashlar {
 
-SidesOfStep::SidesOfStep(std::vector<bool> fixed, const SimulationSettings& settings)
+OccludedFacesOfStep::OccludedFacesOfStep(std::vector<bool> fixed, const SimulationSettings& settings)
     : fixed_(std::move(fixed)),
       flush_{settings.contact_distance, settings.contact_distance, settings.search.contact_angle} {}
 
-HiddenSides SidesOfStep::between_fixed_blocks(const std::vector<BlockSurface>& surfaces) const {
-  HiddenSides sides;
+OccludedFaces OccludedFacesOfStep::between_fixed_blocks(const std::vector<BlockSurface>& surfaces) const {
+  OccludedFaces sides;
   std::vector<Box> boxes(surfaces.size());
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
     if (fixed_[k]) boxes[k] = box_of(surfaces[k].surface().points).grown(flush_.reach);
@@ -27,8 +27,8 @@ HiddenSides SidesOfStep::between_fixed_blocks(const std::vector<BlockSurface>& s
   return sides;
 }
 
-void SidesOfStep::note(const std::vector<PairOfContacts>& contacts,
-                       const std::vector<BlockSurface>& surfaces) {
+void OccludedFacesOfStep::note(const std::vector<PairOfContacts>& contacts,
+                               const std::vector<BlockSurface>& surfaces) {
   of_step_.emplace();
   const bool any_inside = std::any_of(contacts.begin(), contacts.end(), [](const PairOfContacts& pair) {
     return std::any_of(pair.second->vertices.begin(), pair.second->vertices.end(),

@@ -1,4 +1,4 @@
-// Which faces are hidden in a step (hidden_sides.hpp): those between fixed blocks, found once, and those of the step's
+// Which faces are hidden in a step (occluded_faces.hpp): those between fixed blocks, found once, and those of the step's
 // contacts.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mechanics/block/block_surface.hpp"
-#include "solver/contact/hidden_sides.hpp"
+#include "solver/contact/occluded_faces.hpp"
 #include "solver/contact/pair_history.hpp"
 #include "solver/settings.hpp"
 
@@ -16,10 +16,10 @@ namespace ashlar {
 /// The contacts of a pair of blocks (a < b).
 using PairOfContacts = std::pair<PairKey, const PairContacts*>;
 
-class SidesOfStep {
+class OccludedFacesOfStep {
  public:
   /// @param fixed by block; those that are not there are none
-  SidesOfStep(std::vector<bool> fixed, const SimulationSettings& settings);
+  OccludedFacesOfStep(std::vector<bool> fixed, const SimulationSettings& settings);
 
   /// Begins a step of which nothing is noted.
   void begin() { of_step_.reset(); }
@@ -27,14 +27,14 @@ class SidesOfStep {
   /// Notes the faces that lie on each other, if any vertex is in a block. @param surfaces of all blocks
   void note(const std::vector<PairOfContacts>& contacts, const std::vector<BlockSurface>& surfaces);
   /// Empty if no vertex is in a block. @pre noted
-  [[nodiscard]] const HiddenSides& hidden() const { return *of_step_; }
+  [[nodiscard]] const OccludedFaces& hidden() const { return *of_step_; }
 
  private:
-  [[nodiscard]] HiddenSides between_fixed_blocks(const std::vector<BlockSurface>& surfaces) const;
+  [[nodiscard]] OccludedFaces between_fixed_blocks(const std::vector<BlockSurface>& surfaces) const;
 
   std::vector<bool> fixed_;
   ContactLimits flush_;  ///< of faces that lie on each other
-  std::optional<HiddenSides> of_fixed_, of_step_;
+  std::optional<OccludedFaces> of_fixed_, of_step_;
 };
 
 }  // namespace ashlar

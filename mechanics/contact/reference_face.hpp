@@ -24,7 +24,7 @@ struct RimPlace {
 
 /// Tells whether a third block goes on behind a rim, near to what lies on the rim and not turning away from
 /// it, so that the rim is none to it.
-using GoesOn = std::function<bool(const RimPlace&)>;
+using SurfaceContinues = std::function<bool(const RimPlace&)>;
 
 /// Whether block a is the master in each of the overlaps: for all overlaps of two faces, the block whose face
 /// does not end at their deep end: its surface turns away from the other one there, and nothing goes on
@@ -33,8 +33,8 @@ using GoesOn = std::function<bool(const RimPlace&)>;
 /// before what is smaller by more than rounding.
 /// @param otherwise whether a is the master of equal blocks: nothing in the pair tells
 /// @return (#overlaps)
-[[nodiscard]] std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
-                                                const std::vector<CellOverlap>& overlaps,
-                                                const GoesOn& goes_on, bool otherwise = false);
+[[nodiscard]] std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
+                                                  const std::vector<CellOverlap>& overlaps,
+                                                  const SurfaceContinues& goes_on, bool otherwise = false);
 
 }  // namespace ashlar

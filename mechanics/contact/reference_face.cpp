@@ -1,4 +1,4 @@
-#include "mechanics/contact/contact_master.hpp"
+#include "mechanics/contact/reference_face.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,7 +74,7 @@ struct DeepEnd {
 class DeepEndSearch {
  public:
   DeepEndSearch(const PlacedSurface& a, const PlacedSurface& b, const std::vector<CellOverlap>& overlaps,
-                const GoesOn& goes_on)
+                const SurfaceContinues& goes_on)
       : a_(a), b_(b), overlaps_(overlaps), goes_on_(goes_on), tolerance_(outline_tolerance(a, b)) {}
 
   /// @param cells overlaps of two faces
@@ -135,7 +135,7 @@ class DeepEndSearch {
   const PlacedSurface& a_;
   const PlacedSurface& b_;
   const std::vector<CellOverlap>& overlaps_;
-  const GoesOn& goes_on_;
+  const SurfaceContinues& goes_on_;
   double tolerance_;
 };
 
@@ -155,9 +155,9 @@ bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise
 
 }  // namespace
 
-std::vector<bool> first_is_master(const ContactBody& a, const ContactBody& b,
-                                  const std::vector<CellOverlap>& overlaps, const GoesOn& goes_on,
-                                  bool otherwise) {
+std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
+                                    const std::vector<CellOverlap>& overlaps, const SurfaceContinues& goes_on,
+                                    bool otherwise) {
   std::map<std::array<int, 2>, std::vector<std::size_t>> of_faces;
   for (std::size_t n = 0; n < overlaps.size(); ++n) {
     of_faces[{a.placed->surface().cells[at(overlaps[n].cell_a)].face,

@@ -2,7 +2,7 @@
 //
 // Penalty springs let a corner sink into what it lies on. Where that block ends and a neighbour begins, the
 // corner goes through the common side into the neighbour, without ever having been outside of it: the side is
-// next to it, but what holds it there is the neighbour's surface (geometry/contacts/contact_search.hpp, HiddenPlaces).
+// next to it, but what holds it there is the neighbour's surface (geometry/contacts/contact_search.hpp, OccludedPlaces).
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace ashlar {
 
-class HiddenSides {
+class OccludedFaces {
  public:
   /// Takes note of the faces of two blocks that lie on each other.
   /// @param reach m, how far apart they may be there
@@ -22,7 +22,7 @@ class HiddenSides {
   /// Whether a face of a block lies on any block but one at a place in its plane.
   [[nodiscard]] bool hides(int block, int face, int but, const Vector3& place) const;
   /// Of a pair of blocks. This must outlive the answer.
-  [[nodiscard]] HiddenPlaces of_pair(const std::array<int, 2>& blocks) const;
+  [[nodiscard]] OccludedPlaces of_pair(const std::array<int, 2>& blocks) const;
 
  private:
   struct Cover {

@@ -1,4 +1,4 @@
-#include "solver/contact/hidden_sides.hpp"
+#include "solver/contact/occluded_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@ bool within(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& 
 
 }  // namespace
 
-void HiddenSides::add(const std::array<int, 2>& blocks, const std::vector<CellOverlap>& overlaps,
-                      const SubFaceSurface& a, const SubFaceSurface& b, double reach) {
+void OccludedFaces::add(const std::array<int, 2>& blocks, const std::vector<CellOverlap>& overlaps,
+                        const SubFaceSurface& a, const SubFaceSurface& b, double reach) {
   for (const CellOverlap& overlap : overlaps) {
     const bool flush = std::all_of(overlap.gaps.begin(), overlap.gaps.end(),
                                    [reach](double gap) { return std::abs(gap) <= reach; });
@@ -32,7 +32,7 @@ void HiddenSides::add(const std::array<int, 2>& blocks, const std::vector<CellOv
   }
 }
 
-bool HiddenSides::hides(int block, int face, int but, const Vector3& place) const {
+bool OccludedFaces::hides(int block, int face, int but, const Vector3& place) const {
   const auto covers = covers_.find({block, face});
   return covers != covers_.end() &&
          std::any_of(covers->second.begin(), covers->second.end(), [&](const Cover& cover) {
@@ -40,7 +40,7 @@ bool HiddenSides::hides(int block, int face, int but, const Vector3& place) cons
          });
 }
 
-HiddenPlaces HiddenSides::of_pair(const std::array<int, 2>& blocks) const {
+OccludedPlaces OccludedFaces::of_pair(const std::array<int, 2>& blocks) const {
   const auto& [a, b] = blocks;
   return {[this, a = a, b = b](int face, const Vector3& place) { return hides(a, face, b, place); },
           [this, a = a, b = b](int face, const Vector3& place) { return hides(b, face, a, place); }};
