@@ -140,7 +140,7 @@ std::string contact_report(const Simulation& simulation, const PairKey& blocks) 
       fmt::format("contacts of {} and {} at t = {:.9g} s", names.a, names.b, simulation.time());
   if (explanation.contacts.empty()) return text + ": " + without_contacts(explanation) + '\n';
   text += fmt::format(", gaps up to {:.4g} m", explanation.reach);
-  if (explanation.type) text += fmt::format(", of convex blocks: {}", to_string(*explanation.type));
+  if (explanation.type) text += fmt::format(", type {}", to_string(*explanation.type));
   text += ":\n";
   for (const ExplainedContact& contact : explanation.contacts) text += line_of(contact, names);
   return text + forces_of(simulation, blocks, names);

@@ -72,7 +72,7 @@ std::vector<VerificationCheck> pair_derivatives(const char* state, const JointLa
     const Vector3 along = points.back().tangent_1 + numbers.next() * points.back().tangent_2;
     memory.push_back({slip * along, ContactState::locked, true});
   }
-  const ContactPair pair({0, 1, {&a, &state_a, nullptr}, {&b, &state_b, nullptr}}, law, points, memory);
+  const ContactPair pair({0, 1, {&a, &state_a, nullptr}, {&b, &state_b, nullptr}}, law, {points}, memory);
   const Eigen::VectorXd ya = numbers.vector(a.unknowns(), 1e-4);
   const Eigen::VectorXd yb = numbers.vector(b.unknowns(), 1e-4);
   const PairResponse response = pair.respond(ya, yb, false);

@@ -21,12 +21,21 @@ double reduced_mass(const BlockModel& a, const BlockModel& b) {
 
 }  // namespace
 
-ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-                         std::vector<PointMemory> memory, std::vector<PressureCut> cuts,
-                         std::vector<FacePair> turning)
-    : ContactPair(bodies, law, std::move(points), std::move(memory), nullptr) {
-  cuts_ = std::move(cuts);
-  turning_ = std::move(turning);
+ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactPatch patch,
+                         std::vector<PointMemory> memory, const PatchStart& start)
+    : ContactPair(bodies, law, patch.points, std::move(memory),
+                  patch.rows == nullptr ? PairRows(bodies.of_a, bodies.of_b, patch.points, nullptr)
+                                        : PairRows(bodies.of_a, bodies.of_b, patch.points, patch.rows),
+                  false) {
+  cuts_ = std::move(patch.cuts);
+  turning_ = std::move(patch.turning);
+  lasting_ = std::move(patch.lasting);
+  kind_.goes_on = start.continues;
+  if (start.continues && !law.augmented) continue_springs();
+  if (start.touch_within > 0.0) touch_within(start.touch_within);
+  if (start.frozen) freeze_at_gap(*start.frozen);
+  if (!start.moved_in_level.empty()) count_slip(start.moved_in_level);
+  if (start.freezes_failure) freeze_failure();
 }
 
 ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffness)
@@ -34,15 +43,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const Tie& tie, double stiffn
                   tie_points(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)),
                   tie_memory(tie_gap(tie, *bodies.of_a.state, *bodies.of_b.state)), &tie) {}
 
-ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
-                         std::vector<PointMemory> memory)
-    : ContactPair(bodies, law, kept.points, std::move(memory),
-                  PairRows(bodies.of_a, bodies.of_b, kept.points, kept.lasting->rows), false) {
-  cuts_ = kept.lasting->found.cuts;
-  turning_ = kept.lasting->found.turning;
-  lasting_ = kept.lasting;
-  kind_.goes_on = true;
-  if (law.augmented) return;
+void ContactPair::continue_springs() {
   std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k) rests.push_back(points_[k].gap + memory_[k].compression);
   rests_ = std::move(rests);
@@ -182,9 +183,11 @@ Eigen::Matrix3Xd ContactPair::after(const Eigen::Matrix3Xd& moved) const {
   return result;
 }
 
-void ContactPair::prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
-                            const Eigen::MatrixX3d& change_b) {
-  rows_.prescribe(points_, a, change_a, b, change_b);
+void ContactPair::begin_step(const BlockModel& a, const BlockModel& b, const StepActions& actions) {
+  rows_.prescribe(points_, a, actions.prescribed_a, b, actions.prescribed_b);
+  if (!(actions.step > 0.0)) return;
+  if (actions.defers_friction && !tied()) apply_deferred_friction(actions.step);
+  damp(actions.step);
 }
 
 void ContactPair::follow(const BlockInStep& a, const BlockInStep& b, const Eigen::VectorXd& ya,

@@ -9,7 +9,7 @@
 #include "mechanics/contact/contact_points.hpp"
 #include "mechanics/contact/spring_energy.hpp"
 #include "mechanics/contact/tie.hpp"
-#include "solver/contact/lasting_contacts.hpp"
+#include "solver/contact/contact_patch.hpp"
 #include "solver/contact/pair_rows.hpp"
 
 namespace ashlar {
@@ -43,15 +43,9 @@ struct BondedArea {
 /// makes the gap that of the end of the step (notes/contact_at_the_end_of_a_step.md).
 class ContactPair {
  public:
-  /// @param cuts,turning that the points come from, to be remembered
-  ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
-              std::vector<PointMemory> memory, std::vector<PressureCut> cuts = {},
-              std::vector<FacePair> turning = {});
-
-  /// Contacts that were known (lasting_contacts.hpp). @param memory of the same points. Springs go on from where the
-  /// last step left them, multipliers as freeze_at_gap() says
-  ContactPair(const PairBodies& bodies, const JointLaw& law, const KeptContacts& kept,
-              std::vector<PointMemory> memory);
+  /// @param memory (#points)
+  ContactPair(const PairBodies& bodies, const JointLaw& law, ContactPatch patch,
+              std::vector<PointMemory> memory, const PatchStart& start = {});
 
   /// Two tied blocks (tie.hpp): each function of the gap is a point that never opens or slides, its gap and
   /// slip the components of the function's coefficient along x, y and z. @param tie must outlive this
@@ -79,7 +73,6 @@ class ContactPair {
   [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
   /// What may last of its contacts; null: nothing.
   [[nodiscard]] const std::shared_ptr<const LastingContacts>& lasting() const { return lasting_; }
-  void may_last(std::shared_ptr<const LastingContacts> lasting) { lasting_ = std::move(lasting); }
   /// Whether its springs are those of the last step, not found anew.
   [[nodiscard]] bool goes_on() const { return kind_.goes_on; }
 
@@ -111,27 +104,15 @@ class ContactPair {
   /// elastic slip shrinks in proportion. Pairs with bonds that can take tension, and tied ones, stay as they
   /// are, and so do pairs with multipliers.
   void hold_at_most(const SpringEnergy& held);
-  /// Springs without tension that are placed below the surface, by no more than this, are at rest there.
-  /// @param depth m, >= 0
-  void touch_within(double depth);
-  /// Points with multipliers, which hold no energy, are held where they are found below the surface, bonds
-  /// also above it.
-  /// @param taken what the pair has taken from its blocks and not given back, J, >= 0
-  void freeze_at_gap(double taken);
-  /// Dashpots beside the springs, for a step of this length (mechanics/notes/joint_damping.md). @param step s, > 0
-  void damp(double step);
+  /// Sets what acts in the coming step beside the contact.
+  void begin_step(const BlockModel& a, const BlockModel& b, const StepActions& actions);
   /// By how much the rest of a point's normal spring is above the surface for what has slid before the step, m, >= 0.
   [[nodiscard]] double dilation_before(std::size_t point) const {
     return kind_.counts_slip ? memory_[point].level_dilation : memory_[point].dilation;
   }
-  /// Takes slip to be that of the load level (static_analysis.hpp). @param moved of a relative to b at each
-  /// point since the level began, m
-  void count_slip(const std::vector<Vector3>& moved);
   /// Whether any point of a contact has strength to lose.
   [[nodiscard]] bool bonded() const;
-  /// Bonds neither tear nor slide whatever pulls, and none is lost in the step.
-  void freeze_failure();
-  /// What freeze_at_gap() was told.
+  /// PatchStart::frozen, J; 0 without it.
   [[nodiscard]] double taken() const { return taken_; }
   /// Depth of the deepest point that no bond holds, m, >= 0; 0 of tied blocks.
   [[nodiscard]] double depth_found() const;
@@ -139,10 +120,6 @@ class ContactPair {
   /// ties hold blocks as they are to each other. @param depth m, >= 0
   [[nodiscard]] ContactPair projected(double depth) const;
   [[nodiscard]] bool can_be_bounded() const;
-  /// Motion of the step that supports prescribe, beside that of the unknowns. @param change_a,change_b (p,
-  /// 3), empty: none
-  void prescribe(const BlockModel& a, const Eigen::MatrixX3d& change_a, const BlockModel& b,
-                 const Eigen::MatrixX3d& change_b);
   /// Takes rows and normals to the middle of the step and gaps to its end, at a guess of the unknowns.
   void follow(const BlockInStep& a, const BlockInStep& b, const Eigen::VectorXd& ya,
               const Eigen::VectorXd& yb);
@@ -182,8 +159,6 @@ class ContactPair {
   [[nodiscard]] PairResponse stopping(const PairResponse& end, const std::vector<PointLaw>& laws,
                                       const Eigen::VectorXd& ya, const Eigen::VectorXd& yb, const Stop& stop,
                                       const std::vector<bool>& let_go) const;
-  /// Lets friction of the step make up for impulses of the last one, which had none. @param step s, > 0
-  void apply_deferred_friction(double step);
   /// Of points with multipliers, the normal impulse that friction has still to count: what it did not in this
   /// step, those at its end first, less what it counted too much. Locked points have nothing left of earlier
   /// ones.
@@ -239,6 +214,18 @@ class ContactPair {
   /// Of points whose rows are known.
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, PairRows rows, bool tied);
+  // How a patch starts: PatchStart.
+  void continue_springs();
+  void touch_within(double depth);
+  void freeze_at_gap(double taken);
+  void count_slip(const std::vector<Vector3>& moved);
+  void freeze_failure();
+  // StepActions. @param step s, > 0
+  /// Dashpots beside the springs (mechanics/notes/joint_damping.md).
+  void damp(double step);
+  /// Friction of the last step's impulses, which had none.
+  void apply_deferred_friction(double step);
+
   [[nodiscard]] double multiplier_scale(const ContactPoint& point) const {
     return kind_.area_springs ? point.area : 1.0;
   }

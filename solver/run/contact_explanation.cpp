@@ -70,7 +70,7 @@ class StageComparison {
     for (const Eigen::Vector2d& corner : corners) middle += corner / static_cast<double>(corners.size());
     const ViewFrame& frame = overlap.frame;
     one.place = frame.origin + middle.x() * frame.e1 + middle.y() * frame.e2;
-    const Vector3& on_b = b_.corners(overlap.cell_b).front();
+    const Vector3 on_b = b_.corners(overlap.cell_b).front();
     one.place -= frame.w * frame.w.dot(one.place - on_b);
     one.normal = frame.w;
     one.gap = *std::min_element(overlap.gaps.begin(), overlap.gaps.end());

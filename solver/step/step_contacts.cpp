@@ -251,12 +251,17 @@ ContactPair StepContacts::kept_pair(const BlockSystem& system, const RunState& s
                                     const FoundContacts& found, JointLaw law) {
   const auto [a, b] = found.blocks;
   const PairHistory& known = history_of(state.pairs, found.blocks);
-  law.rounding = found.kept->lasting->law.rounding;
-  ContactPair pair(
+  const KeptContacts& kept = *found.kept;
+  law.rounding = kept.lasting->law.rounding;
+  PatchStart start;
+  start.continues = true;
+  if (law.augmented) start.frozen = known.taken;
+  return {
       PairBodies{a, b, body_at_start(system, state, a, nullptr), body_at_start(system, state, b, nullptr)},
-      law, *found.kept, known.memory.of_same(found.kept->points));
-  if (law.augmented) pair.freeze_at_gap(known.taken);
-  return pair;
+      law,
+      {kept.points, kept.lasting->found.cuts, kept.lasting->found.turning, kept.lasting->rows, kept.lasting},
+      known.memory.of_same(kept.points),
+      start};
 }
 
 std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, const RunState& state,
@@ -288,24 +293,23 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
       points, state.has_begun() ? -std::numeric_limits<double>::infinity() : settings.contact_distance,
       use == PairUse::statics && settings.area_springs && points.size() == known.memory.entries().size());
   law.rounding = coordinate_rounding(*body_a.placed, *body_b.placed);
-  std::vector<Vector3> moved;
+  PatchStart start;
+  if (use == PairUse::motion && !state.has_begun()) start.touch_within = law.rounding;
+  if (goes_on && law.augmented) start.frozen = known.taken;
+  start.freezes_failure = use == PairUse::statics && state.statics.freezes_failure;
   if (use == PairUse::statics && !state.statics.level_start.empty()) {
-    moved = moved_in_level(system, state, blocks, points);
-    if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, moved, memory);
+    start.moved_in_level = moved_in_level(system, state, blocks, points);
+    if (is_far(system, state, a) || is_far(system, state, b)) take_slip(points, start.moved_in_level, memory);
   }
-  ContactPair pair(PairBodies{a, b, body_a, body_b}, law, std::move(points), std::move(memory), made.cuts,
-                   made.turning);
+  ContactPatch patch{std::move(points), made.cuts, made.turning};
   if (may_last(system, found, use)) {
+    patch.rows = PairRows::values_of(*body_a.model, *body_b.model, patch.points);
     LastingContacts lasting = as_found(finder_, state, {blocks, found.reach}, law, contacts);
     lasting.found = std::move(made);
-    lasting.rows = pair.rows().values();
-    pair.may_last(std::make_shared<const LastingContacts>(std::move(lasting)));
+    lasting.rows = patch.rows;
+    patch.lasting = std::make_shared<const LastingContacts>(std::move(lasting));
   }
-  if (use == PairUse::motion && !state.has_begun()) pair.touch_within(law.rounding);
-  if (goes_on && law.augmented) pair.freeze_at_gap(known.taken);
-  if (!moved.empty()) pair.count_slip(moved);
-  if (use == PairUse::statics && state.statics.freezes_failure) pair.freeze_failure();
-  return pair;
+  return ContactPair(PairBodies{a, b, body_a, body_b}, law, std::move(patch), std::move(memory), start);
 }
 
 std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState& state,

@@ -78,10 +78,9 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   validate(problem.islands, system.moving(), problem.pairs);
   problem.bodies = prepare_bodies(system, state, scheme);
   for (ContactPair& pair : problem.pairs) {
-    pair.prescribe(system.blocks()[at(pair.a())], problem.bodies[at(pair.a())].prescribed,
-                   system.blocks()[at(pair.b())], problem.bodies[at(pair.b())].prescribed);
-    if (settings.augmented && !scheme.from_rest && !pair.tied()) pair.apply_deferred_friction(scheme.step);
-    if (!scheme.from_rest) pair.damp(scheme.step);
+    pair.begin_step(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())],
+                    {problem.bodies[at(pair.a())].prescribed, problem.bodies[at(pair.b())].prescribed,
+                     scheme.from_rest ? 0.0 : scheme.step, settings.augmented});
   }
   problem.results = solve_islands(problem, scheme, settings, factors);
   SimulationCounts& counts = state.log.counts;

@@ -40,7 +40,7 @@ TEST_F(ContactReport, NamesWhatTheStepUsesAndTheForce) {
   write_cube_on_slab();
   ASSERT_EQ(run("out", {"--explain-contacts", "slab, left,cube"}), 0) << faults_;
   EXPECT_NE(printed_.find("contacts of slab, left and cube at t = 0.01 s"), std::string::npos) << printed_;
-  EXPECT_NE(printed_.find("of convex blocks: face-face"), std::string::npos) << printed_;
+  EXPECT_NE(printed_.find(", type F-F"), std::string::npos) << printed_;
   EXPECT_NE(printed_.find("  used     face "), std::string::npos) << printed_;
   EXPECT_NE(printed_.find(" open, "), std::string::npos) << printed_;
   EXPECT_NE(printed_.find("force on slab, left: ("), std::string::npos) << printed_;

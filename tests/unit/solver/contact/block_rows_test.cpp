@@ -9,6 +9,12 @@
 namespace ashlar {
 namespace {
 
+Eigen::VectorXd force(const BlockRows& rows, const Eigen::Matrix3Xd& forces) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows.unknowns());
+  rows.add_force(forces, 1.0, sum);
+  return sum;
+}
+
 /// A box, its basis and values of its functions at some points.
 struct Subject {
   Polyhedron solid{make_box({0, 0, 0}, {2, 1, 1})};
@@ -57,12 +63,6 @@ void expect_as_defined(const AdmissibleSpace& space, const Subject& subject) {
     unit.col(k) = direction;
     EXPECT_NEAR(rows.squared_row(k, direction), force(rows, unit).squaredNorm(), 1e-13);
   }
-}
-
-Eigen::VectorXd force(const BlockRows& rows, const Eigen::Matrix3Xd& forces) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows.unknowns());
-  rows.add_force(forces, 1.0, sum);
-  return sum;
 }
 
 TEST(BlockRows, AreThoseOfAFreeBlock) {

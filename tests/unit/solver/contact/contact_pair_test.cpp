@@ -182,8 +182,9 @@ TEST(ContactPair, MultipliersHoldPointsWhereTheyAreFound) {
   memory.normal_multiplier = 4e4;  // Pa, over 0.25 m^2: 1e4 N
   const auto start_force = [&](double gap) {
     const Setting setting = skew_setting(gap);
-    ContactPair pair = pair_of(setting, multiplier_law(), memory);
-    pair.freeze_at_gap(2.0);
+    PatchStart start;
+    start.frozen = 2.0;
+    const ContactPair pair = pair_of(setting, multiplier_law(), memory, start);
     EXPECT_EQ(pair.taken(), 2.0);
     EXPECT_EQ(pair.depth_found(), std::max(0.0, -gap));
     EXPECT_EQ(pair.start_energy(), 0.0);
@@ -206,8 +207,9 @@ TEST(ContactPair, MovedApartPushesFromADepthOnAndKeepsBonds) {
     law.tensile_strength = tensile_strength;
     law.cohesion = 1e5;
     const Setting setting = skew_setting(gap);
-    ContactPair pair = pair_of(setting, law, memory);
-    pair.freeze_at_gap(0.0);
+    PatchStart start;
+    start.frozen = 0.0;
+    const ContactPair pair = pair_of(setting, law, memory, start);
     EXPECT_EQ(pair.depth_found(), intact && tensile_strength > 0.0 ? 0.0 : std::max(0.0, -gap));
     return Eigen::Vector3d(
         pair.projected(2e-6).respond(none(setting.a), none(setting.b), false).points[0].force);
@@ -228,8 +230,9 @@ TEST(ContactPair, WhatIsPlacedBelowTheSurfaceByRoundingTouches) {
     const Setting setting = skew_setting(gap);
     PointMemory memory;
     memory.intact = true;
-    ContactPair pair = pair_of(setting, law, memory);
-    pair.touch_within(law.rounding);
+    PatchStart start;
+    start.touch_within = law.rounding;
+    const ContactPair pair = pair_of(setting, law, memory, start);
     const PairResponse response = pair.respond(none(setting.a), none(setting.b), false);
     EXPECT_NE(response.points[0].state, ContactState::open) << gap;
     return response.points[0].force[0];
@@ -248,7 +251,7 @@ TEST(ContactPair, WithoutPointsThereAreNoForces) {
   const BlockState state_a = setting.a.initial_state();
   const BlockState state_b = setting.b.initial_state();
   ContactPair pair({0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}},
-                   JointLaw{2e9, 1e9, 0.1, 0.0, 0.0, true}, std::vector<ContactPoint>(), {});
+                   JointLaw{2e9, 1e9, 0.1, 0.0, 0.0, true}, ContactPatch{}, {});
   pair.hold_at_most({});
   const Eigen::VectorXd ya = Eigen::VectorXd::Ones(setting.a.unknowns());
   const Eigen::VectorXd yb = Eigen::VectorXd::Ones(setting.b.unknowns());

@@ -18,7 +18,7 @@ ContactPair pair_at_depth(int a, int b, double depth, double tensile_strength = 
   const JointLaw law{2.0, 1.0, 0.5, 0.0, tensile_strength, true};
   return {{a, b, {&block, &state, nullptr}, {&block, &state, nullptr}},
           law,
-          {test_support::level_point({0.5, 0.5, 0.0}, -depth)},
+          {{test_support::level_point({0.5, 0.5, 0.0}, -depth)}},
           {memory}};
 }
 

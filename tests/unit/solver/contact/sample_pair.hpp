@@ -26,13 +26,15 @@ struct Setting {
   std::vector<ContactPoint> points;
 };
 
-inline ContactPair pair_of(const Setting& setting, const JointLaw& law, const PointMemory& memory) {
+inline ContactPair pair_of(const Setting& setting, const JointLaw& law, const PointMemory& memory,
+                           const PatchStart& start = {}) {
   const BlockState state_a = setting.a.initial_state();
   const BlockState state_b = setting.b.initial_state();
   return {{0, 1, {&setting.a, &state_a, nullptr}, {&setting.b, &state_b, nullptr}},
           law,
-          setting.points,
-          {memory}};
+          {setting.points},
+          {memory},
+          start};
 }
 
 /// Two blocks of different orders with one point in each other, seen along a skew normal.

@@ -23,7 +23,7 @@ const BlockState& at_rest() {
 ContactPair pair_of(int a, int b) {
   return {{a, b, {&cube(), &at_rest(), nullptr}, {&cube(), &at_rest(), nullptr}},
           JointLaw{},
-          {test_support::level_point({0, 0, 0}, 0.0)},
+          {{test_support::level_point({0, 0, 0}, 0.0)}},
           {{}}};
 }
 
