@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "apps/verify/contact_patch.hpp"
+#include "apps/verify/patch_test.hpp"
 #include "apps/verify/falling_block.hpp"
 #include "apps/verify/hertz_sphere.hpp"
 #include "apps/verify/verification_contacts.hpp"
@@ -70,7 +70,7 @@ class Curves {
 };
 
 double patch_error(const Setting& setting) {
-  ContactPatch patch;
+  PatchTest patch;
   patch.order = 3;
   patch.formulation = setting.formulation;
   patch.area_springs = setting.area_springs;

@@ -17,7 +17,7 @@ struct ContactStudySize {
 
 /// Three problems, against sub-faces, springs (per area, per point), surface (curved, flat), kn and time
 /// step:
-///   1 the contact patch (contact_patch.hpp), error of the jump over p/kn: exact;
+///   1 the contact patch (patch_test.hpp), error of the jump over p/kn: exact;
 ///   2 Hertz's sphere (hertz_sphere.hpp), largest error of radius, approach and peak pressure: his formulas;
 ///   3 the falling block (falling_block.hpp), deepest place of the tip: a run of the total formulation with
 ///     area springs on the curved surface and steps of reference_step. A reference of the program's own: it

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/verify/contact_patch.hpp"
+#include "apps/verify/patch_test.hpp"
 #include "apps/verify/verification_contacts.hpp"
 #include "solver/contact/contact_pair.hpp"
 
@@ -124,7 +124,7 @@ std::vector<VerificationCheck> contact_patch() {
   std::vector<VerificationCheck> checks;
   for (const double nu : {0.0, 0.3}) {
     for (const int order : {1, 2, 3, 4, 6}) {
-      ContactPatch patch;
+      PatchTest patch;
       patch.poisson_ratio = nu;
       patch.order = order;
       const PatchErrors errors = press(patch);
@@ -140,7 +140,7 @@ std::vector<VerificationCheck> contact_patch_point() {
   std::vector<VerificationCheck> checks;
   constexpr double reported = std::numeric_limits<double>::infinity();
   for (int order = 1; order <= 4; ++order) {
-    ContactPatch patch;
+    PatchTest patch;
     patch.order = order;
     patch.area_springs = false;
     const PatchErrors errors = press(patch);

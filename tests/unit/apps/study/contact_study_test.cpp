@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/verify/contact_patch.hpp"
+#include "apps/verify/patch_test.hpp"
 #include "apps/verify/hertz_sphere.hpp"
 
 namespace ashlar {
@@ -42,8 +42,8 @@ TEST(ContactStudy, AreaSpringsAreExactAndStepsConverge) {
   EXPECT_LT(errors[1], errors[0]);
 }
 
-TEST(ContactPatch, JumpsByPressureOverStiffness) {
-  ContactPatch patch;
+TEST(PatchTest, JumpsByPressureOverStiffness) {
+  PatchTest patch;
   patch.order = 2;
   patch.stiffness = 4e9;
   const PatchErrors errors = press(patch);

@@ -79,6 +79,9 @@ TEST(ContactExplanation, TheSideOfTheNextSlabIsAnInternalEdge) {
   for (const ExplainedContact& contact : explanation.contacts) {
     if (contact.removed != ContactStage::internal_edge) continue;
     EXPECT_GT(std::abs(contact.normal.x()), 0.9) << "only the side is left out";
+    // On the front of the cube, which has gone 0.4975 m.
+    EXPECT_NEAR(contact.place.x(), 0.9975, 1e-6);
+    EXPECT_NEAR(contact.gap, 1.0 - 0.9975, 1e-6);
   }
   // The slab that it lies on holds it.
   EXPECT_GT(count(simulation.explain_contacts(0, 2), std::nullopt), 0U);

@@ -22,11 +22,11 @@ TEST(ProximalGuess, IsNearBalanceUnderTheTrueLaw) {
   IslandProblem& problem = sample.problem;
   problem.predict(Predictor::inertial);
   problem.respond();
-  const double before = problem.residual().largest_part;
+  const double before = problem.residual().largest_by_force;
   EXPECT_GT(before, 0.5);
   IslandTangent tangent(problem);
   ASSERT_TRUE(take_proximal_guess(problem, tangent));
-  const double after = problem.residual().largest_part;
+  const double after = problem.residual().largest_by_force;
   EXPECT_LT(after, 0.1);
   const std::vector<ContactState> states = problem.states();
   EXPECT_EQ(states[0], ContactState::sliding);
@@ -38,11 +38,11 @@ TEST(ProximalGuess, IsNotTakenInPlaceOfABetterOne) {
   IslandProblem& problem = sample.problem;
   problem.predict(Predictor::at_rest);
   problem.respond();
-  ASSERT_EQ(problem.residual().worst, 0.0);  // without forces
+  ASSERT_EQ(problem.residual().largest, 0.0);  // without forces
   IslandTangent tangent(problem);
   EXPECT_FALSE(take_proximal_guess(problem, tangent));
   EXPECT_EQ(problem.guess()[0].norm(), 0.0);
-  EXPECT_EQ(problem.residual().worst, 0.0);
+  EXPECT_EQ(problem.residual().largest, 0.0);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct SampleProblem {
   SampleProblem(const JointLaw& law, std::vector<ContactPoint> points)
       : pairs{{{0, 1, {&cube, &at_rest, nullptr}, {&ground, &of_ground, nullptr}},
                law,
-               points,
+               {points},
                std::vector<PointMemory>(points.size())}},
         problem(island, bodies, pairs, scheme, settings,
                 solver_of(island, bodies, pairs, SystemRole::step, solvers)) {}

@@ -1,4 +1,4 @@
-#include "apps/verify/contact_patch.hpp"
+#include "apps/verify/patch_test.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ Polyhedron box_with_fan(const Vector3& low, const Vector3& high, bool at_top, do
   return Polyhedron(std::move(mesh));
 }
 
-Simulation put_together(const ContactPatch& patch) {
+Simulation put_together(const PatchTest& patch) {
   ContactScene scene;
   const double stiffness = patch.area_springs ? patch.stiffness : patch.stiffness / 4.0;
   *scene.law = {stiffness, 0.0, 0.0, 0.0, 0.0, patch.area_springs};
@@ -90,7 +90,7 @@ double stress_error(const Simulation& simulation) {
 
 }  // namespace
 
-PatchErrors press(const ContactPatch& patch) {
+PatchErrors press(const PatchTest& patch) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Simulation simulation = put_together(patch);
   const bool total = patch.formulation == Formulation::total;

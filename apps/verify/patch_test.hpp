@@ -7,7 +7,7 @@
 namespace ashlar {
 
 /// Two cubes of 1 m, E = 1e9 Pa, their common faces divided into triangles that do not match, p = 1e6 Pa.
-struct ContactPatch {
+struct PatchTest {
   double poisson_ratio = 0.3;
   int order = 1;
   bool area_springs = true;
@@ -25,6 +25,6 @@ struct PatchErrors {
   double jump;    ///< largest |gap + p/kn| kn/p
 };
 
-[[nodiscard]] PatchErrors press(const ContactPatch& patch);
+[[nodiscard]] PatchErrors press(const PatchTest& patch);
 
 }  // namespace ashlar
