@@ -19,9 +19,9 @@
 namespace ashlar {
 namespace {
 
-/// Takes one block on to the end of the step, with its entries of the ledger. What the equations say about the
-/// work of all forces and what the kinetic energy gained differ by what the integrator takes.
-/// @return energy that the integrator takes beside that of elasticity and contacts, J
+/// Moves one block to the end of the step and makes its entries in the ledger. The integrator's energy is the
+/// difference between the work of all forces according to the equations and the gain of kinetic energy.
+/// @return energy dissipated by the integrator, besides that of elasticity and contacts, J
 double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme, const BodyStep& body) {
   const BlockModel& block = run.blocks()[k];
   BlockState& state = run.state.states[k];
@@ -30,7 +30,7 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   const double density = block.material().density;
   const Eigen::MatrixX3d change = block.space().expand(body.change);
   const bool driven = body.prescribed.size() > 0;
-  // The velocity of the unknowns; that of supports that move is orthogonal to it.
+  // Velocity of the unknowns; that of moving supports is orthogonal to it.
   const Eigen::MatrixX3d velocity =
       driven ? block.space().expand(block.space().restrict(state.velocity)) : state.velocity;
   const bool carried = !run.state.accelerations.empty();
@@ -46,18 +46,18 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
   ledger.damping_took(body.motion().cwiseProduct(internal - body.elastic.force).sum());
   Eigen::MatrixX3d end_velocity = scheme.end_velocity(change, velocity, acceleration);
   if (block.rigid()) {
-    // Momenta are those along these fields: they stay.
+    // Momenta are components along these fields, which are kept.
     const Eigen::MatrixXd fields = rigid_fields(state.position + body.motion());
     end_velocity = block.space().expand(fields * (fields.transpose() * block.space().restrict(end_velocity)));
   }
   const double kinetic_gain = 0.5 * density * (end_velocity.squaredNorm() - velocity.squaredNorm());
   if (driven) {
     Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
-    // In statics time stands for loads.
+    // In statics time parametrises the loads.
     if (scheme.step > 0.0)
       rate = scheme.from_rest ? Eigen::MatrixX3d(body.prescribed / scheme.step)
                               : block.prescribed_velocity(body.prescribed, clock.time(), scheme.step);
-    // Supports push against inertia and all forces but those of contacts, which are booked by pair.
+    // Supports act against inertia and all forces but those of contacts, which are booked by pair.
     const Eigen::MatrixX3d external = external_force(run.system, clock, static_cast<int>(k), scheme);
     ledger.loads_did(0.5 * density * (rate.squaredNorm() - (state.velocity - velocity).squaredNorm()) +
                      body.prescribed.cwiseProduct(internal - external).sum());
@@ -66,7 +66,7 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
     state.velocity = end_velocity;
   }
   state.position += body.motion();
-  // Rounding must not strain it in the course of time.
+  // Prevents rounding errors from accumulating as strain.
   if (block.rigid()) state.position = block.rigid_position(state.position);
   const Eigen::VectorXd smooth = body.external_force - block.space().restrict(internal);
   const double work = density * scheme.inertia * body.change.dot(body.change - body.free_change) +
@@ -85,7 +85,7 @@ struct PotentialSum {
   double change = 0.0;
 };
 
-/// Moves all blocks. @return energy that the integrator took of each block, elasticity included, J
+/// Moves all blocks. @return energy dissipated by the integrator in each block, elasticity included, J
 std::vector<double> move_blocks(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
                                 PotentialSum& potential) {
   LedgerKeeper& ledger = run.state.ledger;
@@ -105,7 +105,7 @@ std::vector<double> move_blocks(const RunContext& run, const TimeScheme& scheme,
   return dissipated;
 }
 
-/// Gives free blocks back what a step took from their spin, see angular_momentum.hpp.
+/// Returns to free blocks the spin that a step has removed, see angular_momentum.hpp.
 /// @param before states at the start of the step. @param dissipated by the integrator in each block, J
 void keep_angular_momentum(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
                            const std::vector<BlockState>& before, const std::vector<double>& dissipated) {
@@ -138,7 +138,7 @@ void keep_angular_momentum(const RunContext& run, const TimeScheme& scheme, cons
           block.space().expand(forces[at(k)]) - scheme.mass_damping * block.material().density * damped;
       stray += stray_angular_momentum(block, start, end, known, scheme.step, origin);
     }
-    // generalized-alpha gives energy back that it took before.
+    // generalized-alpha returns energy that it took before.
     if (!run.state.accelerations.empty()) limit = std::numeric_limits<double>::infinity();
     const double gain = add_spin(blocks, body, -stray, std::max(limit, 0.0), run.state.states);
     run.state.ledger.integrator_took(-gain);
@@ -146,16 +146,16 @@ void keep_angular_momentum(const RunContext& run, const TimeScheme& scheme, cons
   }
 }
 
-/// Whether one of two blocks moves; contacts between others stay as they were.
+/// True if one of two blocks moves; contacts between other blocks stay as they were.
 bool is_live(const RunContext& run, int a, int b) {
   return run.system.moving()[at(a)] || run.system.moving()[at(b)];
 }
 
-/// Books what the springs hold anew since the end of the last step.
+/// Books the change of spring energy due to re-detected contacts since the end of the last step.
 void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // Springs of one pair may take over what those of another one held.
   double change = 0.0;
-  std::set<PairKey> going_on;  // these, like ties, are the same as before
+  std::set<PairKey> going_on;  // their springs, like ties, are the same as before
   for (const ContactPair& pair : pairs) {
     if (pair.goes_on())
       going_on.insert({pair.a(), pair.b()});
@@ -169,14 +169,14 @@ void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) 
   run.state.ledger.found_anew(change);
 }
 
-/// Counts what multipliers have taken from the blocks of a pair; what they give beyond that is booked as gained.
-/// @param work J; negative: given
+/// Adds energy that the blocks of a pair have spent on multipliers to its account. Energy released beyond the account
+/// is booked as gained. @param work J; negative: released
 void take_for_multipliers(const RunContext& run, const ContactPair& pair, double work) {
   run.state.ledger.multipliers_gave(book(work, run.state.pairs[{pair.a(), pair.b()}].taken));
 }
 
-/// In statics multipliers take over from springs that blocks have pressed together, pass by pass. Energy of springs of the
-/// pair's own stiffness that bear the same forces, J: motion from there may give it back (augmented_contact.md).
+/// In statics multipliers gradually replace compressed springs. Returns the energy of springs of the pair's own
+/// stiffness under the same forces, J. Motion from there may release it (augmented_contact.md).
 double taken_in_statics(const ContactPair& pair, const PairResponse& response) {
   double energy = 0.0;
   for (std::size_t k = 0; k < response.points.size(); ++k) {
@@ -200,7 +200,7 @@ void tally_friction(const std::vector<PointResponse>& acted, const std::vector<P
   }
 }
 
-/// Adds what a pair that dilates slid in a step.
+/// Adds the slip of a dilating pair in a step.
 void tally_slip(const ContactPair& pair, const PairResponse& response, const Eigen::VectorXd& ya,
                 const Eigen::VectorXd& yb, DilatingSlip& tally) {
   const Eigen::Matrix3Xd moved = pair.motion(ya, yb);
@@ -225,14 +225,14 @@ void count_states(const std::vector<PointResponse>& points, StepReport& report) 
   }
 }
 
-/// Of a pair's points that are below the surface, m, >= 0. Springs may be open and at rest there.
+/// Largest depth of a pair's points, m, >= 0. Springs may be open and unloaded there.
 double deepest_of(const std::vector<double>& gaps) {
   double deepest = 0.0;
   for (const double gap : gaps) deepest = std::max(deepest, -gap);
   return deepest;
 }
 
-/// Leaves what is known of pairs of which no block moves, with its part of the report, and forgets the others.
+/// Keeps records of pairs whose blocks do not move, with their part of the report, and drops the others.
 void keep_sleeping_pairs(const RunContext& run) {
   StepReport& report = run.state.report;
   for (auto& [blocks, pair] : run.state.pairs)
@@ -258,7 +258,7 @@ struct AcceptedPair {
   const StoppedPair& stopped;
 };
 
-/// Keeps what the points of a pair remember, and the record of the step. @param work of the step, J
+/// Stores the memory of the points of a pair, and the record of the step. @param work of the step, J
 /// @param bulge of both blocks, m
 void remember(const RunContext& run, const AcceptedPair& accepted, const TimeScheme& scheme, double work,
               double bulge) {
@@ -293,7 +293,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
       {pair.a(), pair.b(), pair.points(), std::move(acted), std::move(gaps), history.work});
 }
 
-/// How far the surface of each block is off its cells, measured where it is asked for.
+/// Distance of the surface of each block from its cells, measured on first use.
 class Bulges {
  public:
   explicit Bulges(const RunContext& run) : run_(run) {}
@@ -309,7 +309,7 @@ class Bulges {
   std::map<int, double> bulges_;
 };
 
-/// Books the work of all contacts and ties, and keeps what contacts remember.
+/// Books the work of all contacts and ties, and stores the contact memory.
 void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
                      PotentialSum potential) {
   const std::vector<StoppedPair> stopped = stop_at_contacts(run, scheme, problem);

@@ -1,4 +1,4 @@
-// What a run takes over from a step that was accepted: motion, energies, memory of contacts.
+// Updates a run with an accepted step: motion, energies and contact memory.
 #pragma once
 
 #include "solver/step/run_context.hpp"
@@ -6,7 +6,8 @@
 
 namespace ashlar {
 
-/// Moves all blocks to the end of a solved problem and books its energies. Takes from the problem what it keeps.
+/// Moves all blocks to the end of a solved problem and books its energies. Moves the data it keeps out of the
+/// problem.
 void accept(const RunContext& run, const TimeScheme& scheme, StepProblem& problem);
 
 }  // namespace ashlar

@@ -9,7 +9,7 @@
 namespace ashlar {
 namespace {
 
-/// Coefficients of the position of a block from a point on.
+/// Coefficients of the position of a block relative to a point.
 Eigen::MatrixX3d arms_of(const BlockModel& block, const BlockState& state, const Vector3& point) {
   return from_point(state.position, block.basis().volume(), point);
 }
@@ -53,9 +53,9 @@ double add_spin(const std::vector<BlockModel>& blocks, const std::vector<int>& b
     inertia +=
         blocks[at(k)].material().density * unit_inertia(arms_of(blocks[at(k)], states[at(k)], centroid));
   }
-  // A moment that is lost in the rounding of the largest one, as that of a needle about its axis, takes none.
+  // A moment lost in the rounding of the largest one, as that of a needle about its axis, gives no spin.
   const Vector3 spin = inertia.completeOrthogonalDecomposition().solve(angular_momentum);
-  // The kinetic energy is gained as  linear s + square s^2  with the share s of the spin.
+  // The gain of kinetic energy is  linear s + square s^2  with the share s of the spin.
   double linear = 0.0;
   const double square = 0.5 * spin.dot(angular_momentum);
   for (const int k : body)

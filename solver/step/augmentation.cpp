@@ -7,12 +7,11 @@
 namespace ashlar {
 namespace {
 
-// How far a point is from where multipliers alone would hold it, as a share of what it may give way by:
-// settings.multipliers.share of the tolerance, and of a point that goes deeper as much less as the depth
-// where it was found leaves.
+// Deformation of a point's springs over the allowed one: settings.multipliers.share of the tolerance. The allowed
+// compression is reduced for points detected at a depth, in proportion to the remaining depth.
 double compression_of(const PointLaw& law, const PointResponse& point, double gap,
                       const SimulationSettings& settings) {
-  constexpr double least = 0.01;  // of what a point at the surface may give way by
+  constexpr double least = 0.01;  // of the allowed deformation of a point at the surface
   if (!law.augmented || point.state == ContactState::open) return 0.0;
   const double allowed = settings.multipliers.share * settings.multipliers.penetration_tolerance;
   const double left = std::clamp(1.0 + gap / settings.multipliers.tolerated_depth(), least, 1.0);
@@ -29,8 +28,8 @@ double compression_of(const PointLaw& law, const PointResponse& point, double ga
 }  // namespace
 
 bool Augmentation::stiffen() {
-  constexpr double margin = 4.0;  // forces grow when springs do
-  constexpr double most = 1e4;    // at once
+  constexpr double margin = 4.0;  // forces grow as springs are stiffened
+  constexpr double most = 1e4;    // in one update
   bool stiffer = false;
   for (std::size_t pair = 0; pair < problem_.pairs(); ++pair) {
     for (std::size_t k = 0; k < problem_.laws()[pair].size(); ++k) {

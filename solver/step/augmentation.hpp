@@ -1,9 +1,9 @@
 // Augmented contact within the open-close iteration of a step.
 //
-// A step starts with the forces of the last one as multipliers (Uzawa, one update a step). What the forces change by is
-// left to springs, each made as stiff as it takes to hold its point within a quarter of
-// settings.multipliers.penetration_tolerance of where it was. A pair that would so give its blocks more than it has
-// taken from them starts from less force instead.
+// A step starts with the forces of the last one as multipliers (Uzawa, one update a step). Springs transmit the
+// change of force. Each spring is stiff enough to hold its point within a quarter of
+// settings.multipliers.penetration_tolerance of its initial place. If a pair would release more energy than its
+// blocks have spent on it, its multipliers are lowered instead.
 #pragma once
 
 #include "solver/step/island_equations.hpp"
@@ -12,24 +12,25 @@ namespace ashlar {
 
 class Augmentation {
  public:
-  /// @param problem outlives this
+  /// @param problem must outlive this
   explicit Augmentation(IslandProblem& problem) : problem_(problem) {}
 
-  /// Stiffens springs, or where none is too soft lowers multipliers, as the balanced forces ask for. @return whether
-  /// any have changed
+  /// Stiffens springs as the balanced forces require, or lowers multipliers if no spring is too soft. @return true if
+  /// anything has changed
   bool adjust() { return stiffen() || lower_multipliers(); }
 
  private:
-  /// Makes springs beside multipliers as stiff as the step's change of forces asks for. @return whether any
-  /// were too soft
+  /// Stiffens springs beside multipliers as the change of force in the step requires. @return true if any were too
+  /// soft
   bool stiffen();
-  /// Where a pair gives its blocks more than it has taken from them, points whose force falls in the step
-  /// start it from less force than they end it with: then they take. Forces that hardly fall hardly change,
-  /// so that rounding says nothing. @return whether any was lowered
+  /// Applies to pairs that release more energy than their blocks have spent on them. Lowers the multipliers of points
+  /// whose force falls in the step below the force at its end, so that the pair dissipates. A multiplier changes in
+  /// proportion to the fall of its force, so that rounding errors have no effect. @return true if any was lowered
   bool lower_multipliers();
 
   IslandProblem& problem_;
-  double beyond_ = 0.5;  ///< multiples of a fall of force that multipliers are lowered below it
+  double beyond_ = 0.5;  ///< multiple of the fall of force by which a multiplier is lowered below the force
+                         ///< at the end
 };
 
 }  // namespace ashlar

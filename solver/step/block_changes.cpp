@@ -49,7 +49,7 @@ void replace_model(const RunContext& run, int block, BlockModel model) {
   run.system.replace(block, std::move(model));
   run.contacts.finder().renew(block, run.blocks()[at(block)], run.state.pairs);
   run.audit.forget(at(block));
-  // Systems are as large as their blocks' unknowns.
+  // The systems have as many unknowns as their blocks.
   run.state.log.counts.factors += run.factors.islands.counts();
   run.factors.islands = IslandSolvers(run.settings().linear_method);
 }

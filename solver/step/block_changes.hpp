@@ -1,4 +1,4 @@
-// Blocks whose model changes between steps: incremental blocks, and those that get another order.
+// Blocks whose model changes between steps: incremental blocks and blocks whose order changes.
 #pragma once
 
 #include "solver/step/run_context.hpp"
@@ -6,20 +6,20 @@
 
 namespace ashlar {
 
-/// What a change of order lost.
+/// Losses in a change of order.
 struct DroppedByOrder {
   double displacement = 0.0;  ///< root of the mean square over the block, m
   double velocity = 0.0;      ///< likewise, m/s
   double energy = 0.0;        ///< kinetic, elastic and of gravity, J
 };
 
-/// Makes the next steps of incremental blocks. @return false if one would be no block any more
+/// Computes the next steps of incremental blocks. @return false if one would no longer be a valid block
 [[nodiscard]] bool carry_blocks(const RunContext& run, StepProblem& problem);
 
-/// Goes on with the next step of an incremental block.
+/// Starts the next step of an incremental block.
 void start_carried_step(const RunContext& run, int block, CarriedBlock next);
 
-/// Goes on with another model of the same solid, of another order.
+/// Replaces the model of a block by one of the same solid and another order.
 void replace_model(const RunContext& run, int block, BlockModel model);
 
 /// Changes the order of a moving block of the total formulation, see Simulation::change_order.

@@ -15,7 +15,7 @@
 namespace ashlar {
 namespace {
 
-/// One step: tried with less and less time, or with more contacts, until it can be accepted.
+/// One step: tried with smaller time steps, or with more contacts, until it can be accepted.
 class DynamicStep {
  public:
   DynamicStep(const RunContext& run, double step)
@@ -53,7 +53,7 @@ class DynamicStep {
     ++cuts_;
   }
 
-  /// Makes the contact pairs of the step. Blocks that are too deep are moved apart first.
+  /// Makes the contact pairs of the step. Separates blocks that are too deep beforehand.
   void pair_up() {
     const int most = run_.settings().multipliers.moves_apart;
     problem_.results.clear();
@@ -79,7 +79,7 @@ class DynamicStep {
     return run_.contacts.check_motion(run_.system, run_.state, after, found_);
   }
 
-  /// Cuts the step to the first touch, or adds contacts where blocks at rest on each other's rim would pass.
+  /// Cuts the step to the first touch, or adds contacts where blocks resting on each other's edges would pass.
   void meet(const std::vector<PassingBlocks>& passing) {
     const double first = passing.front().touch.share;
     if (first > run_.settings().search.smallest_cut && cuts_ < run_.settings().max_step_cuts) {
@@ -93,7 +93,7 @@ class DynamicStep {
     pair_up();
   }
 
-  /// Whether the step may end as it does; otherwise it has been cut.
+  /// True if the step may end in its state; otherwise the step has been cut.
   bool can_end() {
     if (!carry_blocks(run_, problem_)) {
       reject(run_, step_, RejectionReason::no_shape);
@@ -109,7 +109,7 @@ class DynamicStep {
     return true;
   }
 
-  /// Takes back that blocks were moved apart; what was done for it stays in the log.
+  /// Undoes the separation of blocks; the log keeps its counts.
   void take_back_moves() {
     if (moves_ == 0) return;
     unmoved_->run.log = run_.state.log;
@@ -121,7 +121,7 @@ class DynamicStep {
   double step_;  ///< s
   std::vector<FoundContacts> found_;
   StepProblem problem_;
-  std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were moved apart
+  std::optional<SimulationSnapshot> unmoved_;  ///< before blocks were separated
   int moves_ = 0;
   int cuts_ = 0;
   int additions_ = 0;

@@ -11,8 +11,8 @@
 namespace ashlar {
 namespace {
 
-/// Whether doubles cannot hold what a step is to do with a block or has done: a square of it that is not
-/// finite, or a way so long that the block's coordinates would be rounded to more than a share of its size
+/// True if the motion of a block exceeds the range of double precision: a force or change whose square is not finite,
+/// or a displacement so large that the block's coordinates would be rounded to more than a share of its size
 /// (notes/lost_blocks.md).
 bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX3d& position, double share) {
   for (const Eigen::VectorXd* vector : {&body.external_force, &body.free_change, &body.change})
@@ -24,14 +24,14 @@ bool is_lost(const BlockModel& block, const BodyStep& body, const Eigen::MatrixX
   return rounding > share * std::cbrt(volume);
 }
 
-/// How deep two blocks may be, m: beyond what they were placed in each other. @param share of the smaller one's size
+/// Allowed depth of two blocks beyond their initial overlap, m. @param share of the smaller one's size
 double allowed_depth(const RunContext& run, int a, int b, double share) {
   const double allowed = run.settings().depth.allowed_depth;
   return history_of(run.state.pairs, {a, b}).overlap +
          (allowed > 0.0 ? allowed : share * run.system.smaller_size({a, b}));
 }
 
-/// How deep blocks are in each other. @param fine see SimulationSettings::depth::fine_interval
+/// Depths of blocks in each other. @param fine see SimulationSettings::depth::fine_interval
 /// @param known of earlier audits
 Audit measure_depths(const RunContext& run, const std::vector<BlockState>& states, bool fine,
                      const KnownDepths& known) {
@@ -45,7 +45,7 @@ Audit measure_depths(const RunContext& run, const std::vector<BlockState>& state
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
 }
 
-/// The pair that is too deep by most. @param known depths of contacts, m
+/// The pair that exceeds its allowed depth by most. @param known depths of contacts, m
 std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<PairDepth>& depths,
                                       const std::map<PairKey, double>& known) {
   std::optional<StateFault> fault;
@@ -60,7 +60,7 @@ std::optional<StateFault> too_deep_of(const RunContext& run, const std::vector<P
     const auto contact = known.find({a, b});
     hold_against(pair, allowed_depth(run, a, b, run.settings().depth.unknown_depth_share) +
                            (contact == known.end() ? 0.0 : contact->second));
-    // A joint of given stiffness gives way as its user has asked for.
+    // A joint of given stiffness deforms as its user has specified.
     if (run.system.law(a, b).rigid)
       hold_against(pair, allowed_depth(run, a, b, run.settings().depth.allowed_depth_share));
   }
@@ -150,7 +150,7 @@ void reject(const RunContext& run, double step, RejectionReason reason) {
 }
 
 void reject_unsettled(const RunContext& run, double step, IslandStatus status, const StepProblem& problem) {
-  // Numbers that overflow settle nowhere.
+  // A step that overflows cannot converge.
   if (const auto broken = broken_block(run, problem); broken && broken->reason == RejectionReason::not_finite)
     return reject(run, step, *broken);
   run.fault.reset();

@@ -12,7 +12,7 @@ struct FactorCache {
   IslandSolvers islands;
   LoneBodyFactors lone;
 
-  /// Forgets factors that did not come up since the last call.
+  /// Drops factors that have not been used since the last call.
   void drop_unused() {
     islands.drop_unused();
     lone.drop_unused();

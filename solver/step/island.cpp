@@ -12,7 +12,7 @@ namespace ashlar {
 IslandSolvers::Entry& IslandSolvers::find(const std::vector<int>& key, const std::vector<int>& sizes,
                                           const std::vector<std::array<int, 2>>& pairs) {
   auto found = entries_.find(key);
-  // Of a snapshot of other blocks.
+  // From a snapshot of other blocks.
   if (found != entries_.end() && (found->second.sizes != sizes || found->second.pairs != pairs)) {
     dropped_ += found->second.factor->counts();
     entries_.erase(found);

@@ -26,24 +26,24 @@ enum class IslandStatus {
 struct BodyStep {
   const BlockModel* model = nullptr;
   const BlockState* state = nullptr;
-  Eigen::VectorXd free_change;     ///< where it goes without forces, see time_scheme.hpp
-  Eigen::VectorXd external_force;  ///< where the integrator takes it
+  Eigen::VectorXd free_change;     ///< change without forces, see time_scheme.hpp
+  Eigen::VectorXd external_force;  ///< evaluated where the integrator requires it
   double roundoff_force = 0.0;     ///< size of the rounding errors of the internal force
   Eigen::VectorXd change;          ///< D, the result
   double largest_force = 0.0;      ///< norm of the largest force that acts on it
-  double residual = 0.0;           ///< norm of that of its equations, N; 0: within its tolerance
-  ElasticResponse elastic;         ///< where the integrator takes it
-  Eigen::MatrixX3d prescribed;     ///< what supports that move add to the position, (p, 3); empty: nothing
-  /// Of damping by stiffness: the elastic force at the start of the step in the frame that turns with the block, (p, 3)
+  double residual = 0.0;           ///< norm of its residual, N; 0: within its tolerance
+  ElasticResponse elastic;         ///< evaluated where the integrator requires it
+  Eigen::MatrixX3d prescribed;     ///< displacement of moving supports, (p, 3); empty: none
+  /// For damping by stiffness: elastic force at the start of the step in the frame that turns with the block, (p, 3)
   Eigen::MatrixX3d start_force;
 
-  /// Of a rigid block: the velocity fields of the middle of its motion, (unknowns, 6); with TimeScheme::impulsive those
-  /// of its position. See follow_rigid()
+  /// For a rigid block: velocity fields at the middle of its motion, (unknowns, 6); with TimeScheme::impulsive at its
+  /// position. See follow_rigid()
   Eigen::MatrixXd fields;
 
-  /// Makes the change of a rigid block the rigid one next to it, and takes the fields there. Does nothing to others.
+  /// Replaces the change of a rigid block by the closest rigid one and updates its fields. No effect on other blocks.
   void follow_rigid(const TimeScheme& scheme);
-  /// What a force on the unknowns is in the block's equations, of which there are model->freedom().
+  /// Projects a force on the unknowns to the block's equations, (model->freedom()).
   [[nodiscard]] Eigen::VectorXd in_equations(const Eigen::VectorXd& force) const {
     return model->rigid() ? Eigen::VectorXd(fields.transpose() * force) : force;
   }
@@ -55,29 +55,29 @@ struct BodyStep {
   [[nodiscard]] Eigen::MatrixX3d motion() const;
   /// Remembers the elastic force at the start of the step.
   void note_start_force();
-  /// `elastic.force` and that of the damping by stiffness, (p, 3). To be called before the state is moved on
+  /// `elastic.force` and the force of damping by stiffness, (p, 3). To be called before the state is updated
   [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
 };
 
 /// Result of one island.
 struct IslandResult {
   IslandStatus status = IslandStatus::converged;
-  int iterations = 0;                       ///< guesses that were balanced or found not to be
+  int iterations = 0;                       ///< evaluated guesses
   int fallbacks = 0;                        ///< times the fallback was needed
   std::vector<PairResponse> responses;      ///< of the island's pairs, at the end of the step
   std::vector<std::vector<PointLaw>> laws;  ///< of their points: broken joints, multipliers
-  /// Pairs whose rows were taken anew, by index: those that responses are of
+  /// Pairs whose rows were updated, by index. The responses belong to them.
   std::vector<std::pair<int, ContactPair>> followed;
-  /// Of what did not settle: blocks of the pair whose points have changed their states most often; -1: none did
+  /// If not converged: blocks of the pair whose points have changed state most often; -1: none did
   std::array<int, 2> alternating = {-1, -1};
 };
 
-/// A factor that later steps may use, by what it takes to make it again.
+/// Factor that later steps may use, by the data that it is rebuilt from.
 struct KeptFactor {
   std::vector<int> key;  ///< IslandSolvers::find
   std::vector<int> sizes;
   std::vector<std::array<int, 2>> pairs;
-  std::vector<double> values;  ///< of the matrix that was factorised
+  std::vector<double> values;  ///< of the factorised matrix
   double inertia = 0.0;
 };
 
@@ -90,19 +90,19 @@ class IslandSolvers {
     BlockMatrix matrix;
     std::unique_ptr<LinearSolver> factor;
     bool used = true;
-    double inertia = 0.0;  ///< TimeScheme::inertia of the factor; 0: it is of no use in another step
+    double inertia = 0.0;  ///< TimeScheme::inertia of the factor; 0: not usable in another step
   };
   explicit IslandSolvers(LinearMethod method) : method_(method) {}
 
   /// The solver of an island. @param key role, block indices, then pairs
   [[nodiscard]] Entry& find(const std::vector<int>& key, const std::vector<int>& sizes,
                             const std::vector<std::array<int, 2>>& pairs);
-  /// Forgets the solvers of islands that did not come up since the last call.
+  /// Drops the solvers of islands that have not come up since the last call.
   void drop_unused();
   [[nodiscard]] FactorCounts counts() const;
   /// Factors that later steps may use: results depend on them.
   [[nodiscard]] std::vector<KeptFactor> kept() const;
-  /// Makes them again, and forgets all others and all counts.
+  /// Rebuilds kept factors and drops all others and all counts.
   /// @throws std::invalid_argument unless they are factors of such matrices
   void restore(const std::vector<KeptFactor>& kept);
 
@@ -131,7 +131,7 @@ void validate(const std::vector<Island>& islands, const std::vector<bool>& movin
 [[nodiscard]] std::vector<std::array<int, 2>> contacts_of(const Island& island,
                                                           const std::vector<ContactPair>& pairs);
 
-/// What a system is for; each keeps its own factor.
+/// Purpose of a system; each keeps its own factor.
 enum class SystemRole { step, stop };
 /// The solver of an island's system.
 [[nodiscard]] IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep>& bodies,
@@ -143,7 +143,7 @@ enum class SystemRole { step, stop };
 [[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
                                         const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                                         const SimulationSettings& settings, IslandSolvers& solvers);
-/// The same with its solver at hand: islands may be solved at the same time.
+/// As above with a given solver: islands may be solved at the same time.
 [[nodiscard]] IslandResult solve_island(const Island& island, std::vector<BodyStep>& bodies,
                                         const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                                         const SimulationSettings& settings, IslandSolvers::Entry& solver);

@@ -27,7 +27,7 @@ void IslandProblem::follow_rigid_bodies() {
 }
 
 int IslandProblem::threads() const {
-  constexpr std::size_t worth_it = 32;  // pairs: less work than it takes to share it out
+  constexpr std::size_t worth_it = 32;  // pairs: below it threads cost more than they save
   return pairs() < worth_it ? 1 : settings_.threads;
 }
 
@@ -105,7 +105,7 @@ void IslandProblem::judge(Residual& residual, const std::vector<ForceErrors>& er
         residual.force.segment(solver_.matrix.offset(static_cast<int>(k)), body.model->freedom()).norm();
     if (left == 0.0) continue;
     const double share = left / (tolerance * scale + rounding);
-    // Numbers that overflowed have settled nothing, and no comparison with them may say so.
+    // An overflow is never converged, and comparisons with it are unreliable.
     const bool finite = std::isfinite(share) && std::isfinite(scale);
     residual.relative[k] = finite ? share : std::numeric_limits<double>::infinity();
     residual.largest = std::max(residual.largest, residual.relative[k]);

@@ -1,5 +1,5 @@
-// The equations of one island within a step at a guess of the changes (time_scheme.hpp): evaluate them, ask what is
-// left, move on. island_tangent.hpp linearises and solves them.
+// The equations of one island within a step at a guess of the changes (time_scheme.hpp): responses, residual and
+// update of the guess. island_tangent.hpp linearises and solves them.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct Residual {
   std::vector<double> relative;  ///< norm on each body over its tolerance
   double largest = 0.0;          ///< of `relative`; <= 1: converged
   double sum = 0.0;  ///< of `relative`: decreases from guess to guess where the largest does not yet
-  double largest_by_force = 0.0;  ///< norm on a body over the largest force on it: the largest
+  double largest_by_force = 0.0;  ///< largest norm on a body over the largest force on it
   std::vector<double> scales;     ///< norm of the largest force on each body, N
   [[nodiscard]] bool converged() const { return largest <= 1.0; }
 };
@@ -25,7 +25,7 @@ struct Residual {
 /// Uncertainty of the contact forces on a body, N.
 struct ForceErrors {
   double rounding = 0.0;
-  double in_doubt = 0.0;  ///< of points that are closed within rounding error only
+  double in_doubt = 0.0;  ///< of points that are closed only within rounding error
 };
 
 /// A guess with its responses.
@@ -39,11 +39,11 @@ struct Evaluation {
 enum class Predictor {
   free_motion,  ///< under the external forces, without contacts
   inertial,     ///< without any force
-  at_rest,      ///< none: a block in contact hardly moves, whichever way it vibrates
+  at_rest,      ///< no motion: a block in contact hardly moves, whichever way it vibrates
 };
 
-/// Owns the laws of the island's contact points while a step is solved: limits that are held, joints that
-/// break and multipliers change there. `pairs` below counts the island's pairs, not those of the step.
+/// Owns the laws of the island's contact points during a step, where held bounds, failing joints and multipliers
+/// change. `pairs` below counts the island's pairs, not those of the step.
 class IslandProblem {
  public:
   IslandProblem(const Island& island, std::vector<BodyStep>& bodies, const std::vector<ContactPair>& pairs,
@@ -52,10 +52,10 @@ class IslandProblem {
   void predict(Predictor guess);
   /// Elastic and contact responses at the present guess.
   void respond();
-  /// Takes responses that are not those of the laws. @param responses of the island's pairs
+  /// Sets responses other than those of the laws. @param responses of the island's pairs
   void set_responses(std::vector<PairResponse> responses) { responses_ = std::move(responses); }
   [[nodiscard]] Residual residual() const;
-  /// Takes a residual that was found at the present guess for that of the last call of residual().
+  /// Sets the residual of the last call of residual() to one computed earlier at the present guess.
   void recall(const Residual& residual) const;
   /// Forces of the last responses alone, N, in the island's equations.
   [[nodiscard]] Eigen::VectorXd contact_forces() const;
@@ -69,8 +69,8 @@ class IslandProblem {
 
   [[nodiscard]] std::vector<Eigen::VectorXd> guess() const;
   void set_guess(const std::vector<Eigen::VectorXd>& guess);
-  /// Moves the present guess out with its responses, for another one to be evaluated; back, as long as laws are the
-  /// same.
+  /// Moves the present guess with its responses out, so that another one can be evaluated. take_back() restores it,
+  /// as long as the laws are unchanged.
   [[nodiscard]] Evaluation set_aside();
   void take_back(Evaluation evaluation);
   /// States of all points at the last responses, in a fixed order.
@@ -80,9 +80,9 @@ class IslandProblem {
   [[nodiscard]] const BodyStep& body(std::size_t place) const { return bodies_[at(island_.bodies[place])]; }
   /// A block of the step, moving or not.
   [[nodiscard]] const BodyStep& block(int index) const { return bodies_[at(index)]; }
-  /// Of a pair's blocks among the island's bodies; -1: it does not move.
+  /// Indices of a pair's blocks among the island's bodies; -1: fixed.
   [[nodiscard]] const std::array<int, 2>& places(std::size_t pair) const { return places_[pair]; }
-  /// Where the elastic force of a body is taken. @return position, (p, 3)
+  /// Position at which the elastic force of a body is evaluated, (p, 3).
   [[nodiscard]] Eigen::MatrixX3d taken_at(const BodyStep& body) const;
   [[nodiscard]] IslandSolvers::Entry& solver() const { return solver_; }
   /// Worker threads for loops over pairs; results are independent of their number.
@@ -90,7 +90,7 @@ class IslandProblem {
 
   [[nodiscard]] std::size_t pairs() const { return island_.pairs.size(); }
   [[nodiscard]] const ContactPair& pair(std::size_t k) const;
-  /// Takes a pair for one of the island's.
+  /// Replaces a pair of the island.
   void replace(std::size_t k, ContactPair pair) { replaced_.insert_or_assign(k, std::move(pair)); }
   /// Gaps of a pair's points at the present guess, m.
   [[nodiscard]] std::vector<double> gaps(std::size_t pair) const;
@@ -99,25 +99,25 @@ class IslandProblem {
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
-  /// Takes rows to the middle and gaps to the end of the step at the present guess (ContactPair::follow), of
-  /// pairs where that makes a difference. @param tolerance of gaps, m. @return whether there are any
+  /// Updates rows to the middle and gaps to the end of the step at the present guess (ContactPair::follow), for pairs
+  /// where this changes the gaps. @param tolerance of gaps, m. @return true if any pair was updated
   [[nodiscard]] bool follow_contacts(double tolerance);
-  /// Work of a pair's contact on its blocks at the last responses, that of sliding left out, J.
+  /// Work of a pair's contact on its blocks at the last responses without that of sliding, J.
   [[nodiscard]] double given(std::size_t pair) const;
-  /// Moves responses, laws and pairs that were followed out, when the iteration has ended.
+  /// Moves responses, laws and updated pairs out at the end of the iteration.
   void hand_over(IslandResult& result);
 
  private:
-  /// Adds forces of pairs to a residual. @param errors by body: what rounding leaves of them, and what is in doubt, N
+  /// Adds forces of pairs to a residual. @param errors by body: rounding error and force within rounding error, N
   void add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const;
   /// Adds the force on a body's unknowns to a residual.
   void add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const;
   /// Residual of each body relative to its tolerance.
   void judge(Residual& residual, const std::vector<ForceErrors>& errors) const;
-  /// After each change of the guess.
+  /// Updates rigid bodies after each change of the guess.
   void follow_rigid_bodies();
   [[nodiscard]] BlockInStep placed(const BodyStep& body) const;
-  /// What rows that are not taken anew leave out of the gaps of a pair's closed points, m.
+  /// Largest error of the gaps of a pair's closed points due to rows that are not updated, m.
   [[nodiscard]] double left_out(std::size_t pair) const;
 
   const Island& island_;
@@ -126,11 +126,11 @@ class IslandProblem {
   const SimulationSettings& settings_;
   const TimeScheme& scheme_;
   IslandSolvers::Entry& solver_;
-  /// Where a pair was followed.
+  /// State at which the rows of a pair were updated.
   struct Followed {
     Eigen::VectorXd change_a;
     Eigen::VectorXd change_b;
-    Eigen::Matrix3Xd motion;  ///< of its points then
+    Eigen::Matrix3Xd motion;  ///< of its points at that state
   };
 
   std::vector<std::array<int, 2>> places_;  ///< by pair

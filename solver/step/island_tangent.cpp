@@ -10,7 +10,7 @@
 namespace ashlar {
 namespace {
 
-/// A tangent on the unknowns of two blocks as one on their equations.
+/// Projects a tangent on the unknowns of two blocks to their equations.
 PairTangent in_equations(PairTangent tangent, const BodyStep& a, const BodyStep& b) {
   if (a.model->rigid()) {
     if (tangent.aa.size() > 0) tangent.aa = a.fields.transpose() * tangent.aa * a.fields;
@@ -71,7 +71,7 @@ FactorStatus IslandTangent::factorize_assembled(bool kept) {
   solver_.inertia = 0.0;
   FactorStatus status = solver_.factor->factorize(solver_.matrix.matrix());
   if (status == FactorStatus::not_positive_definite) {
-    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to where the forces residual.
+    // Compressed St.-Venant-Kirchhoff blocks: a positive tangent still leads to the balance of forces.
     assemble(true);
     status = solver_.factor->factorize(solver_.matrix.matrix());
   }
@@ -154,7 +154,7 @@ void IslandTangent::add_pairs(std::vector<PairProduct>& products, const Eigen::V
     one.on_b.setZero(of_b.size());
     problem_.pair(one.pair).rows().add_product(one.points, of_a, of_b, one.on_a, one.on_b);
   });
-  // In the order of pairs, whatever thread has done which.
+  // In the order of pairs, independent of the threads.
   for (const PairProduct& one : products) {
     const auto& [a, b] = problem_.places(one.pair);
     if (a >= 0) forces[at(a)] += one.on_a;

@@ -7,8 +7,8 @@
 namespace ashlar {
 namespace {
 
-// A point fails by opening. Its residual cohesion acts from the next step on where it is closed then: in this one
-// its shear force would jump with each change of state.
+// A point fails by opening. Its residual cohesion acts from the next step on if it is closed then: in this step its
+// shear force would jump with each change of state.
 void open(PointLaw& law) {
   law.fail();
   law.cohesion = 0.0;

@@ -1,8 +1,8 @@
 // How joints fail within the open-close iteration of a step.
 //
-// Joints with tensile strength hold whatever pulls until that is balanced; where the balanced pull exceeds the strength
-// the joints that are overstressed most break, for good, and the iteration goes on: there are no more rounds than
-// joints. Cohesion likewise lasts across gaps until a balance shows which points have opened.
+// Joints with tensile strength resist any tension until the forces are balanced. If the balanced tension exceeds the
+// strength, the most overstressed joints fail permanently and the iteration continues: there are no more rounds than
+// joints. Cohesion likewise acts across gaps until a balance shows which points have opened.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,16 @@ namespace ashlar {
 
 class JointFailure {
  public:
-  /// Bonds the joints of an island. @param problem outlives this
+  /// Bonds the joints of an island. @param problem must outlive this
   explicit JointFailure(IslandProblem& problem);
 
-  /// Breaks the joints with at least half of the largest overstress, or where none is overstressed those that
-  /// have opened. @return whether there are any
+  /// Fails the joints with at least half of the largest overstress, or if none is overstressed those that have
+  /// opened.
+  /// @return true if any has failed
   bool break_joints();
 
  private:
-  /// Points with cohesion that have opened by more than rounding may make fail. @return whether there are any
+  /// Fails points with cohesion that have opened by more than rounding error. @return true if any has failed
   bool open_joints();
 
   IslandProblem& problem_;

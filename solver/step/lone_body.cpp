@@ -70,7 +70,7 @@ std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& sc
     const double rounding = body.roundoff_force + 8.0 * std::numeric_limits<double>::epsilon() * mass *
                                                       (body.change.norm() + body.free_change.norm());
     if (!std::isfinite(body.largest_force)) return std::nullopt;
-    // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
+    // From rest, the residual of the initial guess is within the last iteration's bound of rounding errors, which is
     // wide.
     if (left.norm() <= tolerance * body.largest_force + rounding && !(scheme.from_rest && k == 0))
       return result;

@@ -35,7 +35,7 @@ class OpenClose {
         result_(result),
         may_split_(!problem.scheme().from_rest && problem.pairs() >= many_pairs) {}
 
-  /// Blocks of the pair whose points have changed their states most often; -1: none did.
+  /// Blocks of the pair whose points have changed state most often; -1: none did.
   [[nodiscard]] std::array<int, 2> alternating() const {
     const auto most = std::max_element(changes_.begin(), changes_.end());
     if (most == changes_.end() || *most == 0) return {-1, -1};
@@ -72,7 +72,7 @@ class OpenClose {
   }
 
  private:
-  /// The residual of a converged step is as good as random: later steps inherit it, and undamped motions amplify it. One
+  /// The residual of a converged step is nearly random. Later steps inherit it, and undamped motions amplify it. One
   /// more solution with the last factor removes most of it.
   void polish() {
     const Residual residual = next_residual();
@@ -85,12 +85,12 @@ class OpenClose {
     problem_.recall(residual);
   }
 
-  /// Takes rows of contact points to where they act. @return whether any were elsewhere
+  /// Updates rows of contact points to where they act. @return true if any has changed
   bool follow() {
     return followed_ = !problem_.scheme().from_rest && problem_.follow_contacts(settings_.followed_gap());
   }
 
-  /// That of the present guess, evaluated unless it is known.
+  /// Residual of the present guess, evaluated unless it is known.
   [[nodiscard]] Residual next_residual() {
     if (!known_residual_) return problem_.residual();
     Residual residual = std::move(*known_residual_);
@@ -99,7 +99,7 @@ class OpenClose {
     return residual;
   }
 
-  /// Contact and elastic responses at a guess that has changed.
+  /// Contact and elastic responses at a changed guess.
   void respond() {
     known_residual_.reset();
     problem_.respond();
@@ -113,9 +113,9 @@ class OpenClose {
     double last_gain = least_;
     int without_gain = 0;
     bool last_factor = false;  // was used once more
-    // Rows that were taken anew hardly differ: the last factor will do while it takes nine tenths each time.
+    // Updated rows differ little: the last factor is used while it reduces the residual by nine tenths each time.
     constexpr double most_of_it = 0.1;
-    // Where states are as they were, what a system has taken so much of it will take so much of again.
+    // With unchanged states, a system that has reduced the residual so far will do so again.
     constexpr double nearly_all = 1e-2;
     double before = 0.0;
     double last =
@@ -123,14 +123,14 @@ class OpenClose {
     for (int k = 1; k <= most; ++k) {
       ++result_.iterations;
       Residual residual = next_residual();
-      // From rest, the first guess lacks no more than the last iteration's bound of rounding errors, which is
-      // wide.
+      // From rest, the residual of the initial guess is within the last iteration's bound of rounding errors, which
+      // is wide.
       if (residual.converged() &&
           (residual.force.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1))) {
         known_residual_ = std::move(residual);
         return Outcome::converged;
       }
-      // Slip that turns round leaves the states as they are.
+      // Reversed slip leaves the states unchanged.
       const bool halved = residual.sum < 0.5 * last_gain;
       without_gain = halved ? 0 : without_gain + 1;
       if (halved) last_gain = residual.sum;
@@ -151,7 +151,7 @@ class OpenClose {
       }
       if (!seen.empty()) note_changes(seen.back(), states);
       seen.push_back(std::move(states));
-      // The last system will do for what is left.
+      // The last system is good enough for the residual.
       const bool falls = residual.largest < most_of_it * last;
       last = falls ? residual.largest : 0.0;
       const double worst_before = std::exchange(before, residual.largest);
@@ -175,7 +175,7 @@ class OpenClose {
     return Outcome::stalled;
   }
 
-  /// Counts the points of each pair that are in another state than before.
+  /// Counts the points of each pair whose state has changed.
   void note_changes(const std::vector<ContactState>& before, const std::vector<ContactState>& states) {
     changes_.resize(problem_.pairs(), 0);
     if (before.size() != states.size()) return;
@@ -209,8 +209,9 @@ class OpenClose {
     respond();
   }
 
-  /// Takes the nearest guess for the answer of an iteration of a static analysis: the next one goes on from there.
-  /// @return false unless it is near enough
+  /// Accepts the guess of smallest residual for an iteration of a static analysis. The next iteration continues from
+  /// it.
+  /// @return false unless its residual is small enough
   bool take_nearest() {
     if (nearest_.largest_by_force > settings_.statics.unsettled_share) return false;
     problem_.set_guess(nearest_.guess);
@@ -226,7 +227,7 @@ class OpenClose {
     Eigen::VectorXd last_change;
     for (int pass = 0; pass < settings_.iteration.fallback_passes; ++pass) {
       hold(limits);
-      // A minimum need not be met better than its bounds are known; newton() sees to the rest.
+      // The minimum need not be more accurate than its bounds; newton() does the rest.
       const double target = std::max(1.0, settings_.iteration.minimiser_share * least_);
       if (const Outcome inner = minimise_held(target); inner != Outcome::converged) return inner;
       release();
@@ -246,8 +247,8 @@ class OpenClose {
     return Outcome::stalled;
   }
 
-  /// Where a repetition whose changes shrink, grow or turn round by a factor leads, in units of the last one.
-  /// Forces are bounded: what grows meets another solution ahead.
+  /// Extrapolated limit of a repetition whose changes shrink, grow or alternate by a factor, in units of the last
+  /// one. Forces are bounded: a growing change meets another solution ahead.
   static double way_on(const Eigen::VectorXd& change, const Eigen::VectorXd& last_change) {
     constexpr double farthest = 10.0;
     const double last = last_change.squaredNorm();
@@ -269,19 +270,19 @@ class OpenClose {
     return Outcome::stalled;
   }
 
-  /// A guess on a line: its share of the change, and what is done there per share.
+  /// A guess on a line: its share of the change, and the work per share.
   struct OnLine {
     double share;
     double work;      ///< of all forces, J
     double contacts;  ///< of the contact forces, J
   };
 
-  /// Moves along a direction: by all of it, or to about where the forces do no more work along it, which for
-  /// forces with a potential is the minimum on this line. Beside contacts, work is nearly affine in the share: where it is
-  /// known at two guesses, contacts alone say where to evaluate all forces next (contact_line.hpp).
-  /// @param work_at_start of the forces per share; none is searched for if it is not positive
-  /// @param tolerance of the work, as a share of it; @param farthest share that is looked at, >= 1
-  /// @return the share that is made
+  /// Moves along a direction: by all of it, or to about where the forces do no more work along it, which for forces
+  /// with a potential is the minimum on this line. Apart from contacts, work is nearly affine in the share. Once it
+  /// is known at two guesses, contacts alone determine where to evaluate all forces next (contact_line.hpp).
+  /// @param work_at_start of the forces per share; no search if it is not positive
+  /// @param tolerance of the work, relative. @param farthest largest share searched, >= 1
+  /// @return share of the change that was made
   double search(const Eigen::VectorXd& change, double work_at_start, double tolerance, double farthest) {
     double at = 0.0;
     const auto work = [&](double share) {
@@ -295,7 +296,7 @@ class OpenClose {
     const double enough = tolerance * work_at_start;
     if (!(work_at_start > 0.0) || std::abs(work_at_end) <= enough) return at;
     if (work_at_end > 0.0 && farthest <= 1.0) return at;
-    std::optional<ContactLine> line;  // Of few contacts all forces are evaluated as soon.
+    std::optional<ContactLine> line;  // With few contacts, evaluation of all forces is as fast.
     if (problem_.pairs() >= many_pairs) line.emplace(problem_, change, 1.0);
     const auto contacts = [&line](double share) { return line ? line->work(share) : 0.0; };
     OnLine low{0.0, work_at_start, contacts(0.0)};
@@ -314,15 +315,15 @@ class OpenClose {
     return at;
   }
 
-  /// Where to look next between two guesses with work of either sign: false position, and every third time the middle, as
+  /// Next share between two guesses with work of opposite sign: false position, and every third time the middle, as
   /// the work has kinks.
   [[nodiscard]] static double next_share(const OnLine& low, const OnLine& high, int k) {
     return k % 3 == 2 ? 0.5 * (low.share + high.share)
                       : low.share + (high.share - low.share) * low.work / (low.work - high.work);
   }
 
-  /// Where work ends between two guesses on a line, of which the first one's is positive and the second one's negative, if
-  /// all but contacts is affine in between. @param enough of the work, J
+  /// Zero of the work between two guesses on a line, the first with positive and the second with negative work,
+  /// assuming that all but the contact work is affine in between. @param enough of the work, J
   [[nodiscard]] double root_between(const OnLine& first, const OnLine& second, const ContactLine& line,
                                     double enough) const {
     const double rest = first.work - first.contacts;
@@ -349,19 +350,19 @@ class OpenClose {
   Augmentation augmentation_;
   const SimulationSettings& settings_;
   IslandResult& result_;
-  bool may_split_;           ///< into blocks and points, once a step of motion
-  bool factorized_ = false;  ///< by newton()
-  bool followed_ = false;    ///< rows were taken anew since newton() was called
-  std::optional<Residual>
-      known_residual_;                 ///< of the present guess, where it was found before it is asked for
-  double least_ = 0.0;                 ///< Residual::largest of the last newton() at its best
-  std::vector<int> changes_;           ///< by pair: of states of its points, from guess to guess
-  std::vector<Eigen::VectorXd> best_;  ///< the guess that was the best of the first newton()
+  bool may_split_;                          ///< use of proximal splitting, once in a dynamic step
+  bool factorized_ = false;                 ///< by newton()
+  bool followed_ = false;                   ///< rows were updated since newton() was called
+  std::optional<Residual> known_residual_;  ///< of the present guess, if computed in advance
+  double least_ = 0.0;                      ///< smallest Residual::largest of the last newton()
+  std::vector<int> changes_;                ///< by pair: changes of state of its points between guesses
+  std::vector<Eigen::VectorXd> best_;       ///< best guess of the first newton()
   struct {
     double sum = std::numeric_limits<double>::infinity();
     double largest_by_force = std::numeric_limits<double>::infinity();
     std::vector<Eigen::VectorXd> guess;
-  } nearest_;  ///< in statics: of the least Residual::sum since the last newton() that was not closing began
+  } nearest_;  ///< in statics: at the smallest Residual::sum since the last newton() that was not closing
+               ///< began
 };
 
 }  // namespace

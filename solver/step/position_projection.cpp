@@ -16,18 +16,17 @@
 namespace ashlar {
 namespace {
 
-constexpr double inertia_share = 0.01;  // of that of a step: blocks move rather than strain
+constexpr double inertia_share = 0.01;  // of the inertia in a step: blocks move rather than strain
 
 /// An island whose blocks are moved.
 struct MovedIsland {
   const Island* island;
   std::size_t place;  // in the funds
-  double energy;      // that its motion takes, J
+  double energy;      // required by its motion, J
   Vector3 momentum;   // angular, before
 };
 
-/// Energy that a motion without velocity takes from outside: of elasticity and gravity without the work of
-/// loads, J.
+/// Energy that a motion without velocity requires: of elasticity and gravity less the work of loads, J.
 double energy_of_motion(const RunContext& run, const Island& island, const std::vector<BodyStep>& bodies) {
   double energy = 0.0;
   for (const int k : island.bodies) {
@@ -42,9 +41,9 @@ double energy_of_motion(const RunContext& run, const Island& island, const std::
   return energy;
 }
 
-/// The problem of moving blocks apart: pairs without friction, bodies without motion of their own.
+/// The problem of separating blocks: pairs without friction, bodies without motion of their own.
 StepProblem pose(const RunContext& run, const std::vector<ContactPair>& pairs) {
-  // As much is left for what springs give way by in this motion.
+  // The same distance is kept for the deformation of springs in this motion.
   const double pushed_from =
       run.settings().multipliers.share * run.settings().multipliers.penetration_tolerance;
   StepProblem problem;
@@ -74,14 +73,14 @@ std::vector<const Island*> deep_islands(const RunContext& run, const std::vector
   return deep;
 }
 
-/// Lets the blocks of an island start without strain. @param relaxed their states, to outlive the bodies
+/// Lets the blocks of an island start without strain. @param relaxed their states, must outlive the bodies
 void relax(const RunContext& run, const Island& island, std::vector<BlockState>& relaxed,
            std::vector<BodyStep>& bodies) {
   for (const int k : island.bodies) {
     BodyStep& body = bodies[at(k)];
     const BlockModel& block = run.blocks()[at(k)];
     relaxed[at(k)] = run.state.states[at(k)];
-    // Under stress, blocks that hardly have inertia would rather turn than move.
+    // Under stress, blocks of small inertia would turn rather than move.
     if (block.space().can_turn() && block.incremental() == nullptr)
       relaxed[at(k)].position = block.unstrained(run.state.states[at(k)].position);
     body.state = &relaxed[at(k)];
@@ -89,7 +88,7 @@ void relax(const RunContext& run, const Island& island, std::vector<BlockState>&
   }
 }
 
-/// Finds the motion of each deep island, as much of it as its funds pay for.
+/// Computes the motion of each deep island, scaled to its energy account.
 std::vector<MovedIsland> solve_deep(const RunContext& run, double step,
                                     const std::vector<const Island*>& deep, StepProblem& problem,
                                     IslandFunds& funds) {
@@ -120,12 +119,12 @@ std::vector<MovedIsland> solve_deep(const RunContext& run, double step,
     funds.use(n, std::min(energy, limit));
     moved.push_back({&island, n, energy, angular_momentum_of(run.blocks(), island.bodies, run.state.states)});
   }
-  // Bodies outlive what they were relaxed to.
+  // Bodies outlive their relaxed states.
   for (std::size_t k = 0; k < relaxed.size(); ++k) problem.bodies[k].state = &run.state.states[k];
   return moved;
 }
 
-/// Takes the motion over and books it.
+/// Applies the motion and books it.
 void move(const RunContext& run, const std::vector<MovedIsland>& moved, const std::vector<ContactPair>& pairs,
           StepProblem& problem, IslandFunds& funds) {
   LedgerKeeper& ledger = run.state.ledger;

@@ -17,11 +17,12 @@ Residual residual_of(IslandProblem& problem, Predictor kind) {
 }  // namespace
 
 std::optional<Residual> take_best_predictor(IslandProblem& problem) {
-  // Not 1/2 or 1, which symmetric scenes have but for rounding.
+  // Not 1/2 or 1, which occur in symmetric scenes up to rounding.
   constexpr double least_gain = 0.45;
-  // The same for a body's own choice, and for the guess that these choices make, which has been evaluated in any case.
+  // The same for the body's own choice, and for the combined guess, which has been evaluated in any case.
   constexpr double least_gain_of_own = 0.9;
-  // Of the largest force on each body: Newton's iteration converges from a smaller residual as from the best predictor.
+  // Relative to the largest force on each body: from a smaller residual Newton's iteration converges as from the best
+  // predictor.
   constexpr double little = 0.1;
   if (problem.scheme().from_rest || problem.pairs() == 0) {
     problem.predict(Predictor::free_motion);

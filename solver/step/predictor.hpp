@@ -7,9 +7,9 @@
 
 namespace ashlar {
 
-/// Takes the predictor with the smallest total residual (Residual::sum), one for all bodies or for each its own: at rest
-/// for blocks that lie on others, inertial for those that slide, free motion for those that meet nothing. Responses are
-/// its own then. @return its residual; empty where there is no choice
+/// Applies the predictor with the smallest total residual (Residual::sum), either one for all bodies or the best one
+/// of each body: at rest for blocks that lie on others, inertial for blocks that slide, free motion for blocks
+/// without contact. The responses are updated. @return its residual; empty if there is no choice
 [[nodiscard]] std::optional<Residual> take_best_predictor(IslandProblem& problem);
 
 }  // namespace ashlar

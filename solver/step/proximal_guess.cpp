@@ -14,7 +14,7 @@ namespace {
 constexpr double over_relaxation = 1.6;
 constexpr int passes = 40;
 constexpr int passes_between_checks = 5;
-/// Of the largest force on a body: where no body lacks more, Newton's method knows the rest.
+/// Of the largest force on a body: Newton's method converges from a smaller residual.
 constexpr double near_enough = 0.1;
 
 /// Points of a pair, (3, #points) along normals and tangents.
@@ -33,22 +33,22 @@ double shear_stiffness(const PointLaw& law) {
   return law.shear_stiffness + law.dashpots.shear;
 }
 
-/// Of all points of a pair, so that penalties do not depend on how many there are.
+/// Sums over the points of a pair, so that penalties do not depend on their number.
 struct PairStiffness {
   double normal = 0.0;          ///< N/m
   double shear = 0.0;           ///< N/m
   double times_mobility = 0.0;  ///< sum over points of normal stiffness times mobility
 
-  /// Of stiffness to penalty. @param stiffness of the pair, N/m
+  /// Ratio of stiffness to penalty. @param stiffness of the pair, N/m
   [[nodiscard]] double ratio(double stiffness) const {
     constexpr double scale = 10.0;  // notes/hard_steps.md
     return std::sqrt(stiffness * times_mobility / normal) / scale;
   }
 };
 
-/// Where a law and a penalty spring balance:  F(v) - f = H (v - y).  Normal forces fall with the gap, so that one gap does;
-/// shear springs are linear up to the limit that the normal force sets, as long as the gap does not depend on slip.
-/// Dilation goes by the slip of the last pass.
+/// Balance of a law and a penalty spring:  F(v) - f = H (v - y).  Normal forces decrease with the gap, so that one
+/// gap solves it. Shear springs are linear up to the limit set by the normal force, as long as the gap does not
+/// depend on slip. Dilation is evaluated with the slip of the last pass.
 /// @param law_at (place, law of the point) -> MeanResponse
 /// @param copy v, on entry that of the last pass. @return F(v)
 template <class LawAt>
@@ -59,8 +59,8 @@ Eigen::Vector3d proximal_point(const LawAt& law_at, const PointLaw& law, const E
   const auto left = [&](double gap, double normal) {
     return penalty[0] * (gap - place[0]) + force[0] - normal;
   };
-  // The gap is between this place and where forces would differ by more than there is to give. Boost's bracketed Newton
-  // throws where bonds tear, which have no such gap.
+  // The gap lies between this place and the one where the penalty spring alone balances the difference. Boost's
+  // bracketed Newton throws where bonds fail in tension and no such gap exists.
   const double at_place = left(place[0], respond(place[0]).force[0]);
   auto [low, high] = std::minmax({place[0], place[0] - at_place / penalty[0]});
   double gap = std::clamp(copy[0], low, high);
@@ -114,7 +114,7 @@ class Splitting {
     return responses;
   }
 
-  /// Passes until the guess is near, with the factor of the penalties.
+  /// Iterates with the factor of the penalties until the guess is close enough.
   void iterate() {
     for (int pass = 1; pass <= passes; ++pass) {
       Eigen::VectorXd right_side = beside_contacts_;
@@ -179,14 +179,14 @@ class Splitting {
           normal_stiffness(law) / (pair.tied() ? 1.0 : pair_stiffness.ratio(pair_stiffness.normal));
       const double across =
           shear_stiffness(law) / (pair.tied() ? 1.0 : pair_stiffness.ratio(pair_stiffness.shear));
-      // Without shear stiffness a point bears no shear force, and its copy follows it.
+      // Without shear stiffness a point transmits no shear force, and its copy follows it.
       result.penalty.col(column) << along, across > 0.0 ? across : along, across > 0.0 ? across : along;
       result.forces.col(column) = law_at(k, point, result.first.col(column)).force;
     }
     return result;
   }
 
-  /// Points of a pair at the places that blocks ask for.
+  /// Moves points of a pair to the places given by the blocks.
   void press(std::size_t k) {
     SplitPair& pair = pairs_[k];
     for (Eigen::Index column = 0; column < pair.places.cols(); ++column) {
@@ -210,7 +210,7 @@ class Splitting {
     return responses;
   }
 
-  /// Residual at the places of the points under their laws: of the largest force on each body the largest part.
+  /// Residual at the places of the points under their laws: largest norm on a body over the largest force on it.
   /// @param right_side of the last solution: A x is that less the forces of the penalty springs
   [[nodiscard]] double largest_part_left(const Eigen::VectorXd& right_side) const {
     Eigen::VectorXd left = beside_contacts_ - right_side;

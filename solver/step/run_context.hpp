@@ -1,4 +1,4 @@
-// The parts of a simulation that its steps work on.
+// The parts of a simulation that its steps modify.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace ashlar {
 
-/// All are those of one simulation and outlive this.
+/// All refer to one simulation and must outlive this.
 struct RunContext {
   BlockSystem& system;
   RunState& state;
@@ -19,7 +19,7 @@ struct RunContext {
   FactorCache& factors;
   DepthAudit& audit;
   std::optional<StateFault>&
-      fault;  ///< what was wrong with the end of the last rejected step, if that was why
+      fault;  ///< fault at the end of the last rejected step, if it was rejected for one
 
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return system.blocks(); }
   [[nodiscard]] const SimulationSettings& settings() const { return system.settings(); }

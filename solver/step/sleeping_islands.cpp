@@ -10,7 +10,7 @@
 namespace ashlar {
 namespace {
 
-/// Wakes some islands: their blocks start from rest and have to come to rest again.
+/// Wakes islands that satisfy a condition: their blocks start from rest and have to come to rest again.
 template <class Condition>
 bool wake_if(const RunContext& run, const Condition& wakes) {
   std::vector<SleepingIsland>& islands = run.state.sleep.islands;
@@ -28,18 +28,18 @@ bool wake_if(const RunContext& run, const Condition& wakes) {
   return any;
 }
 
-/// Motion of a step less what alternates: the mean with the step before.
+/// Motion of a step without its alternating part: the mean with the step before.
 Eigen::MatrixX3d steady_part(const Eigen::MatrixX3d& motion, const BlockRest& rest) {
   return rest.motion.size() > 0 ? Eigen::MatrixX3d(0.5 * (motion + rest.motion)) : motion;
 }
 
-/// Whether vibrations that the step does not resolve die out.
+/// True if vibrations that the step does not resolve decay.
 bool dissipates(const SimulationSettings& settings) {
   return settings.integrator == Integrator::dda ||
          (settings.integrator == Integrator::generalized_alpha && settings.spectral_radius < 1.0);
 }
 
-/// Mean force that a block lacked in the window to be in balance, as a share of the largest force on it.
+/// Mean residual force on a block in the window, as a share of the largest force on it.
 double unbalanced_share(const Sleep& sleep, const BodyStep& body, const BlockRest& rest,
                         const Eigen::MatrixX3d& velocity) {
   const double gained = (velocity - rest.velocity).norm();

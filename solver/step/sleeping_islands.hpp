@@ -1,12 +1,12 @@
-// Puts islands to sleep that have come to rest, and wakes them. Blocks that sleep are held (BlockSystem::hold):
-// no contact is looked for between them and what does not move, no equation is solved for them, their contacts,
-// records and energies stay as they were. Decided by what blocks do, never by clocks of the machine.
+// Puts islands that have come to rest to sleep, and wakes them. Sleeping blocks are held (BlockSystem::hold): no
+// contact is searched between them and fixed blocks, and no equation is solved for them. Their contacts, records and
+// energies stay unchanged. The decision depends on the motion of blocks only, never on run time.
 //
 // An island rests when, over the last two windows of settings.rest.window steps, each of its blocks
 //   has moved by less than a share of the contact distance,
-//   has moved in the second window by clearly less than in the first: it comes to a stop, and does not creep,
+//   has moved in the second window by clearly less than in the first, so that it comes to rest and does not creep,
 //     topple or slide on,
-// and the mean force on it in the second is a small share of the largest.
+// and the mean force on it in the second window is a small share of the largest.
 // It wakes as a whole, at the start of a step, when a load, a support or gravity may change in the step, or when
 // a block that moves has come within the distance at which contacts are found (notes/sleeping_islands.md).
 #pragma once
@@ -16,21 +16,21 @@
 
 namespace ashlar {
 
-/// Wakes what a step of this length may load or move by supports. @param step s
+/// Wakes islands that a step of this length may load, or move by their supports. @param step s
 void wake_for_loads(const RunContext& run, double step);
 
-/// Wakes islands that have a contact or a tie with a block that moves. @return whether any were; contacts have
-/// to be detected again then
+/// Wakes islands that have a contact or a tie with a moving block. @return true if any were woken: contacts have to
+/// be detected again
 [[nodiscard]] bool wake_touched(const RunContext& run, const std::vector<ContactPair>& pairs);
 
-/// Wakes everything; blocks start from rest.
+/// Wakes all islands; blocks start from rest.
 void wake_all(const RunContext& run);
 
-/// To be called with a step that was accepted, its motion and contacts taken over: notes what blocks moved, and
-/// at the end of a window puts to sleep what rests. Kinetic energy that is left is booked as the integrator's.
+/// To be called after an accepted step whose motion and contacts have been stored. Records the motion of blocks and,
+/// at the end of a window, puts resting islands to sleep. Their kinetic energy is booked as the integrator's.
 void note_rest(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
 
-/// Holds what a state says is asleep; to be called when another state was put in place of the present one.
+/// Holds the blocks that a state lists as sleeping. To be called when the present state was replaced.
 void hold_sleepers(BlockSystem& system, const Sleep& sleep);
 
 }  // namespace ashlar

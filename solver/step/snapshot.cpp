@@ -68,7 +68,7 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
     run.system.set_load_factor(place[0], place[1], factor);
   run.state = snapshot.run;
   hold_sleepers(run.system, run.state.sleep);
-  // What does not move is placed once.
+  // Fixed and sleeping blocks are placed once.
   for (const SleepingIsland& island : run.state.sleep.islands)
     for (const int block : island.blocks) run.audit.forget(at(block));
   for (const auto& [block, shape] : snapshot.carried) {

@@ -1,5 +1,5 @@
-// All that a simulation has beyond its scene: stored and given to a simulation built from the same scene, it
-// lets the run go on bit for bit as if it had never stopped.
+// The data of a simulation beyond its scene. Restored into a simulation built from the same scene, it continues the
+// run bit for bit as if it had never stopped.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// Everything that a step depends on or reports. What follows from the scene is left out.
+/// All data that a step depends on or reports, except those that follow from the scene.
 struct SimulationSnapshot {
   RunState run;                         ///< counts are those of the whole run
   std::map<int, CarriedShape> carried;  ///< of incremental blocks

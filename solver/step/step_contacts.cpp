@@ -17,7 +17,7 @@
 namespace ashlar {
 namespace {
 
-/// By how much a block is shorter or longer along a unit direction, in the mean, than it is without load, m.
+/// Mean change of length of a block along a unit direction, relative to the unloaded one, m.
 double compression_along(const BlockModel& model, const BlockState& state, const Vector3& direction) {
   const Eigen::Matrix3d gradient = state.position.transpose() * model.parts()->mean_gradients;
   // F maps lines along F^-1 n to lines along n and stretches them by 1/|F^-1 n|.
@@ -38,14 +38,14 @@ ContactBody body_at_start(const BlockSystem& system, const RunState& state, int 
   return {&system.blocks()[at(block)], &state.states[at(block)], placed};
 }
 
-/// The law of a pair as its points have it, less the rounding of coordinates.
+/// The law of a pair as its points use it, less the rounding of coordinates.
 JointLaw law_of(const BlockSystem& system, const PairKey& blocks) {
   JointLaw law = system.law(blocks[0], blocks[1]);
   law.augmented = system.settings().augmented && !law.gives_way;
   return law;
 }
 
-/// Contacts at the present state, without points: that there are none may last too.
+/// Contacts at the present state, without points. An empty result may be cached too.
 LastingContacts as_found(const ContactFinder& finder, const RunState& state, const NearPair& pair,
                          const JointLaw& law, PairContacts contacts) {
   LastingContacts found;
@@ -59,7 +59,7 @@ LastingContacts as_found(const ContactFinder& finder, const RunState& state, con
   return found;
 }
 
-/// Whether contacts of two blocks may last: an incremental block has other coordinates in each step.
+/// True if contacts of two blocks may be cached: an incremental block has other coordinates in each step.
 bool may_last(const BlockSystem& system, const PairKey& blocks) {
   return system.blocks()[at(blocks[0])].incremental() == nullptr &&
          system.blocks()[at(blocks[1])].incremental() == nullptr;
@@ -68,7 +68,7 @@ bool may_last(const BlockSystem& system, const FoundContacts& found, PairUse use
   return use == PairUse::motion && found.reach > 0.0 && may_last(system, found.blocks);
 }
 
-/// Forgets that nothing was found of pairs that are no longer near. @param near sorted
+/// Drops empty results of pairs that are no longer near. @param near sorted
 void forget_far_pairs(PairHistories& histories, const std::vector<NearPair>& near,
                       const std::vector<bool>& moving) {
   auto next = near.begin();
@@ -79,7 +79,7 @@ void forget_far_pairs(PairHistories& histories, const std::vector<NearPair>& nea
   }
 }
 
-/// How far a has moved past b at each point since the load level began, m.
+/// Displacement of a relative to b at each point since the load level began, m.
 std::vector<Vector3> moved_in_level(const BlockSystem& system, const RunState& state, const PairKey& blocks,
                                     const std::vector<ContactPoint>& points) {
   std::vector<Vector3> moved(points.size(), Vector3::Zero());
@@ -97,7 +97,7 @@ std::vector<Vector3> moved_in_level(const BlockSystem& system, const RunState& s
   return moved;
 }
 
-/// Whether a block has gone so far in the load level that it is on a way of its own, not on that of an iteration
+/// True if a block has moved so far in the load level that it undergoes a motion of its own, not that of an iteration
 /// to balance.
 bool is_far(const BlockSystem& system, const RunState& state, int block) {
   const BlockModel& model = system.blocks()[at(block)];
@@ -106,7 +106,7 @@ bool is_far(const BlockSystem& system, const RunState& state, int block) {
          mean_motion(model, way) > system.settings().statics.motion * block_size(model);
 }
 
-/// Takes the slip of a load level so far for good: what comes counts from there.
+/// Makes the slip of a load level permanent: later slip counts from there.
 void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector3>& moved,
                std::vector<PointMemory>& memory) {
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -149,7 +149,7 @@ std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockS
   const SimulationSettings& settings = system.settings();
   std::vector<std::shared_ptr<const KeptContacts>> result(near.size());
   std::vector<std::optional<JointLaw>> laws(near.size());
-  // Laws are the caller's, who need not expect several threads.
+  // Laws are user functions, which need not be thread-safe.
   for (std::size_t n = 0; n < near.size(); ++n)
     if (history_of(state.pairs, near[n].blocks).lasting != nullptr) laws[n] = law_of(system, near[n].blocks);
   parallel_for(settings.threads, near.size(), [&](std::size_t n) {
@@ -157,7 +157,7 @@ std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockS
     const auto& [blocks, reach] = near[n];
     const PairHistory& history = history_of(state.pairs, blocks);
     const std::shared_ptr<const LastingContacts>& lasting = history.lasting;
-    // Of blocks that were apart nothing was made.
+    // Blocks that were apart have no points.
     if (!lasting->found.points.empty() && lasting->found.turning != history.memory.turning()) return;
     for (std::size_t k = 0; k < 2; ++k)
       if (finder_.surfaces()[at(blocks[k])].wanted() != lasting->divisions[k]) return;
@@ -209,7 +209,7 @@ void StepContacts::note_apart(const BlockSystem& system, RunState& state, const 
   auto next = found.begin();
   for (std::size_t n = 0; n < near.size(); ++n) {
     if (known[n] != nullptr) continue;
-    // Both are sorted, and what was found is of pairs that were not known.
+    // Both are sorted, and the new contacts are of pairs that were not cached.
     if (next != found.end() && next->blocks == near[n].blocks) {
       ++next;
     } else if (may_last(system, near[n].blocks)) {
@@ -286,9 +286,9 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   ContactPoints made = contact_points(body_a, body_b, contacts, references_on_a, point_settings,
                                       known.memory.cuts(), known.memory.turning());
   std::vector<ContactPoint> points = made.points;
-  // Faces that share no area to the last bit are found, but have no points.
+  // Faces that share no area within rounding are detected, but have no points.
   if (points.empty()) return std::nullopt;
-  // Other points than before have pressure in common, not forces: those of a finer rule are no successors of single ones.
+  // New points share pressure with the old ones, not forces: points of a finer rule do not succeed single ones.
   auto memory = known.memory.recall(
       points, state.has_begun() ? -std::numeric_limits<double>::infinity() : settings.contact_distance,
       use == PairUse::statics && settings.area_springs && points.size() == known.memory.entries().size());
@@ -324,7 +324,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   const SurfaceContinuation covered(
       all_kept ? none : found, [this](int block) -> const PlacedSurface& { return finder_.placed(block); },
       settings.contact_distance);
-  // Laws are the caller's, who need not expect several threads.
+  // Laws are user functions, which need not be thread-safe.
   std::vector<JointLaw> laws;
   for (const FoundContacts& pair : found) laws.push_back(law_of(system, pair.blocks));
   std::vector<std::optional<ContactPair>> made(found.size());

@@ -1,6 +1,6 @@
-// Detects the contacts of a step: which blocks meet where, less what only sinking has made meet
-// (internal_edges.hpp), and makes contact pairs of them, with what their histories remember. A list of contacts
-// is made by detect(), or by with_passing() from another one, and not changed after.
+// Detects the contacts of a step, removes those caused only by penetration (internal_edges.hpp), and makes contact
+// pairs from them and from their histories. A list of contacts is made by detect(), or from another one by
+// with_passing(), and not changed afterwards.
 #pragma once
 
 #include <functional>
@@ -18,13 +18,14 @@
 
 namespace ashlar {
 
-/// What contact pairs are made for.
+/// Purpose of contact pairs.
 enum class PairUse {
-  motion,  ///< springs found anew hold no more than at the end of the last step, multipliers hold what is found
-  statics  ///< slip counts from the start of the load level, bonds hold until it has been in balance
+  motion,  ///< re-detected springs hold at most the force at the end of the last step; multipliers freeze the
+           ///< current gap
+  statics  ///< slip counts from the start of the load level, bonds do not fail until it has been in balance
 };
 
-/// The contacts of some list, and those of features that would pass through each other.
+/// Adds the contacts of features that would pass through each other to a list.
 [[nodiscard]] std::vector<FoundContacts> with_passing(std::vector<FoundContacts> found,
                                                       const std::vector<PassingBlocks>& passing);
 
@@ -34,13 +35,13 @@ class StepContacts {
   /// @param system its blocks must stay where they are. @param observer of the stages of detect(); empty: none
   explicit StepContacts(const BlockSystem& system, ContactObserver observer = {});
 
-  /// All contacts at the present state. @param step s, in which blocks may come near; 0: in an iteration of a
-  /// static analysis
+  /// All contacts at the present state. @param step s, for the search distance of moving blocks; 0: in an iteration
+  /// of a static analysis
   [[nodiscard]] std::vector<FoundContacts> detect(const BlockSystem& system, RunState& state, double step);
   /// Contact pairs of a list, then ties.
   [[nodiscard]] std::vector<ContactPair> pairs(const BlockSystem& system, RunState& state,
                                                const std::vector<FoundContacts>& found, PairUse use) const;
-  /// Blocks that would pass through each other on the way to new states, the earliest first.
+  /// Blocks that would pass through each other on the way to new states, ordered by time.
   [[nodiscard]] std::vector<PassingBlocks> check_motion(const BlockSystem& system, RunState& state,
                                                         const std::vector<BlockState>& after,
                                                         const std::vector<FoundContacts>& found);
@@ -49,29 +50,29 @@ class StepContacts {
   [[nodiscard]] ContactFinder& finder() { return finder_; }
 
  private:
-  /// Contacts of near pairs that need not be found anew, empty where they have to be.
+  /// Cached contacts of near pairs that are still valid; empty where they have to be detected again.
   [[nodiscard]] std::vector<std::shared_ptr<const KeptContacts>> kept(
       const BlockSystem& system, const RunState& state, const std::vector<NearPair>& near) const;
-  /// Notes that nothing was found of near pairs that were searched.
-  /// @param found by the search, without what was known
+  /// Records near pairs whose search found no contact.
+  /// @param found by the search, without cached contacts
   void note_apart(const BlockSystem& system, RunState& state, const std::vector<NearPair>& near,
                   const KnownContacts& known, const std::vector<FoundContacts>& found) const;
-  /// Contacts of seams are left out of those that were found anew.
+  /// Removes contacts at internal edges from those that were detected again.
   void remove_internal_edges_of(const BlockSystem& system, const RunState& state,
                                 std::vector<FoundContacts>& found);
-  /// One pair whose contacts were known.
+  /// Makes the pair of cached contacts.
   [[nodiscard]] static ContactPair kept_pair(const BlockSystem& system, const RunState& state,
                                              const FoundContacts& found, JointLaw law);
-  /// Ways out of the step, found when first asked for.
+  /// Retractions of the step, computed at the first call.
   const Retractions& retractions(const RunState& state, const std::vector<bool>& moving,
                                  const std::vector<FoundContacts>& found);
-  /// One pair of a list; none if its contacts have no points.
+  /// Makes the pair of one entry of a list; empty if its contacts have no points.
   [[nodiscard]] std::optional<ContactPair> pair_of(const BlockSystem& system, const RunState& state,
                                                    const FoundContacts& found, JointLaw law, PairUse use,
                                                    const SurfaceContinuation& covered) const;
-  /// By how much blocks have given way, at the present state.
+  /// Elastic compression of blocks at the present state.
   [[nodiscard]] static BlockCompression compression_of(const BlockSystem& system, const RunState& state);
-  /// Which ways out count among some contacts. All must outlive the answer.
+  /// Selects the retractions that are valid for some contacts. All arguments must outlive the result.
   [[nodiscard]] std::function<bool(const Retraction&)> standing_retractions(
       const BlockSystem& system, const RunState& state, const std::vector<FoundContacts>& found) const;
 

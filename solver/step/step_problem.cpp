@@ -38,7 +38,7 @@ std::vector<BodyStep> prepare_bodies(const BlockSystem& system, const RunState& 
   return bodies;
 }
 
-/// Solves all islands, also where one does not settle: what is done does not depend on the number of threads.
+/// Solves all islands even if one does not converge: the work does not depend on the number of threads.
 std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& scheme,
                                         const SimulationSettings& settings, FactorCache& factors) {
   std::vector<IslandResult> results(problem.islands.size());
@@ -70,7 +70,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   const auto swap_followed = [&](IslandResult& result) {
     for (auto& [index, pair] : result.followed) std::swap(problem.pairs[at(index)], pair);
   };
-  // Of the last try.
+  // From the last trial.
   for (IslandResult& result : problem.results) swap_followed(result);
   problem.results.clear();
   const SimulationSettings& settings = system.settings();
@@ -108,7 +108,7 @@ std::vector<BlockState> driven_states(const BlockSystem& system, const RunState&
     const BlockModel& block = system.blocks()[k];
     const Eigen::MatrixX3d prescribed =
         block.prescribed_change(state.states[k].position, state.time(), state.clock.time_after(step));
-    if (prescribed.isZero(0.0)) continue;  // nothing prescribed is zero too
+    if (prescribed.isZero(0.0)) continue;  // a zero displacement needs no velocity
     if (states.empty()) states = state.states;
     states[k].velocity = block.space().expand(block.space().restrict(state.states[k].velocity)) +
                          prescribed / (step > 0.0 ? step : 1.0);

@@ -1,5 +1,5 @@
-// A step as a problem: bodies, contact pairs and islands, and their solution. Nothing of a run changes before a
-// step is accepted (accepted_step.hpp).
+// A step as a problem: bodies, contact pairs and islands, and their solution. The run changes only when a step is
+// accepted (accepted_step.hpp).
 #pragma once
 
 #include <map>
@@ -16,8 +16,7 @@
 
 namespace ashlar {
 
-/// A step as tried. Pairs whose rows were taken anew stand in the place of those that they were made of, until it is
-/// tried again.
+/// A trial step. Pairs whose rows were updated replace the original ones until the step is tried again.
 struct StepProblem {
   std::vector<ContactPair> pairs;
   std::vector<Island> islands;
@@ -28,15 +27,15 @@ struct StepProblem {
 };
 
 /// Finds islands and bodies of a problem whose pairs are given, and solves it.
-/// @param state its log counts what is done. @return settled, or how the first island ended that is not
+/// @param state its log counts the work. @return converged, or the status of the first island that is not
 [[nodiscard]] IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme& scheme,
                                  FactorCache& factors, StepProblem& problem);
 
-/// Gravity and loads of a block where the integrator takes them, (p, 3).
+/// Gravity and loads of a block at the time where the integrator evaluates them, (p, 3).
 [[nodiscard]] Eigen::MatrixX3d external_force(const BlockSystem& system, const StepClock& clock, int block,
                                               const TimeScheme& scheme);
 
-/// States with the velocities that supports that move are about to have; empty if none moves.
+/// States with the velocities that moving supports will impose; empty if no support moves.
 /// @param step s; 0: as if the iteration of a static analysis took one second
 [[nodiscard]] std::vector<BlockState> driven_states(const BlockSystem& system, const RunState& state,
                                                     double step);

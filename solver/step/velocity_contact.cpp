@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// Marks points that would pull by more than they have pushed. @return whether there are any
+/// Releases points whose tensile impulse would exceed their compressive one. @return true if there are any
 bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs, const IslandResult& result,
                      const std::vector<PairResponse>& impulses, std::vector<std::vector<bool>>& let_go) {
   bool any = false;
@@ -28,7 +28,7 @@ bool let_go_of_pulls(const Island& island, const std::vector<ContactPair>& pairs
   return any;
 }
 
-/// Takes rows of pairs that were followed to the end of the step.
+/// Takes rows of pairs that were updated to the end of the step.
 void act_at_end(const Island& island, const std::vector<ContactPair>& pairs, const IslandResult& result,
                 const std::vector<BodyStep>& bodies, IslandProblem& problem) {
   const auto placed = [&](int block) -> BlockInStep {
@@ -64,7 +64,7 @@ namespace {
 /// The impulses of one island.
 class IslandStop {
  public:
-  /// @param of_step the step that has ended. @param bodies models, states and changes that are zero
+  /// @param of_step the step that has ended. @param bodies models, states and zero changes
   IslandStop(const RunContext& run, const TimeScheme& of_step, const StepProblem& step_problem,
              std::size_t island, std::vector<BodyStep>& bodies)
       : run_(run),
@@ -82,7 +82,7 @@ class IslandStop {
     set_velocities(1.0 / of_step.end_velocity.change - 0.5 * of_step.step);
   }
 
-  /// @return whether there are any: a system that cannot be factorised has none
+  /// @return true if there are any impulses: a system that cannot be factorised has none
   [[nodiscard]] bool find() {
     const std::vector<Eigen::VectorXd> start = velocities_;
     do {
@@ -98,7 +98,7 @@ class IslandStop {
     return true;
   }
 
-  /// Changes velocities and books what they lose. @param stopped of the island's pairs is written
+  /// Changes velocities and books their energy loss. @param stopped of the island's pairs is written
   void apply(std::vector<StoppedPair>& stopped) {
     const std::vector<BlockModel>& blocks = run_.blocks();
     std::vector<BlockState>& states = run_.state.states;
@@ -110,13 +110,13 @@ class IslandStop {
       states[at(k)].velocity += block.space().expand(bodies_[at(k)].change) / step_;
       lost -= block.kinetic_energy(states[at(k)]);
     }
-    // Means over the impulse: work is by these.
+    // Mean velocities over the impulse determine its work.
     for (const int k : island_.bodies)
       velocities_[at(k)] =
           step_ * blocks[at(k)].space().restrict(states[at(k)].velocity) - 0.5 * bodies_[at(k)].change;
     for (std::size_t n = 0; n < island_.pairs.size(); ++n) lost -= record(n, stopped[at(island_.pairs[n])]);
     if (is_free(run_.system, island_, pairs_)) {
-      // Opposite impulses act at places that are apart by the gap.
+      // Opposite impulses act at places that differ by the gap.
       const Vector3 missing = momentum - angular_momentum_of(blocks, island_.bodies, states);
       const double own = std::max(0.0, lost);
       IslandFunds funds(run_.state.pairs, {contacts_of(island_, pairs_)});
@@ -164,7 +164,7 @@ class IslandStop {
     return responses;
   }
 
-  /// Writes what a pair's impulses do. @return work of supports that move and are pushed against, J
+  /// Records the effect of a pair's impulses. @return work of moving supports against them, J
   [[nodiscard]] double record(std::size_t n, StoppedPair& stopped) const {
     const ContactPair& pair = problem_.pair(n);
     const std::vector<ContactPoint>& points = pairs_[at(island_.pairs[n])].points();
