@@ -3,14 +3,14 @@
 namespace ashlar {
 namespace {
 
-/// A product with the transpose. Of few columns the blocked product has more to prepare than to do.
+/// Product with the transpose. For few columns the blocked product spends more time on setup than on work.
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) {
   constexpr Eigen::Index few = 12;
   if (x.cols() <= few && y.cols() <= few) return x.transpose().lazyProduct(y);
   return x.transpose() * y;
 }
 
-/// Functions of a block of order 1, of which most scenes are made: products of a known size need no buffers.
+/// Functions of a block of order 1, the most frequent one: products of a known size need no buffers.
 constexpr int affine = 4;
 using AffineValues = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, affine>>;
 using AffineUnknowns = Eigen::Matrix<double, affine, 3>;

@@ -1,5 +1,5 @@
-// How contact points move with the unknowns of one block. A row of a point is a direction times the values of the
-// block's functions there, so that values are kept and not rows: nine times fewer numbers, and
+// Motion of contact points with the unknowns of one block. A row of a point is a direction times the values of the
+// block's functions there. Values are stored instead of rows: nine times fewer numbers, and
 //
 //   motion   u_i(k) = sum_f Phi_i(k, f) y_i(f)                 i: x, y, z
 //   force    F_i(f) = sum_k Phi_i(k, f) f_i(k)
@@ -20,7 +20,7 @@ namespace ashlar {
 /// Stiffnesses of points along x, y, z: t(k), 3 x 3, column major, symmetric. (9, #points), N/m
 using PointStiffnesses = Eigen::Matrix<double, 9, Eigen::Dynamic>;
 
-/// Rows of one block. Without unknowns, of a fixed block, it does nothing.
+/// Rows of one block. Without unknowns (fixed block) all operations have no effect.
 class BlockRows {
  public:
   BlockRows() = default;
@@ -36,16 +36,16 @@ class BlockRows {
   void add_force(const Eigen::Matrix3Xd& forces, double sign, Eigen::VectorXd& sum) const;
   /// Tangent of this block's unknowns with those of another one at the same points. (unknowns, other's unknowns)
   [[nodiscard]] Eigen::MatrixXd tangent(const PointStiffnesses& stiffnesses, const BlockRows& other) const;
-  /// How far the points go when the position's coefficients change, along x, y, z. @param change (p, 3)
+  /// Displacements of the points due to a change of the position's coefficients, along x, y, z. @param change (p, 3)
   /// @return (3, #points); no columns if fixed
   [[nodiscard]] Eigen::Matrix3Xd displacements(const Eigen::MatrixX3d& change) const;
-  /// Some of the points; they know no displacements where the block is supported. @param points indices
+  /// Rows of some of the points, without displacements where the block is supported. @param points indices
   [[nodiscard]] BlockRows at_points(const std::vector<Eigen::Index>& points) const;
   /// Square of the norm of the row of a point along a direction.
   [[nodiscard]] double squared_row(Eigen::Index point, const Eigen::Vector3d& direction) const;
 
  private:
-  /// Whether the block is free and of order 1.
+  /// True if the block is free and of order 1.
   [[nodiscard]] bool is_affine() const { return same_ && values_[0].cols() == 4; }
   [[nodiscard]] const Eigen::MatrixXd& values(int axis) const {
     return values_[static_cast<std::size_t>(same_ ? 0 : axis)];
@@ -53,11 +53,11 @@ class BlockRows {
   [[nodiscard]] Eigen::Index start(int axis) const { return starts_[static_cast<std::size_t>(axis)]; }
   [[nodiscard]] Eigen::Index count(int axis) const { return start(axis + 1) - start(axis); }
 
-  bool same_ = true;                        ///< for all components
-  std::array<Eigen::MatrixXd, 3> values_;   ///< Phi_i; of blocks that are free only the first
-  std::array<Eigen::Index, 4> starts_{};    ///< of the unknowns of each component, and their number
-  std::array<Eigen::VectorXd, 3> squares_;  ///< of the norms of the rows of Phi_i
-  Eigen::MatrixXd supported_;               ///< (#points, p) values where Phi_i are others
+  bool same_ = true;                        ///< the same for all components
+  std::array<Eigen::MatrixXd, 3> values_;   ///< Phi_i; only the first for free blocks
+  std::array<Eigen::Index, 4> starts_{};    ///< first unknown of each component, and their number
+  std::array<Eigen::VectorXd, 3> squares_;  ///< squared norms of the rows of Phi_i
+  Eigen::MatrixXd supported_;               ///< (#points, p) values where Phi_i differ from them
 };
 
 }  // namespace ashlar

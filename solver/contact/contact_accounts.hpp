@@ -1,6 +1,6 @@
-// What contacts with multipliers have taken from blocks and not given back. Multipliers hold no energy, so
-// that nothing but this bounds what they give: a pair gives back what it took, and blocks are moved apart
-// (position_projection.cpp) for what the contacts of their island took, then for what all others did.
+// Accounts of the energy that blocks have spent on contacts with multipliers. Multipliers store no energy, so that
+// only the account bounds the energy they may release. A pair releases at most its own account. Separation of blocks
+// (position_projection.cpp) uses the accounts of the pairs of their island first, then those of pairs in no island.
 #pragma once
 
 #include <vector>
@@ -9,30 +9,30 @@
 
 namespace ashlar {
 
-/// Books work that the contact of a pair has taken from its blocks. @param work J; negative: given
-/// @return what it has given beyond what was in its account, J, >= 0: the account is empty then
+/// Adds work done by blocks on the contact of a pair to its account. @param work J; negative: released
+/// @return energy released beyond the account, J, >= 0: the account is empty then
 [[nodiscard]] double book(double work, double& account);
 
-/// What islands may use of the accounts: each all of those of its own pairs, and of those that belong to no
-/// island as much as the islands before have left. Nothing is used before spend_from().
+/// Energy that islands may use: each all accounts of its own pairs, then the accounts of pairs in no island as far as
+/// earlier islands have left them. The accounts change in spend_from() only.
 class IslandFunds {
  public:
   /// @param islands pairs of each, none in two
   IslandFunds(const PairHistories& histories, std::vector<std::vector<PairKey>> islands);
-  /// J, >= 0.
+  /// Available energy, J, >= 0.
   [[nodiscard]] double available(std::size_t island) const;
-  /// @param energy J, at most what is available; negative: comes to what the island has of its own
+  /// @param energy J, at most the available one; negative: added to the island's own
   void use(std::size_t island, double energy);
-  /// Takes from the accounts what was used: of an island's pairs, and of those of no island, in proportion to
-  /// what they have. What an island gained goes to its pairs in the same way, or to each as much if they have
-  /// nothing.
+  /// Subtracts used energy from the accounts of an island's pairs and of pairs in no island, in proportion to their
+  /// balances. Energy that an island gained is added to its pairs in the same way, or in equal parts if they have
+  /// none.
   void spend_from(PairHistories& histories) const;
 
  private:
   std::vector<std::vector<PairKey>> islands_;
-  std::vector<PairKey> others_;  ///< pairs that belong to no island
-  std::vector<double> own_;      ///< left of each island's own, J
-  double common_ = 0.0;          ///< left of what belongs to no island, J
+  std::vector<PairKey> others_;  ///< pairs in no island
+  std::vector<double> own_;      ///< remaining energy of each island's own, J
+  double common_ = 0.0;          ///< remaining energy of pairs in no island, J
 };
 
 }  // namespace ashlar

@@ -16,7 +16,7 @@
 namespace ashlar {
 namespace {
 
-/// Axes of the boxes: along the largest face of all blocks. Faces that are equal but for rounding: the first.
+/// Axes of the boxes: along the largest face of all blocks; the first of faces that are equal within rounding error.
 Eigen::Matrix3d axes_of(const std::vector<BlockModel>& blocks) {
   constexpr double rounding = 1e-9;
   std::vector<const Polyhedron*> solids;
@@ -24,8 +24,8 @@ Eigen::Matrix3d axes_of(const std::vector<BlockModel>& blocks) {
   return axes_along_largest_face(solids, rounding);
 }
 
-/// Overlaps so thin that they have no contact points: whether faces beside each other have one is rounding,
-/// and must not say that they meet.
+/// Removes overlaps so thin that they have no contact points. For adjacent coplanar faces the existence of such an
+/// overlap is a matter of rounding and must not indicate contact.
 void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairContacts& contacts) {
   const double tolerance = outline_tolerance(a, b);
   std::erase_if(contacts.overlaps, [tolerance](const CellOverlap& overlap) {
@@ -33,7 +33,7 @@ void leave_out_slivers(const PlacedSurface& a, const PlacedSurface& b, PairConta
   });
 }
 
-/// By block: those that never move and are there. @param absent by block, or empty
+/// By block: true for present blocks that never move. @param absent by block, or empty
 std::vector<bool> fixed_and_present(const std::vector<BlockModel>& blocks, const std::vector<bool>& absent) {
   std::vector<bool> fixed;
   for (const BlockModel& block : blocks)
@@ -103,7 +103,7 @@ std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states
     if (can_meet(pair)) near[at(pair[0])] = near[at(pair[1])] = true;
   }
   std::vector<Box> boxes(surfaces_.size());
-  // What is known to less than this is known well enough.
+  // Positions need not be known more accurately than this.
   const double enough = settings_.lasting_motion();
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     BlockTrack& track = tracks_[k];
@@ -137,7 +137,7 @@ void ContactFinder::divide_curved(const std::vector<PairKey>& candidates, const 
 const std::vector<NearPair>& ContactFinder::near_pairs(const std::vector<BlockState>& states,
                                                        const ExpectedMotion& motion,
                                                        const PairHistories& histories) {
-  // Blocks that sliding has brought apart touch across that gap.
+  // Blocks separated by dilation touch across that gap.
   const auto distance = [&](const PairHistory& pair) {
     return settings_.contact_distance + pair.memory.most_dilation();
   };
@@ -190,7 +190,7 @@ void ContactFinder::place_near(const std::vector<BlockState>& states) {
   for (const NearPair& pair : near_) {
     for (const int block : pair.blocks) {
       if (placed_[at(block)]) continue;
-      // Those that curve have been looked at: cells are as of their last division.
+      // Curved blocks have been evaluated: cells are as of their last division.
       if (!surfaces_[at(block)].curves()) look_at(block, states[at(block)]);
       placed_[at(block)] = surfaces_[at(block)].placed();
     }
@@ -255,7 +255,7 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
   for (std::size_t k = 0; k < searched.size(); ++k) {
     const PairKey& blocks = searched[k].blocks;
     PairContacts& contacts = searched[k].contacts;
-    // Which of a hull's faces are hidden is not known there.
+    // Occluded faces of hulls are unknown there.
     if (!convex_[at(blocks[0])] || !convex_[at(blocks[1])] || hidden_.count(blocks) > 0) continue;
     if (!contacts.overlaps.empty()) {
       contacts.type = ContactType::face_face;
@@ -274,7 +274,7 @@ void ContactFinder::settle_convex_pairs(std::vector<FoundContacts>& searched, co
     ContactHistory history;
     const PairHistory& before = history_of(histories, blocks);
     history.entrance = before.entrance;
-    // What the last step has not left so deep was not met through that facet.
+    // A block that was less deep in the last step has not entered through that facet.
     history.depth =
         settings_.search.passing_share * settings_.contact_distance + 2.0 * before.depth_to_search();
     history.rounding = coordinate_rounding(placed(blocks[0]), placed(blocks[1]));

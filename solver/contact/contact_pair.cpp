@@ -10,7 +10,7 @@
 namespace ashlar {
 namespace {
 
-/// Of two blocks against each other, kg; fixed ones do not move.
+/// Reduced mass of two blocks, kg; fixed blocks have infinite mass.
 double reduced_mass(const BlockModel& a, const BlockModel& b) {
   const auto mobility = [](const BlockModel& block) {
     return block.fixed() ? 0.0 : 1.0 / (block.material().density * block.basis().volume());
@@ -47,7 +47,7 @@ void ContactPair::continue_springs() {
   std::vector<double> rests;
   for (std::size_t k = 0; k < points_.size(); ++k) rests.push_back(points_[k].gap + memory_[k].compression);
   rests_ = std::move(rests);
-  // Not the gap less the rest: what springs hold must not change by rounding.
+  // Not the gap less the rest gap: rounding must not change the energy of springs.
   for (std::size_t k = 0; k < points_.size(); ++k)
     start_(0, static_cast<Eigen::Index>(k)) = -memory_[k].compression;
   respond_at_start();
@@ -168,7 +168,7 @@ ContactPair ContactPair::projected(double depth) const {
            bonded ? bond.tensile_strength : 0.0};
     law.augmented = !tied();
     if (bonded) continue;
-    // Where sliding has raised it, the surface is where the point touches.
+    // After dilation, the surface is at the height where the point touches.
     const double surface = std::max(0.0, std::min(points_[k].gap, dilation_before(k)));
     pair.rests_[k] = surface - depth;
     pair.start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - surface + depth;

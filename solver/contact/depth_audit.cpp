@@ -34,7 +34,7 @@ void place_edges(const BlockSurface& surface, const BlockState& state, AuditedBl
   }
 }
 
-/// Where the material points of a depth are.
+/// Present places of the material points of a depth.
 std::array<Vector3, 2> places_of(const PairDepth& pair, const std::vector<BlockModel>& blocks,
                                  const std::vector<BlockState>& states) {
   std::array<Vector3, 2> places;
@@ -64,27 +64,27 @@ bool by_blocks(const MeasuredDepth& x, const MeasuredDepth& y) {
   return key(x.pair) < key(y.pair);
 }
 
-/// Whether a block is where it was looked at, but for what counts as unmoved.
+/// True if a block has not moved since its evaluation, within the tolerance.
 bool has_stayed(std::size_t block, const BlockModel& model, const BlockState& state,
                 const BlockSurface& surface, const AuditScope& scope, const KnownDepths& known) {
-  // Coordinates of an incremental block are others in each step.
+  // Coordinates of an incremental block change in each step.
   if (block >= known.positions.size() || model.incremental() != nullptr) return false;
   const Eigen::MatrixX3d& position = known.positions[block];
   return position.rows() == state.position.rows() &&
          surface.quick_motion_bound(state.position - position) <= scope.unmoved;
 }
 
-/// Asks for the points of one block in another one.
+/// Measures points of one block in another one.
 class PairAudit {
  public:
-  /// The block that is asked where a place is in it.
+  /// The penetrated block.
   struct Outer {
     const AuditedBlock& block;
     const SolidDepthFinder& finder;
     const MaterialMap& map;
   };
 
-  /// @param clear from the audit before, written; empty: the outer block is convex
+  /// @param clear from the audit before, updated; empty: the outer block is convex
   PairAudit(const AuditedBlock& with_points, const SubFaceSurface& surface, const Outer& outer,
             double resolution, ClearParts& clear)
       : with_points_(with_points),
@@ -109,12 +109,12 @@ class PairAudit {
   }
 
  private:
-  /// Where a place is in the outer block: asked for once.
+  /// Place in the outer block, computed on demand.
   struct Preimage {
     bool asked = false;
     std::optional<Vector3> material;
   };
-  /// An end of a piece of an edge.
+  /// An end of a part of an edge.
   struct EdgePlace {
     const Vector3& place;
     Preimage& preimage;
@@ -151,7 +151,7 @@ class PairAudit {
     }
   }
 
-  /// @param piece of an edge; @param shares of the edge
+  /// @param piece part of an edge; @param shares of the edge
   void check_piece(std::size_t piece, const std::array<EdgePlace, 2>& ends,
                    const std::array<double, 2>& shares) {
     const Vector3& start = ends[0].place;
@@ -187,7 +187,7 @@ class PairAudit {
     deepest_.depth = depth;
     deepest_.place = place;
     deepest_.face = found.face;
-    // On both surfaces: what is between them is strained too.
+    // On both surfaces: the material between them is strained too.
     deepest_.materials = {reference, found.place + found.depth * found.way_out};
     deepest_.normal = map_.placed_normal(found.place, found.way_out);
   }

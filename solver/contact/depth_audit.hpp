@@ -1,13 +1,13 @@
-// How deep blocks are in each other, without asking their contacts: the true depth of the deepest corner,
-// sub-face point, middle of a sub-face or edge of any block in another one, over all near pairs.
+// Penetration of blocks independent of their contacts: the true depth of the deepest corner, sub-face point, centre
+// of a sub-face or edge of any block in another one, over all near pairs.
 //
-// Points of one block's surface are taken back to the reference shape of the other one (material_map.hpp),
-// where faces are flat whatever the block's order is, and asked there how deep they are (solid_depth.hpp).
-// The depth is that in the current shape: a layer below a face is thinner where the block is pressed. It is
-// exact to rounding for blocks of order 1, and to the change of the deformation within the depth for others.
+// Points of one block's surface are mapped to the reference shape of the other one (material_map.hpp), where faces
+// are flat for any order of the block. Their depth is measured there (solid_depth.hpp) and converted to the current
+// shape: a layer below a face is thinner where the block is compressed. It is exact to rounding for blocks of order
+// 1, and to the change of the deformation within the depth for others.
 //
-// What has hardly moved is not asked again (notes/lasting_contacts.md): the depth of two blocks that have not is that
-// of the same two material points.
+// Pairs without motion are not measured again (notes/lasting_contacts.md): their depth is that of the same two
+// material points.
 #pragma once
 
 #include <algorithm>
@@ -24,35 +24,35 @@ namespace ashlar {
 
 /// The deepest point of one block in another one.
 struct PairDepth {
-  std::array<int, 2> blocks;  ///< the block with the point, then the one that it is in
+  std::array<int, 2> blocks;  ///< the block with the point, then the one that contains it
   double depth = 0.0;         ///< m, > 0
   Vector3 place;              ///< current coordinates, m
-  int face = -1;              ///< of the second block's solid: the nearest
-  Vector3 normal;             ///< of it, outward, current coordinates, unit
+  int face = -1;              ///< nearest face of the second block's solid
+  Vector3 normal;             ///< outward unit normal of that face, current coordinates
   std::array<Vector3, 2>
-      materials;  ///< the point, and that of the face nearest to it, reference coordinates, m
+      materials;  ///< the point and the closest point of the face, reference coordinates, m
 };
 
-/// A depth as it was measured, and where its two material points were then.
+/// A measured depth with the positions of its two material points at that time.
 struct MeasuredDepth {
   PairDepth pair;
   std::array<Vector3, 2> places;  ///< current coordinates, m
 };
 
-/// What is known from the audits of the steps before: part of the state of a run. By block.
+/// Results of earlier audits: part of the state of a run. By block.
 struct KnownDepths {
   std::vector<Eigen::MatrixX3d>
-      positions;           ///< where the block was when all of its neighbours were looked for; empty: never
-  std::vector<Box> boxes;  ///< of it there
+      positions;           ///< position of the block at the last search of all its neighbours; empty: never
+  std::vector<Box> boxes;  ///< box at that position
   std::vector<MeasuredDepth> depths;  ///< of all pairs, in the order of meeting_boxes()
 };
 
-/// A ball in the reference shape of a solid that has nothing of the solid in it.
+/// A ball in the reference coordinates of a solid that contains no point of the solid.
 struct ClearBall {
   Vector3 center = Vector3::Zero();
-  double radius = -1.0;  ///< m; negative: not known
+  double radius = -1.0;  ///< m; negative: unknown
 
-  /// Radius of the largest ball around another point that it contains, m; negative: none.
+  /// Radius of the largest ball around another point within this one, m; negative: none.
   [[nodiscard]] double around(const Vector3& x) const { return radius - (x - center).norm(); }
 };
 
@@ -60,16 +60,15 @@ struct ClearBall {
 struct ClearSegment {
   Vector3 start = Vector3::Zero();
   Vector3 end = Vector3::Zero();
-  double distance = 0.0;  ///< m, from the solid at least; 0: not known
+  double distance = 0.0;  ///< m, lower bound of the distance from the solid; 0: unknown
 
-  /// Whether a segment is so near to it that it is clear too.
+  /// True if a segment is so close to this one that it is clear too.
   [[nodiscard]] bool clears(const Vector3& from, const Vector3& to) const {
     return std::max((from - start).norm(), (to - end).norm()) < distance;
   }
 };
 
-/// What is known of the points and edges of a block near one that is not convex: which need not be asked
-/// again.
+/// Points and edges of a block that need no check against a near block that is not convex.
 struct ClearParts {
   std::vector<ClearBall> points;    ///< of the surface, then those of its cells
   std::vector<ClearSegment> edges;  ///< halves of edges that may curve, one after the other
@@ -77,44 +76,43 @@ struct ClearParts {
 
 /// A block as an audit sees it.
 struct AuditedBlock {
-  std::vector<Vector3> points;   ///< of its surface, m; empty: not looked at yet
-  Box box;                       ///< of the points, grown by how far the surface is off its cells
-  std::vector<Vector3> cells;    ///< means of the corners of its sub-faces, m
-  std::vector<Vector3> middles;  ///< of its edges, m; empty: they are straight
+  std::vector<Vector3> points;   ///< of its surface, m; empty: not evaluated yet
+  Box box;                       ///< of the points, grown by the distance of the surface from its cells
+  std::vector<Vector3> cells;    ///< centroids of the corners of its sub-faces, m
+  std::vector<Vector3> middles;  ///< of its edges, m; empty: edges are straight
   std::vector<Box> edges;        ///< empty: no other block has been near
 };
 
-/// What an audit looks at.
+/// Scope and settings of an audit.
 struct AuditScope {
-  std::function<bool(int, int)> pairs;  ///< a < b; whether the two may not be in each other
-  std::vector<bool> moving;             ///< by block; depths of two that are held are of no interest
-  double resolution = 0.0;  ///< m, > 0: how exact depths of edges are in solids that are not convex
+  std::function<bool(int, int)> pairs;  ///< a < b; true if the two must not penetrate
+  std::vector<bool> moving;             ///< by block; depths between two held blocks are ignored
+  double resolution = 0.0;              ///< m, > 0: accuracy of depths of edges in solids that are not convex
   int threads = 1;
-  /// m, >= 0: blocks that have moved less since they were looked at are not asked again
+  /// m, >= 0: blocks that have moved less since their last evaluation are not measured again
   double unmoved = 0.0;
-  bool fine = true;  ///< whether pairs with solids that are not convex are measured in any case
+  bool fine = true;  ///< true: pairs with solids that are not convex are measured in any case
 };
 
-/// What an audit has found.
+/// Result of an audit.
 struct Audit {
-  std::vector<PairDepth>
-      depths;  ///< the deepest point of every ordered pair of blocks that are in each other, by blocks
-  /// Blocks that were looked at anew, with where they are; to be taken over into KnownDepths with `measured`
+  std::vector<PairDepth> depths;  ///< deepest point of every ordered pair of penetrating blocks, by blocks
+  /// Blocks evaluated again, with their positions; to be copied to KnownDepths together with `measured`
   std::vector<int> moved;
   std::vector<Eigen::MatrixX3d> positions;  ///< of them
   std::vector<Box> boxes;                   ///< of them
   std::vector<MeasuredDepth> measured;      ///< of all pairs, old and new
 
-  /// What the next audit is to know.
+  /// Updates the results known to the next audit.
   void take_over(KnownDepths& known) const;
 };
 
-/// Keeps what does not change of each block from audit to audit; results do not depend on it.
+/// Caches constant data of each block between audits; results do not depend on it.
 class DepthAudit {
  public:
   explicit DepthAudit(std::size_t blocks) : audited_(blocks), finders_(blocks) {}
 
-  /// @param states finite. @param known empty: nothing
+  /// @param states finite. @param known may be empty
   [[nodiscard]] Audit run(const std::vector<BlockModel>& blocks, const std::vector<BlockState>& states,
                           const std::vector<BlockSurface>& surfaces, const AuditScope& scope,
                           const KnownDepths& known = {});
@@ -122,9 +120,9 @@ class DepthAudit {
   void forget(std::size_t block);
 
  private:
-  /// Whether the solid of a block is convex.
+  /// True if the solid of a block is convex.
   [[nodiscard]] bool is_convex(int block, const std::vector<BlockModel>& blocks);
-  /// Makes room for what is known of the points of the first block near the second.
+  /// Allocates the clear parts of the first block near the second.
   void prepare(const std::array<int, 2>& blocks, std::size_t points, std::size_t edges);
 
   /// The deepest points of pairs of placed blocks in each other.
@@ -134,10 +132,10 @@ class DepthAudit {
                                                    const std::vector<BlockSurface>& surfaces,
                                                    const AuditScope& scope);
 
-  std::vector<AuditedBlock> audited_;                     ///< those of fixed blocks stay
+  std::vector<AuditedBlock> audited_;                     ///< those of fixed blocks are kept
   std::vector<std::optional<SolidDepthFinder>> finders_;  ///< of blocks that have been near others
   std::map<std::array<int, 2>, ClearParts>
-      clear_;  ///< of a block (first) near another one; empty: that is convex
+      clear_;  ///< of a block (first) near another one; empty: the other one is convex
 };
 
 }  // namespace ashlar

@@ -8,20 +8,20 @@
 namespace ashlar {
 namespace {
 
-/// A pair that lacks energy, and the pairs with a common block that have lost some.
+/// A pair with a deficit of energy, and the pairs with a common block that have lost energy.
 struct Claim {
   double lacking = 0.0;         ///< J
   double received = 0.0;        ///< J
-  std::vector<double*> losses;  ///< J, what is left of them; each once
+  std::vector<double*> losses;  ///< J, remaining; each once
 };
 
-/// Shares out losses in proportion to what claims lack, which no order of blocks changes. Each round satisfies a
-/// claim, or leaves nothing that anyone lacks.
+/// Distributes losses in proportion to the deficits of claims, independent of the order of blocks. Each round
+/// satisfies a claim or uses up all losses.
 void share_out(std::vector<Claim>& claims) {
   bool satisfied = true;
   while (satisfied) {
     satisfied = false;
-    std::map<double*, double> lacking;  // by all that claim a loss
+    std::map<double*, double> lacking;  // sum over all claims on a loss
     for (const Claim& claim : claims)
       for (double* loss : claim.losses) lacking[loss] += claim.lacking;
     std::map<double*, double> taken;
@@ -54,7 +54,7 @@ std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs, c
   for (const ContactPair& pair : pairs) {
     const PairKey blocks{pair.a(), pair.b()};
     bounds.push_back(history_of(histories, blocks).memory.held());
-    // What bonds and multipliers hold is not given away: nothing bounds them either.
+    // Energy of bonds and multipliers is neither transferred nor bounded.
     double& rest = lost[blocks];
     rest = pair.can_be_bounded() ? std::max(0.0, rest - pair.start_energies().normal) : 0.0;
   }

@@ -1,6 +1,6 @@
-// What the springs of pairs of blocks may hold when they are found anew (mechanics/contact/spring_energy.hpp): what
-// they held at the end of the last step, and what other springs at the same block, found anew, no longer
-// hold: a block that slides from one block to the next takes the energy of its springs along.
+// Energy bounds of re-detected springs (mechanics/contact/spring_energy.hpp): their energy at the end of the last
+// step plus the energy lost by other re-detected springs at the same block. A block that slides from one block to the
+// next so transfers the energy of its springs.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace ashlar {
 
-/// @param pairs as found anew, at rest on the surface. @param histories of the pairs of blocks at the end
-/// of the last step. @param moving blocks that springs' energy can go along with; springs between others are not found anew
-/// @return bounds for ContactPair::hold_at_most, one for each pair: with them, all normal springs together
-/// hold no more than at the end of the last step
+/// @param pairs as re-detected, unloaded at the surface. @param histories of the pairs at the end of the last step
+/// @param moving blocks that can transfer spring energy; springs between other blocks are not detected again
+/// @return bounds for ContactPair::hold_at_most, one for each pair: with them, all normal springs together hold at
+/// most their energy at the end of the last step
 [[nodiscard]] std::vector<SpringEnergy> energy_bounds(const std::vector<ContactPair>& pairs,
                                                       const PairHistories& histories,
                                                       const std::vector<bool>& moving);

@@ -16,9 +16,9 @@ namespace {
 constexpr double faces_across = 0.985;
 constexpr double steep_sides = 0.5;
 constexpr double sides_along = 0.17;  // cosine of 80 degrees
-/// Cosine of a third of a degree: directions that differ by less are one way.
+/// Cosine of a third of a degree: directions that differ by less count as one.
 constexpr double one_way = 0.99998;
-/// Cosine of 9.5 degrees: what a bundle's first way is this much across, all its ways are, see faces_across.
+/// Cosine of 9.5 degrees: normals this close to the first direction of a bundle satisfy faces_across for all of them.
 constexpr double bundle_across = 0.9863;
 
 /// Largest cosine between a unit direction and any of some normals' lines.
@@ -28,11 +28,11 @@ double largest_cosine(const Vector3& direction, const std::vector<Vector3>& norm
   return largest;
 }
 
-/// What touches of a and of b.
+/// Touching features of a and of b.
 struct Touching {
   std::vector<int> of_a;  ///< points
   std::vector<int> of_b;
-  std::vector<Vector3> normals;  ///< of the cells that touch, of crossed edges the normal across them
+  std::vector<Vector3> normals;  ///< of the touching cells, or for crossed edges their common normal
 };
 
 const std::vector<int>& corners(const PlacedSurface& s, int cell) {
@@ -73,7 +73,7 @@ Farthest farthest(const PlacedSurface& s, const std::vector<int>& points, const 
   return result;
 }
 
-/// Whether a corner, or a point of an edge, ends a cell that faces a direction.
+/// True if a corner, or a point of an edge, bounds a cell that faces a direction.
 bool ends_there(const PlacedSurface& s, int point, const Vector3& direction) {
   const int vertex = s.surface().vertex_of_point[static_cast<std::size_t>(point)];
   if (vertex < 0) return true;
@@ -82,7 +82,7 @@ bool ends_there(const PlacedSurface& s, int point, const Vector3& direction) {
                      [&](int cell) { return s.normal(cell).dot(direction) > sides_along; });
 }
 
-/// Whether all of b that touches is below all of a when a has moved along the way, and the blocks end there.
+/// True if all touching features of b are below those of a after the retraction of a, and the blocks end there.
 template <class Contact>
 bool undoes(const Retraction& way, const PlacedSurface& a, const PlacedSurface& b, const Contact& contact) {
   const Vector3& direction = way.direction;
@@ -94,7 +94,7 @@ bool undoes(const Retraction& way, const PlacedSurface& a, const PlacedSurface& 
          (way.own || (ends_there(a, bottom.point, -direction) && ends_there(b, top.point, direction)));
 }
 
-/// Whether a condition holds for any contact of a pair.
+/// True if a condition holds for any contact of a pair.
 template <class Condition>
 bool any_of(const PairContacts& contacts, const Condition& holds) {
   const auto any = [&](const auto& some) { return std::any_of(some.begin(), some.end(), holds); };
@@ -239,7 +239,7 @@ void remove_internal_edges(const PlacedSurface& a, const PlacedSurface& b,
                            const std::function<bool(const Retraction&)>& stands, PairContacts& contacts) {
   for (const Retraction& way : ways) {
     const auto undone = [&](const auto& contact) { return undoes(way, a, b, contact); };
-    // Asked before any is removed: the contacts may be among those that are looked at.
+    // Evaluated before any is removed: `stands` may refer to the same contacts.
     if (!any_of(contacts, undone) || !stands(way)) continue;
     std::erase_if(contacts.overlaps, undone);
     std::erase_if(contacts.vertices, undone);

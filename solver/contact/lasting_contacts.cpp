@@ -26,7 +26,7 @@ Vector3 displacement(const ContactBody& body, const Vector3& material, const Eig
   return change.transpose() * body.model->basis().values(material);
 }
 
-/// Whether pressure ends in each overlap where it did. @param points of the pair, at the present state
+/// True if pressure ends in each overlap where it did. @param points of the pair, at the present state
 bool ends_as_before(const LastingContacts& lasting, const ContactBody& a, const ContactBody& b,
                     const RelativeMotion& motion, const std::vector<ContactPoint>& points) {
   for (const RuledOverlap& overlap : lasting.found.overlaps) {
@@ -94,7 +94,7 @@ std::optional<KeptContacts> kept_contacts(
 
 namespace {
 
-/// Whether contacts are of cells and points that two surfaces have.
+/// True if all cells and points of contacts exist in two surfaces.
 bool fits(const PairContacts& contacts, const SubFaceSurface& a, const SubFaceSurface& b) {
   const auto within = [](int index, std::size_t count) { return index >= 0 && at(index) < count; };
   const auto is_side = [&](const CrossedSide& side, const SubFaceSurface& surface) {
@@ -127,7 +127,7 @@ bool fits(const std::vector<ContactPoint>& points, const BlockModel& a, const Bl
   });
 }
 
-/// Whether overlaps are of a pair's points.
+/// True if the overlaps match a pair's points.
 bool fits(const ContactPoints& found) {
   return std::all_of(found.overlaps.begin(), found.overlaps.end(), [&](const RuledOverlap& overlap) {
     const bool is_rule = overlap.degree >= 0 && overlap.degree <= 2 * PolynomialBasis::max_order &&
@@ -145,7 +145,7 @@ std::shared_ptr<const LastingContacts> with_rows(const LastingContacts& lasting,
                                                  const BlockSurface& surface_b) {
   const bool sizes_fit =
       lasting.positions[0].rows() == a.basis().size() && lasting.positions[1].rows() == b.basis().size();
-  // Surfaces that curve are divided before contacts with them are looked at.
+  // Curved surfaces are divided before their contacts are evaluated.
   const bool divided = surface_a.curves() || surface_b.curves();
   if (!sizes_fit || (!divided && !fits(lasting.contacts, surface_a.surface(), surface_b.surface())) ||
       !fits(lasting.found.points, a, b) || !fits(lasting.found))

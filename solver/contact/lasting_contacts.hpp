@@ -1,13 +1,13 @@
-// Contacts that last: what a search has found of two blocks is not found again while they have hardly moved
-// relative to each other (notes/lasting_contacts.md).
+// Contact cache: the contacts of two blocks are not detected again while their relative motion is small
+// (notes/lasting_contacts.md).
 //
-// Material points, normals, areas and rows stay as they were found. Gaps are those of the present state, along
+// Material points, normals, areas and rows are those of the detection. Gaps are those of the present state along
 // these normals:
 //
-//   g = g0 + n . (u_a - u_b)        u: displacement of a material point since it was found
+//   g = g0 + n . (u_a - u_b)        u: displacement of a material point since the detection
 //
-// which for blocks whose faces are flat is the gap itself but for the square of the motion, and linear in the
-// unknowns, so that springs keep the energy that they hold.
+// For blocks with flat faces this is the exact gap but for the square of the motion. It is linear in the unknowns, so
+// that springs keep their energy.
 #pragma once
 
 #include <array>
@@ -25,16 +25,18 @@
 
 namespace ashlar {
 
-/// What was found of two blocks. Constant, so that all that keep it share it.
+/// Result of a search for two blocks. Constant, so that it can be shared.
 struct LastingContacts {
-  PairContacts contacts;                      ///< less those of seams; empty: they were apart
-  std::array<Eigen::MatrixX3d, 2> positions;  ///< of both blocks when they were found, (p, 3)
-  /// How both surfaces were divided (BlockSurface::wanted).
+  PairContacts contacts;                      ///< without those at internal edges; empty: no contact
+  std::array<Eigen::MatrixX3d, 2> positions;  ///< of both blocks at the detection, (p, 3)
+  /// Divisions of both surfaces (BlockSurface::wanted).
   std::array<std::vector<std::uint64_t>, 2> divisions;
-  double reach = 0.0;                            ///< m, up to which gap contacts were looked for
-  JointLaw law;                                  ///< as it was, with the rounding of the pair's coordinates
-  ContactPoints found;                           ///< what was made of the contacts
-  std::shared_ptr<const PairRows::Values> rows;  ///< of the points; null: not made yet (a checkpoint's)
+  double reach = 0.0;                            ///< m, largest gap searched
+  JointLaw law;                                  ///< at the detection, with the rounding of the pair's
+                                                 ///< coordinates
+  ContactPoints found;                           ///< points of the contacts
+  std::shared_ptr<const PairRows::Values> rows;  ///< of the points; null: not computed yet (from a
+                                                 ///< checkpoint)
 };
 
 /// Lists what a checkpoint stores (run/byte_archive.hpp); rows follow from it, see with_rows().
@@ -44,14 +46,14 @@ void visit_members(Archive& archive, LastingContacts& lasting) {
   archive(contacts, positions, divisions, reach, law, found);
 }
 
-/// Contacts as they are at a later state.
+/// Contacts evaluated at a later state.
 struct KeptContacts {
   std::shared_ptr<const LastingContacts> lasting;
-  Vector3 shift;                     ///< of both blocks alike since they were found, m
+  Vector3 shift;                     ///< common translation of both blocks since the detection, m
   std::vector<ContactPoint> points;  ///< with the present places and gaps
 };
 
-/// The motion of a and of b since their contacts were found.
+/// Motion of a and of b since the detection of their contacts.
 struct RelativeMotion {
   std::array<Eigen::MatrixX3d, 2> changes;  ///< of the positions, (p, 3)
   Vector3 shift = Vector3::Zero();          ///< mean translation of both centroids, m; 0 if a block is fixed
@@ -59,23 +61,23 @@ struct RelativeMotion {
 [[nodiscard]] RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a,
                                           const ContactBody& b);
 
-/// Bounds what the contacts of a pair may have become since they were found.
+/// Limits of validity of cached contacts.
 struct LastingLimits {
-  double motion = 0.0;  ///< m, of the fastest points of both blocks together, less their common shift
-  double reach = 0.0;   ///< m, up to which gap contacts have to be known
+  double motion = 0.0;  ///< m, of the fastest points of both blocks together, without their common shift
+  double reach = 0.0;   ///< m, largest gap up to which contacts must be known
 };
 
-/// The contacts at the present state, if they need not be found anew: motion since they were found and what
-/// their reach lacks are within the limit, the law is the same and pressure ends where it did.
+/// The cached contacts at the present state if they are valid: motion since the detection plus missing reach is
+/// within the limit, the law is the same and the ends of pressure are unchanged.
 /// @param bounds of the motion of each block's points when its position changes, m
-/// @param law of the pair now, without rounding
+/// @param law of the pair at present, without rounding
 [[nodiscard]] std::optional<KeptContacts> kept_contacts(
     const std::shared_ptr<const LastingContacts>& lasting, const ContactBody& a, const ContactBody& b,
     const JointLaw& law, const LastingLimits& limits,
     const std::array<std::function<double(const Eigen::MatrixX3d&)>, 2>& bounds);
 
-/// With the rows of its points, which a checkpoint has not.
-/// @throws std::invalid_argument if it is not of two such blocks, or has cells that their surfaces have not
+/// Adds the rows of its points, which a checkpoint does not store.
+/// @throws std::invalid_argument if it does not belong to two such blocks, or has cells that their surfaces lack
 [[nodiscard]] std::shared_ptr<const LastingContacts> with_rows(const LastingContacts& lasting,
                                                                const BlockModel& a, const BlockModel& b,
                                                                const BlockSurface& surface_a,

@@ -1,4 +1,4 @@
-// Which faces are hidden in a step (occluded_faces.hpp): those between fixed blocks, found once, and those of the step's
+// Occluded faces of a step (occluded_faces.hpp): those between fixed blocks, found once, and those of the step's
 // contacts.
 #pragma once
 
@@ -18,22 +18,22 @@ using PairOfContacts = std::pair<PairKey, const PairContacts*>;
 
 class OccludedFacesOfStep {
  public:
-  /// @param fixed by block; those that are not there are none
+  /// @param fixed by block; false for absent blocks
   OccludedFacesOfStep(std::vector<bool> fixed, const SimulationSettings& settings);
 
-  /// Begins a step of which nothing is noted.
+  /// Begins a step without occluded faces.
   void begin() { of_step_.reset(); }
   [[nodiscard]] bool noted() const { return of_step_.has_value(); }
-  /// Notes the faces that lie on each other, if any vertex is in a block. @param surfaces of all blocks
+  /// Adds the faces that lie on each other, if any vertex is inside a block. @param surfaces of all blocks
   void note(const std::vector<PairOfContacts>& contacts, const std::vector<BlockSurface>& surfaces);
-  /// Empty if no vertex is in a block. @pre noted
+  /// Empty if no vertex is inside a block. @pre noted
   [[nodiscard]] const OccludedFaces& hidden() const { return *of_step_; }
 
  private:
   [[nodiscard]] OccludedFaces between_fixed_blocks(const std::vector<BlockSurface>& surfaces) const;
 
   std::vector<bool> fixed_;
-  ContactLimits flush_;  ///< of faces that lie on each other
+  ContactLimits flush_;  ///< limits for faces that lie on each other
   std::optional<OccludedFaces> of_fixed_, of_step_;
 };
 

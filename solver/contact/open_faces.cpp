@@ -18,7 +18,7 @@ class OpenFaces {
       auto* vertex = std::get_if<VertexContact>(&touch.contact);
       return vertex != nullptr && is_hidden(*vertex) && !turn(*vertex);
     });
-    // What goes through the hidden side and below the face beside it in one step touches that face once.
+    // A vertex that passes the occluded side and the adjacent face in one step touches that face once.
     for (std::size_t k = 0; k < touches.size(); ++k) {
       const auto rest = touches.begin() + static_cast<std::ptrdiff_t>(k) + 1;
       touches.erase(
@@ -28,7 +28,7 @@ class OpenFaces {
   }
 
  private:
-  /// Whether two touches are of one vertex with one cell.
+  /// True if two touches are of the same vertex and cell.
   static bool same(const Touch& first, const Touch& second) {
     const auto* one = std::get_if<VertexContact>(&first.contact);
     const auto* other = std::get_if<VertexContact>(&second.contact);
@@ -45,7 +45,7 @@ class OpenFaces {
     const Vector3& in_plane = cells.point(cells.surface().cells[at(cell)].corners[0]);
     return cells.normal(cell).dot(points.point(vertex.point) - in_plane);
   }
-  /// Whether it goes through the hidden side, or ends beside it: it may start above.
+  /// True if it passes through the occluded side, or ends beside it: it may start above.
   [[nodiscard]] bool is_hidden(const VertexContact& vertex) const {
     const auto& hides = vertex.vertex_of_a ? hidden_.of_b : hidden_.of_a;
     const int face = with_cell(vertex).start->surface().cells[at(vertex.cell)].face;
@@ -57,7 +57,7 @@ class OpenFaces {
     const PlacedSurface& cells = at_end ? *with_cell(vertex).end : *with_cell(vertex).start;
     return points.point(vertex.point) - gap(vertex, vertex.cell, at_end) * cells.normal(vertex.cell);
   }
-  /// @return false: it ends outside of the block
+  /// @return false if it ends outside of the block
   [[nodiscard]] bool turn(VertexContact& vertex) const {
     const SubFaceSurface& surface = with_cell(vertex).start->surface();
     const auto& beside = surface.convex_neighbours[at(surface.cells[at(vertex.cell)].face)];

@@ -1,4 +1,4 @@
-// Touches with sides that lie on a third block (occluded_faces.hpp).
+// Touches with occluded sides of blocks (occluded_faces.hpp).
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace ashlar {
 
-/// A vertex that goes into a block through a side that is hidden has gone in below one of the faces beside
-/// it: where it ends least deep. A touch with a hidden side becomes one with that face, each once, or none if
-/// the vertex ends outside.
+/// A vertex that enters a block through an occluded side has entered below one of the adjacent faces: the one where
+/// it ends least deep. A touch with an occluded side is replaced by one with that face, without duplicates, or
+/// removed if the vertex ends outside.
 void turn_to_open_faces(const MovingSurface& a, const MovingSurface& b, const OccludedPlaces& hidden,
                         std::vector<Touch>& touches);
 

@@ -1,4 +1,4 @@
-// The part of ContactPair about energy: what springs hold, what contacts give, what friction takes.
+// The part of ContactPair about energy: spring energy, work of contacts, dissipation by friction.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -35,8 +35,8 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
   std::vector<double> rests = rest_gaps(stiffnesses, gaps, remembered, held.normal);
   for (std::size_t k = 0; k < points_.size(); ++k) rests[k] += dilation_before(k);
   rest_at(std::move(rests));
-  // What friction does not bear is cut off in any case: where that is what makes the energies equal, their
-  // rounding must not choose.
+  // Removes slip beyond the friction bound first: the comparison of energies below must not depend on its rounding
+  // errors.
   double shear = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     auto slip = start_.col(static_cast<Eigen::Index>(k)).tail<2>();
@@ -45,7 +45,7 @@ void ContactPair::hold_at_most(const SpringEnergy& held) {
   }
   if (shear > held.shear) start_.bottomRows<2>() *= std::sqrt(held.shear / shear);
   respond_at_start();
-  // Also of points that are open to rounding only.
+  // Includes points that are open only within rounding error.
   for (std::size_t k = 0; k < points_.size(); ++k)
     start_responses_[k].shear_energy =
         0.5 * laws_[k].shear_stiffness * start_.col(static_cast<Eigen::Index>(k)).tail<2>().squaredNorm();
@@ -69,7 +69,7 @@ double ContactPair::friction_work(const PairResponse& response, const std::vecto
   double work = 0.0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const PointResponse& point = response.points[k];
-    // Means of points that are open at the end may have rubbed before.
+    // Points that are open at the end may have slid before: their mean counts.
     if (point.state == ContactState::locked) continue;
     const auto column = static_cast<Eigen::Index>(k);
     const Eigen::Vector2d slip = place.col(column).tail<2>();

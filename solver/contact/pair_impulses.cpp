@@ -1,4 +1,4 @@
-// The part of ContactPair that stops what pushes at the end of a step (step/velocity_contact.hpp).
+// The part of ContactPair that stops approaching points at the end of a step (step/velocity_contact.hpp).
 #include <algorithm>
 #include <limits>
 
@@ -47,7 +47,7 @@ PairResponse ContactPair::stopping(const PairResponse& end, const std::vector<Po
       mean.force = -end.means[k].force;
     } else if (is_held(laws[k], point)) {
       mean.tangent(0, 0) = stiffness(mobility(3 * column, 1));
-      // A sliding point that dilates is stopped along the way that it may not go: across its slope.
+      // A sliding point that dilates is stopped in the direction normal to its slope.
       if (point.state == ContactState::sliding && laws[k].dilation.tangent > 0.0) {
         Eigen::Vector3d across(1.0, 0.0, 0.0);
         across.tail<2>() = laws[k].dilation.tangent * point.direction;
@@ -76,7 +76,7 @@ void ContactPair::remember_impulses(const PairResponse& response, const std::vec
     const Eigen::Vector3d& force = response.points[k].force;
     if (response.points[k].state == ContactState::open || laws[k].friction == 0.0) continue;
     Eigen::Vector2d shear = force.tail<2>();
-    // Impulses across the slope of a point that dilates have some friction.
+    // Impulses normal to the slope of a point that dilates include some friction.
     if (response.points[k].state == ContactState::sliding && laws[k].dilation.tangent > 0.0)
       shear += impulses[k].tail<2>();
     const double rubbed = std::max(0.0, shear.norm() - laws[k].cohesion) / laws[k].friction;

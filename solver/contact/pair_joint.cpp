@@ -1,4 +1,4 @@
-// The part of ContactPair about what joints have beside springs and friction: strength that is lost, damping
+// The part of ContactPair about joint properties beside springs and friction: failure of strength and damping
 // (mechanics/notes/joint_damping.md).
 #include <algorithm>
 #include <cmath>

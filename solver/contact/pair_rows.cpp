@@ -90,12 +90,12 @@ PairRows::PairRows(const ContactBody& a, const ContactBody& b, const std::vector
       frames_(frames_of(points)),
       count_(static_cast<Eigen::Index>(points.size())),
       tie_(tie),
-      // The forces of a tie are along the gap, so that they have no couple worth the name.
+      // Forces of a tie are along the gap, so that their couple is negligible.
       free_pair_(tie == nullptr && is_free(a) && is_free(b)) {
   if (!free_pair_) return;
   deformation_a_ = mean_deformation(a);
   deformation_b_ = mean_deformation(b);
-  // Forces act where the material points are. Places of points whose feet are on flat sub-faces are not there.
+  // Forces act at the material points. Places of points whose feet are on flat sub-faces differ from these.
   apart_ = values_->a.displacements(a.state->position) - values_->b.displacements(b.state->position);
   for (Eigen::Index k = 0; k < count_; ++k)
     apart_.col(k) = in_frame(points[static_cast<std::size_t>(k)], apart_.col(k));

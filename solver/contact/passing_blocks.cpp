@@ -1,4 +1,4 @@
-// Whether blocks would pass through each other in a step: the part of ContactFinder that follows motions.
+// Continuous collision check: the part of ContactFinder that follows the motion of blocks.
 #include <algorithm>
 #include <utility>
 
@@ -33,7 +33,7 @@ std::vector<PairKey> ContactFinder::pairs_that_may_pass(const std::vector<BlockS
     return leaves_out(pair[0], pair[1]) || both(pair) <= tolerance ||
            known_apart(pair, both(pair), histories);
   });
-  // What is left is looked at with the true surfaces and their true motion.
+  // The remaining pairs are checked with the true surfaces and their true motion.
   ends.resize(surfaces_.size());
   for (const PairKey& pair : pairs) {
     for (const int block : pair) {

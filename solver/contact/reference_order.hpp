@@ -1,9 +1,10 @@
-// Which of two blocks has the reference face where neither rims nor kinds tell (mechanics/contact/reference_face.hpp).
+// Choice of the block with the reference face where edges and kinds do not decide
+// (mechanics/contact/reference_face.hpp).
 //
-// The order of blocks in a scene must not tell, nor what is left and right: equal blocks that slide on each other
-// would move otherwise by 1e-6 of their way. Heights against gravity and distances from the middle of all blocks are
-// the same however a scene is listed, turned, moved or mirrored. They are those of the placed, undeformed blocks,
-// so that the reference face of a pair stays the same on the way.
+// The choice must not depend on the order of blocks in a scene or on left and right: equal blocks that slide on each
+// other would change their motion by 1e-6 of the path. Heights against gravity and distances from the centroid of all
+// blocks are the same for scenes listed in another order, rotated, translated or mirrored. They are those of the
+// placed, undeformed blocks, so that the reference face of a pair is constant during motion.
 #pragma once
 
 #include <vector>
@@ -15,17 +16,18 @@ namespace ashlar {
 /// Constant after construction.
 class ReferenceOrder {
  public:
-  /// @param gravity m/s^2, of any length; zero: heights do not tell
+  /// @param gravity m/s^2, of any length; zero: heights are not used
   ReferenceOrder(const std::vector<BlockModel>& blocks, const Vector3& gravity);
 
-  /// The higher one of two blocks is before the other, of blocks that are as high but for rounding the one farther
-  /// from the middle. Where both are the same a scene is alike to both sides of the pair, and the later one is.
+  /// True if a is before b: the higher block, or of blocks at the same height within rounding error the one farther
+  /// from the centroid. If both are equal, the scene is symmetric with respect to the pair, and the later block is
+  /// before the other.
   [[nodiscard]] bool is_before(int a, int b) const;
 
  private:
   std::vector<double> heights_;    ///< of centroids, m
   std::vector<double> distances_;  ///< of centroids from the mean of all centroids, by volume, m
-  double rounding_ = 0.0;          ///< m, differences that do not count
+  double rounding_ = 0.0;          ///< m, smaller differences are ignored
 };
 
 }  // namespace ashlar

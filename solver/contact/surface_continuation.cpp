@@ -46,7 +46,7 @@ bool SurfaceContinuation::goes_on(const Cover& cover, const RimPlace& rim) const
     return height(*cover.a, overlap.cell_a, overlap.frame, seen) -
            height(*cover.b, overlap.cell_b, overlap.frame, seen);
   };
-  // What is parallel to rounding does not turn away.
+  // Faces parallel within rounding error do not diverge.
   constexpr double rounding = 1e-9;
   const double rise = gap(overlap.frame.project(rim.place + rim.outward)) - gap(place);
   return gap(place) <= rim.near && rise <= rounding;

@@ -1,5 +1,5 @@
-// Which blocks lie on a face, and where: a block that spans several others lies on one surface, and the rims
-// between them are no ends of it (mechanics/contact/reference_face.hpp).
+// Continuation of supporting surfaces: a block that spans several others lies on one surface, and edges between flush
+// blocks do not bound it (mechanics/contact/reference_face.hpp).
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ namespace ashlar {
 class SurfaceContinuation {
  public:
   /// @param found, placed must outlive this. @param placed surfaces of the blocks that have contacts
-  /// @param reach m, how far apart the blocks may be that make one surface
+  /// @param reach m, largest distance of blocks that form one surface
   SurfaceContinuation(const std::vector<FoundContacts>& found,
                       const std::function<const PlacedSurface&(int)>& placed, double reach);
 
-  /// Whether another block than the one with the rim goes on behind it.
+  /// True if a block other than the one with the rim continues the surface behind it.
   /// @param block that lies on the rim. @param with_rim the other one
   [[nodiscard]] bool goes_on(int block, int with_rim, const RimPlace& rim) const;
 

@@ -38,7 +38,7 @@ std::vector<PointMemory> tie_memory(const Eigen::MatrixX3d& gap) {
 JointLaw unbreakable_law(double stiffness) {
   JointLaw law;
   law.normal_stiffness = law.shear_stiffness = stiffness;
-  // Far from any force, and its differences are numbers.
+  // Far above any force, with finite differences.
   law.cohesion = 1e100;
   law.tensile_strength = std::numeric_limits<double>::infinity();
   return law;

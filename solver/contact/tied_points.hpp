@@ -15,10 +15,10 @@ namespace ashlar {
 
 /// One point for each function of the gap, of unit area. @param gap (#functions, 3)
 [[nodiscard]] std::vector<ContactPoint> tie_points(const Eigen::MatrixX3d& gap);
-/// What these remember: locked, with their slip.
+/// Memory of these points: locked, with their slip.
 [[nodiscard]] std::vector<PointMemory> tie_memory(const Eigen::MatrixX3d& gap);
 
-/// Springs in all directions that nothing breaks. @param stiffness Pa/m
+/// Springs in all directions that cannot fail. @param stiffness Pa/m
 [[nodiscard]] JointLaw unbreakable_law(double stiffness);
 
 }  // namespace ashlar
