@@ -1,4 +1,4 @@
-// Versions of the libraries the solver layer runs with, for the records of a run.
+// Versions of the libraries used by the solver layer, for the records of a run.
 #pragma once
 
 #include <string>

@@ -1,7 +1,6 @@
-// oneTBB does the work. The thread sanitizer sees only half of it, as the library of the system is not
-// compiled with that: it then either takes TBB's own hand-overs for races or, with those suppressed, sees no
-// race at all. So the build with the thread sanitizer uses plain threads, and races between pieces of work
-// are found.
+// oneTBB runs the tasks. The system's library is not compiled with the thread sanitizer, which then either reports
+// TBB's own synchronisation as races or, if these reports are suppressed, misses all races. So builds with the thread
+// sanitizer use plain threads, and races between tasks are detected.
 #include "solver/parallel_for.hpp"
 
 #include <tbb/info.h>
@@ -16,7 +15,8 @@
 #include <thread>
 #include <vector>
 
-// gcc says so by a macro, clang by a feature. The macro first: libraries define __has_feature, as none, for gcc.
+// gcc indicates it by a macro, clang by a feature. The macro is tested first: libraries define an empty __has_feature
+// for gcc.
 #if defined(__SANITIZE_THREAD__)
 #define ASHLAR_THREAD_SANITIZER
 #elif defined(__has_feature)
@@ -29,16 +29,16 @@ namespace ashlar {
 
 namespace {
 
-/// Pieces of work on several threads. The first exception waits here for the caller: TBB would allocate to carry it, and
-/// ends the program where it cannot.
+/// Tasks on several threads. Stores the first exception for the caller: TBB would allocate memory for it, and
+/// terminates the program if that fails.
 class Pieces {
  public:
   explicit Pieces(const std::function<void(std::size_t)>& work) : work_(work) {}
 
-  /// One piece, unless one has failed.
+  /// Runs one task, unless one has failed.
   void operator()(std::size_t k) {
-    // Relaxed: a stronger order would put the pieces of a thread before those that another does later, and only
-    // races between pieces that overlap in time would be seen.
+    // Relaxed: a stronger order would order the tasks of a thread before later tasks of others, and hide races
+    // between tasks that do not overlap in time.
     if (failed_.load(std::memory_order_relaxed)) return;
     try {
       work_(k);
@@ -49,7 +49,7 @@ class Pieces {
     }
   }
 
-  /// @throws what the first piece that failed threw
+  /// @throws the exception of the first task that failed
   void check() const {
     if (error_) std::rethrow_exception(error_);
   }
@@ -85,7 +85,7 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
 
 namespace {
 
-/// An arena costs more to make than a short loop takes: they are made once for each number of threads.
+/// An arena takes longer to construct than a short loop: one is kept for each number of threads.
 tbb::task_arena& arena_of(int threads) {
   static std::mutex mutex;
   static std::map<int, tbb::task_arena> arenas;
@@ -101,7 +101,7 @@ void parallel_for(int threads, std::size_t count, const std::function<void(std::
     return;
   }
   Pieces pieces(work);
-  // More than the machine has would make TBB print a warning and go on with fewer.
+  // More threads than the machine has would make TBB print a warning and use fewer.
   arena_of(std::min(threads, available_threads())).execute([&] {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) { pieces(k); });
   });

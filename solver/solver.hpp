@@ -1,5 +1,5 @@
-// The public face of this layer: a simulation of blocks, its settings, and its state as bytes. Headers that
-// this one does not reach are internal and not installed.
+// The public interface of this layer: a simulation of blocks, its settings, and its state as bytes. Headers not
+// included from here are internal and not installed.
 #pragma once
 
 #include "mechanics/mechanics.hpp"

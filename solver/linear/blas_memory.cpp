@@ -1,6 +1,6 @@
-// A buffer, once mapped, stays with OpenBLAS for whichever thread calls it next. So as many must be mapped as threads can
-// be inside at a time: threads are counted, and for each that is new one buffer more is mapped while no other thread is
-// inside, when exactly the buffers that are there are free.
+// OpenBLAS keeps a mapped buffer for the next thread that calls it. So as many buffers must be mapped as threads can
+// be in BLAS at a time. Threads are counted. For each new thread one more buffer is mapped while no other thread is
+// in BLAS, when exactly the existing buffers are free.
 #include "solver/linear/blas_memory.hpp"
 
 #include <sys/mman.h>
@@ -16,23 +16,23 @@ extern "C" void blas_memory_free(void* buffer) __attribute__((weak));
 namespace ashlar {
 namespace {
 
-/// Bytes of a buffer (OpenBLAS's BUFFER_SIZE is 128 MiB or less) and what other threads may take in the meantime.
+/// Bytes of a buffer (OpenBLAS's BUFFER_SIZE is 128 MiB or less) plus a reserve for allocations of other threads.
 constexpr std::size_t asked_bytes = (std::size_t{128} + 16) << 20U;
 
-/// Threads that have called BLAS and live, and the buffers that are mapped.
+/// Live threads that have called BLAS, and the mapped buffers.
 struct Threads {
-  std::shared_mutex mutex;  ///< shared by all that are inside BLAS
+  std::shared_mutex mutex;  ///< shared by all threads in BLAS
   std::size_t counted = 0;
   std::size_t mapped = 0;
 };
 
-// Never destroyed: threads may end after static objects have.
+// Never destroyed: threads may end after the destruction of static objects.
 Threads& threads() {
   static auto& all = *new Threads;
   return all;
 }
 
-/// True if the system would give one more buffer.
+/// True if the system can provide one more buffer.
 bool has_room() {
   void* place = mmap(nullptr, asked_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (place == MAP_FAILED) return false;
@@ -40,7 +40,7 @@ bool has_room() {
   return true;
 }
 
-/// Has OpenBLAS map one buffer more than there are. @throws BlasMemoryError
+/// Makes OpenBLAS map one more buffer. @throws BlasMemoryError
 void map_one_more(std::size_t mapped) {
   std::vector<void*> buffers;
   buffers.reserve(mapped + 1);

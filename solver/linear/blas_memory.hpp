@@ -1,5 +1,5 @@
-// Memory that OpenBLAS works in. It maps 128 MiB of address space for each thread that is inside it, and where that fails
-// it tries again without end; so the space is asked for here first, and a failure is an exception.
+// Working memory of OpenBLAS. It maps 128 MiB of address space for each thread in a call, and retries without end if
+// that fails. So the space is requested here first, and a failure is an exception.
 #pragma once
 
 #include <new>
@@ -7,13 +7,13 @@
 
 namespace ashlar {
 
-/// There is no room for the working memory of BLAS.
+/// Not enough memory for the working memory of BLAS.
 struct BlasMemoryError : std::bad_alloc {
   [[nodiscard]] const char* what() const noexcept override;
 };
 
-/// The calling thread may call BLAS while this lives. Nothing is mapped before a thread's first one; of an implementation
-/// other than OpenBLAS nothing is asked.
+/// The calling thread may call BLAS during the lifetime of this object. Nothing is mapped before the first one of a
+/// thread, and nothing is requested with implementations other than OpenBLAS.
 class BlasUse {
  public:
   /// @throws BlasMemoryError

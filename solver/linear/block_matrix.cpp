@@ -35,7 +35,7 @@ BlockMatrix::BlockMatrix(std::vector<int> sizes, const std::vector<std::array<in
 }
 
 std::size_t BlockMatrix::place(int j, int i, int row, int column) const {
-  // A column holds the rows of its own block from the diagonal on, then the blocks below.
+  // A column holds the rows of its own block from the diagonal on, followed by the blocks below.
   int start = 0;
   if (j != i) {
     const auto& below = bodies_below_[at(i)];

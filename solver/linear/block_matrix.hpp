@@ -1,5 +1,4 @@
-// A symmetric matrix made of dense blocks, one row of blocks for each body of an island, stored the way
-// CHOLMOD reads it.
+// A symmetric matrix of dense blocks, one row of blocks for each body of an island, in CHOLMOD's storage format.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +33,7 @@ class BlockMatrix {
   std::vector<int> offsets_;
   std::vector<std::vector<int>> bodies_below_;  ///< for each body i: bodies j > i paired with it, increasing
   std::vector<std::vector<int>>
-      start_below_;  ///< where block (j, i) starts below the diagonal block's columns
+      start_below_;  ///< first row of block (j, i) below the diagonal block's columns
   SymmetricMatrix matrix_;
 };
 

@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// The diagonal blocks' inverses: what Eigen asks of a preconditioner.
+/// Inverses of the diagonal blocks, with the interface of an Eigen preconditioner.
 class BlockJacobi {
  public:
   using StorageIndex = int;
@@ -35,7 +35,7 @@ class BlockJacobi {
     inverses_.clear();
     Eigen::Index start = 0;
     for (const int size : sizes_) {
-      // The lower triangle is all that the matrix has.
+      // Only the lower triangle of the matrix is stored.
       const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(matrix.block(start, start, size, size)));
       if (factor.info() != Eigen::Success) info_ = Eigen::NumericalIssue;
       inverses_.emplace_back(factor.solve(Eigen::MatrixXd::Identity(size, size)));
@@ -73,7 +73,7 @@ struct ConjugateGradients::Implementation {
   Eigen::SparseMatrix<double> sparse;
   bool ready = false;
   FactorCounts counts;
-  std::optional<SparseCholesky> instead;  ///< of a matrix on which they did not converge
+  std::optional<SparseCholesky> instead;  ///< of a matrix for which the iteration did not converge
 };
 
 ConjugateGradients::ConjugateGradients(const std::vector<int>& sizes)
@@ -88,7 +88,7 @@ FactorStatus ConjugateGradients::factorize(const SymmetricMatrix& matrix) {
   const bool same_pattern = matrix.size == self.matrix.size &&
                             matrix.column_start == self.matrix.column_start &&
                             matrix.rows == self.matrix.rows;
-  // Also with the same matrix: which systems a factor solves must not depend on what was solved long ago.
+  // Also for the same matrix: the choice of solver must not depend on earlier systems.
   self.instead.reset();
   if (self.ready && same_pattern && matrix.values == self.matrix.values) {
     ++self.counts.factorizations_reused;
@@ -111,7 +111,7 @@ Eigen::VectorXd ConjugateGradients::solve(const Eigen::VectorXd& right_side, boo
     self.gradients.setTolerance(refined ? refined_tolerance : tolerance);
     Eigen::VectorXd solution = self.gradients.solve(right_side);
     self.counts.gradient_iterations += static_cast<std::uint64_t>(self.gradients.iterations());
-    // x' A x = x' b is positive of a matrix that is.
+    // x' A x = x' b is positive for a positive definite matrix.
     if (self.gradients.info() == Eigen::Success && solution.allFinite() && solution.dot(right_side) >= 0.0)
       return solution;
     const FactorStatus status = self.instead.emplace().factorize(self.matrix);

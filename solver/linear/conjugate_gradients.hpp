@@ -1,5 +1,5 @@
-// Conjugate gradients with the diagonal blocks of the bodies as preconditioner (Eigen): no factor, so that memory is that of
-// the matrix and time grows little faster than it. For many blocks that pile up in three dimensions.
+// Conjugate gradients with the diagonal blocks of the bodies as preconditioner (Eigen). Without a factor, memory is
+// that of the matrix, and time grows little faster. For many blocks stacked in three dimensions.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,12 @@
 
 namespace ashlar {
 
-/// A system that does not converge within `most_iterations` is solved by a factor, and so are all until the next
-/// factorize().
+/// If a system does not converge within `most_iterations`, it and all later ones are solved by a factor until the
+/// next factorize().
 class ConjugateGradients final : public LinearSolver {
  public:
   static constexpr int most_iterations = 3000;
-  /// Of what is left to the right side, of refined solutions and of others.
+  /// Residual relative to the right side, of refined solutions and of others.
   static constexpr double refined_tolerance = 1e-12;
   static constexpr double tolerance = 1e-6;
 

@@ -40,7 +40,7 @@ KrylovSolution gmres(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
     rotations.push_back(rotation);
     ++used;
     solution.converged = std::abs(reduced[used]) <= tolerance * size;
-    // The space is exhausted: what it holds is all there is.
+    // The Krylov space is exhausted: it contains the solution.
     if (!(length > 1e-14 * before)) break;
     space.col(used) = next / length;
   }

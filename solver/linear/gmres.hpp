@@ -1,5 +1,5 @@
-// Linear systems given by what a matrix does to a vector (Saad and Schultz 1986), for those that are near the
-// identity: a handful of iterations, no restart.
+// Linear systems given by a matrix-vector product (Saad and Schultz 1986), for matrices near the identity: a handful
+// of iterations, no restart.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace ashlar {
 /// Outcome of a GMRES iteration.
 struct KrylovSolution {
   Eigen::VectorXd x;
-  bool converged = false;  ///< false: x is the best of the iterations allowed
+  bool converged = false;  ///< false: x is the best after all allowed iterations
   int iterations = 0;
 };
 

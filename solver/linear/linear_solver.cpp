@@ -11,7 +11,7 @@ Eigen::VectorXd times(const SymmetricMatrix& matrix, const Eigen::VectorXd& x) {
     const auto first = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column)]);
     const auto last = static_cast<std::size_t>(matrix.column_start[static_cast<std::size_t>(column) + 1]);
     const double here = x[column];
-    double sum = 0.0;  // of the row that mirrors the column
+    double sum = 0.0;  // of the mirrored row of the column
     for (std::size_t k = first; k < last; ++k) {
       const int row = matrix.rows[k];
       y[row] += matrix.values[k] * here;

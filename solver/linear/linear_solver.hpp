@@ -25,7 +25,7 @@ enum class FactorStatus {
   not_positive_definite,  ///< a block is free of inertia and stiffness, or the step is far too large
 };
 
-/// How often each stage ran and was skipped.
+/// Number of times each stage ran and was skipped.
 struct FactorCounts {
   std::uint64_t analyses = 0;
   std::uint64_t factorizations = 0;
@@ -42,7 +42,7 @@ struct FactorCounts {
   }
 };
 
-/// How systems are solved (notes/conjugate_gradients.md).
+/// Methods of solution (notes/conjugate_gradients.md).
 enum class LinearMethod {
   cholesky,             ///< sparse_cholesky.hpp
   conjugate_gradients,  ///< conjugate_gradients.hpp
@@ -53,18 +53,18 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
 
-  /// Makes ready for a matrix.
+  /// Prepares solutions with a matrix.
   [[nodiscard]] virtual FactorStatus factorize(const SymmetricMatrix& matrix) = 0;
-  /// Solves with the last matrix, `refined` as well as rounding allows.
-  /// @param right_side (size). @throws std::logic_error unless factorize() had success
+  /// Solves with the last matrix, with `refined` to rounding error.
+  /// @param right_side (size). @throws std::logic_error unless factorize() succeeded
   [[nodiscard]] virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined = true) = 0;
 
   [[nodiscard]] virtual const FactorCounts& counts() const = 0;
-  /// Starts to count at zero.
+  /// Resets the counts.
   virtual void drop_counts() = 0;
-  /// Operations of factorize() in those of a solution, by the pattern; 0 before the first.
+  /// Cost of factorize() relative to a solution, by the pattern; 0 before the first.
   [[nodiscard]] virtual double cost_in_solves() const = 0;
-  /// The matrix of the last success.
+  /// The last matrix that was factorised successfully.
   [[nodiscard]] virtual const SymmetricMatrix& matrix() const = 0;
 };
 

@@ -10,8 +10,8 @@
 
 #include "solver/linear/blas_memory.hpp"
 
-// OpenBLAS would use all cores for small fronts and change the order of sums with their number. CHOLMOD would
-// start four threads for each of its loops, which take less time than that.
+// OpenBLAS would use all cores for small fronts, and the order of sums would depend on their number. CHOLMOD would
+// start four threads for loops that take less time than that.
 extern "C" void openblas_set_num_threads(int threads) __attribute__((weak));
 extern "C" void omp_set_max_active_levels(int levels) __attribute__((weak));
 
@@ -74,7 +74,7 @@ struct SparseCholesky::Implementation {
     return Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(solution->x), right_side.size());
   }
 
-  /// Simplicial factors do without BLAS.
+  /// Simplicial factors do not use BLAS.
   [[nodiscard]] std::optional<BlasUse> blas_use() const {
     std::optional<BlasUse> use;
     if (factor->is_super != 0) use.emplace();

@@ -1,5 +1,5 @@
-// Sparse symmetric positive definite systems by CHOLMOD, with the symbolic factorisation kept while the
-// pattern stands and the numeric one while the values stand (theory.md section 10).
+// Sparse symmetric positive definite systems by CHOLMOD. The symbolic factorisation is kept while the pattern is
+// unchanged, and the numeric one while the values are (theory.md section 10).
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ class SparseCholesky final : public LinearSolver {
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-  /// Brings the factor to a matrix; analyses only if the pattern changed, factorises only if the values
-  /// changed. @throws std::bad_alloc
+  /// Updates the factor to a matrix. Analyses only a new pattern, factorises only new values.
+  /// @throws std::bad_alloc
   [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override;
 
   /// Solves with the last factorised matrix, `refined` with one step of iterative refinement.

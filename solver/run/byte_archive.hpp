@@ -1,15 +1,14 @@
-// Plain values as bytes and back, every number in full: what a checkpoint is made of.
+// Serialisation of plain values with all digits, for checkpoints.
 //
-// A plain struct takes part by its declaration: all of its members are stored (struct_members.hpp). A class with
-// constructors or private members, and a struct with members that follow from the others, lists what is stored by a
-// function template beside it. The structured binding names every member, so that one that is added does not compile
-// before somebody has decided about it:
+// All members of a plain struct are stored by its declaration (struct_members.hpp). A class with constructors or
+// private members, and a struct with derived members, lists its stored members in a function template beside it. The
+// structured binding names every member, so that a new member causes a compile error until it is listed:
 //   template <class Archive>
 //   void visit_members(Archive& archive, ViewFrame& frame) {
 //     auto& [origin, e1, e2, w] = frame;
 //     archive(origin, e1, e2, w);
 //   }
-// Numbers are stored as they lie in memory, little-endian; containers as their size and their elements.
+// Numbers are stored in their memory format, little-endian; containers as their size and their elements.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,26 +36,26 @@ static_assert(std::endian::native == std::endian::little, "checkpoints are littl
 template <class T>
 concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// A class with a list of its own.
+/// A class with its own list of members.
 template <class T, class Archive>
 concept ListsItsMembers = requires(Archive& archive, T& value) {
   visit_members(archive, value);
 };
 
-/// Values as bytes, in a string or, as they come, in the hands of a sink: what is stored need not be in memory twice.
+/// Converts values to bytes, in a string or streamed to a sink, so that the data need not be in memory twice.
 class ByteWriter {
  public:
   using Sink = std::function<void(std::string_view)>;
 
   ByteWriter() = default;
-  /// @param sink is given all bytes by and by, the last ones by flush()
+  /// @param sink receives all bytes in parts, the last ones by flush()
   explicit ByteWriter(Sink sink) : sink_(std::move(sink)) {}
 
   template <class... Values>
   void operator()(const Values&... values) {
     (write(values), ...);
   }
-  /// Without a sink: all that was written.
+  /// All bytes written. Without a sink only.
   [[nodiscard]] std::string take() { return std::move(bytes_); }
   void flush() {
     if (sink_ && !bytes_.empty()) sink_(bytes_);
@@ -106,7 +105,7 @@ class ByteWriter {
   requires std::is_class_v<T>
   void write(const T& value) {
     if constexpr (ListsItsMembers<T, ByteWriter>) {
-      // One list of members serves both directions; this direction only reads them.
+      // One list of members serves both directions; this one only reads them.
       visit_members(*this, const_cast<T&>(value));
     } else {
       with_members(value, *this);
@@ -120,11 +119,11 @@ class ByteWriter {
   }
 
   Sink sink_;
-  std::string bytes_;  ///< that the sink has not been given
+  std::string bytes_;  ///< not yet passed to the sink
 };
 
-/// Takes the values back in the order in which they were written.
-/// @throws std::runtime_error where the bytes end too early or a size cannot be right.
+/// Reads values in the order in which they were written.
+/// @throws std::runtime_error if the bytes end too early or a size is invalid.
 class ByteReader {
  public:
   /// @param bytes must outlive this
@@ -206,7 +205,7 @@ class ByteReader {
     }
   }
 
-  /// A number of elements that take at least so many bytes each.
+  /// Reads a number of elements of at least `least_bytes` bytes each.
   std::size_t read_size(std::size_t least_bytes) {
     std::uint64_t size = 0;
     read(size);
@@ -223,7 +222,7 @@ class ByteReader {
   std::string_view left_;
 };
 
-/// FNV-1a hash of bytes. @param start a former hash, to go on with
+/// FNV-1a hash of bytes. @param start a former hash to continue
 [[nodiscard]] constexpr std::uint64_t hash_bytes(std::string_view bytes,
                                                  std::uint64_t start = 14695981039346656037ULL) {
   std::uint64_t hash = start;

@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// Lists all members (byte_archive.hpp): it has constructors.
+/// Lists all members (byte_archive.hpp), as it has constructors.
 template <class Archive>
 void visit_members(Archive& archive, ViewFrame& frame) {
   auto& [origin, e1, e2, w] = frame;
@@ -22,7 +22,7 @@ void visit_members(Archive& archive, ViewFrame& frame) {
 /// @throws std::runtime_error if the bytes are not those of a snapshot.
 [[nodiscard]] SimulationSnapshot snapshot_from_bytes(std::string_view bytes);
 
-/// As a part of what is stored together with other values.
+/// Writes a snapshot as part of a larger archive.
 void write_snapshot(ByteWriter& writer, const SimulationSnapshot& snapshot);
 /// @throws std::runtime_error if the next bytes are not those of a snapshot.
 [[nodiscard]] SimulationSnapshot read_snapshot(ByteReader& reader);

@@ -12,7 +12,7 @@
 namespace ashlar {
 namespace {
 
-/// What makes a contact the same in two lists: its features by number.
+/// Identity of a contact in two lists: its features by number.
 using FeatureNames = std::tuple<ContactFeatures, bool, std::array<int, 2>, std::array<int, 2>>;
 
 FeatureNames names_of(const CellOverlap& overlap) {
@@ -35,7 +35,7 @@ class StageComparison {
   /// @param a,b surfaces of both blocks; must outlive this
   StageComparison(const PlacedSurface& a, const PlacedSurface& b) : a_(a), b_(b) {}
 
-  /// Takes the list after the next stage.
+  /// Compares with the list after the next stage.
   void add(ContactStage stage, const PairContacts& contacts) {
     std::vector<bool> present(names_.size(), false);
     const auto note_one = [&](const auto& contact) {
@@ -112,7 +112,7 @@ class StageComparison {
   std::vector<FeatureNames> names_;  ///< of contacts_
 };
 
-/// Why a pair is not searched, whatever lies where.
+/// Reason for excluding a pair from the search regardless of positions.
 std::optional<PairSearch> left_out(const BlockSystem& system, const PairKey& pair) {
   if (!system.present(pair[0]) || !system.present(pair[1])) return PairSearch::absent;
   if (system.left_out().contains(pair)) return PairSearch::tied;
@@ -120,7 +120,7 @@ std::optional<PairSearch> left_out(const BlockSystem& system, const PairKey& pai
   return std::nullopt;
 }
 
-/// State of blocks and contacts, with nothing kept from earlier searches.
+/// State of blocks and contacts without caches of earlier searches.
 RunState copy_for_search(const RunState& state) {
   RunState copy;
   copy.clock = state.clock;

@@ -1,9 +1,8 @@
-// Why two blocks have the contacts that they have: each contact that a stage of detection found, and the stage that
-// removed it.
+// Origin of the contacts of two blocks: each contact that a stage of detection found, and the stage that removed it.
 //
-// The stages are those of a step (contact/contact_stages.hpp), run once more on a copy of the present state with nothing
-// kept from earlier searches. The lists before and after each stage are compared: a contact is the same in both if its
-// features are.
+// The stages are those of a step (contact/contact_stages.hpp), run once more on a copy of the present state without
+// caches of earlier searches. The lists before and after each stage are compared: contacts with the same features are
+// the same.
 #pragma once
 
 #include <array>
@@ -22,10 +21,10 @@ enum class ContactFeatures { faces, vertex_and_face, edges };
 /// One contact of blocks a < b.
 struct ExplainedContact {
   ContactFeatures features = ContactFeatures::faces;
-  bool vertex_of_a = false;  ///< vertex_and_face: whether a has the vertex
-  /// Of a, then of b: the face; the face beside the vertex or edge where that is what meets
+  bool vertex_of_a = false;  ///< vertex_and_face: true if the vertex belongs to a
+  /// Face of a, then of b; for a vertex or edge an adjacent face
   std::array<int, 2> faces = {-1, -1};
-  Vector3 place = Vector3::Zero();   ///< m, on the surface of b or, of a vertex of b, of a
+  Vector3 place = Vector3::Zero();   ///< m, on the surface of b or, for a vertex of b, of a
   Vector3 normal = Vector3::Zero();  ///< unit, out of b
   double gap = 0.0;                  ///< m, least over the contact; negative: penetration
   double area = 0.0;                 ///< m^2, of the overlap, or tributary
@@ -33,19 +32,19 @@ struct ExplainedContact {
   std::optional<ContactStage> removed;  ///< empty: the step uses it
 };
 
-/// Why two blocks are searched, or not.
+/// Result of the selection of two blocks for a search.
 enum class PairSearch {
-  searched,   ///< their surfaces are within reach, or could not be told to be farther apart from boxes alone
+  searched,   ///< surfaces are within reach, or boxes alone do not show that they are farther apart
   both_held,  ///< neither moves: both are fixed
-  absent,     ///< one of them is not there in this stage
+  absent,     ///< one of them is absent in this stage
   tied,       ///< they are bonded as a whole
-  far_apart,  ///< their boxes are farther apart than they can come in a step
+  far_apart,  ///< their boxes are farther apart than the blocks can move in a step
 };
 
 struct ContactExplanation {
   PairKey blocks = {-1, -1};
   PairSearch search = PairSearch::searched;
-  double reach = 0.0;  ///< m, gaps up to this are searched: contact distance and what both may move in a step
+  double reach = 0.0;  ///< m, search distance: contact distance and possible motion of both in a step
   /// m, a lower bound of the distance of both surfaces; empty: they have contacts, or were not searched
   std::optional<double> clearance;
   std::optional<ContactType> type;         ///< of two convex blocks as a whole

@@ -72,9 +72,9 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
     state_.pairs[blocks].overlap = depth;
   }
   if (depths.empty()) return;
-  // How deep contacts are where blocks are placed tells how deep any may be later without force.
+  // The initial depth of contacts determines the depth that later contacts may have without force.
   std::map<PairKey, double> placed;
-  StepContacts contacts(system_);  // a stage moves blocks before contacts_ looks at any
+  StepContacts contacts(system_);  // a stage moves blocks before contacts_ evaluates any
   const std::vector<FoundContacts> found = contacts.detect(system_, state_, 0.0);
   for (const ContactPair& pair : contacts.pairs(system_, state_, found, PairUse::statics)) {
     double& deepest = placed[{pair.a(), pair.b()}];
@@ -103,7 +103,7 @@ std::vector<int> Simulation::settle_supported_blocks() {
     for (int step = 0; step < system_.settings().settling_steps; ++step) {
       const double way = (*position - state.position).norm();
       start_carried_step(run, k, block.carried_on(*position));
-      // Rounding is all that is left when steps no longer shrink.
+      // Steps that no longer shrink are rounding errors.
       if (!(way < last)) break;
       last = way;
       position = block.equilibrium(system_.settings().gravity_at(0.0), 0.0);

@@ -8,7 +8,7 @@
 namespace ashlar {
 namespace {
 
-/// Whether the snapshot is one of blocks with these numbers of functions.
+/// True if the snapshot fits blocks with these numbers of functions.
 bool fits(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
   const std::vector<BlockState>& states = end.run.states;
   bool same = states.size() == run.blocks().size() && was_absent.size() == states.size();
@@ -34,12 +34,12 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
   for (const auto& [place, factor] : end.load_factors)
     if (at(place[1]) < run.blocks()[at(place[0])].loads().size())
       run.system.set_load_factor(place[0], place[1], factor);
-  // Pairs with a block that is added keep what they are placed with.
+  // Pairs with an added block keep their initial history.
   std::erase_if(state.pairs, [&](const auto& pair) { return stays(pair.first[0]) && stays(pair.first[1]); });
   for (const auto& [blocks, pair] : end.run.pairs) {
     if (!stays(blocks[0]) || !stays(blocks[1])) continue;
     PairHistory& kept = state.pairs.emplace(blocks, pair).first->second;
-    // Paths of blocks, which it counts, begin anew.
+    // It counts paths of blocks, which start at zero again.
     kept.clearance.reset();
     kept.lasting.reset();
     kept.work = 0.0;

@@ -1,9 +1,10 @@
-// A stage of construction: the run goes on with other blocks present, other supports, loads, laws and settings,
-// from where another simulation of the same blocks has ended.
+// A stage of construction: the run continues with other blocks present, other supports, loads, laws and settings,
+// from the end of another simulation of the same blocks.
 //
-// What is taken over is where blocks are, how they move and what their contacts remember: bonds, slip of
-// springs, forces of multipliers. So what has not changed is in balance in the first step of the stage as it
-// was in the last one before. Loads keep the factors that Simulation::set_load_factor gave them. Steps are counted on; the clock, the ledger and the work of contacts begin anew.
+// Positions and velocities of blocks and the memory of contacts are kept: bonds, slip of springs, forces of
+// multipliers. So unchanged parts are in balance in the first step of the stage as they were at the end of the last
+// one. Loads keep the factors set by Simulation::set_load_factor. The count of steps continues; the clock, the ledger
+// and the work of contacts are reset.
 #pragma once
 
 #include <vector>
@@ -12,9 +13,9 @@
 
 namespace ashlar {
 
-/// To be called before the first step. Blocks that were absent start as this simulation has placed them.
+/// To be called before the first step. Blocks that were absent start where this simulation has placed them.
 /// @param end of the stage before. @param was_absent in it, by block
-/// @throws std::invalid_argument if it is one of other blocks, or of other orders
+/// @throws std::invalid_argument if it has other blocks or other orders
 void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent);
 
 }  // namespace ashlar

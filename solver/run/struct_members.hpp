@@ -1,8 +1,8 @@
-// The members of a plain struct, counted and named by the compiler: its declaration is the only list of them, so that
-// a member that is added to a struct is stored with it.
+// The members of a plain struct, counted and named by the compiler. The declaration is the only list of members, so
+// that a new member is stored with the others.
 //
 // The number of members of an aggregate is the largest number of values it can be initialised with. A structured
-// binding then names them, and refuses a number that is not theirs.
+// binding then names them, and rejects any other number.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace ashlar {
 
-/// A value of any type, for unevaluated initialisation. Converts as a const object, so that a constructor which takes
-/// anything (std::optional's) is the better match.
+/// A value of any type, for unevaluated initialisation. Converts as a const object, so that a constructor which
+/// accepts any type (that of std::optional) is the better match.
 struct AnyValue {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor): conversion is its purpose

@@ -15,7 +15,7 @@ StiffnessSource stiffness_source(const BlockModel& block) {
 
 double automatic_normal_stiffness(const StiffnessSource& a, const StiffnessSource& b, bool area_springs,
                                   const AutomaticRatios& ratios) {
-  // A fixed block is rigid, so the other one gives the modulus.
+  // The modulus of a fixed block is irrelevant, as it is rigid.
   const double modulus =
       std::min(a.fixed ? b.young_modulus : a.young_modulus, b.fixed ? a.young_modulus : b.young_modulus);
   double size = std::min(a.size, b.size);

@@ -11,8 +11,8 @@
 namespace ashlar {
 namespace {
 
-/// Where a block is asked whether it has turned inside out: its corners, the middles of its edges and the
-/// middles of the corners of its faces. An affine block is the same everywhere.
+/// Places where a block is checked for inversion: its corners, the midpoints of its edges and the centroids of the
+/// corners of its faces. An affine block has the same gradient everywhere.
 std::vector<Vector3> asked_places(const BlockModel& block) {
   if (block.order() == 1) return {block.basis().centroid()};
   const Polyhedron& solid = block.solid();
@@ -45,7 +45,7 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
     : blocks_(std::move(blocks)), absent_(std::move(absent)), law_(std::move(law)), settings_(settings) {
   absent_.resize(blocks_.size(), false);
   let_go();
-  // The surface of an incremental block is its sub-faces.
+  // The surface of an incremental block consists of its sub-faces.
   if (any_incremental()) settings_.curved_surface = false;
   const bool any_rigid =
       std::any_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.rigid(); });

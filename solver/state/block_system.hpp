@@ -1,5 +1,5 @@
-// The blocks of a scene and what holds them: all that a run does not change, but for models of blocks that
-// change their order or carry their shape on.
+// The blocks of a scene, their ties and joint laws: all data that are constant in a run, except models of blocks that
+// change their order or are incremental.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace ashlar {
 
-/// Two blocks that are to be bonded over the faces that they have in common.
+/// Two blocks to be bonded over their common faces.
 struct TieRequest {
   int a;  ///< a < b
   int b;
   double stiffness;  ///< Pa/m, > 0
 };
 
-/// Two blocks that are bonded (tie.hpp).
+/// Two bonded blocks (tie.hpp).
 struct TiedBlocks {
   int a;
   int b;
@@ -36,9 +36,9 @@ class BlockSystem {
  public:
   using LawOfPair = std::function<JointLaw(int, int)>;
 
-  /// @param law joint law of each pair (a < b). @param ties a pair without a common face is not tied, but
-  /// contacts are left out all the same. @param absent by block, or empty: blocks that keep their numbers but
-  /// are not there: they neither move, nor touch, nor weigh, nor have energy
+  /// @param law joint law of each pair (a < b). @param ties a pair without a common face is not tied, but its
+  /// contacts are excluded all the same. @param absent by block, or empty: absent blocks keep their numbers, but have
+  /// no motion, contact, weight or energy
   /// @throws std::invalid_argument if a tied block is incremental
   BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const SimulationSettings& settings,
               const std::vector<TieRequest>& ties, std::vector<bool> absent = {});
@@ -47,39 +47,39 @@ class BlockSystem {
   [[nodiscard]] const std::vector<BlockModel>& blocks() const { return blocks_; }
   [[nodiscard]] bool present(int block) const { return !absent_[static_cast<std::size_t>(block)]; }
   [[nodiscard]] const std::vector<bool>& absent() const { return absent_; }
-  /// By block: false for fixed and absent blocks, and for those that are held at present: in statics loose
-  /// ones, in motion those that sleep.
+  /// By block: false for fixed and absent blocks, and for blocks held at present: loose ones in statics, sleeping
+  /// ones in dynamics.
   [[nodiscard]] const std::vector<bool>& moving() const { return moving_; }
   [[nodiscard]] JointLaw law(int a, int b) const { return law_(a, b); }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<TiedBlocks>& ties() const { return ties_; }
   [[nodiscard]] bool is_tied(int block) const;
   [[nodiscard]] bool are_tied(int a, int b) const;
-  /// Pairs between which no contacts are looked for, the lower block first.
+  /// Pairs without contact search, the lower block first.
   [[nodiscard]] const std::set<std::array<int, 2>>& left_out() const { return left_out_; }
-  /// Sets of blocks that turn as one and that nothing but contacts holds (free_bodies.hpp).
+  /// Sets of blocks that rotate together and are supported by contacts only (free_bodies.hpp).
   [[nodiscard]] const std::vector<std::vector<int>>& free_bodies() const { return free_bodies_; }
   /// Size of the rounding errors of a block's internal force, N m^-3/2.
   [[nodiscard]] double roundoff_force(int block) const;
-  /// Gradients of a block's functions where it is asked whether it has turned inside out, (3 #places, p);
-  /// null: fixed or incremental blocks are not asked.
+  /// Gradients of a block's functions at the places checked for inversion, (3 #places, p); null: fixed or incremental
+  /// blocks are not checked.
   [[nodiscard]] const Eigen::MatrixXd* asked_gradients(int block) const;
   [[nodiscard]] bool any_incremental() const;
   /// block_size of the smaller of two blocks, m.
   [[nodiscard]] double smaller_size(const std::array<int, 2>& blocks) const;
   [[nodiscard]] int unknowns() const;
-  /// Of each block: whether supports leave it no rigid motion, or those of blocks that it is tied to.
+  /// By block: true if its supports, or those of blocks tied to it, prevent all rigid motions.
   [[nodiscard]] std::vector<bool> held_without_contacts() const;
 
-  /// Puts another model of the same solid in a block's place, of another order.
+  /// Replaces the model of a block by one of the same solid and another order.
   void replace(int block, BlockModel model);
-  /// Puts the model of an incremental block's next step in its place.
+  /// Replaces the model of an incremental block by that of its next step.
   void carry_on(int block, BlockModel model);
-  /// @throws std::out_of_range for a block or load that is not there
+  /// @throws std::out_of_range for a block or load that does not exist
   void set_load_factor(int block, int load, double factor);
   /// Factors of loads that are not 1, by block and load.
   [[nodiscard]] std::map<std::array<int, 2>, double> load_factors() const;
-  /// Holds blocks as if they were fixed, until they are let go.
+  /// Holds blocks as if they were fixed until let_go().
   void hold(const std::vector<int>& blocks);
   void let_go();
 

@@ -1,4 +1,4 @@
-// Which blocks turn as one, with nothing but contacts to hold them.
+// Sets of blocks that rotate together and are supported by contacts only.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace ashlar {
 
-/// Sets of blocks that turn as one and that nothing but contacts holds: single blocks, and blocks tied to
-/// each other. Fixed, supported and incremental blocks, and all that are tied to one, are in none.
+/// Sets of blocks that rotate together and are supported by contacts only: single blocks, and blocks tied to each
+/// other. Excludes fixed, supported and incremental blocks and all blocks tied to one.
 /// @param ties pairs of tied blocks. @return increasing block indices, sets in the order of their first
 [[nodiscard]] std::vector<std::vector<int>> free_bodies(const std::vector<BlockModel>& blocks,
                                                         const std::vector<std::array<int, 2>>& ties);

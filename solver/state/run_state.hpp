@@ -1,4 +1,4 @@
-// All of a run that changes from step to step, as plain values: copied, it is a snapshot of the run.
+// All data of a run that change from step to step, as plain values: a copy is a snapshot of the run.
 #pragma once
 
 #include <array>
@@ -18,14 +18,15 @@
 
 namespace ashlar {
 
-/// Why a step was cut.
+/// Reason for cutting a step.
 enum class RejectionReason {
   open_close_not_settled,  ///< reduce time_step or the stiffness of the joints
   not_positive_definite,   ///< a joint or material far too stiff for the step
   passing,                 ///< blocks would have passed through each other: cut to the first touch
-  no_shape,                ///< an incremental block would have turned inside out: reduce time_step
-  not_finite,              ///< a state that doubles cannot hold: check loads, stiffness and time_step
-  inside_out,              ///< a block would have turned inside out: stiffer material or less load
+  no_shape,                ///< an incremental block would have been inverted: reduce time_step
+  not_finite,              ///< a state outside the range of double precision: check loads, stiffness and
+                           ///< time_step
+  inside_out,              ///< a block would have been inverted: stiffer material or less load
   too_deep,                ///< blocks deeper in each other than allowed: see settings.depth.allowed_depth
 };
 [[nodiscard]] std::string to_string(RejectionReason reason);
@@ -37,11 +38,11 @@ struct Rejection {
   RejectionReason reason;
 };
 
-/// Why a state is no state that a step may end in.
+/// Fault of a state at the end of a step.
 struct StateFault {
   RejectionReason reason;  ///< not_finite, inside_out, too_deep or open_close_not_settled
-  /// Of one block: the same twice; too_deep: the first is in the second; open_close_not_settled: those whose contact
-  /// points have changed their states most often
+  /// Both indices are the block of a single one; too_deep: the first is in the second; open_close_not_settled: blocks
+  /// of the pair whose contact points have changed state most often
   std::array<int, 2> blocks;
   double depth = 0.0;               ///< m, of too_deep
   double allowed = 0.0;             ///< m
@@ -53,15 +54,15 @@ struct SimulationCounts {
   FinderCounts finder;
   std::uint64_t contact_points = 0;
   std::uint64_t open_close_iterations = 0;
-  std::uint64_t open_close_fallbacks = 0;  ///< times Newton went round in circles (open_close.hpp)
+  std::uint64_t open_close_fallbacks = 0;  ///< times Newton's iteration stalled (open_close.hpp)
   std::uint64_t passing_contacts =
-      0;  ///< contacts added because blocks at rest on each other's rim would pass
+      0;  ///< contacts added because blocks resting on each other's edges would pass
   std::uint64_t islands_put_to_sleep = 0;
   std::uint64_t sleeping_block_steps = 0;  ///< blocks that slept, summed over steps
   FactorCounts factors;
 };
 
-/// The contact points of one pair of blocks as an accepted step left them.
+/// The contact points of one pair of blocks at the end of an accepted step.
 struct PairRecord {
   int a;
   int b;
@@ -73,40 +74,40 @@ struct PairRecord {
 /// Sum of the contact forces on the block `a` of a pair, N.
 [[nodiscard]] Vector3 force_on_a(const PairRecord& record);
 
-/// What the last accepted step did.
+/// Summary of the last accepted step.
 struct StepReport {
   double step = 0.0;
-  int iterations = 0;  ///< most of any island
+  int iterations = 0;  ///< largest number in any island
   int open = 0;
   int locked = 0;
   int sliding = 0;
   double penetration = 0.0;  ///< largest of any contact point, m, >= 0
-  /// True depth of the deepest point of any block in another one, beyond what they were placed, m, >= 0
+  /// True depth of the deepest point of any block in another one, beyond the initial overlap, m, >= 0
   double depth = 0.0;
 };
 
-/// The deepest that any block has been in another one.
+/// Largest penetration of any block in another one.
 struct DeepestPoint {
-  std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: none has been
-  double depth = 0.0;                    ///< m, beyond what the blocks were placed
+  std::array<int, 2> blocks = {-1, -1};  ///< the first is in the second; -1: no penetration so far
+  double depth = 0.0;                    ///< m, beyond the initial overlap
   double share = 0.0;                    ///< depth over the size of the smaller block
   double time = 0.0;                     ///< s
   Vector3 place = Vector3::Zero();       ///< m
 };
 
-/// Friction at points that slid on multipliers, beside what Coulomb's law makes of their normal forces.
+/// Friction at points that slid on multipliers, compared with Coulomb's law for their normal forces.
 struct FrictionTally {
   double due = 0.0;    ///< N s, tan(phi) times normal impulses, and cohesion
   double acted = 0.0;  ///< N s, of the shear forces
 
-  /// By how much of what was due more has acted, < 0: less.
+  /// Relative excess of the friction that acted over the one due, < 0: less.
   [[nodiscard]] double excess() const { return due > 0.0 ? acted / due - 1.0 : 0.0; }
 };
 
-/// Slip of joints that dilate, area times way, m^3, in steps: what is in flight does not dilate.
+/// Slip of dilating joints in steps, area times slip, m^3: joints in flight do not dilate.
 struct DilatingSlip {
   double all = 0.0;
-  double in_flight = 0.0;  ///< where no point of a pair that has dilated touches
+  double in_flight = 0.0;  ///< while no point of a pair that has dilated touches
 
   [[nodiscard]] double flown_share() const { return all > 0.0 ? in_flight / all : 0.0; }
 };
@@ -120,18 +121,18 @@ struct PhaseSeconds {
   double depth_audit = 0.0;
 };
 
-/// What a run has done and what it has cost.
+/// Work done by a run and its cost.
 struct RunLog {
   std::vector<Rejection> rejections;
-  SimulationCounts counts;  ///< of finder and factors: those of a run that this one goes on with
+  SimulationCounts counts;  ///< of finder and factors: including those of the run that this one continues
   PhaseSeconds seconds;
 };
 
-/// The most that contact has let through.
+/// Extremes of penetration and of errors of contact.
 struct ContactExtremes {
   double penetration = 0.0;  ///< of contact points, m
-  DeepestPoint deepest;      ///< of any corner or edge, whatever its contacts say (depth_audit.hpp)
-  /// 0 where contact is springs, whose friction is Coulomb's at each point and time
+  DeepestPoint deepest;      ///< of any corner or edge, independent of contacts (depth_audit.hpp)
+  /// 0 for contact by springs, whose friction obeys Coulomb's law at each point and time
   FrictionTally sliding_friction;
   DilatingSlip dilating_slip;
 };
@@ -141,11 +142,11 @@ struct RunState {
   StepClock clock;
   double next_step = 0.0;  ///< s, grows back to settings.time_step after cuts
   int steps = 0;
-  bool remembers_statics = false;  ///< contacts were known before the first step
+  bool remembers_statics = false;  ///< contacts were detected before the first step
   std::vector<BlockState> states;
-  /// a of time_scheme.hpp, (p, 3) for each block; empty unless the integrator carries it on
+  /// a of time_scheme.hpp, (p, 3) for each block; empty if the integrator does not use it
   std::vector<Eigen::MatrixX3d> accelerations;
-  /// J, <= 0: what dda steps have created, and must dissipate before spin may take up any of it
+  /// J, <= 0: energy generated by dda steps, to be dissipated before spin may use any
   std::vector<double> spin_debts;
   PairHistories pairs;
   KnownDepths depths;
@@ -158,11 +159,11 @@ struct RunState {
   RunLog log;
 
   [[nodiscard]] double time() const { return clock.time(); }
-  /// Whether nothing is left up to `end_time` but rounding. @param time_step of the settings, s
+  /// True if the remaining time up to `end_time` is within rounding error. @param time_step of the settings, s
   [[nodiscard]] bool reached(double time_step, double end_time) const {
     return end_time - time() <= time_rounding(time_step, end_time);
   }
-  /// Whether contacts have been looked at before, so that new ones are new.
+  /// True if contacts have been detected before; until then none is treated as newly formed.
   [[nodiscard]] bool has_begun() const { return steps > 0 || remembers_statics; }
 };
 

@@ -1,5 +1,5 @@
-// Which blocks sleep: islands that have come to rest are held as they are, and cost nothing until something
-// wakes them (step/sleeping_islands.hpp, notes/sleeping_islands.md).
+// Sleeping blocks: islands that have come to rest are held, without cost, until they are woken
+// (step/sleeping_islands.hpp, notes/sleeping_islands.md).
 #pragma once
 
 #include <Eigen/Dense>
@@ -8,24 +8,24 @@
 
 namespace ashlar {
 
-/// How little a block has moved of late. Paths and velocities are those of the mean of two steps: what alternates
-/// from step to step is not in them (notes/sleeping_islands.md).
+/// Recent motion of a block. Paths and velocities are those of the mean of two steps, so that motion which alternates
+/// from step to step is excluded (notes/sleeping_islands.md).
 struct BlockRest {
-  /// m, the path of its fastest point in the last whole window; infinite until there was one
+  /// m, path of its fastest point in the last complete window; infinite before the first
   double last_path = std::numeric_limits<double>::infinity();
   double path = 0.0;        ///< m, in the present window
   Eigen::MatrixX3d motion;  ///< of the last step, (p, 3), m; empty: none
-  /// At the start of the present window, (p, 3), m/s; empty until one has begun
+  /// At the start of the present window, (p, 3), m/s; empty before the first window
   Eigen::MatrixX3d velocity;
 };
 
 /// Blocks that were put to sleep together and wake together.
 struct SleepingIsland {
   std::vector<int> blocks;  ///< increasing
-  double held = 0.0;        ///< by springs of their contacts and ties, J
+  double held = 0.0;        ///< energy of springs of their contacts and ties, J
 };
 
-/// What sleeps, and what is about to.
+/// Sleeping islands, and the recent motion of blocks.
 struct Sleep {
   std::vector<BlockRest> rests;  ///< by block
   int window_steps = 0;          ///< steps of the present window

@@ -1,4 +1,4 @@
-// What a static analysis (statics/static_analysis.hpp) carries from one iteration to the next.
+// State of a static analysis (statics/static_analysis.hpp) between iterations.
 #pragma once
 
 #include <array>
@@ -8,41 +8,41 @@
 
 namespace ashlar {
 
-/// Root mean square over a block of the motion that a change of its coefficients is, in its unit.
+/// Root mean square over a block of the motion by a change of its coefficients, in its unit.
 [[nodiscard]] double mean_motion(const BlockModel& block, const Eigen::MatrixX3d& change);
 
-/// How far blocks have gone without coming nearer to balance. By block.
+/// Displacement of blocks since the last halving of their residual. By block.
 struct StaticProgress {
-  /// Where it was when what it lacks had last been halved, (p, 3), and how much that was, N m^-3/2
+  /// Position at the last halving of its residual, (p, 3), and the residual there, N m^-3/2
   std::vector<Eigen::MatrixX3d> milestones;
   std::vector<double> forces;
-  std::vector<double> travels;  ///< from there, in parts of the block's size
-  /// What it lacked in the last iteration, (p, 3), N m^-3/2; no blocks before the first
+  std::vector<double> travels;  ///< displacement from there, in block sizes
+  /// Residual of the last iteration, (p, 3), N m^-3/2; empty before the first
   std::vector<Eigen::MatrixX3d> residuals;
 };
 
-/// How blocks set off that no equilibrium holds, since the last iteration in equilibrium, or in which a joint
-/// lost its strength.
+/// Onset of motion of blocks without equilibrium, since the last iteration in equilibrium, or in which a joint
+/// failed.
 struct StaticOnset {
   std::vector<std::array<int, 2>> sliding;   ///< joints that slid in the last iteration
-  double least_residual = 0.0;               ///< least sum of squares of what blocks lacked, N^2
+  double least_residual = 0.0;               ///< smallest sum of squared residuals of blocks, N^2
   std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
-  bool rigid = false;                        ///< whether these are those of rigid blocks
-  std::vector<int>
-      gives_way;  ///< of each block: not 0 where rigid blocks would have stayed (rigid_onset.hpp)
-  std::vector<Eigen::MatrixX3d> starts;  ///< of each block, positions then
+  bool rigid = false;                        ///< true if these are those of rigid blocks
+  std::vector<int> gives_way;  ///< by block: not 0 if it moves by compliance only and rigid blocks would stay
+                               ///< (rigid_onset.hpp)
+  std::vector<Eigen::MatrixX3d> starts;  ///< by block, positions at that time
 };
 
-/// What a static analysis carries from one iteration to the next.
+/// State of a static analysis between iterations.
 struct StaticState {
   double inertia = 0.0;           ///< m of the next iteration, 1/s^2; 0 before the first
   int iterations = 0;             ///< at the present loads
-  int still_iterations = 0;       ///< in equilibrium with unchanged contacts, one after another
-  bool freezes_failure = false;   ///< until all is in balance once with bonds that hold
+  int still_iterations = 0;       ///< consecutive ones in equilibrium with unchanged contacts
+  bool freezes_failure = false;   ///< until the first balance with bonds that do not fail
   int multiplier_iterations = 0;  ///< in equilibrium whose multipliers had not converged
   bool balanced = false;          ///< equilibrium at the present loads
   bool moving = false;
-  std::vector<Eigen::MatrixX3d> level_start;  ///< of each block, positions when the present loads were put on
+  std::vector<Eigen::MatrixX3d> level_start;  ///< by block, positions at the start of the load level
   StaticProgress progress;
   StaticOnset onset;
 };

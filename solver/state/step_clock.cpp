@@ -11,8 +11,8 @@
 namespace ashlar {
 namespace {
 
-/// Whole numbers up to here, and powers of ten up to 10^22, are doubles: their quotient and product are
-/// rounded once.
+/// Whole numbers up to this value, and powers of ten up to 10^22, are exact in double precision: their quotient and
+/// product are rounded once.
 constexpr std::int64_t largest_exact = std::int64_t{1} << 53;
 constexpr int largest_power = 22;
 
@@ -21,7 +21,7 @@ struct Decimal {
   int exponent = 0;  ///< value: digits x 10^exponent
 };
 
-/// The shortest decimal number that reads back as this double, without trailing zeros.
+/// The shortest decimal representation of a double, without trailing zeros.
 std::optional<Decimal> shortest_decimal(double value) {
   if (value == 0.0) return Decimal{};
   std::array<char, 32> text;
