@@ -24,8 +24,8 @@ class ConjugateGradients final : public LinearSolver {
   ConjugateGradients(const ConjugateGradients&) = delete;
   ConjugateGradients& operator=(const ConjugateGradients&) = delete;
 
-  /// @return not_positive_definite: a diagonal block is not, or, known only after solve(), the matrix is not. That solve()
-  /// gives the solution with the diagonal blocks alone, along which a positive definite form falls
+  /// @return not_positive_definite if a diagonal block is not. If the matrix is found indefinite in solve() only,
+  /// that solve() returns the solution with the diagonal blocks alone, which is a descent direction
   [[nodiscard]] FactorStatus factorize(const SymmetricMatrix& matrix) override;
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right_side, bool refined = true) override;
   [[nodiscard]] const FactorCounts& counts() const override;

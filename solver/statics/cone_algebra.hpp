@@ -1,4 +1,4 @@
-// Algebra of the cone x0 >= |x1, x2| and the scaling of Nesterov and Todd, for the iteration of a cone programme.
+// Algebra of the cone x0 >= |x1, x2| and the Nesterov-Todd scaling, for the iteration of a cone programme.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ inline Vector3d product(const Vector3d& x, const Vector3d& y) {
   return r;
 }
 
-/// r of product(x, r) = y.
+/// Solution r of product(x, r) = y.
 inline Vector3d quotient(const Vector3d& x, const Vector3d& y) {
   Vector3d r;
   r[0] = (x[0] * y[0] - x.tail<2>().dot(y.tail<2>())) / determinant(x);
@@ -31,7 +31,7 @@ inline Vector3d quotient(const Vector3d& x, const Vector3d& y) {
   return r;
 }
 
-/// Largest a <= 1e30 for which x + a d is in the cone that x is inside of.
+/// Largest a <= 1e30 for which x + a d is in the cone, with x in its interior.
 inline double longest_way(const Vector3d& x, const Vector3d& d) {
   constexpr double far = 1e30;
   const double a = d[0] * d[0] - d.tail<2>().squaredNorm();

@@ -15,15 +15,15 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of points in a step: forces that balance does not tell apart would make the matrix as stiff as they are free. What it
-/// adds to the equations of a step is gone once steps are small.
+/// Compliance of points in a step: forces that balance does not determine would make the matrix as stiff as they are
+/// free. Its contribution to the equations of a step vanishes as steps become small.
 constexpr double compliance = 1e-9;
 
 double scalar_w2(const PointIterate& i) {
   return i.zc / i.xc;
 }
 
-/// H^-1, without the loss of digits of an inversion: H = E' W^-2 E + cut along N, E = diag(mu, 1, 1).
+/// H^-1 without cancellation: H = E' W^-2 E + cut along N, E = diag(mu, 1, 1).
 Matrix3d inverse_of(const ConeStrength& strength, const Scaling& w, double cut) {
   Matrix3d inverse = Matrix3d::Zero();
   if (!strength.shear()) {
@@ -33,13 +33,13 @@ Matrix3d inverse_of(const ConeStrength& strength, const Scaling& w, double cut) 
     inverse.row(0) /= strength.friction;
     inverse.col(0) /= strength.friction;
     const Vector3d along = inverse.col(0);
-    // The bound of tension takes away what is along N: by a factor, where a difference would lose its digits.
+    // The bound of tension removes the part along N: by a factor, as a difference would lose digits.
     const double less = 1.0 / (1.0 + cut * along[0]);
     inverse.row(0) = less * along.transpose();
     inverse.col(0) = less * along;
     inverse.bottomRightCorner<2, 2>() -= cut * less * along.tail<2>() * along.tail<2>().transpose();
   } else {
-    // The cone's axis does not depend on the force.
+    // The cone's axis is independent of the force.
     const Matrix3d m = w.back * w.back;
     inverse(0, 0) = 1.0 / cut;
     inverse.bottomRightCorner<2, 2>() = m.bottomRightCorner<2, 2>().inverse();
@@ -47,7 +47,7 @@ Matrix3d inverse_of(const ConeStrength& strength, const Scaling& w, double cut) 
   return inverse;
 }
 
-/// E'^-1 y, where the first component is of no meaning without friction.
+/// E'^-1 y; the first component is meaningless without friction.
 Vector3d divided(const ConeStrength& strength, const Vector3d& y) {
   return {strength.friction > 0.0 ? y[0] / strength.friction : 0.0, y[1], y[2]};
 }
@@ -104,7 +104,7 @@ bool ConeIteration::factorize() {
     largest =
         std::max({largest, blocks[n].first.diagonal().maxCoeff(), blocks[n].second.diagonal().maxCoeff()});
   }
-  // Rounding of the sum is no less than this.
+  // Lower bound by the rounding error of the sum.
   const double ground = std::max(weight_, 1e-15 * largest);
   for (std::size_t b = 0; b < velocity_.size(); ++b) matrix.add_to_diagonal(static_cast<int>(b), ground);
   if (program_.factor_.factorize(matrix.matrix()) != FactorStatus::success) return false;
@@ -170,7 +170,7 @@ void ConeIteration::direction(double centring, bool corrected) {
     const ConeStrength& s = strength(k);
     PointStep& d = steps_[k];
     const Vector3d y = times(program_.points_[k], pair, step_v_);
-    // The duals follow from G dv, which keeps them feasible to rounding whatever W is.
+    // The duals follow from G dv, which keeps them feasible to rounding for any W.
     Vector3d dual = d.lack_y + y;
     if (!s.shear()) dual.tail<2>().setZero();
     d.dp = d.right - d.inverse * y;

@@ -16,14 +16,14 @@ namespace {
 
 constexpr int most_iterations = 120;
 constexpr double to_the_boundary = 0.98;
-/// Of `rest`, over the square of the loads: v is right to the root of it.
+/// For `rest`, relative to the square of the loads: the error of v is its square root.
 constexpr double gap_of_rest = 1e-12;
 constexpr double gap_of_factor = 1e-8;
 constexpr double equations = 1e-9;
 constexpr double loose_equations = 1e-7;  ///< where a gap is allowed
-/// Tolerances by which an answer counts as solved where rounding ends the iteration.
+/// Tolerances of a solved answer if rounding ends the iteration.
 constexpr double loose = 1e-4;
-/// Of `factor` and `slow`: balance is asked for by a penalty, F + G'p + a F1 = share v.
+/// For `factor` and `slow`: balance is enforced by a penalty, F + G'p + a F1 = share v.
 constexpr double balance_share = 1e-9;
 
 }  // namespace
@@ -64,7 +64,7 @@ ConeAnswer ConeIteration::run() {
     direction(0.0);
     const double ahead = this->length(1.0);
     const double left = std::max(gap_after(ahead), 0.0) / std::max(gap_, std::numeric_limits<double>::min());
-    // A step that was cut short has left the iterate near the boundary: back to the middle first.
+    // After a shortened step the iterate is near the boundary: return to the centre first.
     const bool centres = length < 0.2;
     direction(std::clamp(std::pow(left, 3), centres ? 0.5 : 1e-8, 1.0), !centres);
     length = this->length(to_the_boundary);

@@ -1,4 +1,4 @@
-// One question to a cone programme on its way to an answer: iterates and directions of the interior point method
+// One problem of a cone programme during its solution: iterates and directions of the interior point method
 // (cone_program.hpp).
 #pragma once
 
@@ -13,8 +13,7 @@
 namespace ashlar {
 namespace cone {
 
-/// A point of an iterate: force, slacks of its bounds and their duals. What a point has no bound for stays 1 and has no
-/// part in anything.
+/// Iterate of a point: force, slacks of its bounds and their duals. Members without a bound stay 1 and are not used.
 struct PointIterate {
   Vector3d p = Vector3d::Zero();
   Vector3d x = Vector3d::UnitX();  ///< (c + mu N, t)
@@ -23,7 +22,7 @@ struct PointIterate {
   double zc = 1.0;
 };
 
-/// Of the equations at an iterate, and the direction.
+/// Residuals of the equations of a point at an iterate, and the direction.
 struct PointStep {
   Scaling w;
   Vector3d lambda = Vector3d::UnitX();
@@ -32,7 +31,7 @@ struct PointStep {
   Vector3d lack_y;   ///< G v + s - E'z
   Matrix3d inverse;  ///< H^-1
   Vector3d right;    ///< b of dp = H^-1 (b - G dv)
-  Vector3d q;        ///< W^-1 of what complementarity lacks
+  Vector3d q;        ///< W^-1 times the residual of complementarity
   double qc = 0.0;
   Vector3d dp, dx, dz;
   double dxc = 0.0, dzc = 0.0;
@@ -50,7 +49,7 @@ class ConeIteration {
   using Matrix3d = Eigen::Matrix3d;
   using Vector3d = Eigen::Vector3d;
 
-  /// The best iterate so far.
+  /// Stores the best iterate so far.
   void keep();
   void take_back();
 
@@ -94,7 +93,7 @@ class ConeIteration {
 
   [[nodiscard]] double gap_allowed() const;
   [[nodiscard]] double equations_allowed() const;
-  /// The unit in which lacks of velocity are measured.
+  /// Unit of residuals of velocity.
   [[nodiscard]] double velocity_scale() const;
   [[nodiscard]] bool done(double looser) const;
 
@@ -102,12 +101,12 @@ class ConeIteration {
 
   [[nodiscard]] std::vector<BodyVelocity> solved(const std::vector<BodyVelocity>& right);
 
-  /// The direction that takes complementarity to `centring` of what it is. @param corrected by the last direction
+  /// Direction that reduces complementarity to the share `centring`. @param corrected by the last direction
   void direction(double centring, bool corrected = false);
 
   [[nodiscard]] double length(double share) const;
 
-  /// Complementarity after a part of the direction.
+  /// Complementarity after a step of length `way` along the direction.
   [[nodiscard]] double gap_after(double way) const;
 
   void advance(double way);

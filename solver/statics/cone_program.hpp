@@ -8,14 +8,15 @@
 //     rest     min over p   1/2 |F + G'p|^2 + s . N      accelerations v = F + G'p: Gauss's principle
 //     factor   max over p, a   a,   F + G'p + a F1 = 0,   a <= most
 //     slow     min over p   s . N,   F + G'p = 0         forces in balance
-// The dual variables of all are velocities: v is how blocks set off, under `rest` from no velocity, under `factor` in
-// the mechanism that keeps the factor from growing, with F1 . v = 1, under `slow` so slowly that inertia has no part.
-// Joints that slide open by mu times what they slide (associated flow), less the shift s of a point. Under `rest`
-// without shifts v is zero if and only if there are forces within the strengths that balance the loads.
+// The dual variables are velocities v: under `rest` the onset of motion from zero velocity, under `factor` the
+// mechanism that limits the factor, with F1 . v = 1, under `slow` a motion without inertia. Sliding joints open by mu
+// times their slip (associated flow), less the shift s of a point. Under `rest` without shifts v is zero if and only
+// if forces within the strengths balance the loads.
 //
 // Method: primal-dual, scaled by Nesterov and Todd (Andersen, Roos and Terlaky, Math. Program. 95 (2003) 249), with
-// Mehrotra's predictor and corrector. An iteration factorises G' H^-1 G + 1, H (3, 3) of each point: one block for each
-// pair of bodies in contact. Everything is without unit: what calls it divides by a mass, a length and an acceleration.
+// Mehrotra's predictor and corrector. An iteration factorises G' H^-1 G + 1, H (3, 3) of each point: one block for
+// each pair of bodies in contact. All quantities are dimensionless: the caller divides by a mass, a length and an
+// acceleration.
 #pragma once
 
 #include <Eigen/Dense>
@@ -37,22 +38,22 @@ struct ConeStrength {
   double cohesion = 0.0;  ///< c, >= 0
   double tension = 0.0;   ///< T, >= 0
 
-  /// True if it bears shear.
+  /// True if it resists shear.
   [[nodiscard]] bool shear() const { return friction > 0.0 || cohesion > 0.0; }
   /// True if tension has a bound of its own, below c/mu, where the cone of shear ends.
   [[nodiscard]] bool cut_off() const { return !shear() || friction == 0.0 || tension < cohesion / friction; }
 };
 
-/// A point between two bodies: how its relative velocity follows from theirs, normal first.
+/// A point between two bodies: rows of its relative velocity, normal first.
 struct ConePoint {
   ConeRows first = ConeRows::Zero();
   ConeRows second = ConeRows::Zero();  ///< to be subtracted
   ConeStrength strength;
 };
 
-/// The points of two bodies, which follow each other.
+/// The points of two bodies, stored consecutively.
 struct ConePair {
-  std::array<int, 2> bodies;  ///< -1: what does not move
+  std::array<int, 2> bodies;  ///< -1: fixed
   std::size_t begin = 0;
   std::size_t end = 0;
 };
@@ -64,13 +65,13 @@ struct ConeQuestion {
   double most = 0.0;                ///< of the factor, > 0
   std::vector<double> shift;        ///< s by point, >= 0; empty: none
   bool balanced = false;            ///< `slow`: needs shifts of which the largest is 1
-  /// At which `rest` may end, over the square of the loads; 0: as small as rounding allows.
+  /// Gap at which `rest` may end, relative to the square of the loads; 0: as small as rounding allows.
   double gap = 0.0;
 };
 
 enum class ConeStatus {
-  solved,      ///< to the tolerances, or as near as rounding allows
-  inaccurate,  ///< neither is the gap closed nor are the equations met
+  solved,      ///< to the tolerances, or as accurately as rounding allows
+  inaccurate,  ///< neither the gap nor the equations are within their tolerances
 };
 
 struct ConeAnswer {
@@ -85,12 +86,12 @@ struct ConeAnswer {
   int iterations = 0;
 };
 
-/// Keeps the analysis of its matrix from question to question. The same question has the same answer whatever was asked
-/// before, on any number of threads.
+/// Keeps the symbolic analysis of its matrix between problems. The answer to a problem is independent of earlier
+/// problems and of the number of threads.
 class ConeProgram {
  public:
-  /// @param freedom of each body, 1 to 6: the first of its coordinates. @param pairs no two of the same bodies, none of
-  /// two that do not move. @param threads >= 1
+  /// @param freedom of each body, 1 to 6: the number of its first coordinates that are free. @param pairs each pair
+  /// of bodies once, none of two fixed ones. @param threads >= 1
   ConeProgram(std::vector<int> freedom, std::vector<ConePair> pairs, std::vector<ConePoint> points,
               int threads);
 

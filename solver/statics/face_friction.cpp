@@ -16,7 +16,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Area, and its first moment.
+/// Area and its first moment.
 struct AreaMoment {
   double area = 0.0;
   Eigen::Vector2d first = Eigen::Vector2d::Zero();
@@ -34,8 +34,8 @@ AreaMoment moment_of(const std::vector<Polygon>& polygons) {
   return sum;
 }
 
-/// Integral of the distance from the origin over the triangle from there to a side, signed as its area:
-/// h^3 / 6 (tan t / cos t + asinh tan t) between the angles t of its ends from the foot at the distance h.
+/// Integral of the distance from the origin over the triangle between it and a side, with the sign of its area: h^3 /
+/// 6 (tan t / cos t + asinh tan t) between the angles t of its ends from the foot at the distance h.
 double distance_over_triangle(const Eigen::Vector2d& start, const Eigen::Vector2d& end) {
   const double length = (end - start).norm();
   if (!(length > 0.0)) return 0.0;

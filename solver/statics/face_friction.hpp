@@ -1,14 +1,15 @@
-// Where friction acts in the overlap of two faces of rigid blocks, whose pressure is known by its resultant only.
+// Place of friction in the overlap of two faces of rigid blocks, whose pressure is known by its resultant only.
 //
-// Corner forces have every resultant that pressure over the overlap can have, and friction mu N in a corner at the distance r
-// from the middle resists twisting about the normal by mu N r. Uniform pressure resists it by mu N R only, with
+// Corner forces can represent every resultant of a pressure over the overlap. Friction mu N in a corner at the
+// distance r from the centroid resists twisting about the normal by mu N r. Uniform pressure resists it by mu N R
+// only, with
 //
 //   R = 1/A  integral |x - c| dA           c: centroid of the overlap
 //
-// 0.3826 a of a square of side a, whose corners are 0.7071 a from the middle. So friction acts at  c + R / r_max (x_i - c):
-// no distribution of normal forces over the corners resists twisting by more than uniform pressure. Sliding in one direction
-// and tilting about an edge, which move a face in its plane all alike or not at all, stay as they are
-// (notes/limit_analysis.md).
+// R is 0.3826 a for a square of side a, whose corners are 0.7071 a from its centroid. So friction acts at c + R /
+// r_max (x_i - c): no distribution of normal forces over the corners resists twisting by more than uniform pressure.
+// Resistance to translation and to tilting about an edge, which move all points of a face in its plane alike or not
+// at all, is unchanged (notes/limit_analysis.md).
 #pragma once
 
 #include <vector>
@@ -18,14 +19,15 @@
 
 namespace ashlar {
 
-/// A contact point as a place, m: half way between both blocks.
+/// Place of a contact point, m: midway between both blocks.
 [[nodiscard]] Vector3 middle_of_point(const ContactPoint& point);
 
 /// 1/A integral |x - about| dA over convex polygons, m. @param polygons counter-clockwise, at least one with an area
 [[nodiscard]] double mean_distance(const std::vector<std::vector<Eigen::Vector2d>>& polygons,
                                    const Eigen::Vector2d& about);
 
-/// Where friction of each point acts, m: of the corners of two faces' overlap as above, of all other points where they are.
+/// Place of friction of each point, m: as above for the corners of the overlap of two faces, for all other points
+/// their place.
 /// @param overlaps of the cells of both blocks. @param points of the pair
 [[nodiscard]] std::vector<Vector3> places_of_friction(const PlacedSurface& a, const PlacedSurface& b,
                                                       const std::vector<CellOverlap>& overlaps,

@@ -18,7 +18,7 @@ Eigen::Matrix3d turn_of(const Vector3& rotation) {
   return Eigen::AngleAxisd(angle, Vector3(rotation / angle)).toRotationMatrix();
 }
 
-/// Joints with friction only, in which faces meet as such up to the largest angle that the search has.
+/// Joints with friction only and face-face contact up to the largest angle of the search.
 BlockSystem dry_system(const BlockSystem& system, double reach) {
   SimulationSettings settings = system.settings();
   settings.contact_distance = reach;
@@ -66,7 +66,7 @@ double FollowedBlocks::radius_about(const RigidBody& body) const {
   double radius = 0.0;
   for (const int block : body.blocks) {
     double own = radius_[at(block)];
-    // Blocks that are tied to each other keep their distances.
+    // Tied blocks keep their distances.
     if (body.blocks.size() > 1) {
       Vector3 middle = Vector3::Zero();
       double mass = 0.0;

@@ -1,5 +1,5 @@
-// Rigid blocks on their way behind a support that moves (support_movement.hpp): where they lie, what their joints have
-// been through, and the rigid model of the place.
+// Rigid blocks that follow a moving support (support_movement.hpp): their placement, the slip of their joints, and
+// the rigid model of the placement.
 #pragma once
 
 #include <array>
@@ -13,17 +13,17 @@
 
 namespace ashlar {
 
-/// Where blocks lie, as a value.
+/// Placement of blocks, as a value.
 struct FollowedPlace {
   double moved = 0.0;                         ///< q of the support, m
   std::vector<BlockState> states;             ///< by block
-  std::vector<Eigen::Matrix3d> turn;          ///< of each block since it was placed
-  std::map<std::array<int, 2>, double> slip;  ///< m, way of joints under pressure
+  std::vector<Eigen::Matrix3d> turn;          ///< of each block relative to its initial placement
+  std::map<std::array<int, 2>, double> slip;  ///< m, accumulated slip of joints under pressure
 };
 
 class FollowedBlocks {
  public:
-  /// @param reach m, gap up to which points are detected
+  /// @param reach m, largest gap of detected points
   /// @throws std::invalid_argument as support_movement
   FollowedBlocks(const PlacedScene& scene, double reach);
 
@@ -31,7 +31,7 @@ class FollowedBlocks {
   /// Bodies and all points in reach, gaps in RigidPoint::contact.
   [[nodiscard]] RigidModel model_of(const FollowedPlace& placement) const;
 
-  /// The farthest that a place of any body goes, m. @param way by body, in coordinates of the model
+  /// Largest displacement of any place of a body, m. @param way by body, in coordinates of the model
   [[nodiscard]] double largest_way(const RigidModel& model, const std::vector<BodyVelocity>& way) const;
   /// Moves bodies by exact rotations.
   void move(const RigidModel& model, const std::vector<BodyVelocity>& way, FollowedPlace& placement) const;
@@ -45,12 +45,13 @@ class FollowedBlocks {
   std::vector<double> radius_;  ///< m, of each block about its centroid
 };
 
-/// The model half way through a motion: middles, places and frames of its points. Loads and gaps are as they were.
-/// @param program its own, with or without the support. @param way m, by body of the programme
+/// The model midway through a motion, with updated centroids, places and frames of its points and unchanged loads and
+/// gaps.
+/// @param program of the model, with or without the support. @param way m, by body of the programme
 [[nodiscard]] RigidModel midway(const RigidModel& model, const ConeProgram& program,
                                 const std::vector<BodyVelocity>& way);
 
-/// Size of the smallest block that may move, m: the edge of the cube of its volume.
+/// Size of the smallest block that may move, m: edge of the cube of the same volume.
 [[nodiscard]] double smallest_size(const BlockSystem& system, const RigidModel& model);
 
 }  // namespace ashlar

@@ -9,9 +9,9 @@
 namespace ashlar {
 namespace {
 
-/// Bodies that accelerate by no more than this part of what their loads alone would do are in balance.
+/// Bodies are in balance if their acceleration relative to that by their loads alone is at most this.
 constexpr double still = 1e-4;
-/// Of the tolerance: what slow slip may decay by and still count as motion, on the safe side.
+/// Of the tolerance: decay rate of slow slip that still counts as motion, on the safe side.
 constexpr double margin_share = 0.1;
 
 double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {
@@ -62,7 +62,7 @@ std::vector<double> LimitAnalysis::dilation() const {
 }
 
 double LimitAnalysis::estimate(const LimitTrial& trial) const {
-  // The power of the loads would be dissipated by strengths that are larger in this ratio.
+  // Strengths larger in this ratio would dissipate the power of the loads.
   double power = product(load(trial.factors.load), trial.acceleration), dissipated = 0.0;
   for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
     for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
@@ -99,7 +99,7 @@ LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& 
     trial.balanced = true;
   } else if (motion > still && square > 2.0 * found.gap && found.residual < 0.1 * still) {
     trial.outcome = LimitOutcome::moves;
-    // Power of forces within the strengths that reduction takes: z . x of the cones is what is left of them.
+    // Power of forces within the reduced strengths: z . x of the cones is the remaining strength.
     double strength_power = 0.0;
     for (std::size_t k = 0; k < model_.points.size(); ++k) {
       if (!reduced_[k]) continue;
@@ -136,7 +136,7 @@ SingleBodies& LimitAnalysis::single() {
 
 LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance, const LimitTrial* known,
                                    bool balanced) {
-  // Forces in balance have to exist for anything to stand, and slow slip needs them.
+  // Forces in balance must exist for the structure to stand, and slow slip needs them.
   LimitTrial trial;
   if (balanced) {
     set_factors(factors);
@@ -152,7 +152,7 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
   const auto moves = [&](ReleasedMotion motion, bool slow) {
     trial.programmes += motion.programmes;
     trial.iterations += motion.iterations;
-    // Motion from rest that does not settle says nothing; slow slip is asked as well.
+    // Motion from rest that does not converge is inconclusive; slow slip is tried as well.
     if (slow && motion.outcome == LimitOutcome::unknown) trial.outcome = LimitOutcome::unknown;
     if (motion.outcome != LimitOutcome::moves) return false;
     trial.outcome = LimitOutcome::moves;
@@ -171,15 +171,15 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
     if (product(start, start) == 0.0 ||
         !moves(slow_slip(program_, dilates, loads, start, margin_share * tolerance), true))
       return false;
-    // Slip may lead to a motion that exists below the factor at which slip begins to grow. Where inertia finds none, it
-    // is hardly faster than rest.
+    // Slip may lead to a motion that exists below the factor at which slip begins to grow. If inertia finds none, the
+    // motion is hardly faster than rest.
     if (!moves(motion_of_slip(program_, dilates, loads, trial.acceleration), false)) {
       const double size = still / largest_motion(trial.acceleration, loads);
       for (BodyVelocity& velocity : trial.acceleration) velocity *= size;
     }
     return true;
   };
-  // Loads that are multiplied come after the others, and slowly: under them there is no motion from no contact forces.
+  // Multiplied loads are applied after the others and slowly: there is no motion from zero contact forces under them.
   if (!multiplies_loads(model_)) {
     const bool follows = known != nullptr && !known->slow;
     std::vector<Eigen::Vector3d> force = follows ? known->force : std::vector<Eigen::Vector3d>();

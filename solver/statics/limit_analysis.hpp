@@ -1,15 +1,15 @@
-// The factor on strengths or loads beyond which rigid blocks no longer stand (limit analysis). Seconds where an elastic
-// analysis takes minutes.
+// Limit analysis: the factor on strengths or loads beyond which rigid blocks no longer stand. It needs seconds where
+// an elastic analysis needs minutes.
 //
-// Joints that slide do not open as much as their friction angle asks for (or by their dilation angle), and such joints
-// have two limits (notes/limit_analysis.md):
-//   associated  the largest factor for which forces in balance exist at all. It is found by cone programmes, with forces
-//               below it and a motion above it that prove it. Nothing stands above it. Where blocks wedge each other it
-//               counts on forces that nothing may have put there.
-//   released    the least factor for which a motion was found that starts from rest without contact forces and obeys
-//               Coulomb's law (released_motion.hpp). A motion that is found is one, whatever led to it. That there is
-//               none below is a result of search: from motions at larger factors, from motion without friction, and
-//               from each body alone. It is the one to sign.
+// Sliding joints open by less than their friction angle requires (by their dilation angle), and such joints have two
+// limits (notes/limit_analysis.md):
+//   associated  the largest factor for which forces in balance exist. It is found by cone programmes and proved by
+//     forces below it and a motion above it. Nothing stands above it. For blocks that wedge each other it relies on
+//     forces that may not be present.
+//   released    the least factor for which a motion was found that starts from rest without contact forces and
+//     obeys Coulomb's law (released_motion.hpp). A motion that is found proves itself. That there is none below is
+//     the result of a search only: from motions at larger factors, from motion without friction, and from each body
+//     alone. It is the one for design.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ namespace ashlar {
 struct LimitAnswer {
   LimitBracket associated;
   LimitBracket released;
-  /// Blocks that move at released.lower while all others are held: pressure of others keeps them, as found.
+  /// Blocks that move at released.lower while all others are held, as far as found: pressure of others supports them.
   std::vector<int> kept_by_others;
   bool interrupted = false;
   std::vector<LimitTrial> trials;  ///< in order, without motions and forces
@@ -36,34 +36,35 @@ class LimitAnalysis {
  public:
   using Chosen = std::function<bool(int, int)>;
 
-  /// @param reduced whether the joint of two blocks is one of those whose strength is divided. @param threads >= 1
+  /// @param reduced true for joints of two blocks whose strength is divided. @param threads >= 1
   LimitAnalysis(RigidModel model, const Chosen& reduced, int threads);
   /// @param reduced the same, by point of the model
   LimitAnalysis(RigidModel model, std::vector<bool> reduced, int threads);
 
   [[nodiscard]] const RigidModel& model() const { return model_; }
 
-  /// Forces within the strengths that balance the loads, or the motion that proves that there are none.
+  /// Computes forces within the strengths that balance the loads, or the motion that proves that there are none.
   [[nodiscard]] LimitTrial associated(const LimitFactors& factors);
-  /// A motion from rest and from no contact forces that obeys Coulomb's law, if one is found.
-  /// @param tolerance of the factor: how near to the limit it is to tell
-  /// @param known a motion under other factors, which is followed first; null: none
-  /// @param balanced forces in balance are known to exist, and are not looked for
+  /// Searches for a motion from rest without contact forces that obeys Coulomb's law.
+  /// @param tolerance of the factor: distance from the limit within which the result is needed
+  /// @param known a motion under other factors, tried first; null: none
+  /// @param balanced true if forces in balance are known to exist: they are not computed
   [[nodiscard]] LimitTrial released(const LimitFactors& factors, double tolerance = 1e-3,
                                     const LimitTrial* known = nullptr, bool balanced = false);
 
-  /// The largest factor of the loads that are multiplied for which forces in balance exist, by one programme.
-  /// @param most that is looked for, > 0. @return 0: it was not found
+  /// The largest factor of the multiplied loads for which forces in balance exist, by one programme.
+  /// @param most upper bound of the search, > 0. @return 0: not found
   [[nodiscard]] double most_that_stands(double most);
-  /// Blocks that move while all others are held, as far as it was found.
+  /// Blocks found to move while all others are held.
   [[nodiscard]] std::vector<int> moving_alone(const LimitFactors& factors, double tolerance);
 
-  /// The factor by which strengths of the chosen joints may be divided. @param goes_on asked before each trial
+  /// The factor by which strengths of the chosen joints may be divided. @param goes_on called before each trial;
+  /// false ends the search
   [[nodiscard]] LimitAnswer strength_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
-  /// The factor by which loads may be multiplied, the others as they are.
+  /// The factor by which the chosen loads may be multiplied, with the others unchanged.
   [[nodiscard]] LimitAnswer load_factor(const LimitSearch& search, const std::function<bool()>& goes_on);
 
-  /// The motion of a trial that moves; of an associated one the motion without dilation, if one is found.
+  /// The motion of a trial that moves; for an associated one the motion without dilation, if one is found.
   [[nodiscard]] LimitMotion motion_of(const LimitTrial& trial);
 
  private:
@@ -77,10 +78,9 @@ class LimitAnalysis {
 
   RigidModel model_;
   std::vector<bool> reduced_;  ///< by point
-  ConeProgram
-      bound_;  ///< with the twisting resistance of uniform pressure: what stands has to stand in it too
+  ConeProgram bound_;  ///< with the twisting resistance of uniform pressure: what stands must stand here too
   ConeProgram program_;                 ///< with forces in the corners
-  std::optional<SingleBodies> single_;  ///< once it was asked for
+  std::optional<SingleBodies> single_;  ///< computed at the first use
 };
 
 }  // namespace ashlar

@@ -9,9 +9,9 @@
 namespace ashlar {
 namespace {
 
-/// From a motion to the next smaller factor at which it is looked for.
+/// Ratio of the factor of a motion to the next smaller one at which it is searched.
 constexpr double stride = 1.25, short_stride = 1.03, associated_stride = 2.0;
-/// Times that a motion is followed below a factor that was taken to stand.
+/// Largest number of searches for a motion below a factor that was found to stand.
 constexpr int most_returns = 30;
 
 enum class Sought { strength, load };
@@ -39,8 +39,8 @@ class LimitSearching {
     return sought_ == Sought::strength ? LimitFactors{factor, 1.0} : LimitFactors{1.0, factor};
   }
 
-  /// The released motion to follow. One under larger loads says nothing of what smaller ones lead to from the steady
-  /// ones. @return null: none
+  /// The released motion to follow. One under larger loads has no relation to the motion when smaller ones are added
+  /// to the steady ones. @return null: none
   [[nodiscard]] const LimitTrial* known() const {
     const std::optional<LimitTrial>& motion = answer_.released.motion;
     return sought_ == Sought::strength && motion && motion->released ? &*motion : nullptr;
@@ -52,7 +52,7 @@ class LimitSearching {
       return std::nullopt;
     }
     if (released) followed_[factor] = known() != nullptr ? known()->factors.strength : 0.0;
-    // More strength than balances the loads balances them too.
+    // Forces in balance with smaller strengths are in balance with larger ones too.
     const bool balanced = sought_ == Sought::strength && factor <= answer_.associated.lower.value_or(0.0);
     LimitTrial trial = released ? analysis_.released(factors(factor), search_.tolerance, known(), balanced)
                                 : analysis_.associated(factors(factor));
@@ -68,7 +68,7 @@ class LimitSearching {
            [&](double factor) { return attempt(factor, true); });
   }
 
-  /// A released motion may exist below the associated limit: at the largest factor that stands, and down from there.
+  /// Searches for a released motion below the associated limit: at the largest factor that stands, and downwards.
   void look_below() {
     const LimitBracket& associated = answer_.associated;
     LimitBracket& released = answer_.released;
@@ -88,7 +88,7 @@ class LimitSearching {
     if (n == most_returns) released.resolved = false;
   }
 
-  /// A factor that stood when a motion far above was followed is tried again from the last motion.
+  /// Tries a factor again from the last motion, if it stood when a motion far above was followed.
   bool moves_at_lower() {
     LimitBracket& released = answer_.released;
     if (!released.resolved || !released.lower || !released.upper) return false;
@@ -104,7 +104,7 @@ class LimitSearching {
   const LimitSearch& search_;
   const std::function<bool()>& goes_on_;
   LimitAnswer answer_;
-  std::map<double, double> followed_;  ///< by factor, that of the motion that its trial began with; 0: none
+  std::map<double, double> followed_;  ///< by factor, that of the motion at the start of its trial; 0: none
 };
 
 }  // namespace

@@ -11,11 +11,11 @@
 namespace ashlar {
 namespace {
 
-/// Of the fastest body: others move with it.
+/// Relative to the fastest body: others move with it.
 constexpr double moves_along = 1e-3;
-/// Of the fastest body: a joint slides or opens.
+/// Relative to the fastest body: a joint slides or opens.
 constexpr double joint_moves = 0.05;
-/// Of the largest load of a moving body: a joint bears.
+/// Relative to the largest load of a moving body: a joint transmits force.
 constexpr double joint_bears = 1e-3;
 
 /// Sums and extremes over the points of a joint.
@@ -83,7 +83,7 @@ class Setting {
     return seen;
   }
 
-  /// Blocks that stick to each other move as one.
+  /// Blocks with sticking joints move as one.
   void note_joints(const Joints& joints, LimitMotion& motion) {
     double load = 0.0;
     for (std::size_t b = 0; b < model_.bodies.size(); ++b)
@@ -105,7 +105,7 @@ class Setting {
     return own >= 0 && together_.find(own) == together_.find(static_cast<int>(leader_));
   }
 
-  /// Directions of the planes that what moves with the fastest body slides on.
+  /// Directions of the planes on which the blocks moving with the fastest body slide.
   [[nodiscard]] std::size_t planes(const Joints& joints, const LimitMotion& motion) {
     constexpr double parallel = 0.999;
     std::vector<Vector3> planes;

@@ -1,4 +1,4 @@
-// How blocks set off beyond a limit: who moves, how fast, and what their joints do.
+// Onset of motion beyond a limit: moving blocks, their accelerations and the behaviour of their joints.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ struct LimitMotion {
   struct Block {
     int block;
     Vector3 about;                 ///< m, centre of gravity of the blocks that move as one with it
-    Vector3 acceleration;          ///< of that, m/s^2
+    Vector3 acceleration;          ///< of that centre, m/s^2
     Vector3 angular_acceleration;  ///< rad/s^2
   };
   std::vector<Block> blocks;        ///< by block number
-  std::vector<MovingJoint> joints;  ///< with a moving block on either side
-  std::string mode;  ///< in words, of the block that sets off fastest: "slides on one plane", "topples", ...
+  std::vector<MovingJoint> joints;  ///< of at least one moving block
+  std::string mode;  ///< description of the fastest block: "slides on one plane", "topples", ...
 };
 
-/// @param program of the model. @param trial that moves. @return no blocks if nothing moves
+/// @param program of the model. @param trial with a motion. @return no blocks if nothing moves
 [[nodiscard]] LimitMotion limit_motion(const RigidModel& model, const ConeProgram& program,
                                        const LimitTrial& trial);
 

@@ -22,7 +22,7 @@ class Bracketing {
       if (!trial) return;
       if (trial->outcome == LimitOutcome::unknown) {
         if (++unknown > most_unknown) return;
-        // Rounding is another one beside it.
+        // Rounding differs at a factor beside it.
         next = within(next * (1.0 - 0.1 * search_.tolerance * std::pow(4.0, unknown - 1)));
         continue;
       }
@@ -46,7 +46,7 @@ class Bracketing {
     if (!stands) bracket_.motion = std::move(trial);
   }
 
-  /// @return 0: the bracket is as narrow as it is to be
+  /// @return 0 if the bracket is narrow enough
   double next_factor() {
     const auto& [low, high] = std::pair(bracket_.lower, bracket_.upper);
     if (!high) {
@@ -64,8 +64,8 @@ class Bracketing {
     return std::max(low ? std::sqrt(*low * *high) : farthest, farthest);
   }
 
-  /// Beside the estimate of the last motion, on the side that has not been tried. Estimates that leave the bracket as
-  /// wide as it was are of no use. @return 0: none
+  /// Factor beside the estimate of the last motion, on the side that has not been tried. Estimates that do not narrow
+  /// the bracket are not used. @return 0: none
   double estimated_factor(double least, double high) {
     const double width = std::log(high / least);
     const bool helps = width < 0.7 * std::exchange(width_, width);

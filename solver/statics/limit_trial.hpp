@@ -1,4 +1,4 @@
-// A pair of factors that limit analysis has tried, and the bracket that such trials leave of a limit.
+// A pair of factors tried by limit analysis, and the bracket of a limit.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace ashlar {
 
-/// Strengths of chosen joints are divided by one, loads that are multiplied are multiplied by the other.
+/// Strengths of chosen joints are divided by the first factor, chosen loads are multiplied by the second one.
 struct LimitFactors {
   double strength = 1.0;
   double load = 1.0;
@@ -18,19 +18,19 @@ struct LimitFactors {
 /// Result of one pair of factors.
 struct LimitTrial {
   LimitFactors factors;
-  bool released = false;  ///< which of the two limits it is of (limit_analysis.hpp)
+  bool released = false;  ///< true: of the released limit, false: of the associated one (limit_analysis.hpp)
   LimitOutcome outcome = LimitOutcome::unknown;
   bool balanced = false;  ///< forces within the strengths that balance the loads exist
-  bool slow = false;      ///< its motion is slow slip, of the size of rest; else accelerations
+  bool slow = false;      ///< its motion is slow slip, scaled to negligible acceleration; else accelerations
   std::vector<BodyVelocity> acceleration;  ///< by body, from rest, in coordinates and units of the model
   std::vector<Eigen::Vector3d> force;      ///< by point, in units of the model
-  /// Of a trial that moves: the factor at which its motion would be in balance; 0: none.
+  /// For a trial that moves: estimate of the factor at which its motion would be in balance; 0: none.
   double estimate = 0.0;
   int programmes = 0;
   int iterations = 0;  ///< of all its programmes, and sweeps
 };
 
-/// Where to look for a factor, and how well it is to be known.
+/// Range and accuracy of a search for a factor.
 struct LimitSearch {
   double lower = 0.1;       ///< > 0
   double upper = 10.0;      ///< > lower
@@ -45,13 +45,13 @@ struct LimitBracket {
   std::optional<LimitTrial> motion;  ///< of `upper`
 };
 
-/// @return empty: the search is to end
+/// @return empty to end the search
 using LimitAttempt = std::function<std::optional<LimitTrial>(double)>;
 
-/// Tries factors until the limit is known: trials stand below it and move above.
-/// @param bracket what is known already. @param first the factor to begin with, within the search
-/// @param guess of the limit; 0: none. @param stride the most by which a factor goes down from one that moves, > 1: a
-/// motion is followed from factor to factor, and lost where they are too far apart
+/// Tries factors until the limit is bracketed: trials stand below it and move above.
+/// @param bracket known so far. @param first the factor to begin with, within the search
+/// @param guess of the limit; 0: none. @param stride the largest ratio by which a factor is lowered from one that
+/// moves, > 1: a motion is followed from factor to factor, and lost if they are too far apart
 void narrow(LimitBracket& bracket, const LimitSearch& search, double first, double guess, double stride,
             const LimitAttempt& attempt);
 

@@ -12,23 +12,23 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of the fastest point: what its velocity may lack of Coulomb's law.
+/// Relative to the fastest point: residual of Coulomb's law in its velocity.
 constexpr double settled = 1e-2;
-/// The same, where nothing is left to improve.
+/// The same, for an exact solution.
 constexpr double exact = 1e-11;
-/// Sweeps in all, over those after which a motion was no question.
+/// Total number of sweeps relative to those after which motion is certain.
 constexpr int polished = 4;
-/// Of the motion: what has to be left of it in the end, and the ratio of changes above which the end is not known.
+/// Relative to the motion: its remaining share at the end, and the ratio of changes above which the limit is unknown.
 constexpr double left_over = 0.8, slow_ratio = 0.9;
-/// Of the loads: less is rest.
+/// Relative to the loads: smaller motion is rest.
 constexpr double at_rest = 1e-4;
 constexpr int first_check = 64, most_sweeps = 4096;
-/// Updates of points in all: large models get fewer sweeps.
+/// Total number of updates of points: large models get fewer sweeps.
 constexpr double most_updates = 1e7;
-/// Of a point in its turn: its force converges with its neighbours', and more would be in vain.
+/// Iterations per update of a point: its force converges with those of its neighbours.
 constexpr int local_steps = 3;
 
-/// A point as the sweep sees it.
+/// Data of a point in a sweep.
 struct SweepPoint {
   std::array<int, 2> bodies;
   Matrix3d compliance;        ///< velocity by force
@@ -48,7 +48,7 @@ class Sweeps {
       for (std::size_t k = pair.begin; k < pair.end; ++k) add(pair, k, dilation[k]);
   }
 
-  /// Every point once, in the order of the points or against it.
+  /// Updates every point once, in the order of the points or in reverse order.
   void sweep(bool forth) {
     lack_ = fastest_ = 0.0;
     const std::size_t count = points_.size();
@@ -70,7 +70,7 @@ class Sweeps {
     if (pair.bodies[1] >= 0) p.compliance += point.second * point.second.transpose();
     const Matrix3d& w = p.compliance;
     const double largest = 0.5 * (w(1, 1) + w(2, 2) + std::hypot(w(1, 1) - w(2, 2), 2.0 * w(1, 2)));
-    // A body may not be able to move along the normal or the tangents.
+    // A body may have no motion along the normal or the tangents.
     p.normal_step = w(0, 0) > 0.0 ? 1.0 / w(0, 0) : 0.0;
     p.tangent_step = largest > 0.0 ? 1.0 / largest : 0.0;
     p.dilation = dilation;
@@ -127,7 +127,7 @@ class Sweeps {
   double lack_ = 0.0, fastest_ = 0.0;
 };
 
-/// The size of motion at checks, each after twice the sweeps of the one before.
+/// The size of motion at checks, each after twice as many sweeps as the one before.
 class Decay {
  public:
   void add(double motion) {
@@ -136,17 +136,17 @@ class Decay {
     motion_ = motion;
     ++count_;
   }
-  /// True if motion stays, going by its last changes: these fall by a ratio from check to check.
+  /// True if motion persists, extrapolated from its last changes, which decrease by a ratio from check to check.
   [[nodiscard]] bool lasts() const {
     constexpr double no_change = 1e-6;
     if (count_ < 3) return false;
     return change_ <= no_change * motion_ || left() > left_over * motion_;
   }
-  /// True if nothing is left of it in the end.
+  /// True if the motion vanishes in the limit.
   [[nodiscard]] bool ends() const { return count_ >= 4 && left() < 0.0; }
 
  private:
-  /// Of the motion in the end; 0: not known.
+  /// Limit of the motion; 0: unknown.
   [[nodiscard]] double left() const {
     const double ratio = last_change_ > 0.0 ? change_ / last_change_ : 0.0;
     return ratio > 0.0 && ratio < slow_ratio ? motion_ - change_ * ratio / (1.0 - ratio) : 0.0;
@@ -188,10 +188,10 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
     decay.add(motion);
     const bool done = sweeps.lack() <= exact * sweeps.fastest();
     const bool moves = done || (sweeps.lack() <= settled * sweeps.fastest() && decay.lasts());
-    // Once it is no question, a few sweeps more for its accelerations.
+    // Once motion is certain, a few more sweeps for its accelerations.
     if (moves && found.outcome != LimitOutcome::moves) last = std::min(most, polished * found.iterations);
     found.outcome = moves ? LimitOutcome::moves : LimitOutcome::unknown;
-    // Slow decay is left to slow slip.
+    // Slow decay is treated by slow slip.
     if (done || decay.ends()) break;
   }
   found.velocity = std::move(sweeps.velocity());

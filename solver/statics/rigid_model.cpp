@@ -25,7 +25,7 @@ Eigen::Matrix3d cross_matrix(const Vector3& d) {
   return m;
 }
 
-/// The velocity field of a block, as it lies, for a rigid motion about a place.
+/// The velocity field of a block at its present position, for a rigid motion about a place.
 /// @param k 0 to 2: translation along an axis, 3 to 5: rotation about one. @return (p, 3)
 Eigen::MatrixX3d field(const BlockModel& block, const Eigen::MatrixX3d& position, const Vector3& about,
                        int k) {
@@ -33,13 +33,13 @@ Eigen::MatrixX3d field(const BlockModel& block, const Eigen::MatrixX3d& position
   return rigid_velocity(position, block.basis().volume(), about, k < 3 ? axis : none, k < 3 ? none : axis);
 }
 
-/// m, of gravity
+/// Centre of gravity, m.
 Vector3 middle_of(const BlockModel& block, const Eigen::MatrixX3d& position) {
   const Eigen::VectorXd one = constant_function(position.rows(), block.basis().volume());
   return position.transpose() * one / one.squaredNorm();
 }
 
-/// Motions about a place that the supports of a block do not leave, as projectors onto them are summed; lengths over
+/// Motions about a place that the supports of a block prevent, as a sum of projectors onto them; lengths relative to
 /// a size.
 Matrix6 held_by_supports(const BlockModel& block, const Vector3& about, double size) {
   const std::vector<RigidMotion> motions = admissible_rigid_motions(block);
@@ -56,7 +56,7 @@ Matrix6 held_by_supports(const BlockModel& block, const Vector3& about, double s
   return Matrix6::Identity() - q * q.transpose();
 }
 
-/// Columns: what all supports of a body leave it.
+/// Rigid motions allowed by all supports of a body, as columns.
 Eigen::MatrixXd motions_left(const BlockSystem& system, const RigidBody& body) {
   double size = 0.0;
   for (const int k : body.blocks) size = std::max(size, block_size(system.blocks()[at(k)]));
@@ -74,7 +74,7 @@ Eigen::MatrixXd motions_left(const BlockSystem& system, const RigidBody& body) {
   return left;
 }
 
-/// Blocks and middles of all bodies that may move. Marks what does not.
+/// Blocks and centroids of all bodies that may move. Marks fixed blocks.
 std::vector<RigidBody> bodies_of(const BlockSystem& system, const RunState& state,
                                  std::vector<int>& body_of) {
   UnionFind tied(system.blocks().size());
@@ -157,7 +157,7 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   model.body_of.assign(at(system.count()), -1);
   model.bodies = bodies_of(system, state, model.body_of);
   std::vector<RigidPoint> points = rigid_points(system, state, model.body_of);
-  // Points of the same two bodies follow each other.
+  // Points of the same two bodies are consecutive.
   const auto bodies = [&](const RigidPoint& point) {
     return std::array<int, 2>{model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
   };
@@ -170,7 +170,7 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   for (std::size_t k = 0; k < points.size(); ++k) {
     RigidPoint& point = points[k];
     if (k > 0 && key(point) == key(points[k - 1])) {
-      // Two tied blocks may see a third one from other sides.
+      // Two tied blocks may be on different sides of a third one in the order of numbers.
       if (bodies(point) != model.pairs.back().bodies) {
         std::swap(point.blocks[0], point.blocks[1]);
         point.frame = -point.frame;

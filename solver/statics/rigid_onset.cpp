@@ -13,31 +13,31 @@ namespace ashlar {
 
 namespace {
 
-constexpr double way = 1e-5;           // in sizes of the block that goes farthest
+constexpr double way = 1e-5;           // motion of the fastest block, in its sizes
 constexpr double strain_share = 1e-4;  // of the way
 constexpr double depth_share = 1e-4;   // of the way
-/// Of what blocks do that give way, or others that set off: those that do less stay, but for what their
-/// contacts do.
+/// Relative to the compliant motion, or to the other blocks in motion: blocks with less motion are at rest except for
+/// the motion of their contacts.
 constexpr double least_share = 1e-3;
-constexpr double opened_by = 4.0;  // times the mean motion of blocks: what that may have opened
+constexpr double opened_by = 4.0;  // times the mean displacement of blocks: largest gap it may have opened
 
-/// By how much a block would have to be stiffer so as to strain by no more than its share under its forces.
+/// Factor on the stiffness of a block that limits its strain under its forces to strain_share.
 double stiffening(const BodyStep& body) {
   const double stress =
       body.largest_force / std::sqrt(body.model->basis().volume()) * block_size(*body.model);
   return stress / (strain_share * way * body.model->material().young_modulus);
 }
 
-/// Whether the springs of all contacts of an island only stand for what does not give way.
+/// True if the springs of all contacts of an island represent rigid contact.
 bool is_rigid(const Island& island, const std::vector<ContactPair>& pairs) {
   return std::all_of(island.pairs.begin(), island.pairs.end(),
                      [&](int index) { return pairs[at(index)].rigid(); });
 }
 
-/// What sets off: bodies without strain, and how they compare.
+/// Extremes over the bodies at the onset of motion.
 struct Onset {
   double smallest = std::numeric_limits<double>::infinity();  // block size, m
-  double stiffer = 0.0;                                       // most that a body has to be
+  double stiffer = 0.0;                                       // largest factor on stiffness
   double farthest = 0.0;                                      // mean motion since the start, m
 };
 
@@ -54,15 +54,15 @@ Onset prepare(const RunContext& run, const Island& island, const StepProblem& pr
     BodyStep& body = bodies[at(k)];
     body.state = &states[at(k)];
     body.prescribed.resize(0, 3);
-    // The weight is that of external and of elastic forces.
+    // The weight applies to external and elastic forces.
     body.external_force /= onset.stiffer;
     body.roundoff_force *= onset.stiffer;
   }
   return onset;
 }
 
-/// Puts the accelerations of rigid blocks in the place of those that giving way has a part in.
-/// @param bodies as solved, in a step of this inertia. @return whether they set off at all
+/// Replaces accelerations influenced by compliance by those of rigid blocks.
+/// @param bodies as solved, in a step of this inertia. @return true if the rigid blocks move
 bool take_over(const RunContext& run, const Island& island, const std::vector<BodyStep>& bodies,
                double inertia, std::vector<Eigen::MatrixX3d>& accelerations) {
   std::vector<Eigen::MatrixX3d> rigid_ones;
@@ -83,7 +83,7 @@ bool take_over(const RunContext& run, const Island& island, const std::vector<Bo
     for (const int k : island.bodies) run.state.statics.onset.gives_way[at(k)] = 1;
     return false;
   }
-  // What they have pressed in and left open, rigid blocks would leave again.
+  // Rigid blocks would only undo penetration and gaps of the deformable ones.
   if (along <= 0.0) return false;
   for (std::size_t n = 0; n < island.bodies.size(); ++n) {
     const int k = island.bodies[n];

@@ -1,10 +1,9 @@
-// How blocks set off that no equilibrium holds. Where contacts and blocks give way has a part in the motion
-// of an iteration of a static analysis: a tipping wall rests on the strip that its springs press in, not on
-// its edge. Where no stiffness of a joint was asked for, blocks are therefore let go from rest once more,
-// from where the iteration found them, all but rigid: contacts that it closed give way by far less than
-// blocks move, those that it opened never touch, and blocks are without strain and strain by far less than
-// they move, which is too little to change how they lie. Where rigid blocks would stay, it is by giving way
-// that they move, then and after.
+// Onset of motion of blocks without equilibrium. The compliance of contacts and blocks influences the motion in an
+// iteration of a static analysis: a tipping wall rests on the strip compressed by its springs, not on its edge.
+// Unless the stiffness of a joint was given, blocks are therefore released from rest once more, from their positions
+// in the iteration and nearly rigid. Closed contacts deform by far less than blocks move, and open ones never touch.
+// Blocks start without strain and strain by far less than they move, too little to change their positions. If rigid
+// blocks would stay at rest, the motion is due to compliance, in this and in later iterations.
 #pragma once
 
 #include <vector>
@@ -14,9 +13,9 @@
 
 namespace ashlar {
 
-/// Takes what giving way does out of the accelerations of an iteration of a static analysis. Before the problem is
-/// accepted.
-/// @param accelerations (p, 3) of each moving block. @return whether all are those of rigid blocks now
+/// Removes the effect of compliance from the accelerations of an iteration of a static analysis. To be called before
+/// the problem is accepted.
+/// @param accelerations (p, 3) of each moving block. @return true if all are those of rigid blocks now
 [[nodiscard]] bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
                            std::vector<Eigen::MatrixX3d>& accelerations);
 

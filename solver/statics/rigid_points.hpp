@@ -1,4 +1,4 @@
-// Places where the blocks of a scene bear on each other as rigid bodies (rigid_model.hpp).
+// Contact points between the blocks of a scene as rigid bodies (rigid_model.hpp).
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace ashlar {
 
-/// Of all pairs of blocks, in the order of the pairs: corners of overlaps, single places, and parts of overlaps with cohesion
-/// or tensile strength. Pairs within a body and pairs that cannot move are left out.
-/// @param body_of by block; -1: it does not move
+/// Points of all pairs of blocks, in the order of the pairs: corners of overlaps, single places, and parts of
+/// overlaps with cohesion or tensile strength. Pairs within a body and fixed pairs are excluded.
+/// @param body_of by block; -1: fixed
 [[nodiscard]] std::vector<RigidPoint> rigid_points(const BlockSystem& system, const RunState& state,
                                                    const std::vector<int>& body_of);
 

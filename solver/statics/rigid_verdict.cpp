@@ -10,7 +10,7 @@
 namespace ashlar {
 namespace {
 
-/// Blocks that lie elsewhere than they were placed have found their place.
+/// True if blocks are at their initial placement; others have reached their place by motion.
 bool is_where_placed(const RunContext& run) {
   const double share = run.settings().statics.motion;
   for (std::size_t k = 0; k < run.blocks().size(); ++k) {
@@ -31,7 +31,7 @@ bool can_tell(const RunContext& run, double end_time) {
   });
 }
 
-/// True if neither blocks nor joints give way.
+/// True if neither blocks nor joints have compliance.
 bool is_rigid(const RunContext& run, const RigidModel& model) {
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     if (run.system.moving()[k] && !run.blocks()[k].rigid()) return false;
@@ -58,7 +58,7 @@ void note_motion(const RunContext& run, const LimitMotion& motion) {
   }
 }
 
-/// Blocks as they were placed, with the overlaps that they had.
+/// Blocks at their initial placement with their initial overlaps.
 RunState as_placed(const RunContext& run) {
   RunState placed;
   for (const BlockModel& block : run.blocks()) placed.states.push_back(block.initial_state());
@@ -66,9 +66,9 @@ RunState as_placed(const RunContext& run) {
   return placed;
 }
 
-/// Of an analysis without an answer at a level of loads that have changed: nothing stands beyond the associated limit,
-/// whatever forces are left of the way. Blocks are taken as they lay when the level began. A table that is tilted to its
-/// friction angle is at the limit, which is known to a part in a thousand (notes/limit_analysis.md).
+/// Verdict on an analysis without a result at a level of changed loads: nothing stands beyond the associated limit,
+/// whatever forces remain from earlier levels. Blocks are at their positions at the start of the level. A table
+/// tilted to its friction angle is at the limit, which is known to a part in a thousand (notes/limit_analysis.md).
 StaticStatus verdict_on_level(const RunContext& run, StaticStatus status) {
   constexpr double at_the_limit = 1.001;
   const bool driven = std::any_of(run.blocks().begin(), run.blocks().end(),
@@ -99,7 +99,7 @@ StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus 
   LimitAnalysis analysis(
       std::move(model), [](int, int) { return false; }, run.settings().threads);
   const LimitTrial trial = analysis.released({});
-  // Where blocks are in balance on contacts that rigid blocks have no forces for, these tell nothing.
+  // Blocks are in balance on contacts where rigid blocks have no forces: the rigid model is inconclusive.
   if (status == StaticStatus::equilibrium && !trial.balanced) return status;
   if (trial.outcome == LimitOutcome::moves) {
     note_motion(run, analysis.motion_of(trial));
@@ -108,7 +108,7 @@ StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus 
   if (trial.outcome != LimitOutcome::stands || status == StaticStatus::equilibrium ||
       !is_rigid(run, analysis.model()))
     return status;
-  // Rigid blocks under forces in balance are in equilibrium where they were placed.
+  // Rigid blocks under forces in balance are in equilibrium at their initial placement.
   for (std::size_t k = 0; k < placed.states.size(); ++k)
     run.state.states[k].position = run.blocks()[k].initial_state().position;
   std::vector<Eigen::Vector3d> forces = trial.force;

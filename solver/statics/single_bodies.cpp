@@ -60,7 +60,7 @@ SingleBodies& SingleBodies::operator=(SingleBodies&&) noexcept = default;
 std::vector<BodyVelocity> SingleBodies::motions(const LimitFactors& factors, double tolerance) {
   std::vector<BodyVelocity> velocity(single_.size(), BodyVelocity::Zero());
   for (std::size_t b = 0; b < single_.size(); ++b) {
-    // A body that has stood with less strength stands with more of it.
+    // A body that stood with less strength stands with more.
     LimitFactors& stands = stands_[b];
     if (factors.load == stands.load && factors.strength <= stands.strength) continue;
     const LimitTrial trial = single_[b]->released(factors, tolerance);

@@ -1,4 +1,5 @@
-// Motion of each body while all others are held: where a motion of many may start, and which blocks only others keep.
+// Motion of each body while all others are held: possible starts of collective motion, and blocks supported by others
+// only.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@ class LimitAnalysis;
 
 class SingleBodies {
  public:
-  /// @param reduced by point, whether its strength is divided
+  /// @param reduced by point, true if its strength is divided
   SingleBodies(const RigidModel& model, const std::vector<bool>& reduced);
   ~SingleBodies();
   SingleBodies(SingleBodies&&) noexcept;
@@ -21,16 +22,17 @@ class SingleBodies {
   SingleBodies(const SingleBodies&) = delete;
   SingleBodies& operator=(const SingleBodies&) = delete;
 
-  /// @param tolerance of the factor. @return by body, zero where it stands or where it is not known
+  /// @param tolerance of the factor. @return by body, zero if it stands or its motion is unknown
   [[nodiscard]] std::vector<BodyVelocity> motions(const LimitFactors& factors, double tolerance);
-  /// The same in a few sets of bodies that do not touch each other, the fastest first.
+  /// The same as a few sets of bodies without mutual contact, the fastest first.
   [[nodiscard]] std::vector<std::vector<BodyVelocity>> sets(const LimitFactors& factors, double tolerance);
 
  private:
   std::vector<double> mass_;                            ///< by body
   std::vector<std::vector<int>> neighbours_;            ///< bodies, by body
   std::vector<std::unique_ptr<LimitAnalysis>> single_;  ///< by body
-  std::vector<LimitFactors> stands_;  ///< by body, the largest strength factor that it stood at, and its load
+  std::vector<LimitFactors> stands_;  ///< by body, the largest strength factor at which it stood, and its
+                                      ///< load factor
 };
 
 }  // namespace ashlar

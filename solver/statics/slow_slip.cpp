@@ -8,17 +8,17 @@ namespace ashlar {
 namespace {
 
 constexpr int most_programmes = 60;
-/// Between directions of slip, one after the other: the same, and nearly the same.
+/// Differences of successive directions of slip: converged, and nearly converged.
 constexpr double same = 1e-3, alike = 0.1;
-/// Of the growth: what it may still change by where its sign is no question.
+/// Relative to the growth: remaining change that leaves its sign certain.
 constexpr double clearly = 0.2;
-/// Slip that decays so fast a few times comes to rest.
+/// Repeated decay at this rate ends at rest.
 constexpr double fast_decay = -0.5;
 constexpr int fast_decays = 3;
-/// Of the slip that it starts with: what is left where slip has died away.
+/// Relative to the initial slip: slip has vanished.
 constexpr double no_slip = 1e-4;
 
-/// Shifts that keep joints from opening by more than they dilate. @return by point
+/// Shifts that limit the opening of joints to their dilation. @return by point
 Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>& dilation,
                           const std::vector<BodyVelocity>& velocity) {
   Eigen::VectorXd shift(static_cast<Eigen::Index>(dilation.size()));
@@ -31,7 +31,7 @@ Eigen::VectorXd shifts_of(const ConeProgram& program, const std::vector<double>&
   return shift;
 }
 
-/// Growth of slip from programme to programme, and what it tends to.
+/// Growth of slip from programme to programme, and its limit.
 class Growth {
  public:
   void add(const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
@@ -39,7 +39,7 @@ class Growth {
     growth_ = std::log(after.norm() / before.norm());
     turned_ = (after / after.norm() - before / before.norm()).norm();
     change_ = growth_ - last;
-    // Changes that fall by a ratio sum up to a limit.
+    // Geometrically decreasing changes have a finite sum.
     const double ratio = count_ > 1 ? change_ / last_change : 0.0;
     limit_ = ratio > 0.0 && ratio < 0.95 ? growth_ + change_ * ratio / (1.0 - ratio) : growth_;
     decays_ = growth_ < fast_decay ? decays_ + 1 : 0;
@@ -47,7 +47,7 @@ class Growth {
     ++count_;
   }
 
-  /// True if slip comes to rest, whatever its direction does.
+  /// True if slip comes to rest, whatever its direction.
   [[nodiscard]] bool ends() const { return decays_ >= fast_decays || total_ < std::log(no_slip); }
   [[nodiscard]] double limit() const { return limit_; }
   [[nodiscard]] bool settled(double margin) const {
@@ -103,7 +103,7 @@ ReleasedMotion slow_slip(ConeProgram& program, const std::vector<double>& dilati
 
 ReleasedMotion motion_of_slip(ConeProgram& program, const std::vector<double>& dilation,
                               const std::vector<BodyVelocity>& load, const std::vector<BodyVelocity>& slip) {
-  // Inertia takes a part in a motion that is a share of what the loads would do.
+  // Initial and final size of the motion relative to that by the loads, in which inertia becomes relevant.
   constexpr double first_motion = 0.1, followed_to = 0.05, programme_gap = 1e-8;
   constexpr int most_followed = 12;
   ReleasedMotion found;

@@ -1,10 +1,10 @@
-// Motion that starts from the static state of the whole scene: a static analysis under gravity and the loads
-// at time 0 comes before the first step. What it leaves is where blocks are and what contacts remember:
-// bonds, slip of springs, forces of multipliers, so that the first step finds all forces in balance. What it
-// did to get there, energies, work and rejected iterations, is no part of the motion.
+// Start of motion from the static state of the whole scene: a static analysis under gravity and the loads at time 0
+// precedes the first step. It provides the positions of blocks and the memory of contacts (bonds, slip of springs,
+// forces of multipliers), so that all forces are in balance in the first step. Its energies, work and rejected
+// iterations are not part of the motion.
 //
-// Blocks that nothing holds, in the air or in contact with each other only, have no static state: they stay
-// as placed, as if they were fixed, until the motion begins.
+// Unsupported blocks, free or in contact with each other only, have no static state: they are held as placed until
+// the motion begins.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,9 @@
 
 namespace ashlar {
 
-/// To be called before the first step. @param goes_on asked before each iteration: if not, it ends there
-/// @return how the static analysis ended, balancing if it was ended; unless that is equilibrium all is as placed
+/// To be called before the first step. @param goes_on called before each iteration: false ends the analysis
+/// @return status of the static analysis, balancing if it was ended; unless it is equilibrium all blocks are as
+/// placed
 [[nodiscard]] StaticStatus start_from_statics(const RunContext& run, const std::function<bool()>& goes_on);
 
 }  // namespace ashlar

@@ -29,13 +29,13 @@ std::array<int, 3> contact_states(const StepReport& report) {
   return {report.open, report.locked, report.sliding};
 }
 
-/// The smallest m of time_scheme.hpp that iterations come to, 1/s^2: it holds blocks that nothing else does.
+/// The smallest m of time_scheme.hpp used by iterations, 1/s^2: it restrains otherwise unrestrained blocks.
 double least_inertia(const BlockSystem& system) {
   double most = 0.0;
   for (std::size_t k = 0; k < system.blocks().size(); ++k) {
     const BlockModel& block = system.blocks()[k];
     if (!system.moving()[k] || block.unknowns() == 0) continue;
-    // What touches a rigid block is as stiff as its material.
+    // The contacts of a rigid block are as stiff as its material.
     const double stiffness =
         (block.rigid() ? block.parts()->stiffness : block.tangent(Eigen::Matrix3d::Identity()))
             .diagonal()
@@ -60,7 +60,7 @@ void start_load_level(const RunContext& run, double end_time) {
   } else {
     clock = {.start = end_time};
   }
-  // From one equilibrium to the next, inertia would make blocks slide that supports only carry along.
+  // Between equilibria, inertia would make blocks slide that supports only carry along.
   StaticState& statics = run.state.statics;
   const bool from_equilibrium = statics.balanced;
   statics = StaticState{};
@@ -80,16 +80,16 @@ void start_load_level(const RunContext& run, double end_time) {
   forget_accelerations(run);
 }
 
-/// From now on bonds fail where balances ask for more than their strength.
+/// From now on bonds fail if a balance exceeds their strength.
 void let_bonds_go(const RunContext& run) {
   run.state.statics.freezes_failure = false;
-  // What bonds that do not fail do is no motion of these blocks.
+  // Accelerations found with unbreakable bonds are not reported.
   forget_accelerations(run);
-  // How multipliers share a force is left from the way here; springs share it as stiff joints would.
+  // The distribution of a force over multipliers depends on the path; springs distribute it as stiff joints would.
   for (auto& [blocks, pair] : run.state.pairs) pair.memory.drop_multipliers();
 }
 
-/// One iteration: tries with more inertia until one is accepted.
+/// One iteration: repeated with larger inertia until it is accepted.
 class StaticIteration {
  public:
   StaticIteration(const RunContext& run, double end_time, double far)
@@ -119,10 +119,10 @@ class StaticIteration {
  private:
   void pair_up() { problem_.pairs = run_.contacts.pairs(run_.system, run_.state, found_, PairUse::statics); }
 
-  /// Length of the dda step that an iteration is, s.
+  /// Length of the dda step equivalent to an iteration, s.
   static double step_of(const TimeScheme& scheme) { return std::sqrt(2.0 / scheme.inertia); }
 
-  /// @param raise by how much inertia has to be raised if there is no answer
+  /// @param raise factor on inertia if the attempt fails
   std::optional<StaticStatus> attempt(const TimeScheme& scheme, double& raise) {
     const double step = step_of(scheme);
     const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
@@ -158,7 +158,7 @@ class StaticIteration {
     return take(scheme, motion);
   }
 
-  /// Blocks that would pass through each other. @return by how much inertia has to be raised
+  /// Treats blocks that would pass through each other. @return factor on inertia
   double meet(double step, const std::vector<PassingBlocks>& passing) {
     reject(run_, step, RejectionReason::passing);
     const double share = passing.front().touch.share;
@@ -168,7 +168,7 @@ class StaticIteration {
       pair_up();
       return 1.0;
     }
-    // Blocks that roll meet again and again shortly before where they met.
+    // Rolling blocks touch again and again shortly before their last place of contact.
     const double raise = std::max(1.0 / share, cut_to_touch_ ? 2.0 : 1.0);
     cut_to_touch_ = true;
     return raise;
@@ -203,7 +203,8 @@ class StaticIteration {
         still && (repeat || statics.multiplier_iterations > run_.settings().statics.multiplier_iterations);
     statics.still_iterations = settled ? statics.still_iterations + 1 : 0;
     statics.balanced = statics.still_iterations >= 2;
-    // Iterations are audited where blocks went far, and roughly where they have set off: an equilibrium as a whole.
+    // Iterations are audited after large motion, and roughly after the onset of motion; an equilibrium is audited
+    // completely.
     if (statics.balanced) {
       const PresentDepths present = audit_present(run_);
       if (present.fault) {

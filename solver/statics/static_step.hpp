@@ -8,13 +8,13 @@
 
 namespace ashlar {
 
-/// Takes one iteration towards equilibrium under the loads of `end_time`, or takes up a load level.
-/// @param far in block sizes, > 0: blocks that are sure to go so far are moving (straight_way.hpp)
+/// Takes one iteration towards equilibrium under the loads of `end_time`, or starts a load level.
+/// @param far in block sizes, > 0: blocks that are certain to go so far are moving (straight_way.hpp)
 /// @throws std::logic_error if a block is incremental
 [[nodiscard]] StaticStatus static_step(const RunContext& run, double end_time, double far);
 
-/// Sets of blocks in contact with each other that no fixed block, contact or support keeps from moving. A block
-/// alone is one of them if its supports leave any rigid motion.
+/// Sets of blocks in contact with each other that no fixed block, contact or support restrains, including single
+/// blocks whose supports allow any rigid motion.
 [[nodiscard]] std::vector<std::vector<int>> loose_blocks(const RunContext& run);
 
 }  // namespace ashlar

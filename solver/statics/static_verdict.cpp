@@ -13,16 +13,16 @@
 namespace ashlar {
 namespace {
 
-/// Of settings.statics.travel: what has gone so far when iterations end moves, if slowly.
+/// Of settings.statics.travel: blocks that have gone so far when iterations end are moving slowly.
 constexpr double slow_share = 0.1;
-/// Of settings.statics.travel: what moving blocks take along, or what sinks while others give way to it, has
-/// travelled this at least; blocks that only bear more than before have hardly moved.
+/// Of settings.statics.travel: least displacement of blocks carried along by moving ones, or sinking due to their
+/// motion. Blocks with merely increased contact forces have moved less.
 constexpr double taken_along_share = 1e-3;
 
-/// What an iteration does to joints.
+/// Changes of joints in an iteration.
 struct Joints {
   std::vector<PairKey> sliding;  ///< blocks that slide on each other
-  bool fail = false;             ///< whether any loses its strength
+  bool fail = false;             ///< true if any joint fails
 };
 
 Joints joints_of(const RunContext& run, const StepProblem& problem) {
@@ -38,7 +38,7 @@ Joints joints_of(const RunContext& run, const StepProblem& problem) {
         return std::any_of(response.points.begin(), response.points.end(),
                            [&](const PointResponse& point) { return point.state == state; });
       };
-      // Where pressure ends, some points slide whatever the blocks do.
+      // Where pressure ends, some points slide independently of the motion of the blocks.
       if (any(ContactState::sliding) && !any(ContactState::locked))
         joints.sliding.push_back({pair.a(), pair.b()});
       joints.fail =
@@ -144,7 +144,8 @@ void note_accelerations(const RunContext& run, const TimeScheme& scheme, const S
   if (fail) forget_accelerations(run);
   const bool settled = is_settled(problem) && sliding == run.state.statics.onset.sliding;
   run.state.statics.onset.sliding = std::move(sliding);
-  // Until joints slide twice alike the last iteration knows best: in the first ones inertia bears most of the weight.
+  // Until the same joints slide twice, the last iteration is the best: in the first ones inertia carries most of the
+  // weight.
   if (!settled && std::isfinite(run.state.statics.onset.least_residual)) return;
   bool near_start = true;
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
@@ -168,7 +169,7 @@ void note_accelerations(const RunContext& run, const TimeScheme& scheme, const S
 }
 
 StaticStatus give_up(const RunContext& run) {
-  // What little a block lacks may take it far only slowly.
+  // A small residual may still produce a large, slow displacement.
   const std::vector<bool> held = run.system.held_without_contacts();
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     run.state.statics.moving =

@@ -1,4 +1,4 @@
-// What a static analysis makes of its iterations: whether all is in balance, what is moving and how it sets off
+// Evaluation of the iterations of a static analysis: balance, moving blocks and their accelerations
 // (static_analysis.hpp).
 #pragma once
 
@@ -13,24 +13,24 @@ namespace ashlar {
 /// Largest motion of a block of an island, or of all islands, in block sizes.
 [[nodiscard]] double largest_motion(const Island& island, const std::vector<BodyStep>& bodies);
 [[nodiscard]] double largest_motion(const StepProblem& problem);
-/// How far a block is from where it set off, m.
+/// Displacement of a block since its onset of motion, m.
 [[nodiscard]] double travel(const RunContext& run, int block);
 
-/// Whether no body lacks what its open-close iteration had to leave (settings.statics.unsettled_share).
+/// True if the open-close iteration left no residual in any body (settings.statics.unsettled_share).
 [[nodiscard]] bool is_settled(const StepProblem& problem);
-/// Takes note of what each block lacks of balance. @return whether none lacks anything
+/// Records the residual of each block. @return true if all are within the tolerance
 [[nodiscard]] bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
-/// Keeps what is reported of moving blocks. Before the problem is accepted.
+/// Records the accelerations to be reported for moving blocks. To be called before the problem is accepted.
 void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
-/// What moves after an iteration in which nothing was lacking sets off anew.
+/// Discards recorded accelerations, after an iteration in equilibrium.
 void forget_accelerations(const RunContext& run);
-/// Whether multipliers start an iteration with the forces that it ends with.
+/// True if multipliers have converged: they equal the forces at the end of the iteration.
 [[nodiscard]] bool multipliers_repeat(const RunContext& run, const StepProblem& problem);
-/// Whether any block has gone as far as what moves does.
+/// True if any block has gone far enough to be listed as moving.
 [[nodiscard]] bool has_set_off(const RunContext& run);
-/// How a static analysis ends that goes no farther.
+/// Status of a static analysis that is ended without equilibrium: moving or not converged.
 [[nodiscard]] StaticStatus give_up(const RunContext& run);
-/// Blocks that were found to be moving, and others that move with them.
+/// Blocks found to be moving, including blocks carried along.
 [[nodiscard]] std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState& state);
 
 }  // namespace ashlar

@@ -11,11 +11,11 @@
 namespace ashlar {
 namespace {
 
-/// Of the way of the slower of two blocks: what they may come nearer than touching. Going on together takes no more than
-/// this share of what they lack.
+/// Allowed approach of two touching blocks relative to the displacement of the slower one. Their joint motion costs
+/// at most this share of their residuals.
 constexpr double meeting_share = 0.1;
 
-/// What a block lacks, N m^-3/2. @return (p, 3)
+/// Residual of a block, N m^-3/2. @return (p, 3)
 Eigen::MatrixX3d residual_of(const TimeScheme& scheme, const BodyStep& body) {
   return body.model->material().density * scheme.inertia * body.model->space().expand(body.change);
 }
@@ -35,7 +35,7 @@ class WayOn {
 
   [[nodiscard]] bool any() const { return std::find(goes_.begin(), goes_.end(), true) != goes_.end(); }
 
-  /// Leaves out blocks that others would stop, and those that these would stop then.
+  /// Excludes blocks that others would stop, and then those stopped by the excluded ones.
   void leave_out_stopped() {
     for (bool all = false; !all && any();) {
       all = true;
@@ -48,8 +48,8 @@ class WayOn {
     }
   }
 
-  /// Leaves out blocks of features that no contact is known of and that would pass each other on the way on.
-  /// @return whether there are any
+  /// Excludes blocks whose features would pass each other on the extrapolated path without a known contact.
+  /// @return true if there are any
   [[nodiscard]] bool leave_out_passing(const std::vector<FoundContacts>& found) {
     std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
     for (std::size_t k = 0; k < goes_.size(); ++k)
@@ -62,7 +62,7 @@ class WayOn {
     return any;
   }
 
-  /// Also of blocks that go along with those that go on, or give way to them.
+  /// Includes the motion of blocks that move along with the certain ones, or yield to them.
   [[nodiscard]] StraightWay result() const {
     StraightWay way;
     if (!any()) return way;
@@ -76,8 +76,7 @@ class WayOn {
     for (const int block : pair) goes_[at(block)] = false;
   }
 
-  /// Whether what it lacks changes so little on the way of the iteration that it lacks something still when it has
-  /// gone far.
+  /// True if the residual changes so little in the iteration that it would not vanish on the way to `far`.
   [[nodiscard]] bool lacks_the_same(const TimeScheme& scheme, std::size_t k) const {
     const StaticProgress& progress = run_.state.statics.progress;
     const BodyStep& body = problem_.bodies[k];
@@ -88,7 +87,7 @@ class WayOn {
     return (lacking - progress.residuals[k]).norm() * far_ <= ways_[k] * norm;
   }
 
-  /// How often the way of the iteration makes up the way on of the block that goes farthest.
+  /// Factor that extrapolates the displacements of the iteration until the fastest block has gone `far`.
   [[nodiscard]] double times() const {
     double longest = 0.0;
     for (std::size_t k = 0; k < goes_.size(); ++k)
@@ -96,13 +95,13 @@ class WayOn {
     return far_ / longest;
   }
 
-  /// Change of the unknowns: what does not go on stays.
+  /// Change of the unknowns; zero for blocks without certain motion.
   [[nodiscard]] Eigen::VectorXd change(int block) const {
     const Eigen::VectorXd& change = problem_.bodies[at(block)].change;
     return goes(block) ? change : Eigen::VectorXd(Eigen::VectorXd::Zero(change.size()));
   }
 
-  /// Whether two blocks would be stopped by each other.
+  /// True if two blocks would stop each other.
   [[nodiscard]] bool meet(const ContactPair& pair, double share) const {
     double way = std::numeric_limits<double>::infinity();
     for (const int block : {pair.a(), pair.b()})
@@ -121,7 +120,7 @@ class WayOn {
   const StepProblem& problem_;
   double far_;
   std::vector<bool> goes_;
-  std::vector<double> ways_;  ///< of the iteration, in block sizes
+  std::vector<double> ways_;  ///< displacements in the iteration, in block sizes
 };
 
 }  // namespace

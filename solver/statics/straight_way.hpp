@@ -1,5 +1,5 @@
-// Motion that a static analysis need not follow: blocks that lack the same forces from one iteration to the next, and
-// would meet nothing on the straight way on, move (notes/straight_way.md).
+// Early stop of certain motion in a static analysis: blocks whose residual is constant between iterations, and that
+// would meet nothing on their straight path, are moving (notes/straight_way.md).
 #pragma once
 
 #include <vector>
@@ -10,21 +10,21 @@
 
 namespace ashlar {
 
-/// How far blocks are when the first one that nothing stops has gone far.
+/// Displacements of blocks when the first one without obstacle has gone far.
 struct StraightWay {
-  std::vector<double> travels;  ///< by block, in parts of its size; empty: no motion is sure yet
+  std::vector<double> travels;  ///< by block, in block sizes; empty: no motion is certain yet
 };
 
-/// What an iteration of a static analysis says about the way on: of the blocks that lack the same as in the last one,
-/// those that nothing stops before one of them has gone `far`. Before ContactFinder::check_motion of the iteration.
+/// Extrapolates an iteration: of the blocks with constant residual, those without obstacle until one of them has gone
+/// `far`. To be called before ContactFinder::check_motion of the iteration.
 /// @param problem as solved, not accepted. @param far in block sizes, > 0
 [[nodiscard]] StraightWay straight_way(const RunContext& run, const TimeScheme& scheme,
                                        const StepProblem& problem, const std::vector<FoundContacts>& found,
                                        double far);
 
-/// Where motion is sure, takes blocks for moving, and for gone to the end of the way.
+/// Marks the analysis as moving if motion is certain, with displacements at the end of the path.
 void note_way_on(const RunContext& run, const StraightWay& way);
-/// Keeps what blocks lack for the next iteration. Before the problem is accepted.
+/// Stores the residuals of blocks for the next iteration. To be called before the problem is accepted.
 void note_lacking(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
 
 }  // namespace ashlar

@@ -14,25 +14,26 @@
 namespace ashlar {
 namespace {
 
-/// Lengths of a path (notes/limit_analysis.md).
+/// Characteristic lengths of a path (notes/limit_analysis.md).
 struct PathLengths {
   PathLengths(double smallest_block, double contact_distance)
       : reach(std::clamp(contact_distance, 0.05 * smallest_block, 0.2 * smallest_block)) {}
 
-  double reach;                        ///< m, gap up to which points are detected
-  double farthest = 0.5 * reach;       ///< m, that a block may go in a step: two of them cannot meet unseen
+  double reach;                        ///< m, largest gap of detected points
+  double farthest = 0.5 * reach;       ///< m, largest displacement of a block in a step: two blocks cannot
+                                       ///< meet undetected
   double longest_step = 0.25 * reach;  ///< m, of the support
-  double closed = 1e-4 * reach;        ///< m, motion that ends the closing of gaps
+  double closed = 1e-4 * reach;        ///< m, motion below which closing of gaps ends
 };
 constexpr int most_closings = 30;
-constexpr int most_unknown = 10;  ///< steps within the tolerance that are not determined
-/// Programmes of a path: one that halves its step for ever ends.
+constexpr int most_unknown = 10;  ///< undetermined steps within the tolerance
+/// Programmes of a path: ends a path that halves its step indefinitely.
 constexpr int most_programmes = 50000;
 
 enum class StepEnd { equilibrium, jammed, unbalanced, far, undetermined };
 
-/// Gaps over a length, by point of a model. Those of more than a thousand lengths count as that: programmes lose digits
-/// by shifts of very different sizes, and what bears across such a gap is found out when gaps are closed.
+/// Gaps relative to a length, by point of a model, limited to a thousand: programmes lose digits by shifts of very
+/// different sizes. Forces across larger gaps are detected when gaps are closed.
 std::vector<double> gaps_over(const RigidModel& model, double length) {
   constexpr double farthest = 1e3;
   std::vector<double> gaps;
@@ -46,8 +47,8 @@ std::vector<BodyVelocity> times(double factor, std::vector<BodyVelocity> way) {
   return way;
 }
 
-/// Forces of all points in reach cannot balance the loads: the square of the motion that Gauss's principle finds is more
-/// than its primal and dual values differ by.
+/// True if forces of all points in reach cannot balance the loads: the squared motion by Gauss's principle exceeds
+/// the gap between its primal and dual values.
 bool moves(ConeProgram& program, const std::vector<BodyVelocity>& load) {
   constexpr double certain = 10.0;
   ConeQuestion question;
@@ -58,7 +59,7 @@ bool moves(ConeProgram& program, const std::vector<BodyVelocity>& load) {
   return answer.status == ConeStatus::solved && square > certain * answer.gap;
 }
 
-/// A support on its way in one direction.
+/// Path of a support in one direction.
 class Path {
  public:
   /// @param sign 1: along its coordinate, -1: against it
@@ -73,7 +74,7 @@ class Path {
         placement_(blocks.as_placed()) {}
 
   SupportPath follow(const MovementSearch& search) {
-    // Blocks may lie apart by less than the contact distance: they come to bear first.
+    // Blocks may be apart by less than the contact distance: these gaps are closed first.
     const StepEnd start = close(placement_, lengths_.reach);
     if (start != StepEnd::equilibrium) {
       path_.end = start == StepEnd::undetermined ? MovementEnd::not_determined : MovementEnd::not_balanced;
@@ -98,7 +99,7 @@ class Path {
 
   [[nodiscard]] double moved() const { return std::abs(placement_.moved); }
 
-  /// From equilibrium to equilibrium, until the search ends.
+  /// Moves from equilibrium to equilibrium until the search ends.
   void take_steps(const MovementSearch& search) {
     path_.end = MovementEnd::reaches_limit;
     double step = lengths_.longest_step;
@@ -119,7 +120,7 @@ class Path {
       note_end(end, step, search.tolerance);
       const bool narrow = step <= search.tolerance;
       const bool known = narrow && path_.upper && *path_.upper - moved() <= 2.0 * search.tolerance;
-      // Rounding is another one beside a place that is not determined.
+      // Rounding differs beside an undetermined place.
       if (known || (narrow && ++unknown > most_unknown) || path_.programmes >= most_programmes) {
         if (!path_.upper) path_.end = MovementEnd::not_determined;
         return;
@@ -128,20 +129,21 @@ class Path {
     }
   }
 
-  /// Motion that is too far proves something where the step is within the tolerance, the other ends always do.
+  /// Records an end. Too large a motion is conclusive only if the step is within the tolerance, the other ends always
+  /// are.
   void note_end(StepEnd end, double step, double tolerance) {
     if (end == StepEnd::undetermined || (end == StepEnd::far && step > tolerance)) return;
     path_.upper = moved() + step;
     path_.end = end == StepEnd::jammed ? MovementEnd::jams : MovementEnd::collapses;
   }
 
-  /// In proportion to the way that blocks went in the last one. @param most factor
+  /// Length in proportion to the displacement of blocks in the last step. @param most factor
   [[nodiscard]] double next_step(double step, double most) const {
     constexpr double margin = 0.8, least = 0.1;
     return step * std::clamp(margin * lengths_.farthest / std::max(last_way_, 1e-300), least, most);
   }
 
-  /// Goes on from an equilibrium.
+  /// Continues from an equilibrium.
   void settle_at(FollowedPlace placement) {
     placement_ = std::move(placement);
     model_ = blocks_.model_of(placement_);
@@ -154,7 +156,7 @@ class Path {
     return program_with_support(model, support_, velocity, threads_);
   }
 
-  /// (step). @return empty: what stands there does not let the support move, or `failed_` says why
+  /// Solves (step). @return empty: the support cannot move against the structure, or the reason is in `failed_`
   std::optional<Prediction> predict(double step) {
     ConeQuestion question = question_of_support(*model_, sign_);
     question.shift = gaps_over(*model_, step);
@@ -169,8 +171,8 @@ class Path {
     return Prediction{answer.velocity, -sign_ * answer.factor * model_->units.force()};
   }
 
-  /// The motion of a step by the directions half way through it: hinges stay in place to the third order of its rotation,
-  /// where they would wander along their joints. @param way m, by the directions at its start
+  /// The motion of a step by the directions at its middle: hinges stay in place to third order of the rotation, while
+  /// they would drift along their joints otherwise. @param way m, by the directions at its start
   std::vector<BodyVelocity> half_way(double step, std::vector<BodyVelocity> way) {
     const RigidModel mid = midway(*model_, *program_, way);
     ConeProgram program = program_at(mid, placement_.moved + 0.5 * sign_ * step);
@@ -178,7 +180,7 @@ class Path {
     question.shift = gaps_over(*model_, step);
     const ConeAnswer answer = program.solve(question);
     ++path_.programmes;
-    // Where there is none the first directions do, and what they have not met is closed.
+    // If there is none, the first directions are used, and remaining gaps are closed later.
     if (!is_balanced(answer) || boundless(question, answer)) return way;
     return times(step, answer.velocity);
   }
@@ -201,7 +203,7 @@ class Path {
     return end;
   }
 
-  /// (close), until nothing moves. @param way m, that blocks may go
+  /// Repeats (close) until nothing moves. @param way m, allowed displacement of blocks
   StepEnd close(FollowedPlace& placement, double way) {
     for (int n = 0; n < most_closings; ++n) {
       const RigidModel model = blocks_.model_of(placement);
@@ -227,7 +229,7 @@ class Path {
     return StepEnd::undetermined;
   }
 
-  /// Adds what joints slide in a motion where they bear. @param way m
+  /// Adds the slip in a motion of joints that transmit force. @param way m
   static void note_slip(const RigidModel& model, const ConeProgram& program,
                         const std::vector<BodyVelocity>& way, const std::vector<Eigen::Vector3d>& force,
                         FollowedPlace& placement) {
@@ -271,7 +273,7 @@ class Path {
     }
   }
 
-  /// Notes where blocks are, and who moves.
+  /// Records the placement of blocks, and the moving ones.
   void finish() {
     path_.lower = moved();
     for (const BlockState& state : placement_.states) path_.positions.push_back(state.position);
@@ -298,8 +300,8 @@ class Path {
   std::optional<RigidModel> model_;     ///< at the placement
   std::optional<ConeProgram> program_;  ///< of it, with the support
   std::vector<Eigen::Vector3d> force_;  ///< of the last prediction, by point
-  std::vector<BodyVelocity> velocity_;  ///< of it
-  double last_way_ = 0.0;               ///< m, that blocks went by it
+  std::vector<BodyVelocity> velocity_;  ///< of the last prediction
+  double last_way_ = 0.0;               ///< m, displacement of blocks by it
   StepEnd failed_ = StepEnd::undetermined;
   SupportPath path_;
 };

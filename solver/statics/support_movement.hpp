@@ -1,25 +1,26 @@
-// Range of support movements: how far one support of an arch, a vault or a dome can move before what it bears comes
-// down.
+// Range of support movements: how far one support of an arch, a vault or a dome can move before the supported
+// structure collapses.
 //
 // The support is placed by small steps along its coordinate (yielding_support.hpp), all other supports stay. Rigid
 // blocks follow, with exact rotations. A step is one cone programme, the dual of the least thrust with gaps: over the
 // forces p in balance and within friction, with H the thrust, g the gaps and d the step,
 //     min  d H + g . p_N                                                                                 (step)
-// (for a support that is pressed in, with -d). The multipliers of balance are the motion of the bodies: points come no
-// nearer than their gap, and bear only where they close. Points are then detected again where blocks lie, and
+// (for a support that is pressed in, with -d). The multipliers of balance are the motion of the bodies: points come
+// no nearer than their gap, and transmit forces only if closed. Points are then detected again at the new placement,
+// and
 //     min  g . p_N                                                                                       (close)
-// with the support held is repeated until nothing moves: gaps of second order of the step are closed or pushed out, and
-// forces in balance act at closed points only. Such a place is an equilibrium, whatever led to it.
+// with the support held is repeated until nothing moves: gaps of second order of the step are closed or opened, and
+// forces in balance act at closed points only. Such a placement is an equilibrium, independent of the path.
 //
-// Friction slides with dilation within a programme, mu times the slip. That opening is a gap of the next one, which
-// closes it, so that joints do not rise as they slide: the scheme of Anitescu, Math. Program. 105 (2006) 113, whose
-// motion obeys Coulomb's law as the step goes to zero. Redundant structures have several such motions; this is one.
-// notes/limit_analysis.md says how large a step is.
+// Friction slides with dilation within a programme, mu times the slip. That opening is a gap in the next programme,
+// which closes it, so that joints do not rise as they slide: the scheme of Anitescu, Math. Program. 105 (2006) 113,
+// whose motion obeys Coulomb's law as the step tends to zero. Redundant structures have several such motions; this is
+// one. For the length of a step see notes/limit_analysis.md.
 //
-// The movement ends where no step within the tolerance leads to an equilibrium in reach: no forces in balance exist any
-// more, or an arbitrarily small movement sets off a finite motion. `lower` is the last equilibrium that was found.
+// The movement ends where no step within the tolerance leads to an equilibrium in reach: no forces in balance exist,
+// or an arbitrarily small movement causes a finite motion. `lower` is the last equilibrium that was found.
 //
-// Joints have friction only: cohesion and tensile strength, which a moved joint has lost, count as nothing.
+// Joints have friction only: cohesion and tensile strength, which a moved joint has lost, are ignored.
 #pragma once
 
 #include <array>
@@ -33,11 +34,11 @@
 
 namespace ashlar {
 
-/// Blocks as they are placed. What it refers to must outlive what uses it.
+/// Blocks at their initial placement. The referenced objects must outlive all users.
 struct PlacedScene {
   const BlockSystem& system;
   const std::vector<BlockState>& states;
-  const PairHistories& histories;  ///< of which overlaps of placement count
+  const PairHistories& histories;  ///< only initial overlaps are used
   double end_time = 0.0;           ///< of the loads, s
   int threads = 1;
 };
@@ -45,44 +46,45 @@ struct PlacedScene {
 struct MovementSearch {
   /// Any length > 0: the support moves along it and against it. Empty: away from the structure and towards it
   std::optional<Vector3> direction;
-  double limit = 0.0;      ///< m, > 0: movements beyond it are not looked for
-  double tolerance = 0.0;  ///< m, > 0: width of the bracket, where rounding lets the programmes tell so much
-  std::function<bool()> goes_on = [] { return true; };  ///< asked before each step
+  double limit = 0.0;      ///< m, > 0: largest movement searched
+  double tolerance = 0.0;  ///< m, > 0: width of the bracket, if rounding errors of the programmes allow it
+  std::function<bool()> goes_on = [] { return true; };  ///< called before each step; false ends the search
 };
 
 /// Where a movement ends.
 enum class MovementEnd {
-  collapses,       ///< no equilibrium in reach: blocks move on while the support stands
-  jams,            ///< what stands at the support does not let it in, whatever presses
-  reaches_limit,   ///< not limited as far as it was looked for: raise `limit` to look farther
-  not_balanced,    ///< no equilibrium where it begins
+  collapses,       ///< no equilibrium in reach: blocks continue to move while the support is at rest
+  jams,            ///< the structure at the support resists its movement for any force
+  reaches_limit,   ///< not limited within the search: increase `limit` to search farther
+  not_balanced,    ///< no equilibrium at the start
   not_determined,  ///< programmes did not reach their tolerances: nothing is known beyond `lower`
   interrupted,     ///< by goes_on
 };
 
-/// An equilibrium on the way.
+/// An equilibrium on the path.
 struct MovedPlace {
   double moved = 0.0;   ///< m
-  double thrust = 0.0;  ///< N, against which the support moves on, as ThrustState::thrust
+  double thrust = 0.0;  ///< N, resisting the movement, as ThrustState::thrust
 };
 
-/// A joint that is not as it was.
+/// A joint that has changed.
 struct MovedJoint {
   std::array<int, 2> blocks;
   Vector3 place;            ///< m, centre of its normal forces at the end
-  double rotation = 0.0;    ///< rad, of its blocks against each other
-  double slip = 0.0;        ///< m, way that it has slid under pressure
-  bool pressed_on = false;  ///< it bears at the end
+  double rotation = 0.0;    ///< rad, of its blocks relative to each other
+  double slip = 0.0;        ///< m, accumulated slip under pressure
+  bool pressed_on = false;  ///< it transmits force at the end
 };
 
-/// In one of the two directions.
+/// Path in one of the two directions.
 struct SupportPath {
   MovementEnd end = MovementEnd::not_determined;
-  double lower = 0.0;              ///< m, >= 0, the last movement that has an equilibrium
-  std::optional<double> upper;     ///< m, the least that was found to have none in reach; empty: none was
+  double lower = 0.0;              ///< m, >= 0, last movement with an equilibrium
+  std::optional<double> upper;     ///< m, smallest movement found without equilibrium in reach; empty: none
   std::vector<MovedPlace> places;  ///< `moved` ascends, from 0
-  std::vector<MovedJoint> joints;  ///< at `lower`, that have turned or slid
-  std::vector<int> moving;         ///< blocks that move at `lower` if the support moves on, by block number
+  std::vector<MovedJoint> joints;  ///< at `lower`, those that have rotated or slid
+  std::vector<int> moving;         ///< blocks that move at `lower` if the support continues to move, by block
+                                   ///< number
   /// Reference coefficients of blocks at `lower`, by block, (p, 3)
   std::vector<Eigen::MatrixX3d> positions;
   int programmes = 0;
@@ -90,24 +92,24 @@ struct SupportPath {
 
 struct SupportMovement {
   int support;                       ///< block
-  std::optional<Vector3> direction;  ///< of `out`, of length 1; empty: it spreads around the structure
+  std::optional<Vector3> direction;  ///< of `out`, unit; empty: the support spreads around the structure
   SupportPath out;                   ///< away from the structure, or along the direction
-  SupportPath in;                    ///< the other way
-  bool away = false;                 ///< the direction is away from the structure, not one that was asked for
-  bool left_out_strength = false;    ///< joints have cohesion or tensile strength
+  SupportPath in;                    ///< opposite direction
+  bool away = false;                 ///< true: the direction is away from the structure, false: it was given
+  bool left_out_strength = false;    ///< true: joints have cohesion or tensile strength, which are ignored
 };
 
-/// Size of what may move, m: the diagonal of the box around its contacts. 0: it has none
+/// Size of the structure that may move, m: diagonal of the box around its contacts. 0: no contacts
 [[nodiscard]] double extent_of(const RigidModel& model);
 
-/// A block that its supports hold in part: it cannot be followed where it turns. Empty: there is none
+/// A partly supported block, whose rotation cannot be followed. Empty: none
 [[nodiscard]] std::optional<int> block_held_in_part(const RigidModel& model);
 /// True if a load acts on any body.
 [[nodiscard]] bool is_loaded(const RigidModel& model);
 
-/// @param support block that does not move and touches one that does, of supports_of
-/// @throws std::invalid_argument if a block is incremental or held in part, if nothing bears on the support, or if no
-/// load acts
+/// @param support fixed block in contact with a moving one, see supports_of
+/// @throws std::invalid_argument if a block is incremental or partly supported, if the support has no load-bearing
+/// contact, or if no load acts
 [[nodiscard]] SupportMovement support_movement(const PlacedScene& scene, int support,
                                                const MovementSearch& search);
 

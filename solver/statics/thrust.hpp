@@ -1,10 +1,10 @@
-// Least and most thrust of what stands between supports: the horizontal push of blocks on one that does not move, as
-// far as forces within the strengths of the joints that balance all blocks allow. Between both lies what the structure
-// really does; a support that gives way by next to nothing takes the thrust to the least, one that presses in to the
-// most (Heyman, The stone skeleton, Int. J. Solids Struct. 2 (1966) 249).
+// Least and largest thrust of a structure between supports: the range of the horizontal force of blocks on a fixed
+// one over all forces within the strengths of the joints that balance all blocks. The actual thrust lies in between.
+// A support that yields by a negligible amount reduces it to the least value, one that presses in increases it to the
+// largest (Heyman, The stone skeleton, Int. J. Solids Struct. 2 (1966) 249).
 //
-// The support is let go along one coordinate (yielding_support.hpp). Thrust is the load on that coordinate, in balance
-// with the others; its extremes are a limit load each (cone_program.hpp).
+// The support is released along one coordinate (yielding_support.hpp). Thrust is the load on that coordinate, in
+// balance with the others. Each extreme is a limit load (cone_program.hpp).
 #pragma once
 
 #include <optional>
@@ -17,31 +17,33 @@ namespace ashlar {
 /// An extreme of the thrust.
 struct ThrustState {
   double thrust = 0.0;  ///< N, > 0 away from the structure
-  double gap = 0.0;  ///< between primal and dual value, over the thrust, or the unit of force if that is more
+  double gap = 0.0;     ///< between primal and dual value, relative to the thrust, or to the unit of force if
+                        ///< that is larger
   std::vector<Vector3> force;        ///< N, by point of the model, on its first block
-  std::vector<BodyVelocity> motion;  ///< how blocks move with the support, by body, over the support's way
+  std::vector<BodyVelocity> motion;  ///< motion of blocks with the support, by body, per unit movement of the
+                                     ///< support
 };
 
 struct ThrustRange {
   int support;  ///< block
   std::optional<ThrustState> least;
-  std::optional<ThrustState>
-      most;  ///< empty: no bound, what stands there can be pressed as much as one likes
+  std::optional<ThrustState> most;  ///< empty: unbounded, the structure there resists any compression
 };
 
-/// Of each block that does not move and that one presses on which does, by block number.
-/// @param down direction of gravity, any length; zero: thrust is that along the line from the middle
+/// Thrust of each fixed block under pressure of a moving one, by block number.
+/// @param down direction of gravity, any length; zero: thrust is along the line from the centroid
 /// @return empty if no forces within the strengths balance the loads
 [[nodiscard]] std::vector<ThrustRange> thrust_ranges(const RigidModel& model, const Vector3& down,
                                                      int threads);
 
-/// Where the resultant of a joint acts, and the resultant.
+/// Resultant of a joint and its place.
 struct JointResultant {
   std::array<int, 2> blocks;
   Vector3 place;  ///< m, centre of the normal forces
   Vector3 force;  ///< N, on the first block
 };
-/// Of all joints that bear more than a millionth of the largest force. @param force N, by point of the model
+/// Resultants of all joints that transmit more than a millionth of the largest force. @param force N, by point of the
+/// model
 [[nodiscard]] std::vector<JointResultant> joint_resultants(const RigidModel& model,
                                                            const std::vector<Vector3>& force);
 

@@ -15,7 +15,7 @@ bool touches(const RigidPoint& point, int block) {
   return point.blocks[0] == block || point.blocks[1] == block;
 }
 
-/// Middle of gravity of all that may move, m. @pre there is a body
+/// Centre of gravity of all bodies that may move, m. @pre there is a body
 Vector3 middle_of_bodies(const RigidModel& model) {
   Vector3 middle = Vector3::Zero();
   double mass = 0.0;
@@ -26,14 +26,14 @@ Vector3 middle_of_bodies(const RigidModel& model) {
   return middle / mass;
 }
 
-/// The part of a vector at right angles to gravity. @param down any length; zero: all of it
+/// The part of a vector at right angles to gravity. @param down any length; zero: the whole vector
 Vector3 level_part(const Vector3& vector, const Vector3& down) {
   const double square = down.squaredNorm();
   return square > 0.0 ? Vector3(vector - vector.dot(down) / square * down) : vector;
 }
 
-/// The level direction in which a support on one side of the structure moves away from it, of length 1.
-/// @return empty: the support lies around the structure, or below its middle
+/// The horizontal unit vector in which a support on one side of the structure moves away from it.
+/// @return empty: the support lies around the structure, or below its centre
 std::optional<Vector3> direction_away(const RigidModel& model, int support, const Vector3& down) {
   constexpr double one_side = 0.1;
   const Vector3 middle = middle_of_bodies(model);
@@ -82,7 +82,7 @@ SupportWay::SupportWay(const RigidModel& model, int support, const Vector3& down
     sum += arm.norm();
   }
   direction_ = direction ? direction->normalized() : direction_away(model, support, down);
-  // A block in the very middle of its support stays where it is.
+  // A block at the very centre of its support stays at rest.
   if (!direction_ && sum > 0.0) radius_ = sum / static_cast<double>(arms_.size());
 }
 
