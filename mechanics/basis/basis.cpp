@@ -16,10 +16,10 @@
 namespace ashlar {
 namespace {
 
-/// Principal axes, each nearest to the coordinate axis of its column; the coordinate axes if the second
-/// moment is diagonal or has no direction.
+/// Principal axes, each in the column of the nearest coordinate axis; the coordinate axes if the second moment is
+/// diagonal or isotropic.
 Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& second_moment) {
-  // Rounding must not turn the axes of a cube; any axes give a basis, so that nothing depends on this number.
+  // Rounding must not rotate the axes of a cube. Any axes give a basis, so that results do not depend on this value.
   constexpr double negligible = 1e-9;
   const Eigen::Matrix3d diagonal = second_moment.diagonal().asDiagonal();
   if ((second_moment - diagonal).cwiseAbs().maxCoeff() <= negligible * second_moment.trace())
@@ -56,7 +56,7 @@ PolynomialBasis::PolynomialBasis(std::shared_ptr<const Parts> parts, const Vecto
   identity_map_.row(0) += std::sqrt(parts_->volume) * anchor.transpose();
 }
 
-/// What is rounded into Parts.
+/// Values to be rounded into Parts.
 template <class Real>
 struct PolynomialBasis::ExactParts {
   RealPoints<Real>
@@ -70,9 +70,9 @@ struct PolynomialBasis::ExactParts {
 
 namespace {
 
-/// Of the functions' products' integrals: an eighth of the last place.
+/// Of the integrals of products of functions: an eighth of the last place.
 constexpr double allowed_error = 0x1p-56;
-/// Of volume and second moment, relative: small entries of a thin block's second moment keep their digits too.
+/// Of volume and second moment, relative: preserves the digits of small entries of a thin block's second moment.
 constexpr double allowed_error_of_measure = 0x1p-80;
 
 template <class Real>
@@ -189,7 +189,7 @@ std::vector<Real> PolynomialBasis::Parts::seed_moments(const TriangleMesh& mesh,
   // The axes are orthonormal but for rounding, so that the determinant of the map is not exactly that of h.
   const Real scale = exact.volume / monomial[0];
   for (Real& moment : monomial) moment *= scale;
-  // Rounding moves coordinates by parts of what cancels in them, which is taken relative to at least `small`.
+  // Relative rounding error of coordinates with cancellation, relative to at least `small`.
   constexpr double small = 0x1p-10;
   double cancelled = 0.0;
   std::vector<Vector3> xi;
@@ -213,8 +213,9 @@ bool PolynomialBasis::Parts::orthonormalise(const Polyhedron& solid, const std::
   const auto p = static_cast<double>(gram.rows());
   double trace = 0.0;
   for (Eigen::Index i = 0; i < gram.rows(); ++i) trace += rounded(gram(i, i));
-  // G + E is factorised, so that integrals of phi phi' are off by inverse(L) E inverse(L)': |E| is at most p times the error
-  // of the moments, and what factorising rounds. |inverse(L)|^2, of size trace(inverse(G)), is at least p^2 / trace(G).
+  // G + E is factorised, so that the error of the integrals of phi phi' is inverse(L) E inverse(L)'. |E| is at most p
+  // times the error of the moments plus the rounding of the factorisation. |inverse(L)|^2, of size trace(inverse(G)),
+  // is at least p^2 / trace(G).
   const double off = p * (error + 4.0 * unit_roundoff<Real> * trace);
   if (!is_last_resort<Real> && !(off * p * p / trace <= allowed_error)) return false;
   Eigen::Index failed = -1;
@@ -291,7 +292,7 @@ void PolynomialBasis::Parts::make_identity_map(const ExactParts<Real>& exact) {
 template <class Real>
 void PolynomialBasis::Parts::measure_loss(const TriangleMesh& mesh, const ExactParts<Real>& exact) {
   int worst_degree = order + 1;
-  // Points of the mesh are known exactly, in many digits and in double.
+  // Points of the mesh are exact in many digits and in double precision.
   constexpr std::size_t most_points = 16;
   const std::size_t stride = (exact.points.size() + most_points - 1) / most_points;
   for (std::size_t n = 0; n < exact.points.size(); n += stride) {

@@ -3,14 +3,13 @@
 //
 //   xi = (A' (X - c) - m) / h                  A: principal axes, c: first point; -1 to 1 in the box along A,
 //   seed_k(X) = L_a(xi_1) L_b(xi_2) L_c(xi_3)  Legendre polynomials,
-//   G = integral of seed seed' dV = L L'       moments and Cholesky factor in 32 digits where rounding is shown
-//                                              to change phi by less than 2^-56, else in 50
+//   G = integral of seed seed' dV = L L'       moments and Cholesky factor in 32 digits if their rounding is proven
+//                                               to change phi by less than 2^-56, else in 50
 //   phi = inverse(L) seed                      so that  integral of phi phi' dV = I.
 //
-// phi is not evaluated so: where the block fills little of its box, inverse(L) is large and rounding with it.
-// Multiplied by xi_i, a function of degree d - 1 is a combination of those of degrees d, d - 1 and d - 2
-// only, so that each function follows from the ones before it by a recurrence that is as stable as
-// orthogonalization.
+// phi is not evaluated in this form: if the block fills little of its box, inverse(L) and its rounding errors are
+// large. A function of degree d - 1 multiplied by xi_i is a combination of functions of degrees d, d - 1 and d - 2
+// only. So each function follows from earlier ones by a recurrence that is as stable as orthogonalization.
 //
 // Derivatives of phi are polynomials of the same space, so they are matrices: d phi / dX_i = D_i phi, and
 // every integral of products of phi and its derivatives is a product of those matrices.
@@ -27,32 +26,33 @@
 
 namespace ashlar {
 
-/// An order that double precision does not bear on a shape.
+/// An order too high for the shape in double precision.
 struct OrderTooHigh : std::domain_error {
   OrderTooHigh(int order, int highest);
-  int highest_safe_order;  ///< 0: not even the first
+  int highest_safe_order;  ///< 0: not even order 1
 };
 
 /// Constant after construction.
 class PolynomialBasis {
  public:
   static constexpr int max_order = 12;
-  /// What rounding may change a function by, in parts of its root mean square over the block: six digits are
-  /// left. It is measured at points of the solid against 50 digits, and orthonormality (||G - I||) goes with
-  /// it. Boxes and hulls lose 1e-15 to 1e-11 up to order 12; thin ones that are turned lose what coordinates
-  /// across them lose to cancellation (1e-11 n^2 for a thickness of 1e-5). More is lost by shapes that fill
-  /// little of the box along their principal axes, like an L of thin arms: functions that are of size 1 on
-  /// the arms are huge between them.
+  /// Allowed rounding error of a function relative to its root mean square over the block: six digits remain. The
+  /// error is measured at points of the solid against 50 digits and covers orthonormality (||G - I||). Boxes and
+  /// hulls lose 1e-15 to 1e-11 up to order 12. Thin rotated ones lose as much as their coordinates across the
+  /// thickness lose to cancellation (1e-11 n^2 for a thickness of 1e-5). More is lost by shapes that fill little of
+  /// the box along their principal axes, such as an L of thin arms: functions of size 1 on the arms are huge between
+  /// them.
   static constexpr double allowed_loss = 1e-6;
 
   /// @param solid reference shape, m
   /// @param order 0 to max_order
   /// @throws std::invalid_argument if the order is out of range
-  /// @throws OrderTooHigh if the functions lose more than allowed_loss, or do not even exist in 50 digits
+  /// @throws OrderTooHigh if the functions lose more than allowed_loss, or cannot be computed in 50 digits
   PolynomialBasis(const Polyhedron& solid, int order);
 
-  /// The basis of the same solid, moved so that its first point is at a place; all that does not depend on
-  /// the place is shared. @param anchor m
+  /// The basis of the same solid translated so that its first point is at a place. Shares all data independent of the
+  /// place.
+  /// @param anchor m
   [[nodiscard]] PolynomialBasis moved_to(const Vector3& anchor) const { return {parts_, anchor}; }
 
   [[nodiscard]] int order() const { return parts_->order; }
@@ -110,7 +110,7 @@ class PolynomialBasis {
   template <class Real>
   struct ExactParts;
 
-  /// All that stays when the block is translated. Places are from its first point.
+  /// Data that are invariant under translation of the block. Places are relative to its first point.
   struct Parts {
     explicit Parts(const Polyhedron& solid, int the_order);
 
@@ -131,23 +131,24 @@ class PolynomialBasis {
     [[nodiscard]] Eigen::VectorXd values(const Vector3& xi) const;
 
    private:
-    /// All of it, with numbers of two types: for moments, and for what is made of them. @return false: not enough digits
+    /// Computes all data, with number types for moments and for derived data. @return false if the digits do not
+    /// suffice
     /// @throws OrderTooHigh
     template <class MomentReal, class Real>
     [[nodiscard]] bool make(const Polyhedron& solid);
     /// Volume, centroid and second moment.
     template <class Real>
     [[nodiscard]] bool measure(const TriangleMesh& mesh, ExactParts<Real>& exact);
-    /// The box along the principal axes whose xi go from -1 to 1.
+    /// Sets the box along the principal axes in which xi is from -1 to 1.
     void choose_box(const TriangleMesh& mesh);
     /// Coordinates xi of the points.
     template <class Real>
     void scale(ExactParts<Real>& exact) const;
-    /// Integrals of the seeds. @param error of them at most, by rounding
+    /// Integrals of the seeds. @param error upper bound of their rounding error
     template <class Real>
     [[nodiscard]] std::vector<Real> seed_moments(const TriangleMesh& mesh, const ExactParts<Real>& exact,
                                                  double& error) const;
-    /// @param moments of the seeds, @param error of them at most. @throws OrderTooHigh
+    /// @param moments of the seeds. @param error upper bound of theirs. @throws OrderTooHigh
     template <class Real>
     [[nodiscard]] bool orthonormalise(const Polyhedron& solid, const std::vector<Real>& moments, double error,
                                       ExactParts<Real>& exact) const;

@@ -1,6 +1,6 @@
-// Numbers of 32 decimal digits, the unevaluated sums of two doubles (QD library; Hida, Li, Bailey 2001): eight times
-// as fast as fifty_digits.hpp, for what loses few enough digits. Only sources that are compiled without contraction of
-// products and sums (-ffp-contract=off) include this file.
+// Numbers of 32 decimal digits as unevaluated sums of two doubles (QD library; Hida, Li, Bailey 2001): eight times as
+// fast as fifty_digits.hpp, if the loss of digits is small enough. Only sources compiled without contraction of
+// products and sums (-ffp-contract=off) may include this file.
 #pragma once
 
 #include <qd/dd_real.h>
@@ -31,7 +31,7 @@ inline constexpr double unit_roundoff<FiftyDigits> = 1e-50;
   return static_cast<double>(value);
 }
 
-/// To as many digits as the type has, fewer than before or the same.
+/// Converts to another type of the same or fewer digits.
 template <class Real, class From>
 [[nodiscard]] Real converted(const From& value) {
   if constexpr (std::is_same_v<Real, From>) {

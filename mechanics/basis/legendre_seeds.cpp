@@ -149,7 +149,7 @@ RealMatrix<Real> inverse_of_lower(const RealMatrix<Real>& lower) {
   RealMatrix<Real> inverse = RealMatrix<Real>::Zero(p, p);
   for (Eigen::Index j = 0; j < p; ++j) {
     inverse(j, j) = Real(1);
-    // By columns, as they lie in memory.
+    // By columns, in memory order.
     for (Eigen::Index k = j; k < p; ++k) {
       inverse(k, j) /= lower(k, k);
       const Real factor = inverse(k, j);

@@ -1,5 +1,5 @@
-// Products of Legendre polynomials over a solid: what a basis is made from, in 32 digits (double_double.hpp) where these
-// are shown to be enough, else in 50. Only sources of this folder include this file.
+// Products of Legendre polynomials over a solid, from which a basis is computed, in 32 digits (double_double.hpp) if
+// these are proven to suffice, else in 50. Only sources of this folder include this file.
 //
 // The seeds are L_a(xi) L_b(eta) L_c(zeta), by monomial_index(a, b, c); phi = inverse(L) seed, L L' the Gram
 // matrix of the seeds over the solid. Real is DoubleDouble or FiftyDigits.
@@ -25,21 +25,21 @@ template <class Real>
 [[nodiscard]] std::vector<Real> monomial_moments(const RealPoints<Real>& points, const TriangleMesh& mesh,
                                                  int degree);
 
-/// What the monomial moments would be if nothing cancelled: all products and sums of monomial_moments() with their
-/// absolute values. Coordinates that are right to a relative error e give moments that are right to
-/// (3 degree + 12) (e + unit roundoff) of these. @param points rounded
+/// Size of the monomial moments without cancellation: all products and sums of monomial_moments() with their absolute
+/// values. Coordinates with a relative error e give moments with an error of at most (3 degree + 12) (e + unit
+/// roundoff) of these. @param points rounded
 [[nodiscard]] std::vector<double> moment_sizes(const std::vector<Vector3>& points, const TriangleMesh& mesh,
                                                int degree);
 
-/// Integrals of the seeds, of all degrees that the monomial moments have.
+/// Integrals of the seeds of all degrees of the monomial moments.
 template <class Real>
 [[nodiscard]] std::vector<Real> legendre_moments(const std::vector<Real>& monomial_moments, int degree);
 
-/// The largest of the same with the absolute values of all terms.
+/// Largest integral of a seed with the absolute values of all terms.
 [[nodiscard]] double legendre_size(const std::vector<double>& moment_sizes, int degree);
 
-/// Lower triangle of the Gram matrix of the seeds: products of seeds are sums of seeds whose weights are positive and
-/// sum to 1, so that no entry is off by more than the moments are. @param legendre_moments up to degree 2 order
+/// Lower triangle of the Gram matrix of the seeds: products of seeds are sums of seeds with positive weights of sum
+/// 1, so that the error of an entry is at most that of the moments. @param legendre_moments up to degree 2 order
 /// @return (p, p)
 template <class Real>
 [[nodiscard]] RealMatrix<Real> gram_matrix(const std::vector<Real>& legendre_moments, int order);
@@ -55,7 +55,7 @@ template <class Real>
 [[nodiscard]] Eigen::MatrixXd derivative_matrix(const RealMatrix<Real>& lower,
                                                 const RealMatrix<Real>& inverse, int order, int axis);
 
-/// Which function is multiplied, and which weights of the product are asked for.
+/// A function to be multiplied, and the range of weights of the product.
 struct SeedProduct {
   int axis;    ///< of the xi that multiplies
   int parent;  ///< the function
@@ -63,7 +63,7 @@ struct SeedProduct {
   int last;    ///< to this one
 };
 
-/// The weights of xi_axis phi_parent in the basis, from the first to the last asked for. @param exponents of the seeds
+/// The requested weights of xi_axis phi_parent in the basis. @param exponents of the seeds
 /// @return (last - first + 1)
 template <class Real>
 [[nodiscard]] std::vector<Real> multiplied(const RealMatrix<Real>& lower, const RealMatrix<Real>& inverse,

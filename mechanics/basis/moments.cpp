@@ -1,5 +1,5 @@
-// All arithmetic is on integers: doubles become integers after a common power-of-two scale, the recurrences
-// of simplex_moments.hpp need no division, and each moment is rounded once at the end.
+// All arithmetic is on integers: doubles become integers after scaling by a common power of two, the recurrences of
+// simplex_moments.hpp need no division, and each moment is rounded once at the end.
 #include "mechanics/basis/moments.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int, boost::multiprecision::et_off>;
 
-/// The power of two whose multiples all coordinates are: 2^exponent.
+/// Exponent of the largest power of two of which all coordinates are multiples.
 int common_exponent(const std::vector<Vector3>& points) {
   int exponent = 0;
   bool first = true;

@@ -1,5 +1,5 @@
-// The monomial basis of the paper's equation (1), X^a Y^b Z^c, kept for comparison with the orthonormal one
-// (theory.md section 2): ill-conditioned, the more so the farther the block is from the origin of X.
+// The monomial basis of the paper's equation (1), X^a Y^b Z^c, for comparison with the orthonormal one (theory.md
+// section 2). Its condition worsens with the distance of the block from the origin of X.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,9 +11,9 @@
 
 namespace ashlar {
 
-/// From where the monomials count X, Y and Z, and in what unit.
+/// Origin and unit of X, Y and Z in the monomials.
 enum class MonomialOrigin {
-  global,   ///< the coordinates as they are
+  global,   ///< coordinates as given
   centred,  ///< from the block's centroid
   scaled,   ///< from the centroid, in half diagonals of the block's box
 };

@@ -105,10 +105,10 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 using Corners = std::vector<Eigen::Vector2d>;
 
-/// Takes the flattest corner out of a polygon if it is nearly straight. @return it, the next one and the last one
+/// Removes the flattest corner of a polygon if it is nearly straight. @return it, the next one and the last one
 std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon) {
   constexpr double nearly_straight = 1e-3;  // height of a corner over the line between its neighbours
-  // Corners that are as flat but for rounding: the first.
+  // Of corners that are equally flat within rounding error: the first.
   constexpr double less = 1.0 - 1e-6;
   const std::size_t corners = polygon.size();
   if (corners <= 3) return std::nullopt;
@@ -129,8 +129,8 @@ std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon)
   return corner;
 }
 
-/// The rule of a triangle has an apex, the first corner, and is the same to both sides of it: with the flat corner
-/// there, a polygon that is seen from behind has the same points.
+/// The rule of a triangle has an apex, the first corner, and is symmetric with respect to it: with the flat corner as
+/// apex, a polygon seen from behind has the same points.
 void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, PolygonRule& rule) {
   const double area = 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
   if (!(area > 0.0)) return;
@@ -142,7 +142,7 @@ void add_triangle(const std::array<Eigen::Vector2d, 3>& corners, int degree, Pol
   }
 }
 
-/// Centroid of a polygon; nothing of slivers that are no higher than rounding moves corners: it might be anywhere.
+/// Centroid of a polygon; empty for slivers whose height is within rounding error: it would be arbitrary.
 std::optional<Eigen::Vector2d> centroid_of(const Corners& polygon) {
   constexpr double sliver = 1e-13;  // of the squared length, some hundred rounding errors
   double doubled_area = 0.0;
@@ -180,7 +180,7 @@ void add_fan(const Corners& polygon, int degree, PolygonRule& rule) {
       const Eigen::Vector2d rim = start + along.points[v] * (end - start);
       const double share = v == 0 ? along.weights.front() * area + along.weights.back() * area_before
                                   : along.weights[v] * area;
-      if (!(share > 0.0)) continue;  // of corners that are one
+      if (!(share > 0.0)) continue;  // coincident corners
       for (std::size_t u = 0; u < inward.points.size(); ++u) {
         rule.points.emplace_back(rim + inward.points[u] * (centroid - rim));
         rule.weights.push_back(inward.weights[u] * share);
@@ -216,16 +216,16 @@ CornerMoments moments_of(const Corners& polygon, const Eigen::Vector2d& centroid
   return result;
 }
 
-/// Corners, as many points within them, and two points for what both leave, see affine_rule().
+/// Adds corners, as many points within them, and two points for the remaining moment, see affine_rule().
 void add_two_rings(const Corners& polygon, PolygonRule& rule) {
   const std::optional<Eigen::Vector2d> centroid = centroid_of(polygon);
   if (!centroid) return;
   const CornerMoments moments = moments_of(polygon, *centroid);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> shares(moments.second, moments.of_corners);
-  // Bounds of every convex polygon; of needles rounding may leave anything.
+  // Bounds for every convex polygon; rounding errors of needles may exceed them.
   const auto bounded = [](double found) { return found > 1.0 / 6.0 ? std::min(found, 0.5) : 1.0 / 6.0; };
   const double share = bounded(shares.eigenvalues()[0]);
-  // Rounding alone leaves 1e-16.
+  // Rounding errors are about 1e-16.
   constexpr double none = 1e-12;
   const double left = 1.0 - share / bounded(shares.eigenvalues()[1]);
   const double middle = left > none ? left : 0.0;
@@ -234,7 +234,7 @@ void add_two_rings(const Corners& polygon, PolygonRule& rule) {
   const double scale = std::sqrt((share - outer) / inner);
   for (const auto& [weight, size] : {std::pair(outer, 1.0), std::pair(inner, scale)}) {
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-      if (!(moments.tributary[k] > 0.0)) continue;  // of corners that are one
+      if (!(moments.tributary[k] > 0.0)) continue;  // coincident corners
       rule.points.emplace_back(size == 1.0 ? polygon[k] : *centroid + size * (polygon[k] - *centroid));
       rule.weights.push_back(weight * moments.tributary[k]);
     }
@@ -285,8 +285,7 @@ TriangleRule triangle_rule(int degree) {
 }
 
 VolumeRule volume_rule(const TriangleMesh& mesh, const Vector3& apex, int degree) {
-  // A point of the tetrahedron is apex + u (p - apex), p on the triangle; u^2 of the Jacobian takes two
-  // degrees.
+  // A point of the tetrahedron is apex + u (p - apex), p on the triangle; u^2 of the Jacobian needs two degrees.
   const SegmentRule height = gauss_legendre(degree / 2 + 2);
   const TriangleRule base = triangle_rule(degree);
   VolumeRule rule;

@@ -31,22 +31,22 @@ struct PolygonRule {
   std::vector<double> weights;  ///< positive
 };
 
-/// A rule for a convex polygon that has points on the outline, its corners among them: a contact that tilts
-/// onto one edge or corner is felt at once. The polygon is cut into triangles from its centroid; each is
-/// mapped from a square with Lobatto points along the outline and Radau points towards the centroid; points
-/// on shared cuts are joined. Corners that are nearly straight (lower than a thousandth of the distance
-/// between their neighbours) are cut off as triangles with inner points before: where two edges that lie
-/// almost on each other cross is known badly, and what is large must not be divided there.
-/// @param polygon (#corners >= 3, 2), counter-clockwise, convex but for rounding; where it has no area but
-/// rounding (1e-13 of the squared length), the rule may be empty; no area gives an empty rule
+/// A rule for a convex polygon with points on its outline, including its corners: a contact that tilts onto one edge
+/// or corner is detected at once. The polygon is cut into triangles from its centroid. Each is mapped from a square
+/// with Lobatto points along the outline and Radau points towards the centroid. Points on shared cuts are merged.
+/// Nearly straight corners (lower than a thousandth of the distance between their neighbours) are cut off first, as
+/// triangles with inner points: the crossing of two almost coincident edges is ill-conditioned, and must not divide a
+/// large part.
+/// @param polygon (#corners >= 3, 2), counter-clockwise, convex but for rounding. If its area is within rounding
+/// error (1e-13 of the squared length), the rule may be empty; zero area gives an empty rule
 /// @param degree polynomials integrated exactly, 1 to 60
 [[nodiscard]] PolygonRule polygon_rule(const std::vector<Eigen::Vector2d>& polygon, int degree);
 
-/// A rule for products of two affine functions, exact to degree 2, that has the corners of a convex polygon of n corners:
-/// two rings of n points, the corners and their images nearer to the centroid, and two points where that leaves a second
-/// moment, as it does not in triangles and parallelograms: 2 n or 2 n + 2 points, none at the centroid
-/// (notes/affine_rule.md). Nearly straight corners as in polygon_rule().
-/// @param polygon as that of polygon_rule()
+/// A rule for products of two affine functions, exact to degree 2, with the corners of a convex polygon of n corners.
+/// It has two rings of n points, the corners and their images nearer to the centroid, and two more points unless
+/// these integrate the second moment (as in triangles and parallelograms): 2 n or 2 n + 2 points, none at the
+/// centroid (notes/affine_rule.md). Nearly straight corners are treated as in polygon_rule().
+/// @param polygon as in polygon_rule()
 [[nodiscard]] PolygonRule affine_rule(const std::vector<Eigen::Vector2d>& polygon);
 
 /// Barycentric points of a triangle with weights of sum 1, exact to a degree (collapsed Gauss-Legendre,
@@ -57,9 +57,9 @@ struct TriangleRule {
 };
 [[nodiscard]] TriangleRule triangle_rule(int degree);
 
-/// Points (m) with weights (m^3) that integrate polynomials of a degree exactly over the inside of a closed
-/// surface: signed tetrahedra from one point, so that points of a solid that is not convex may lie outside it
-/// and weights may be negative.
+/// Points (m) with weights (m^3) that integrate polynomials of a degree exactly over the interior of a closed
+/// surface. Made of signed tetrahedra from one point: points of a nonconvex solid may lie outside it, and weights may
+/// be negative.
 struct VolumeRule {
   std::vector<Vector3> points;
   std::vector<double> weights;

@@ -1,5 +1,4 @@
-// Moments of tetrahedra and triangles for any number type: the exact core that moments.cpp and basis.cpp
-// share.
+// Moments of tetrahedra and triangles for any number type: the exact core of moments.cpp and basis.cpp.
 //
 // For the tetrahedron with corners 0, a, b, c and a vector s,
 //     integral of (s.x)^m dV = det[a b c] m!/(m+3)! h_m(s.a, s.b, s.c),
@@ -69,7 +68,7 @@ std::vector<Number> moment_sums(const std::vector<std::array<Number, 3>>& points
   return sums;
 }
 
-/// 0! to last!, exact as long as the number type is.
+/// 0! to last!, as exact as the number type.
 template <class Number>
 std::vector<Number> factorials(int last) {
   std::vector<Number> values(static_cast<std::size_t>(last) + 1, Number(1));

@@ -1,4 +1,4 @@
-// Everything a user says about a block.
+// User definition of a block.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,14 @@
 
 namespace ashlar {
 
-/// What coordinates the polynomials of a block are in (theory.md section 1).
+/// Coordinates of the polynomials of a block (theory.md section 1).
 enum class Formulation {
-  total,        ///< the reference configuration for ever: rigid motion is exact
-  incremental,  ///< those of the step's start, the paper's: kept as a baseline, see incremental_block.hpp
+  total,        ///< reference configuration throughout: rigid motion is exact
+  incremental,  ///< configuration at the start of the step, as in the paper: kept as a baseline, see
+                ///< incremental_block.hpp
 };
 
-/// A block before it is modelled.
+/// A block before its model is built.
 struct BlockDefinition {
   std::string name;
   std::shared_ptr<const Polyhedron> solid;  ///< placed reference shape, m
@@ -30,11 +31,12 @@ struct BlockDefinition {
   std::vector<BlockSupport> supports;
   std::vector<Load> loads;
 
-  /// Fixed blocks are total whatever this says.
+  /// Fixed blocks are total for any value.
   Formulation formulation = Formulation::total;
-  // Of the incremental formulation only:
+  // For the incremental formulation only:
   int sub_face_levels = 2;        ///< 0 to 8, uniform levels of the fixed division of a block of order >= 2
-  std::vector<Vector3> followed;  ///< material points beyond those of the sub-faces whose motion is wanted
+  std::vector<Vector3> followed;  ///< material points besides those of the sub-faces whose motion is
+                                  ///< requested
 };
 
 }  // namespace ashlar

@@ -1,6 +1,5 @@
-// Equilibrium of one block whose supports hold it: one linear solve, or, for St.-Venant-Kirchhoff elasticity,
-// loads applied in parts with a Newton iteration each that goes downhill in the potential energy  E(q) - F .
-// q.
+// Equilibrium of one block restrained by its supports: one linear solve, or for St.-Venant-Kirchhoff elasticity loads
+// applied in parts, each with a Newton iteration that decreases the potential energy  E(q) - F . q.
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
@@ -13,11 +12,11 @@ namespace {
 constexpr int load_parts = 8;
 constexpr int max_iterations = 200;  ///< of one part
 constexpr int max_halvings = 30;
-/// Of the load: when an iteration has ended, and when it has if it gets no nearer.
+/// Relative to the load: convergence, and convergence of a stalled iteration.
 constexpr double force_tolerance = 1e-12;
 constexpr double stalled_tolerance = 1e-9;
 
-/// Direction that goes down in energy: Newton's, or without the stress's part where that is not convex.
+/// Descent direction of the energy: Newton's, or without the stress's part if that is not convex.
 std::optional<Eigen::VectorXd> newton_direction(const BlockModel& block, const Eigen::MatrixX3d& position,
                                                 const ElasticResponse& elastic,
                                                 const Eigen::VectorXd& residual) {
@@ -28,7 +27,7 @@ std::optional<Eigen::VectorXd> newton_direction(const BlockModel& block, const E
   return std::nullopt;
 }
 
-/// Brings a block to equilibrium under a force. @param y unknowns, from a guess to the answer
+/// Solves for the equilibrium of a block under a force. @param y unknowns, initial guess and solution
 bool balance(const BlockModel& block, const Eigen::VectorXd& force, double rounding, Eigen::VectorXd& y) {
   const auto place = [&](const Eigen::VectorXd& unknowns) {
     return Eigen::MatrixX3d(block.basis().identity_map() + block.space().expand(unknowns));
@@ -49,7 +48,7 @@ bool balance(const BlockModel& block, const Eigen::VectorXd& force, double round
     for (int halving = 0; halving < max_halvings; ++halving, share *= 0.5) {
       const Eigen::VectorXd next = y + share * *direction;
       elastic = block.elastic(place(next));
-      // Near the end the gain drowns in rounding, but less force is left.
+      // Near the solution the gain is below rounding error, but the residual still decreases.
       const bool enough = start - (elastic.energy - force.dot(next)) >= 0.1 * share * slope ||
                           (force - block.space().restrict(elastic.force)).norm() <= 0.5 * left;
       if (last || enough) break;
@@ -82,7 +81,7 @@ std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, 
 }
 
 double BlockModel::force_rounding() const {
-  // The mean position drops out of the force exactly, so only the linear coefficients carry rounding errors.
+  // The mean position cancels exactly in the force, so only the linear coefficients have rounding errors.
   Eigen::MatrixX3d size = basis_.identity_map().cwiseAbs();
   size.row(0).setZero();
   const Eigen::VectorXd reduced = space().restrict(size);

@@ -120,7 +120,7 @@ Eigen::MatrixX3d BlockModel::prescribed_change(const Eigen::MatrixX3d& position,
                                                double to) const {
   if (!driven()) return {};
   if (form_) return motion_.at(to) - motion_.at(from);
-  // From where the supports are, so that rounding does not add up over steps.
+  // Relative to the supports, so that rounding errors do not accumulate over steps.
   const Eigen::MatrixX3d displacement = position - basis_.identity_map();
   return motion_.at(to) - (displacement - space().expand(space().restrict(displacement)));
 }

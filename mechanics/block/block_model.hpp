@@ -1,8 +1,7 @@
-// A block: what never changes (BlockModel) and what a step changes (BlockState). A step is a function of
-// both.
+// A block: constant data (BlockModel) and data changed by a step (BlockState). A step is a function of both.
 //
 //   x(X, t) = sum_a phi_a(X) q_a(t)      theory.md section 1
-// A rigid block has the coefficients of order 1, which rigid_body.hpp ties to each other.
+// A rigid block has the coefficients of order 1 with the constraints of rigid_body.hpp.
 // In the total formulation X is the placed, undeformed block. In the incremental one X is the block at the
 // start of the step: each step has a model of its own (carried_on), with q at the identity map in between.
 // Coefficient arrays are (p, 3), see elasticity.hpp.
@@ -40,13 +39,13 @@ struct PointMotion {
 
 struct CarriedBlock;
 
-/// Constant after construction, but for the factors of its loads.
+/// Constant after construction, except for the factors of its loads.
 class BlockModel {
  public:
   /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
   /// load_coefficients and IncrementalForm do, and for a rigid block that has supports or is incremental
   explicit BlockModel(BlockDefinition definition);
-  /// The same, sharing what it can with other blocks made with the library.
+  /// The same, with data shared with other blocks made with the library.
   BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
 
   /// The same block of the total formulation with another order, >= 1. @throws std::invalid_argument for a fixed,
@@ -55,10 +54,10 @@ class BlockModel {
 
   /// Null for blocks of the total formulation.
   [[nodiscard]] const IncrementalForm* incremental() const { return form_.get(); }
-  /// Of an incremental block, at the start of the step.
+  /// Shape of an incremental block at the start of the step.
   [[nodiscard]] const CarriedShape& carried() const { return carried_; }
   /// The model of the next step of an incremental block. @param position at the end of this one
-  /// @throws std::exception if the shape can be no block any more
+  /// @throws std::exception if the shape is no longer a valid block
   [[nodiscard]] CarriedBlock carried_on(const Eigen::MatrixX3d& position) const;
   /// An incremental block with another shape.
   [[nodiscard]] BlockModel with_shape(CarriedShape shape) const;
@@ -68,17 +67,17 @@ class BlockModel {
   [[nodiscard]] const Material& material() const { return definition_.material; }
   [[nodiscard]] bool fixed() const { return definition_.fixed; }
   [[nodiscard]] bool supported() const { return !definition_.supports.empty(); }
-  /// Of the basis: 1 for rigid blocks.
+  /// Order of the basis: 1 for rigid blocks.
   [[nodiscard]] int order() const { return basis_.order(); }
-  /// Whether it does not deform: a moving block of order 0.
+  /// True if it does not deform: a moving block of order 0.
   [[nodiscard]] bool rigid() const { return definition_.order == 0 && !fixed(); }
   [[nodiscard]] const PolynomialBasis& basis() const { return basis_; }
-  /// What it shares with equal blocks.
+  /// Data shared with equal blocks.
   [[nodiscard]] const std::shared_ptr<const BlockParts>& parts() const { return parts_; }
   [[nodiscard]] const AdmissibleSpace& space() const { return parts_->space; }
-  /// Coefficients that change; 0 for fixed blocks. Those of a rigid block depend on 6 of freedom().
+  /// Number of free coefficients; 0 for fixed blocks. Those of a rigid block depend on 6 of freedom().
   [[nodiscard]] int unknowns() const { return fixed() ? 0 : space().unknowns(); }
-  /// Of the motion: the number of its equations.
+  /// Degrees of freedom of the motion: number of its equations.
   [[nodiscard]] int freedom() const { return rigid() ? rigid_freedom : unknowns(); }
   /// True if the frame of linear elasticity turns with the block (theory.md section 4).
   [[nodiscard]] bool corotational() const { return !form_ && space().can_turn(); }
@@ -86,40 +85,40 @@ class BlockModel {
 
   /// Undeformed and at rest.
   [[nodiscard]] BlockState initial_state() const;
-  /// Coefficients of the velocity field  velocity + angular_velocity x (X - centroid), restricted to what
-  /// supports allow.
+  /// Coefficients of the velocity field  velocity + angular_velocity x (X - centroid), restricted to the motions
+  /// allowed by supports.
   [[nodiscard]] Eigen::MatrixX3d rigid_velocity(const Vector3& velocity,
                                                 const Vector3& angular_velocity) const;
-  /// Equilibrium of a block whose supports leave no rigid motion under gravity and its loads at a time,
-  /// contacts off; of an incremental block that of a step, which ends a little off it. Empty if the supports
-  /// leave a rigid motion, or a St.-Venant-Kirchhoff block under its load finds none.
+  /// Equilibrium, without contacts, of a block whose supports prevent all rigid motions, under gravity and its loads
+  /// at a time. For an incremental block it is that of a step, which ends a little off equilibrium. Empty if the
+  /// supports allow a rigid motion, or if none is found for a St.-Venant-Kirchhoff block.
   [[nodiscard]] std::optional<Eigen::MatrixX3d> equilibrium(const Vector3& gravity, double time) const;
 
   /// Gravity and loads at a time. @return (p, 3), N m^-3/2
   [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
   /// Loads without gravity. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
-  /// In the order of the definition.
+  /// Loads in the order of the definition.
   [[nodiscard]] const std::vector<Load>& loads() const { return definition_.loads; }
   /// @param load index into loads(). @throws std::out_of_range
   void set_load_factor(std::size_t load, double factor) { definition_.loads.at(load).factor = factor; }
   /// True if a support of the block moves.
   [[nodiscard]] bool driven() const { return motion_.moves(); }
-  /// What supports add to the position between two times, beside the motion of the unknowns. @param position
-  /// at the first one. @return (p, 3), orthogonal to all motions of the unknowns; empty if not driven
+  /// Motion due to supports between two times, besides that of the unknowns. @param position at the first one.
+  /// @return (p, 3), orthogonal to all motions of the unknowns; empty if not driven
   [[nodiscard]] Eigen::MatrixX3d prescribed_change(const Eigen::MatrixX3d& position, double from,
                                                    double to) const;
-  /// Velocity that supports prescribe at the end of a step. @param change prescribed_change of the step
+  /// Velocity of supports at the end of a step. @param change prescribed_change of the step
   /// @param step s, > 0. @return (p, 3); only if driven
   [[nodiscard]] Eigen::MatrixX3d prescribed_velocity(const Eigen::MatrixX3d& change, double from,
                                                      double step) const;
-  /// Whether any load or support may differ between two times.
+  /// True if any load or support may differ between two times.
   [[nodiscard]] bool loads_change_between(double start, double end) const;
   /// Energy, force and frame of a configuration.
   [[nodiscard]] ElasticResponse elastic(const Eigen::MatrixX3d& position) const;
   /// The rigid motion nearest to a position. @param position (p, 3). @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d rigid_position(const Eigen::MatrixX3d& position) const;
-  /// A block of the total formulation without strain, turned as it is but in the place where it was made.
+  /// A block of the total formulation without strain, with its present rotation but at its reference place.
   /// @param position (p, 3). @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d unstrained(const Eigen::MatrixX3d& position) const;
   /// Tangent Z' R K R' Z of the internal force in the unknowns; of St.-Venant-Kirchhoff blocks the one of the
@@ -127,10 +126,10 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::Matrix3d& rotation) const;
 
   /// Tangent of the internal force at a configuration, in the unknowns. @param elastic its response
-  /// @param positive leave out what may make it indefinite. @return (unknowns, unknowns), symmetric
+  /// @param positive leave out terms that may make it indefinite. @return (unknowns, unknowns), symmetric
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::MatrixX3d& position, const ElasticResponse& elastic,
                                         bool positive = false) const;
-  /// Whether the tangent depends on the rotation only: not of St.-Venant-Kirchhoff blocks.
+  /// True if the tangent depends on the rotation only; false for St.-Venant-Kirchhoff blocks.
   [[nodiscard]] bool tangent_turns() const { return !parts_->large; }
   /// tangent(rotation) times a change, without the matrix. @param y (unknowns). @return (unknowns)
   [[nodiscard]] Eigen::VectorXd tangent_times(const Eigen::Matrix3d& rotation,
@@ -147,10 +146,10 @@ class BlockModel {
   [[nodiscard]] double gravity_energy(const BlockState& state, const Vector3& gravity) const;
   /// Cauchy stress at a material point, Pa, tension positive.
   [[nodiscard]] Eigen::Matrix3d stress(const BlockState& state, const Vector3& point) const;
-  /// What a point of the placed, undeformed block does. @param reference m; of an incremental block one of
-  /// those that IncrementalForm::place knows
+  /// Motion of a point of the placed, undeformed block. @param reference m; for an incremental block one of the
+  /// points of IncrementalForm::place
   [[nodiscard]] PointMotion motion_of(const BlockState& state, const Vector3& reference) const;
-  /// Many points at once: a point costs as many products as there are functions, not their square.
+  /// Many points at once: the cost per point is linear in the number of functions, not quadratic.
   [[nodiscard]] std::vector<PointMotion> motions_of(const BlockState& state,
                                                     const std::vector<Vector3>& references) const;
 
@@ -175,7 +174,7 @@ struct CarriedBlock {
   BlockModel model;
   Eigen::MatrixXd re_expansion;  ///< (p, p)
 
-  /// A velocity or acceleration taken over, within what the supports allow. @param field (p, 3)
+  /// Transfers a velocity or acceleration, restricted to the motions allowed by supports. @param field (p, 3)
   [[nodiscard]] Eigen::MatrixX3d taken_over(const Eigen::MatrixX3d& field) const;
 };
 

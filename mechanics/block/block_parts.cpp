@@ -8,7 +8,7 @@
 namespace ashlar {
 namespace {
 
-/// Values as the bytes they are stored in.
+/// Values as bytes.
 class Key {
  public:
   template <class Number>
@@ -16,12 +16,12 @@ class Key {
     static_assert(std::is_arithmetic_v<Number>);
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  /// A difference without rounding: its rounded value and what that lacks (Knuth).
+  /// Adds an exact difference: its rounded value and its rounding error (Knuth).
   void add_difference(double a, double b) {
     const double difference = a - b;
     const double lost = a - difference;
     const double rest = (a - (difference + lost)) + (lost - b);
-    // Adding zero makes both zeros one.
+    // Adding zero maps both zeros to one.
     add(difference + 0.0);
     add(rest + 0.0);
   }
@@ -66,7 +66,7 @@ void add_supports(Key& key, const Polyhedron& solid, const std::vector<BlockSupp
   }
 }
 
-/// Supports of the placed solid as those of the shape it was before it was translated.
+/// Converts supports of the placed solid to those of the shape before translation.
 std::vector<BlockSupport> supports_of_shape(const BlockDefinition& definition) {
   std::vector<BlockSupport> supports = definition.supports;
   const Vector3 back = definition.shape->mesh().points.front() - definition.solid->mesh().points.front();
@@ -80,7 +80,7 @@ std::vector<BlockSupport> supports_of_shape(const BlockDefinition& definition) {
   return supports;
 }
 
-/// Its strain is a polynomial of order 2 (n - 1), which a shape may not bear.
+/// Its strain is a polynomial of order 2 (n - 1), which may be too high for a shape.
 std::shared_ptr<const StVenantKirchhoff> large_strains(const Polyhedron& solid, const PolynomialBasis& basis,
                                                        const Material& material) {
   try {

@@ -1,10 +1,10 @@
-// What equal blocks share: basis, stiffness, supports. A thousand equal blocks take O(p^2) memory and time
-// once and O(p) each.
+// Data shared by equal blocks: basis, stiffness, supports. A thousand equal blocks need O(p^2) memory and time once
+// and O(p) each.
 //
-// Blocks are equal if their points differ by one translation exactly (not but for rounding), their triangles,
-// order, material and supports are the same. Since rounding makes translated coordinates differ, a block can
-// be given with the shape it had before it was translated: then that is what is integrated, and its placed
-// points are that shape's, rounded.
+// Blocks are equal if their points differ by exactly one translation (without rounding), and their triangles, order,
+// material and supports are the same. Since rounding makes translated coordinates differ, a block can be given with
+// its shape before translation. Integrals are then those of the shape, and the placed points are those of the shape,
+// rounded.
 #pragma once
 
 #include <Eigen/Dense>
@@ -18,7 +18,7 @@
 
 namespace ashlar {
 
-/// Of a block wherever it is. Constant after construction.
+/// Data of a block that do not depend on its place. Constant after construction.
 struct BlockParts {
   /// @throws as BlockModel does
   BlockParts(const Polyhedron& solid, const PolynomialBasis& basis, const BlockDefinition& definition,
@@ -26,16 +26,16 @@ struct BlockParts {
 
   AdmissibleSpace space;
   Eigen::MatrixX3d mean_gradients;
-  Eigen::MatrixXd stiffness;  ///< K, (3p, 3p), of rigid blocks what order 1 has; empty for fixed blocks
+  Eigen::MatrixXd stiffness;  ///< K, (3p, 3p), for rigid blocks that of order 1; empty for fixed blocks
   Eigen::MatrixXd reduced_stiffness;               ///< Z' K Z of a block that cannot turn
   std::shared_ptr<const StVenantKirchhoff> large;  ///< null for linear elasticity
 };
 
-/// Finds what a block has in common with those before it.
+/// Finds data of a block that earlier blocks share.
 class BlockPartsLibrary {
  public:
   struct Found {
-    PolynomialBasis basis;  ///< where the block is
+    PolynomialBasis basis;  ///< at the place of the block
     std::shared_ptr<const BlockParts> parts;
   };
   /// @throws as BlockModel does

@@ -121,7 +121,7 @@ void BlockSurface::restore(const SurfaceDivision& division) {
   take_division();
 }
 
-/// Values of the functions where the adaptive surface has points and edges now.
+/// Evaluates the functions at the present points and edges of the adaptive surface.
 void BlockSurface::take_division() {
   point_phi_ = model_->basis().values(adaptive_->surface().points);
   middle_phi_ = values_at_middles(*model_, adaptive_->surface());

@@ -1,5 +1,5 @@
-// The surface of a block as its motion places it: whole faces of a block that stays affine, adaptive
-// sub-faces of one that curves, the fixed division of an incremental one.
+// The surface of a moving block: whole faces of an affine block, adaptive sub-faces of a curved one, the fixed
+// division of an incremental one.
 #pragma once
 
 #include <memory>
@@ -11,48 +11,48 @@
 
 namespace ashlar {
 
-/// Keeps its division from step to step.
+/// Keeps its division between steps.
 class BlockSurface {
  public:
-  /// @param model must outlive this. @param levels uniform levels (0 to 8) that divisions of curved faces
-  /// start from. @param axes see AdaptiveSurface. @param twin of a block with the same parts and solid but
-  /// for a translation, to share what does not change; null: none
+  /// @param model must outlive this. @param levels initial uniform levels (0 to 8) of the division of curved faces.
+  /// @param axes see AdaptiveSurface. @param twin of a block with the same parts and a translated solid, to share
+  /// constant data; null: none
   BlockSurface(const BlockModel& model, int levels, const Eigen::Matrix3d& axes,
                const BlockSurface* twin = nullptr);
 
-  /// Takes over the coordinates of a new step of an incremental block.
+  /// Updates the coordinates for a new step of an incremental block.
   void start_step();
-  /// Takes the block's present shape.
+  /// Updates the surface to the block's present shape.
   void move(const BlockState& state);
-  /// Contains the true surface as moved last; along the axes.
+  /// Box along the axes that contains the true surface after the last move().
   [[nodiscard]] const Box& box() const { return box_; }
-  /// How far any surface point can have gone between two states, m, from above.
+  /// Upper bound of the displacement of any surface point between two states, m.
   [[nodiscard]] double motion_bound(const BlockState& before, const BlockState& after) const;
 
-  /// The same, looser, but at the cost of a sum over the coefficients. @param change of them, (p, 3)
+  /// The same, less tight, at the cost of a sum over the coefficients. @param change of them, (p, 3)
   [[nodiscard]] double quick_motion_bound(const Eigen::MatrixX3d& change) const;
   /// Largest speed of the surface's points, m/s.
   [[nodiscard]] double largest_speed(const BlockState& state) const;
 
-  /// Whether its faces may curve, so that they are divided.
+  /// True if its faces may curve and are therefore divided.
   [[nodiscard]] bool curves() const { return adaptive_.has_value(); }
-  /// Divides and joins the faces of a block that curves. @return true if cells changed
+  /// Divides and merges the faces of a curved block. @return true if cells changed
   bool divide(const DivisionDemand& demand);
   [[nodiscard]] const SubFaceSurface& surface() const;
-  /// The surface as moved and divided last. The BlockSurface must outlive it and stay unchanged.
+  /// The surface after the last move() and divide(). The BlockSurface must outlive it and stay unchanged.
   [[nodiscard]] PlacedSurface placed() const;
-  /// How far the true surface may be from its present cells in a state, m; 0 if cells are all there is.
+  /// Upper bound of the distance of the true surface from its present cells in a state, m; 0 if it consists of cells.
   [[nodiscard]] double bulge(const BlockState& state) const;
   /// Current positions of the surface's points in a state, m.
   [[nodiscard]] std::vector<Vector3> points(const BlockState& state) const;
-  /// Current positions of the middles of the surface's edges (SubFaceSurface::edges) if they may curve, m.
+  /// Current positions of the midpoints of the surface's edges (SubFaceSurface::edges) if these may curve, m.
   /// @return (#edges); empty: edges stay straight
   [[nodiscard]] std::vector<Vector3> edge_middles(const BlockState& state) const;
 
-  /// See AdaptiveSurface::wanted; empty for blocks that stay affine.
+  /// See AdaptiveSurface::wanted; empty for affine blocks.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
-  /// How it is divided now; nothing of blocks that stay affine. To be given to the surface of an equal block, before
-  /// move(). @throws std::invalid_argument if it is of another surface
+  /// Present division; empty for affine blocks. To be restored into the surface of an equal block before move().
+  /// @throws std::invalid_argument if it belongs to another surface
   [[nodiscard]] SurfaceDivision division() const;
   void restore(const SurfaceDivision& division);
 
@@ -63,13 +63,13 @@ class BlockSurface {
   const BlockModel* model_;
   Eigen::Matrix3d axes_;
   std::optional<AdaptiveSurface> adaptive_;
-  SubFaceSurface whole_;  ///< of a block that stays affine or is incremental
-  /// phi at the domain points of a block that curves
+  SubFaceSurface whole_;  ///< of an affine or incremental block
+  /// phi at the domain points of a curved block
   std::shared_ptr<const Eigen::MatrixXd> domain_phi_;
   Eigen::MatrixXd point_phi_;       ///< phi at the surface's points
-  Eigen::MatrixXd middle_phi_;      ///< phi at the middles of the edges of a block that curves
-  Eigen::RowVectorXd largest_phi_;  ///< (p) no larger in magnitude is each function anywhere on the surface
-  BlockState state_;                ///< as moved last
+  Eigen::MatrixXd middle_phi_;      ///< phi at the midpoints of the edges of a curved block
+  Eigen::RowVectorXd largest_phi_;  ///< (p) upper bound of the magnitude of each function on the surface
+  BlockState state_;                ///< at the last move()
   std::vector<Vector3> points_;     ///< in that state
   Box box_;
 };

@@ -15,7 +15,7 @@ std::array<double, 3> key_of(const Vector3& point) {
   return {point.x(), point.y(), point.z()};
 }
 
-/// A plane as the faces in it.
+/// Replaces a plane by the faces in it.
 void name_faces(const Polyhedron& solid, BlockPlace& place, const char* what) {
   if (!std::holds_alternative<Plane>(place)) return;
   FaceList list{faces_in_plane(solid, std::get<Plane>(place))};

@@ -28,8 +28,8 @@ std::optional<Vector3> MaterialMap::material(const Vector3& place) const {
   if (!invertible_) return std::nullopt;
   Vector3 point = centroid_ + inverse_ * (place - middle_);
   if (affine_) return point;
-  // A bent block's surroundings are left when a step would go farther than the block is large. What a step
-  // leaves is of the order of its square: after one of 1e-8 sizes, of rounding.
+  // A step longer than the block leaves its surroundings. The error after a step is of the order of its square: after
+  // one of 1e-8 sizes it is within rounding error.
   constexpr int step_limit = 12;
   constexpr double last_step = 1e-8;
   for (int step = 0; step < step_limit; ++step) {

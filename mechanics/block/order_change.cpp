@@ -7,7 +7,7 @@
 namespace ashlar {
 namespace {
 
-/// Coefficients with as many rows as the other order has.
+/// Coefficients with the number of rows of the other order.
 Eigen::MatrixX3d resized(const Eigen::MatrixX3d& coefficients, Eigen::Index rows) {
   Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(rows, 3);
   const Eigen::Index kept = std::min(rows, coefficients.rows());

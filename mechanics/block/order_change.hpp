@@ -6,16 +6,15 @@
 
 namespace ashlar {
 
-/// A state of a block in another order, and what of it the other order cannot hold.
+/// State of a block in another order, and the parts lost in the conversion.
 struct OrderChange {
   BlockState state;
-  double dropped_displacement;  ///< root of the mean square over the block, m; 0 when raised
+  double dropped_displacement;  ///< root of the mean square over the block, m; 0 for a higher order
   double dropped_velocity;      ///< likewise, m/s
 };
 
 /// @param state of `from`. @param to the same block (shape, supports) with another order
-/// Supports are met in the new order too: what the clamped space of the new order cannot hold counts as
-/// dropped.
+/// Supports are satisfied in the new order too: parts outside its clamped space count as dropped.
 /// @throws std::invalid_argument if the two are not blocks of one solid or one of them is fixed
 [[nodiscard]] OrderChange change_order(const BlockModel& from, const BlockState& state, const BlockModel& to);
 

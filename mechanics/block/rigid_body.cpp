@@ -5,7 +5,7 @@
 namespace ashlar {
 namespace {
 
-/// Of positions: from the centroid.
+/// Positions relative to the centroid.
 Eigen::MatrixX3d without_mean(Eigen::MatrixX3d field) {
   field.row(0).setZero();
   return field;

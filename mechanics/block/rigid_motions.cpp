@@ -7,7 +7,7 @@
 namespace ashlar {
 namespace {
 
-/// A motion is admissible if projecting it on the admissible space changes it by less than this part.
+/// A motion is admissible if its projection on the admissible space differs by less than this.
 constexpr double projection_tolerance = 1e-5;
 
 double size_of(const BlockModel& block) {

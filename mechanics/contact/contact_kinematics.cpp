@@ -8,14 +8,14 @@
 namespace ashlar {
 namespace {
 
-/// The corrections that a closest point takes: the first is exact for affine blocks; for others each leaves
-/// gap times curvature of the last, and the limit only cuts what is below rounding.
+/// Number of corrections of a closest point: the first is exact for affine blocks. For others each reduces the error
+/// by the factor gap times curvature; the limit only omits corrections below rounding error.
 int corrections_of(const BlockModel& model) {
   constexpr int most = 8;
   return is_affine(model) ? 1 : most;
 }
 
-/// A correction that is rounding, m.
+/// Size of a correction that is within rounding error, m.
 double rounding_of(const BlockModel& model) {
   return 1e-14 * std::cbrt(model.basis().volume());
 }
@@ -23,7 +23,7 @@ double rounding_of(const BlockModel& model) {
 struct Foot {
   Vector3 material;
   Vector3 place;
-  Vector3 normal;  ///< outward of the block it is on
+  Vector3 normal;  ///< outward normal of its block
 };
 
 /// Closest point of a face's polynomial surface to a point, by Gauss-Newton in the face's plane from a start
@@ -47,12 +47,12 @@ Foot closest_point(const PlacedBlock& block, int face, const Vector3& start, con
   return foot;
 }
 
-/// Puts the material points where the two edges are nearest. @return false if an edge ends long before that
+/// Moves the material points to the closest points of the two edges. @return false if an edge ends long before
 bool set_crossing(ContactPoint& point, const PlacedBlock& a, const PlacedBlock& b) {
   const Vector3 last_normal = point.normal;
   const int corrections = std::max(corrections_of(a.model()), corrections_of(b.model()));
   const double smallest = std::max(rounding_of(a.model()), rounding_of(b.model()));
-  Eigen::Vector2d shares = Eigen::Vector2d::Zero();  // of the edges, from where the point was found
+  Eigen::Vector2d shares = Eigen::Vector2d::Zero();  // of the edges, relative to the detected point
   const ContactPoint found = point;
   for (int step = 0; step <= corrections; ++step) {
     Eigen::Matrix<double, 3, 2> lines;

@@ -31,7 +31,7 @@ double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
 struct FrictionDirections {
   Vector3 sum = Vector3::Zero();  ///< of unit vectors times areas, m^2
   double area = 0.0;              ///< of points with friction, m^2
-  bool all_slide = true;          ///< all points that are closed
+  bool all_slide = true;          ///< all closed points
 };
 
 std::map<FacePair, FrictionDirections> friction_directions(const std::vector<ContactMemory::Entry>& entries) {
@@ -41,7 +41,7 @@ std::map<FacePair, FrictionDirections> friction_directions(const std::vector<Con
     if (memory.state == ContactState::open) continue;
     FrictionDirections& directions = by_faces[{entry.face_a, entry.face_b}];
     directions.all_slide = directions.all_slide && memory.state == ContactState::sliding;
-    // Of springs the elastic slip is along the force; multipliers have it in full, or take it over from slip.
+    // For springs the elastic slip is along the force. Multipliers hold the whole force, or replace that of slip.
     const Vector3& along =
         memory.shear_multiplier.squaredNorm() > 0.0 ? memory.shear_multiplier : memory.slip;
     const double length = along.norm();
@@ -52,7 +52,7 @@ std::map<FacePair, FrictionDirections> friction_directions(const std::vector<Con
   return by_faces;
 }
 
-/// Faces over which friction turns. @param before in the step before, in order
+/// Faces with friction torque. @param before in the step before, in order
 std::vector<FacePair> turning_faces(const std::vector<ContactMemory::Entry>& entries,
                                     const std::vector<FacePair>& before) {
   constexpr double begins_below = 0.7, ends_at = 0.95;  // of the area
@@ -67,7 +67,7 @@ std::vector<FacePair> turning_faces(const std::vector<ContactMemory::Entry>& ent
   return turning;
 }
 
-/// A tangential vector in another tangent plane, its length kept.
+/// Rotates a tangential vector into another tangent plane with the same length.
 Vector3 turned(const Vector3& vector, const Vector3& normal) {
   const Vector3 flat = vector - normal.dot(vector) * normal;
   const double length = flat.norm();
@@ -101,13 +101,13 @@ Eigen::RowVectorXd ContactMemory::squared_distances(const ContactPoint& point, c
                                                     bool same_faces) const {
   constexpr double least_cosine = 0.5;
   constexpr double too_far = std::numeric_limits<double>::infinity();
-  // One of the two is carried along where a contact slides: the vertex, or the slave's point.
+  // One of the two moves in the material in sliding: the vertex, or the point opposite to the reference face.
   Eigen::RowVectorXd result =
       (places.of_a.colwise() - point.material_a)
           .colwise()
           .squaredNorm()
           .cwiseMin((places.of_b.colwise() - point.material_b).colwise().squaredNorm());
-  constexpr double sliver = 1e-6;  // of the largest area: where such points lie is known badly
+  constexpr double sliver = 1e-6;  // of the largest area: the place of such points is ill-conditioned
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const Entry& entry = entries_[k];
     const bool other = same_faces ? entry.face_a != point.face_a || entry.face_b != point.face_b
@@ -123,7 +123,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   const Eigen::RowVectorXd distances = squared_distances(point, places, same_faces);
   const double least_squared = distances.minCoeff();
   if (!(least_squared <= squared_reach_)) return std::nullopt;
-  // Old points on one place, as on the cut between two cells, are equally far.
+  // Old points at one place, as on the cut between two cells, are equally far.
   const double blur = 1e-6 * std::sqrt(squared_reach_);
   const double farthest = 1.5 * (std::sqrt(least_squared) + blur) - blur;
   Found found;
@@ -136,7 +136,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   for (std::size_t k = 0; k < entries_.size(); ++k) {
     const double squared_distance = distances[static_cast<Eigen::Index>(k)];
     if (squared_distance > farthest * farthest) continue;
-    // Points without any area, on one place, are as good as each other.
+    // Points without area at one place are equivalent.
     const double weight = farthest > 0.0 ? farthest - std::sqrt(squared_distance) : 1.0;
     const PointMemory& memory = entries_[k].memory;
     found.only_source = ++sources == 1 ? static_cast<int>(k) : -1;
@@ -156,7 +156,7 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     result.level_dilation += weight * memory.level_dilation;
     if (memory.intact) intact += weight;
   }
-  // A bond halfway between a whole and a broken one is broken, whatever rounding says.
+  // A bond midway between intact and failed ones has failed, independent of rounding.
   result.intact = intact > (0.5 + 1e-6) * sum;
   result.slip /= sum;
   result.in_level = in_level > 0.0;

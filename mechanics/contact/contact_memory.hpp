@@ -1,9 +1,8 @@
-// What contact points remember from step to step: elastic slip, state, multipliers, dilation and whether the joint
-// is still intact. Memory belongs to material points, not to the step's polygons: a new point takes over from
-// the nearest old one, nearest in the material of either block, or from all that are within half as near
-// again: a new point in the middle of old ones has their mean, whichever rounding calls the nearest. Where
-// the contact passes on to another face, over an edge that is not sharp, slip goes with it; a bond does not,
-// as new surface is not bonded.
+// Memory of contact points from step to step: elastic slip, state, multipliers, dilation, and intactness of the
+// joint. Memory belongs to material points, not to the step's polygons. A new point inherits from the nearest old one
+// in the material of either block, or from all that are at most half as far again: a new point midway between old
+// ones gets their mean, so that rounding does not select one. Slip follows the contact to another face over an edge
+// that is not sharp. A bond does not, as new surface is not bonded.
 #pragma once
 
 #include <functional>
@@ -21,24 +20,26 @@ namespace ashlar {
 struct PointMemory {
   Vector3 slip = Vector3::Zero();  ///< elastic slip of a relative to b, in the tangent plane, m
   ContactState state = ContactState::open;
-  bool intact = false;             ///< joint strength not yet lost
-  double normal_multiplier = 0.0;  ///< of augmented contact, Pa, of point springs N
+  bool intact = false;             ///< true: joint strength has not failed
+  double normal_multiplier = 0.0;  ///< of augmented contact, Pa, for point springs N
   Vector3 shear_multiplier = Vector3::Zero();
-  /// Normal impulse whose friction is still to act, of augmented contact, Pa s, of point springs N s
+  /// Deferred friction: normal impulse whose friction has not acted yet, of augmented contact, Pa s, for point
+  /// springs N s
   double deferred_friction = 0.0;
-  double compression = 0.0;  ///< depth below the normal spring's rest, m; negative: it is open
-  /// Of a static analysis (solver/statics/static_analysis.hpp): what the trial slip would be if the blocks were where
-  /// they were when the present load level began, m
+  double compression = 0.0;  ///< depth below the normal spring's rest gap, m; negative: open
+  /// For a static analysis (solver/statics/static_analysis.hpp): trial slip with the blocks at their positions at the
+  /// start of the present load level, m
   Vector3 level_slip = Vector3::Zero();
-  bool in_level = false;  ///< whether it has been closed since then, or was: others have slipped nowhere yet
-  double dilation = 0.0;  ///< by how much sliding has raised the rest of the normal spring, m, >= 0
-  double level_dilation = 0.0;  ///< the same when the present load level began
+  bool in_level = false;  ///< true if it has been closed at or since the start of the level; others have no
+                          ///< slip yet
+  double dilation = 0.0;  ///< dilation by sliding: height of the normal spring's rest gap, m, >= 0
+  double level_dilation = 0.0;  ///< the same at the start of the present load level
 };
 
 /// Memory of a pair of blocks.
 class ContactMemory {
  public:
-  /// One remembered point: where it is in both materials, the faces it is between, how they lie.
+  /// One remembered point: places in both materials, faces, normal.
   struct Entry {
     Vector3 material_a;
     Vector3 material_b;
@@ -61,48 +62,47 @@ class ContactMemory {
     archive(entries, cuts, turning, deepest, bulge, held, squared_reach, largest_area, most_dilation);
   }
 
-  /// Memory for each of the new points, with vectors turned into the new tangent plane: that of the nearest
-  /// old points of the same faces, or, if none of those is as near as the whole contact was wide, of any
-  /// faces whose normals are within 60 degrees. Points without one start open, without slip, bonded by the
+  /// Memory for each of the new points, with vectors rotated into the new tangent plane. It is that of the nearest
+  /// old points of the same faces. If none of those is within the width of the whole contact, old points of any faces
+  /// with normals within 60 degrees are used. Points without predecessor start open, without slip, bonded by the
   /// joint's strength if their gap is at most `bond_distance`, m (minus infinity: never).
-  /// @param keep_forces where one old point became one new one, multipliers hold the force instead of the
-  /// pressure that they held there
+  /// @param keep_forces if one old point became one new one, multipliers keep its force instead of its pressure
   [[nodiscard]] std::vector<PointMemory> recall(const std::vector<ContactPoint>& points, double bond_distance,
                                                 bool keep_forces = false) const;
 
-  /// Memory of the very points that were stored, with vectors in the tangent planes of these normals.
+  /// Memory of exactly the stored points, with vectors in the tangent planes of these normals.
   [[nodiscard]] std::vector<PointMemory> of_same(const std::vector<ContactPoint>& points) const;
 
-  /// Replaces what is remembered. @param deepest largest penetration of the step, m. @param held by the
-  /// springs at its end
-  /// @param turned faces over which friction turned in the step before
+  /// Replaces the memory. @param deepest largest penetration of the step, m. @param held energy of the springs at its
+  /// end
+  /// @param turned faces with friction torque in the step before
   void store(const std::vector<ContactPoint>& points, std::vector<PointMemory> memory, double deepest,
              const SpringEnergy& held, double bulge = 0.0, std::vector<PressureCut> cuts = {},
              const std::vector<FacePair>& turned = {});
 
-  /// Begins a load level: what slipped in the last one has slipped for good.
+  /// Starts a load level: slip of the last one becomes permanent.
   void start_level();
 
-  /// Forgets what multipliers held.
+  /// Sets the multipliers to zero.
   void drop_multipliers();
 
-  /// Moves the remembered points in block a, or in b, whose material coordinates are those of a step's start.
+  /// Moves the remembered points in block a, or in b, if its material coordinates are those of a step's start.
   void carry(bool of_a, const std::function<Vector3(const Vector3&)>& moved);
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
-  /// How far apart sliding has brought the surfaces where it did most, m, >= 0: blocks touch across such gaps.
+  /// Largest separation of the surfaces by dilation, m, >= 0: blocks touch across such gaps.
   [[nodiscard]] double most_dilation() const { return most_dilation_; }
-  /// How much deeper the blocks may be between the points, m, >= 0.
+  /// Possible additional depth between the points, m, >= 0.
   [[nodiscard]] double bulge() const { return bulge_; }
-  /// What store() was told of the last step; nothing where there was no contact.
+  /// Spring energy at the end of the last step; zero without contact.
   [[nodiscard]] const SpringEnergy& held() const { return held_; }
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-  /// Whether there was no contact in the last step.
+  /// True if there was no contact in the last step.
   [[nodiscard]] bool empty() const { return entries_.empty(); }
   [[nodiscard]] const std::vector<PressureCut>& cuts() const { return cuts_; }
-  /// Faces over which friction turned in the last step: the mean of its unit directions over the area was shorter than
-  /// 0.7 when all of their closed points slid, and shorter than 0.95 since. In order.
+  /// Faces with friction torque in the last step, in order: the mean of the unit directions of friction over the area
+  /// was shorter than 0.7 when all of their closed points slid, and has been shorter than 0.95 since.
   [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
 
  private:
@@ -113,16 +113,17 @@ class ContactMemory {
   };
   struct Found {
     PointMemory memory;
-    int only_source = -1;  ///< the entry it is the memory of, -1 if there are several
+    int only_source = -1;  ///< index of its only source entry, -1 if there are several
   };
   [[nodiscard]] Places places() const;
-  /// Of each entry from a new point, in the nearer of the two materials, m^2; infinite where it is not asked.
+  /// Squared distance of each entry from a new point, in the nearer of the two materials, m^2; infinite for excluded
+  /// entries.
   /// @return (#entries)
   [[nodiscard]] Eigen::RowVectorXd squared_distances(const ContactPoint& point, const Places& places,
                                                      bool same_faces) const;
-  /// Mean memory of the nearest old points, those within half as near again counting the less the farther
-  /// they are; intact where most of it is. Slivers, points of less than a millionth of the largest area,
-  /// are not asked.
+  /// Weighted mean of the memory of the nearest old points, including those at most half as far again with a weight
+  /// that decreases with the distance; intact if more than half of the weight is. Slivers, points of less than a
+  /// millionth of the largest area, are excluded.
   [[nodiscard]] std::optional<Found> near(const ContactPoint& point, const Places& places,
                                           bool same_faces) const;
 

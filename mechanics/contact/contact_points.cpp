@@ -20,7 +20,7 @@ const Vector3& reference_point(const ContactBody& body, int point) {
   return body.placed->surface().points[at(point)];
 }
 
-/// A remembered cut as seen in an overlap.
+/// A remembered cut in the frame of an overlap.
 PressureEnd seen(const PressureCut& cut, const OverlapPoints& make) {
   const Eigen::Vector2d start = make.place(cut.of_a, cut.start);
   const Eigen::Vector2d along = make.place(cut.of_a, cut.end) - start;
@@ -34,7 +34,7 @@ PressureCut remembered(const PressureEnd& end, const CellOverlap& overlap, bool 
           make.reference(of_a, end.point + along)};
 }
 
-/// Two blocks whose points are made.
+/// Data for the points of two blocks.
 struct Search {
   const ContactBody& a;
   const ContactBody& b;
@@ -46,10 +46,10 @@ struct Search {
 
 constexpr int affine = 1, least_degree = 2;
 
-/// The degree of an overlap's rule. A uniform pressure acts on every function exactly, however coarse the division is.
-/// Friction that turns over two faces has the direction of a vector that vanishes somewhere: no polynomial, and a rule
-/// for the blocks' order is wrong by up to 15 % (notes/turning_friction.md). Faces of blocks of order 0 and 1 are flat and
-/// their gap is affine, whatever they do (notes/affine_rule.md).
+/// The degree of an overlap's rule. A uniform pressure acts on every function exactly, for any division. Friction
+/// with torque over two faces has the direction of a vector that vanishes somewhere: it is no polynomial, and the
+/// error of a rule for the blocks' order is up to 15 % (notes/turning_friction.md). Faces of blocks of order 0 and 1
+/// are flat with affine gaps in any motion (notes/affine_rule.md).
 int degree_of(const Search& search, const CellOverlap& cells) {
   constexpr int least_where_friction_turns = 6;
   const FacePair faces{cell_of(search.a, cells.cell_a).face, cell_of(search.b, cells.cell_b).face};
@@ -57,11 +57,11 @@ int degree_of(const Search& search, const CellOverlap& cells) {
   const auto bends_by = [](const ContactBody& body) { return body.model->fixed() ? 0 : body.model->order(); };
   const int order = std::max(bends_by(search.a), bends_by(search.b));
   if (turns) return std::max(order, least_where_friction_turns);
-  // Gaps of multipliers do not tell where pressure ends.
+  // With multipliers gaps do not show where pressure ends.
   return order <= affine && !search.settings.multipliers ? affine : std::max(order, least_degree);
 }
 
-/// True where a face is neither wholly pressed nor wholly open: pressure may end inside, or begin anywhere.
+/// True if a face is neither completely closed nor completely open: pressure may end inside, or begin anywhere.
 bool may_open_in_part(const std::vector<double>& gaps, double tolerance) {
   const auto pressed = [tolerance](double gap) { return gap < -tolerance; };
   const auto open = [tolerance](double gap) { return gap > tolerance; };
@@ -75,7 +75,7 @@ std::vector<double> gaps_of(const std::vector<ContactPoint>& points) {
   return gaps;
 }
 
-/// Where an overlap is to be cut, if at all. @param points of the rule on all of it
+/// Line at which to cut an overlap; empty: no cut. @param points of the rule on the whole overlap
 std::optional<PressureEnd> cut_of(const JoinedOverlap& joined, const std::vector<Eigen::Vector2d>& outline,
                                   const PolygonRule& rule, const std::vector<ContactPoint>& points,
                                   const OverlapPoints& make, const Search& search) {
@@ -114,7 +114,7 @@ void add_area_springs(const Search& search, const JoinedOverlap& joined, bool ma
     points.clear();
     add_points(whole);
   }
-  // Where flat sub-faces of blocks that bend part is not where their pressure ends.
+  // Flat sub-faces of blocks that bend separate elsewhere than their pressure ends.
   const bool true_gaps = !settings.multipliers && has_true_places(a, b, settings.curved);
   std::optional<PressureEnd> end;
   if (true_gaps) {
@@ -179,7 +179,7 @@ void add_vertex(const ContactBody& a, const ContactBody& b, const VertexContact&
   points.push_back(point);
 }
 
-/// The point of a side in the material, and where it is.
+/// Material point of a side, and its place.
 struct SidePoint {
   Vector3 material;
   Vector3 place;
@@ -255,7 +255,7 @@ ContactPoints points_of(const ContactBody& a, const ContactBody& b, const PairCo
   }
   for (const VertexContact& contact : contacts.vertices) add_vertex(a, b, contact, settings, result.points);
   for (const EdgeContact& contact : contacts.edges) add_edge(a, b, contact, settings, result.points);
-  result.points.shrink_to_fit();  // they may last
+  result.points.shrink_to_fit();  // they may be cached
   result.turning = turning;
   return result;
 }

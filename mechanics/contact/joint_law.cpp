@@ -20,8 +20,8 @@ PointLaw point_law(const JointLaw& law, double area, bool intact) {
 
 namespace {
 
-/// The normal force that friction goes by and its derivative by the normal force. Impulses count for no more
-/// than the force beside them, so that nothing rubs that hardly touches.
+/// Normal force in the friction law and its derivative by the normal force. Impulses count at most as much as the
+/// normal force, so that points with very small forces have no friction.
 struct RubbingForce {
   double value;  ///< N
   double slope;
@@ -43,24 +43,24 @@ ShearBound shear_bound(const PointLaw& law, double normal, double dilation) {
   return {rubbing.value * law.friction + law.cohesion, pushes ? rubbing.slope * law.friction : 0.0};
 }
 
-/// Whether a trial shear force is within the limit but for rounding. Nothing locks what has no friction.
+/// True if a trial shear force is within the limit but for rounding. Without friction no point is locked.
 bool is_locked(const PointLaw& law, double trial, double limit) {
   const bool smooth = law.held_limit >= 0.0 ? law.held_limit == 0.0 && law.dilation.tangent == 0.0
                                             : law.friction == 0.0 && law.cohesion == 0.0;
   return trial <= (smooth ? limit : limit + (law.shear_stiffness + law.dashpots.shear) * law.rounding);
 }
 
-/// A trial shear force, cut to the limit. @param length of the trial
+/// Reduces a trial shear force to the limit. @param length of the trial
 Eigen::Vector2d within(double limit, const Eigen::Vector2d& trial, double length) {
   return length > limit ? Eigen::Vector2d(limit / length * trial) : trial;
 }
 
-/// tan(psi) over a step and how it falls with the gap at its end.
+/// tan(psi) over a step and its decrease with the gap at its end.
 struct StepDilation {
   double tangent;
   double fall;  ///< 1/m
 
-  /// How much a gap changes the dilated one, of a point that slides by this much.
+  /// Derivative of the dilated gap by the gap, for a point with this slip.
   [[nodiscard]] double lever(double slip) const { return 1.0 + slip * fall; }
 };
 
@@ -76,13 +76,13 @@ double normal_resistance(const PointLaw& law) {
   return law.normal_stiffness + law.dashpots.normal;
 }
 
-/// A gap as a dashpot sees it: without a bond it acts below the surface only.
+/// Gap for a dashpot: without a bond it acts below the surface only.
 double damped_gap(const PointLaw& law, double gap) {
   return law.tension > 0.0 ? gap : std::min(gap, 0.0);
 }
 
-/// What the normal dashpot takes over a step, J, of a spring with force `spring` at its end. It may leave as much of
-/// its push to the spring as that has: where blocks part below the surface, all of it.
+/// Energy dissipated by the normal dashpot over a step, J, for a spring with force `spring` at its end. The spring
+/// may replace the compressive force of the dashpot up to its own: all of it if blocks separate below the surface.
 double taken_by_normal(const PointLaw& law, double spring, double force, double gap) {
   return law.dashpots.normal > 0.0 ? (spring - force) * (gap - law.dashpots.start_gap) : 0.0;
 }
@@ -97,7 +97,7 @@ double trial_normal(const PointLaw& law, double gap) {
 
 namespace {
 
-/// Sets what the normal spring and its dashpot have at the end of a step. @param gap over the rest
+/// Sets force and energies of the normal spring and its dashpot at the end of a step. @param gap over the rest gap
 void set_normal(const PointLaw& law, double gap, double normal, bool open, PointResponse& response) {
   if (!open) {
     response.force[0] = std::max(normal, -law.tension);
@@ -110,7 +110,7 @@ void set_normal(const PointLaw& law, double gap, double normal, bool open, Point
   if (damps) response.damped += taken_by_normal(law, -law.normal_stiffness * gap, response.force[0], gap);
 }
 
-/// Sets what the shear spring and its dashpot have at the end of a step. @param slip elastic, m
+/// Sets energies of the shear spring and its dashpot at the end of a step. @param slip elastic, m
 void set_shear_energy(const PointLaw& law, const Eigen::Vector2d& slip, PointResponse& response) {
   if (law.augmented) return;
   response.shear_energy = 0.5 * law.shear_stiffness * slip.squaredNorm();
@@ -154,7 +154,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
   response.state = ContactState::sliding;
   response.direction = trial / length;
   response.force.tail<2>() = bound.value * response.direction;
-  // A point in touch that has no force yet rubs where it is pressed.
+  // A closed point without force has friction once it is compressed.
   const double bound_slope = open ? 0.0 : shear_bound(law, response.force[0], dilation.tangent).slope;
   const double slope = response.tangent(0, 0) * dilation.lever(slid);
   const Coupling coupling =
@@ -182,12 +182,12 @@ MeanResponse end_response(const PointLaw& law, const PointResponse& end, double 
 
 namespace {
 
-/// A gap as a spring without tension sees it: one of rounding is none.
+/// Gap for a spring without tension: zero within rounding error.
 double seen_gap(const PointLaw& law, const PointResponse& response, double gap) {
   return law.tension > 0.0 || response.state == ContactState::open ? gap : std::min(0.0, gap);
 }
 
-/// Mean normal force and its tangent. @param start,end responses whose normal forces count
+/// Sets the mean normal force and its tangent. @param start,end responses with the normal forces
 void set_mean_normal(const PointLaw& law, const PointResponse& start, double start_gap,
                      const PointResponse& end, double end_gap, MeanResponse& mean) {
   mean.force[0] = 0.5 * (start.force[0] + end.force[0]);
@@ -213,7 +213,7 @@ struct ClosedShare {
   double by_end_gap;
 };
 
-/// Bonds are closed until they are torn, bridged points until they have opened.
+/// Bonds are closed until they fail, bridged points until they have opened.
 ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap, bool end_open,
                          double end_gap) {
   if (law.bridged) return {1.0, 0.0};
@@ -228,7 +228,7 @@ ClosedShare closed_share(const PointLaw& law, bool start_open, double start_gap,
 
 namespace {
 
-/// What acts along the normal over a step whose end is at a gap, and bounds the shear force.
+/// Normal force over a step with a given gap at its end, and the bound of the shear force.
 struct MeanNormal {
   PointResponse end;           ///< of the spring
   double undamped = 0.0;       ///< N, without the dashpot
@@ -238,7 +238,7 @@ struct MeanNormal {
   double limit = 0.0;          ///< of Coulomb's law, N
 };
 
-/// @param start_gap,end_gap over the rest that each has, m
+/// @param start_gap,end_gap over the rest gap at each time, m
 /// @param dilation tan(psi) over the step
 MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double start_gap, double end_gap,
                        double dilation) {
@@ -272,8 +272,8 @@ MeanNormal mean_normal(const PointLaw& law, const PointResponse& start, double s
   return result;
 }
 
-/// Slides a point that dilates, and takes what acts along the normal then. @param trial shear force, N
-/// @param stiffness of it, N/m. @param normal_at of slip, m. @return its slip, m
+/// Computes slip and normal force of a point that dilates. @param trial shear force, N
+/// @param stiffness in shear, N/m. @param normal_at of slip, m. @return slip, m
 template <class NormalAt>
 double lift(double trial, double stiffness, double dilation, NormalAt normal_at, MeanNormal& normal) {
   const double slip = plastic_slip(trial, stiffness, [&](double way) {
@@ -281,7 +281,7 @@ double lift(double trial, double stiffness, double dilation, NormalAt normal_at,
     return ShearBound{bound.value, bound.slope * dilation};
   });
   MeanNormal risen = normal_at(slip);
-  // Where nothing pushes it, nothing rises.
+  // Without compression there is no dilation.
   if (!(risen.force > 0.0) && risen.end.state == ContactState::open) return 0.0;
   normal = std::move(risen);
   return slip;

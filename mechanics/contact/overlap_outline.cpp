@@ -30,7 +30,7 @@ bool is_corner_of(const Corners& polygon, const Eigen::Vector2d& point, double t
                      [&](const Eigen::Vector2d& corner) { return (corner - point).norm() <= tolerance; });
 }
 
-/// That a convex polygon takes up around a point, rad; 0 off its outline.
+/// Interior angle of a convex polygon at a point, rad; 0 off its outline.
 double angle_at(const Corners& polygon, const Eigen::Vector2d& point, double tolerance) {
   const std::size_t count = polygon.size();
   for (std::size_t k = 0; k < count; ++k) {
@@ -46,7 +46,7 @@ double angle_at(const Corners& polygon, const Eigen::Vector2d& point, double tol
   return 0.0;
 }
 
-/// Where a corner is in space, on the plane of its frame.
+/// Place in space of a corner, on the plane of its frame.
 Vector3 lifted(const CellOverlap& overlap, int corner) {
   const Eigen::Vector2d& place = overlap.corners[at(corner)].place;
   return overlap.frame.origin + place.x() * overlap.frame.e1 + place.y() * overlap.frame.e2;
@@ -101,8 +101,8 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
     pieces.push_back(outline_of(places_of(overlaps[at(cell)]), tolerance));
     outline.area += area_of(pieces.back());
   }
-  // Where sides that almost lie on each other cross is known badly, and how many corners of sub-faces that
-  // almost fit lie together changes with each motion.
+  // The crossing of almost coincident sides is ill-conditioned, and the number of corners of sub-faces that almost
+  // coincide changes with each motion.
   constexpr double blur = 1e-3;
   double one_point = std::max(4.0 * tolerance, blur * std::sqrt(outline.area));
   std::vector<Corners> rough;
@@ -113,7 +113,7 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
   } else {
     one_point = 4.0 * tolerance;
   }
-  constexpr double straight = 1e-2;  // rad: what leaving out corners turns outlines by at most
+  constexpr double straight = 1e-2;  // rad: largest change of direction of an outline by removal of corners
   std::vector<Vector3> kept;
   const auto keep_corners = [&](double reach) {
     for (const FaceOverlapPoint& point : face.points) {
@@ -137,7 +137,7 @@ FaceOutline outline_of(const FaceOverlap& face, const std::vector<CellOverlap>& 
     }
   };
   keep_corners(2.0 * tolerance);
-  // A corner that pieces keep may be listed with a sliver, which keeps none and sees it from another side.
+  // A corner kept by pieces may be listed with a sliver, which keeps none and has another direction of view.
   keep_corners(one_point);
   return outline;
 }

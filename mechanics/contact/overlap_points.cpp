@@ -33,7 +33,7 @@ std::vector<std::size_t> cells_of_faces(const ContactBody& body) {
   return count;
 }
 
-/// Where the corners of a face are.
+/// Current places of the corners of a face.
 std::vector<Vector3> placed_corners(const ContactBody& body, const PolyhedronFace& face) {
   std::vector<Vector3> places;
   places.reserve(face.loops.front().size());
@@ -42,7 +42,7 @@ std::vector<Vector3> placed_corners(const ContactBody& body, const PolyhedronFac
   return places;
 }
 
-/// Unit area vector of a face between its corners, whatever triangles it has.
+/// Unit area vector of a face between its corners, independent of its triangles.
 Vector3 normal_of_corners(const std::vector<Vector3>& corners) {
   Vector3 area = Vector3::Zero();
   for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -50,7 +50,7 @@ Vector3 normal_of_corners(const std::vector<Vector3>& corners) {
   return area.normalized();
 }
 
-/// Of two cells, that of their overlap; of whole faces, which may be warped, along the mean of both normals.
+/// For two cells, that of their overlap; for whole faces, which may be warped, along the mean of both normals.
 ViewFrame frame_of(const ContactBody& a, const ContactBody& b, const CellOverlap& cells, bool whole) {
   if (!whole) return cells.frame;
   const Vector3 normal_a = normal_of_corners(placed_corners(a, face_of(a, cells.cell_a)));
@@ -58,7 +58,7 @@ ViewFrame frame_of(const ContactBody& a, const ContactBody& b, const CellOverlap
   return {cells.frame.origin, normal_b - normal_a};
 }
 
-/// A face against w: counter-clockwise.
+/// Projection of a face against w: counter-clockwise.
 Corners seen_corners(const ContactBody& body, const PolyhedronFace& face, const ViewFrame& frame,
                      bool towards_viewer) {
   Corners corners;
@@ -94,7 +94,7 @@ void count_from(const Vector3& normal, double known, ContactPoint& point) {
 CellMap::CellMap(const ContactBody& body, int cell, const ViewFrame& frame) {
   const auto& corners = cell_of(body, cell).corners;
   const auto place = [&](std::size_t k) { return frame.project(body.placed->point(corners[k])); };
-  // The widest of the triangles at the first corner spans the cell's plane best.
+  // The widest of the triangles at the first corner determines the cell's plane best.
   double widest = 0.0;
   const Eigen::Vector2d first = place(0);
   std::size_t best = 1;

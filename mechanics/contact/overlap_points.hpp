@@ -1,9 +1,9 @@
-// Contact points on the overlap of two faces: from places in the plane in which it is seen to the material of both
+// Contact points on the overlap of two faces: mapping from places in the projection plane to the material of both
 // blocks and back.
 //
-// Faces that may curve are searched as triangles. Where nothing has divided them yet, which of a rectangle's two
-// diagonals parts them is the mesh's affair: the same scene seen in a mirror has the other one. Springs must not
-// know it, so that such faces overlap as whole polygons, and material points are where the true surface is seen.
+// Faces that may curve are searched as triangles. In an undivided rectangle the diagonal is a property of the mesh:
+// the mirrored scene has the other one. Springs must not depend on it. So such faces overlap as whole polygons, and
+// material points are the projections of places onto the true surface.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace ashlar {
 
-/// The affine map from places seen along a direction to reference points of a flat cell.
+/// The affine map from projected places to reference points of a flat cell.
 class CellMap {
  public:
   CellMap(const ContactBody& body, int cell, const ViewFrame& frame);
@@ -23,7 +23,7 @@ class CellMap {
   [[nodiscard]] Vector3 placed(const Eigen::Vector2d& place) const {
     return placed_ + placed_slope_ * (place - first_);
   }
-  /// Where the point of the cell's plane that is nearest to a reference point is seen.
+  /// Projected place of the point of the cell's plane closest to a reference point.
   [[nodiscard]] Eigen::Vector2d place(const Vector3& reference) const;
 
  private:
@@ -34,49 +34,49 @@ class CellMap {
   Eigen::Matrix<double, 3, 2> placed_slope_;
 };
 
-/// Counts the gap of a point of a face from where its material points were placed.
-/// @param known how deep the blocks were placed in each other, m, >= 0; 0: the gap stays
+/// Makes the gap of a point of a face relative to the initial placement of its material points.
+/// @param known initial overlap of the blocks, m, >= 0; 0: the gap is unchanged
 void count_from_placement(const ContactBody& a, const ContactBody& b, bool master_is_a, double known,
                           ContactPoint& point);
-/// The same of a point of two crossed edges.
+/// The same for a point of two crossed edges.
 void count_from_placement_of_edges(const ContactBody& a, const ContactBody& b, double known,
                                    ContactPoint& point);
 
-/// True if points are where they are in the material: not on flat sub-faces of a block that bends.
+/// True if points are at their places in the material: not on flat sub-faces of a block that bends.
 [[nodiscard]] bool has_true_places(const ContactBody& a, const ContactBody& b, bool curved);
 
-/// Overlaps of cells that make one polygon: those of two whole faces, or one alone.
+/// Overlaps of cells that form one polygon: those of two whole faces, or a single one.
 struct JoinedOverlap {
   std::vector<std::size_t> cells;  ///< indices into the list of overlaps, at least one
-  bool whole = false;              ///< of two whole faces that several cells make
+  bool whole = false;              ///< of two whole faces with several cells
 };
 
-/// In the order of the first of their cells. Joined are those of convex faces whose cells are the triangles of the
-/// mesh, unless they have one cell each. @param curved false: none are
+/// In the order of the first of their cells. Overlaps of convex faces whose cells are the triangles of the mesh are
+/// joined, unless each face has one cell. @param curved false: none are joined
 [[nodiscard]] std::vector<JoinedOverlap> join_whole_faces(const ContactBody& a, const ContactBody& b,
                                                           const std::vector<CellOverlap>& overlaps,
                                                           bool curved);
 
-/// Makes the contact points of two cells, or of two whole faces, that face each other. What it is made of must
-/// outlive it.
+/// Makes the contact points of two cells, or of two whole faces, that face each other. The arguments of the
+/// constructor must outlive it.
 class OverlapPoints {
  public:
-  /// @param cells that the points are between; of whole faces one of each
+  /// @param cells of the points; for whole faces one of each
   OverlapPoints(const ContactBody& a, const ContactBody& b, const CellOverlap& cells, bool whole,
                 bool master_is_a, const ContactPointSettings& settings);
 
-  /// Seen against w of the frame, counter-clockwise; fewer than 3 corners if there is none.
+  /// Projection against w of the frame, counter-clockwise; fewer than 3 corners if there is no overlap.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& polygon() const { return polygon_; }
   /// @param place in the polygon
   [[nodiscard]] ContactPoint at_place(const Eigen::Vector2d& place, double area) const;
-  /// Reference point of a, or of b, that is seen at a place, also outside of the polygon. Of whole faces that curve
-  /// it is in the plane that touches them in the middle.
+  /// Reference point of a or of b projected to a place, also outside of the polygon. For whole faces that curve it is
+  /// in the tangent plane at the centre.
   [[nodiscard]] Vector3 reference(bool of_a, const Eigen::Vector2d& place) const;
   /// The inverse of reference().
   [[nodiscard]] Eigen::Vector2d place(bool of_a, const Vector3& reference) const;
 
  private:
-  /// Which reference points are seen where near a place.
+  /// Linearised inverse projection near a place.
   struct Tangent {
     Vector3 reference = Vector3::Zero();
     Eigen::Matrix<double, 3, 2> slope = Eigen::Matrix<double, 3, 2>::Zero();  ///< d reference / d place
@@ -84,9 +84,9 @@ class OverlapPoints {
   [[nodiscard]] const ContactBody& body(bool of_a) const { return of_a ? a_ : b_; }
   [[nodiscard]] int cell(bool of_a) const { return of_a ? cells_.cell_a : cells_.cell_b; }
   [[nodiscard]] const CellMap& map(bool of_a) const { return of_a ? map_a_ : map_b_; }
-  /// True if points of the block's true surface are looked for.
+  /// True if points on the block's true surface are computed.
   [[nodiscard]] bool follows(bool of_a) const { return whole_ && !is_affine(*body(of_a).model); }
-  /// The point of the true surface that is seen at a place, by Newton's method in the face's plane.
+  /// The point of the true surface projected to a place, by Newton's method in the face's plane.
   [[nodiscard]] Tangent seen_at(bool of_a, const Eigen::Vector2d& place, const Vector3& start) const;
 
   const ContactBody& a_;
@@ -101,7 +101,7 @@ class OverlapPoints {
   CellMap map_b_;
   std::vector<Eigen::Vector2d> polygon_;
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero();  ///< of the polygon's corners
-  Tangent tangent_a_;                                 ///< in the middle, of whole faces that curve
+  Tangent tangent_a_;                                 ///< at the centre, for whole faces that curve
   Tangent tangent_b_;
 };
 

@@ -10,9 +10,9 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector2d>;
 
-/// The zero line of the affine function with the least weighted squares from the gaps, if that is what the
-/// gaps are like: joints that bulge have no line, and rounding must not choose one.
-/// @param affine_share of how they vary
+/// The zero line of the weighted least-squares affine function of the gaps, if the gaps are close to it: gaps of
+/// bulging joints have no line, and rounding must not choose one.
+/// @param affine_share of the variation of the gaps
 std::optional<PressureEnd> zero_line(const PolygonRule& rule, const std::vector<double>& gaps,
                                      double affine_share) {
   double area = 0.0;
@@ -72,7 +72,7 @@ std::optional<PressureEnd> end_of_pressure(const Corners& polygon, const Polygon
   const double most = *std::max_element(gaps.begin(), gaps.end());
   std::optional<PressureEnd> end;
   Corners pressed = polygon;
-  // What no point of the whole rule feels may be pressed all the same where the gap bulges.
+  // An area between the points of the whole rule may be under pressure if the gap bulges.
   if ((known || least < -tolerance) && most > tolerance) {
     end = zero_line(rule, gaps, known ? affine_to_stay_cut : affine_to_cut);
     if (end) pressed = part_under_pressure(polygon, *end);

@@ -18,8 +18,8 @@ struct Side {
   Eigen::Vector2d end;
 };
 
-/// Whether a body's surface goes away from another one behind side k of a cell, which is on an edge. At edges
-/// to a notch and between faces that are flat to rounding it does not.
+/// True if a body's surface turns away from another one behind side k of a cell, which is on an edge. At edges of a
+/// notch and between faces coplanar within rounding error it does not.
 bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vector3& other_normal) {
   const SurfaceCell& cell = body.surface().cells[at(index)];
   const std::array<int, 2> ends{cell.corners[k], cell.corners[(k + 1) % cell.corners.size()]};
@@ -34,8 +34,8 @@ bool turns_away(const PlacedSurface& body, int index, std::size_t k, const Vecto
   return false;
 }
 
-/// Of a side of an overlap that lies on an edge around a cell's face, as far as rounding can tell: whether
-/// the surface turns away there. Nothing of other sides.
+/// For a side of an overlap on an edge around a cell's face, within rounding error: true if the surface turns away
+/// there. Empty for other sides.
 /// @param other_normal of the other cell
 std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3& other_normal,
                             const ViewFrame& frame, const Side& side, double tolerance) {
@@ -55,7 +55,7 @@ std::optional<bool> ends_at(const PlacedSurface& body, int index, const Vector3&
   return std::nullopt;
 }
 
-/// The direction in which the gap of two flat cells falls most, in the frame's plane.
+/// Direction of steepest descent of the gap of two flat cells, in the frame's plane.
 Eigen::Vector2d downhill(const Vector3& normal_a, const Vector3& normal_b, const ViewFrame& frame) {
   const auto slope = [&](const Vector3& normal) {
     return Eigen::Vector2d(-Eigen::Vector2d(normal.dot(frame.e1), normal.dot(frame.e2)) /
@@ -64,9 +64,10 @@ Eigen::Vector2d downhill(const Vector3& normal_a, const Vector3& normal_b, const
   return slope(normal_b) - slope(normal_a);
 }
 
-/// Which faces end at the deep end of their overlap.
+/// Faces that end at the deep end of their overlap.
 struct DeepEnd {
-  double facing = 0.0;  ///< cosine between the deep end's side and the way down; 0: no side known
+  double facing = 0.0;  ///< cosine between the normal of the deep end's side and the direction of descent; 0:
+                        ///< no side known
   bool of_a = false;
   bool of_b = false;
 };
@@ -93,7 +94,7 @@ class DeepEndSearch {
   }
 
  private:
-  /// Sides with a corner that is deep.
+  /// Examines sides with a deep corner.
   void look_at(const CellOverlap& overlap, double deepest, double highest, DeepEnd& result) const {
     const std::size_t count = overlap.corners.size();
     const Vector3& normal_a = a_.normal(overlap.cell_a);
@@ -108,11 +109,11 @@ class DeepEndSearch {
       if (!(along.norm() > tolerance_)) continue;
       const Eigen::Vector2d outward = Eigen::Vector2d(along.y(), -along.x()).normalized();
       const double facing = outward.dot(down.normalized());
-      // Sides that face the deep end alike count together: rounding must not choose between them.
+      // Sides with the same angle to the deep end count together: rounding must not choose between them.
       constexpr double alike = 1e-6;
       if (!(facing > alike) || facing < result.facing - alike) continue;
       const Eigen::Vector2d middle = 0.5 * (side.start + side.end);
-      // What goes on a little lower than the rim, by a tenth of what the tilt makes, goes on.
+      // A surface that continues lower than the edge by up to a tenth of the effect of the tilt counts as continuing.
       const double gap = 0.5 * (overlap.gaps[k] + overlap.gaps[next]);
       const double near = std::max(0.0, gap) + std::max(tolerance_, 0.1 * (highest - deepest));
       const ViewFrame& frame = overlap.frame;
@@ -123,7 +124,7 @@ class DeepEndSearch {
       const std::optional<bool> a_ends = ends_at(a_, overlap.cell_a, normal_b, frame, side, tolerance_);
       const std::optional<bool> b_ends = ends_at(b_, overlap.cell_b, normal_a, frame, side, tolerance_);
       if (!a_ends && !b_ends) continue;
-      // Where what is at the deep end goes on, sides that face it less do not count instead.
+      // If the surface continues at the deep end, sides less aligned with it do not count instead.
       if (facing > result.facing + alike) result = {facing, false, false};
       if (a_ends.value_or(false) && !goes_on(true, b_.surface().cells[at(overlap.cell_b)].face))
         result.of_a = true;
@@ -139,13 +140,14 @@ class DeepEndSearch {
   double tolerance_;
 };
 
-/// True if block a is the master where rims do not tell. @param otherwise of blocks of one kind and size
+/// True if the reference face is on block a where edges do not decide. @param otherwise for blocks of one kind and
+/// size
 bool is_first_by_kind(const ContactBody& a, const ContactBody& b, bool otherwise) {
   if (a.model->fixed() != b.model->fixed()) return a.model->fixed();
   const bool divided_a = a.placed->surface().divided;
   const bool divided_b = b.placed->surface().divided;
   if (divided_a != divided_b) return !divided_a;
-  // Volumes of equal blocks in different places differ by rounding, which must not choose the master.
+  // Volumes of equal blocks in different places differ by rounding, which must not decide.
   constexpr double equal_volumes = 1.0 + 1e-9;
   const double volume_a = a.model->basis().volume();
   const double volume_b = b.model->basis().volume();

@@ -1,9 +1,9 @@
-// Which of two blocks in contact is the master: the one on whose surface feet and normals are taken
-// (theory.md section 6.4).
+// Choice of the reference face of two blocks in contact, on whose surface feet and normals are evaluated (theory.md
+// section 6.4).
 //
-// Two faces that lie on each other may be tilted against each other by the contact angle. Where one of them
-// ends at the deep end of their overlap, its rim is what touches, and it moves along the other face: with
-// its own normal it would go into the other by the tangent of the tilt times the way it slides, or lift off.
+// Two faces in contact may be tilted against each other by up to the contact angle. If one of them ends at the deep
+// end of their overlap, its edge touches and moves along the other face. With its own normal it would penetrate the
+// other face by the slip times the tangent of the tilt, or lift off.
 #pragma once
 
 #include <functional>
@@ -13,25 +13,25 @@
 
 namespace ashlar {
 
-/// A place on the rim of a face, where another block lies on it.
+/// A place on the edge of a face on which another block lies.
 struct RimPlace {
-  bool of_a;        ///< whose rim it is
-  int face;         ///< of the other block, which lies on the rim
+  bool of_a;        ///< true: the edge belongs to a
+  int face;         ///< face of the other block, which lies on the edge
   Vector3 place;    ///< m
-  Vector3 outward;  ///< unit, along the faces, away from the one with the rim
-  double near;      ///< m, largest gap there of a block that goes on
+  Vector3 outward;  ///< unit, along the faces, away from the one with the edge
+  double near;      ///< m, largest gap there of a continuing block
 };
 
-/// Tells whether a third block goes on behind a rim, near to what lies on the rim and not turning away from
-/// it, so that the rim is none to it.
+/// True if a third block continues the surface beyond an edge, close to the block on the edge and not turning away
+/// from it, so that the edge does not act as an edge.
 using SurfaceContinues = std::function<bool(const RimPlace&)>;
 
-/// Whether block a is the master in each of the overlaps: for all overlaps of two faces, the block whose face
-/// does not end at their deep end: its surface turns away from the other one there, and nothing goes on
-/// behind it. Rims of both, or of none, and gaps that vary by no more than rounding (outline_tolerance) do
-/// not tell; then fixed blocks are before others, undivided surfaces before divided ones, and larger volumes
-/// before what is smaller by more than rounding.
-/// @param otherwise whether a is the master of equal blocks: nothing in the pair tells
+/// By overlap, true if the reference face is on block a. For all overlaps of two faces it is on the block whose face
+/// does not end at their deep end: where a face ends, its surface turns away from the other one and no block
+/// continues it. Edges of both or of none, and gaps that vary within rounding error (outline_tolerance), do not
+/// decide. Then fixed blocks precede others, undivided surfaces precede divided ones, and larger volumes precede
+/// those smaller by more than rounding.
+/// @param otherwise true if a has the reference face of equal blocks: nothing in the pair decides
 /// @return (#overlaps)
 [[nodiscard]] std::vector<bool> reference_is_on_a(const ContactBody& a, const ContactBody& b,
                                                   const std::vector<CellOverlap>& overlaps,

@@ -1,4 +1,4 @@
-// What sliding of one contact point shares between forces at the end of a step and means over it (joint_law.cpp).
+// Sliding of one contact point: functions shared by forces at the end of a step and mean forces (joint_law.cpp).
 #pragma once
 
 #include <Eigen/Dense>
@@ -9,17 +9,18 @@
 
 namespace ashlar {
 
-/// What the shear force is at most and its derivative by the normal force.
+/// Bound of the shear force and its derivative by the normal force.
 struct ShearBound {
   double value;  ///< N
   double slope;
 };
 
-/// How far a point slides that dilates: the root p of  trial - stiffness p = limit,  where the limit does not fall
-/// with p. @param stiffness > 0, N/m. @param bound_at limit at p and its derivative by p
+/// Slip of a point that dilates: the root p of  trial - stiffness p = limit,  for a limit that does not decrease with
+/// p.
+/// @param stiffness > 0, N/m. @param bound_at limit at p and its derivative by p
 template <class BoundAt>
 double plastic_slip(double trial, double stiffness, BoundAt bound_at) {
-  constexpr int most = 100;  // bisections come down to the last bit
+  constexpr int most = 100;  // bisection converges to the last bit
   constexpr double rounding = 2.0 * std::numeric_limits<double>::epsilon();
   double low = 0.0;
   double high = trial / stiffness;
@@ -37,7 +38,7 @@ double plastic_slip(double trial, double stiffness, BoundAt bound_at) {
   return slip;
 }
 
-/// How the forces of a sliding point change.
+/// Derivatives of the forces of a sliding point.
 struct Sliding {
   double normal_slope;  ///< -dN/dg without slip, N/m
   double limit_slope;   ///< the same of the limit

@@ -9,8 +9,8 @@ namespace ashlar {
 
 double rest_gap(const std::vector<double>& stiffnesses, const std::vector<double>& gaps, double held) {
   if (held == 0.0) return std::min(0.0, *std::min_element(gaps.begin(), gaps.end()));
-  // The root of the energy is a convex function of the rest, so that Newton's iterates come down to the
-  // solution one by one.
+  // The root of the energy is a convex function of the rest gap, so that Newton's iterates decrease monotonically to
+  // the solution.
   const double target = std::sqrt(2.0 * held);
   double rest = 0.0;
   while (true) {
@@ -36,7 +36,7 @@ std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std:
   const double target = std::sqrt(2.0 * held);
   std::vector<double> known(count);
   for (std::size_t k = 0; k < count; ++k) known[k] = std::max(remembered[k], std::min(0.0, gaps[k]));
-  // Root of twice the energy with a share of the known rests, and its derivative.
+  // Root of twice the energy at a share of the known rest gaps, and its derivative.
   const auto root = [&](double share) {
     double squares = 0.0;
     double slope = 0.0;
@@ -59,7 +59,7 @@ std::vector<double> rest_gaps(const std::vector<double>& stiffnesses, const std:
     for (std::size_t k = 0; k < count; ++k) rests[k] = known[k] + below;
     return rests;
   }
-  // A convex function of the share that falls: Newton's iterates come up to the solution from below.
+  // A convex decreasing function of the share: Newton's iterates increase monotonically to the solution.
   double share = 0.0;
   while (share < 1.0) {
     const auto [value, slope] = root(share);

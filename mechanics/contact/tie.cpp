@@ -11,9 +11,9 @@
 namespace ashlar {
 namespace {
 
-/// Singular values below this part of the largest are combinations of functions that vanish on the faces.
+/// Singular values below this part of the largest belong to combinations of functions that vanish on the faces.
 constexpr double rank_tolerance = 1e-10;
-/// What normals of faces that face each other may lack of being opposite: rounded corners tilt them by less.
+/// Tolerance of opposite normals of faces that face each other: rounded corners tilt them by less.
 constexpr double opposite_tolerance = 1e-6;
 
 using Polygon = std::vector<Eigen::Vector2d>;
@@ -22,8 +22,7 @@ double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
   return u.x() * v.y() - u.y() * v.x();
 }
 
-/// The part of a convex polygon to the left of a line. What rounding makes of the rim has no area to speak
-/// of.
+/// The part of a convex polygon to the left of a line. Parts of the edge due to rounding have negligible area.
 Polygon left_of(const Polygon& polygon, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   Polygon result;
   for (std::size_t k = 0; k < polygon.size(); ++k) {

@@ -1,12 +1,12 @@
-// Linear elasticity in a frame that turns with the block (theory.md section 4).
+// Linear elasticity in a corotational frame (theory.md section 4).
 //
 //   mean deformation gradient  F = q' G,  G the mean gradients of phi;   F = R U  (polar decomposition)
 //   d = q R - q0  (each row is R' q_a - q0_a)                 deformation seen from the turning frame
 //   E = 1/2 vec(d)' K vec(d)                                  K integrated once
 //   dE/dq = (g + G N') R',  g = K d,  N = [n]x,  n = inverse(tr(U) I - U) sum_a g_a x (q0_a + d_a)
 //
-// The second term comes from the change of R with q; with it E is invariant under rotation and the internal
-// force has no resultant torque. The tangent is R K R', which leaves out terms of the size of the strain.
+// The second term comes from the change of R with q. With it E is invariant under rotation and the internal force has
+// no resultant torque. The tangent is R K R', which neglects terms of the size of the strain.
 // Arrays of coefficients are (p, 3): row a belongs to phi_a, column i to the coordinate i. Stacked, they are
 // column by column: entry i * p + a.
 #pragma once
@@ -43,7 +43,7 @@ struct ElasticResponse {
 /// @param gradients G, (p, 3)
 /// @param reference q0, (p, 3)
 /// @param coefficients q, (p, 3)
-/// @param corotational false keeps R = I: small displacements, for blocks whose supports allow no rotation
+/// @param corotational false: R = I, small displacements, for blocks whose supports allow no rotation
 [[nodiscard]] ElasticResponse elastic_response(const Eigen::MatrixXd& stiffness,
                                                const Eigen::MatrixX3d& gradients,
                                                const Eigen::MatrixX3d& reference,
@@ -53,7 +53,7 @@ struct ElasticResponse {
 [[nodiscard]] Eigen::MatrixXd rotated_stiffness(const Eigen::MatrixXd& stiffness,
                                                 const Eigen::Matrix3d& rotation);
 
-/// Cauchy stress of Hooke's law at one point, turned into the current frame.
+/// Cauchy stress of Hooke's law at one point, rotated into the current frame.
 /// @param displacement_gradient of the displacement seen from the turning frame. @return (3, 3), Pa, tension
 /// positive
 [[nodiscard]] Eigen::Matrix3d linear_stress(const Material& material,

@@ -1,9 +1,9 @@
-// What a block is made of.
+// Material of a block.
 #pragma once
 
 namespace ashlar {
 
-/// How stress follows from deformation (theory.md section 4).
+/// Relation of stress and deformation (theory.md section 4).
 enum class Elasticity {
   linear,              ///< Hooke's law in a frame that turns with the block: small strains and bending
   st_venant_kirchhoff  ///< Hooke's law between Green strain and second Piola-Kirchhoff stress: large bending

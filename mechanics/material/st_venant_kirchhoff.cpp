@@ -13,13 +13,13 @@ namespace {
 /// Places in Tensor of the components J, K.
 constexpr std::array<std::array<int, 2>, 6> components = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
-/// How often a component stands in a double sum over J and K.
+/// Multiplicity of a component in a double sum over J and K.
 double multiplicity(std::size_t c) {
   return c < 3 ? 1.0 : 2.0;
 }
 
-/// Points at which polynomials of a basis are told apart best: approximate Fekete points (Sommariva and
-/// Vianello 2009) among those of a quadrature rule, as many as the basis has functions.
+/// Points that determine polynomials of a basis best: approximate Fekete points (Sommariva and Vianello 2009) among
+/// those of a quadrature rule, as many as the basis has functions.
 std::vector<Vector3> unisolvent_points(const Polyhedron& solid, const PolynomialBasis& wide) {
   constexpr std::size_t choice = 4;  // candidates for each point
   const VolumeRule rule = volume_rule(solid.mesh(), wide.centroid(), 2 * wide.order());

@@ -3,11 +3,10 @@
 //   F = sum_a q_a (grad phi_a)',   E = (F'F - I)/2,   S = lambda tr(E) I + 2 mu E,
 //   W = integral of lambda/2 tr(E)^2 + mu E:E dV,   dW/dq_a = integral of F S grad phi_a dV
 //
-// For order n, E is a polynomial of degree 2(n-1): its coefficients c in an orthonormal basis of that order
-// follow from its values at as many points, c = inverse(V) values, V the basis at the points. Then integrals
-// of products of two such polynomials are products of coefficients, so that the energy is |c|^2 with
-// (n-1)-fold fewer points than a quadrature of degree 4(n-1) has, and exact. The points are chosen well apart
-// by a pivoted QR.
+// For order n, E is a polynomial of degree 2(n-1). Its coefficients c in an orthonormal basis of that order follow
+// from its values at as many points, c = inverse(V) values, V the basis at the points. Integrals of products of two
+// such polynomials are products of coefficients, so that the energy |c|^2 is exact, with (n-1)-fold fewer points than
+// a quadrature of degree 4(n-1). The points are chosen well separated by a pivoted QR.
 #pragma once
 
 #include <Eigen/Dense>
@@ -22,7 +21,7 @@ namespace ashlar {
 /// Constant after construction. Coefficient arrays are (p, 3), stacked as in elasticity.hpp.
 class StVenantKirchhoff {
  public:
-  /// Bases of order 2(n-1) end here.
+  /// Limited by bases of order 2(n-1).
   static constexpr int max_order = 1 + PolynomialBasis::max_order / 2;
 
   /// @throws std::invalid_argument if the order of the basis is above max_order
@@ -31,8 +30,8 @@ class StVenantKirchhoff {
   /// Energy and force of a configuration; the frame is the identity.
   [[nodiscard]] ElasticResponse respond(const Eigen::MatrixX3d& coefficients) const;
 
-  /// Second derivatives of the energy. @param without_stress leaves out the part that the stress adds where
-  /// the strain's own second derivatives meet it: what remains is positive semi-definite
+  /// Second derivatives of the energy. @param without_stress leaves out the product of the stress with the second
+  /// derivatives of the strain: the remainder is positive semi-definite
   /// @return (3p, 3p), symmetric
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::MatrixX3d& coefficients, bool without_stress) const;
 
@@ -43,7 +42,7 @@ class StVenantKirchhoff {
   [[nodiscard]] std::array<Eigen::MatrixX3d, 3> deformation(const Eigen::MatrixX3d& coefficients) const;
   /// Coefficients of E.
   [[nodiscard]] Tensor strain(const std::array<Eigen::MatrixX3d, 3>& deformation) const;
-  /// What the stress of a strain weighs at the points: V^-T times its coefficients.
+  /// Weights of the stress of a strain at the points: V^-T times its coefficients.
   [[nodiscard]] Tensor weighted_stress(const Tensor& strain) const;
 
   double lambda_;

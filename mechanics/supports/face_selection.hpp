@@ -1,4 +1,4 @@
-// Faces that a user names by a plane, and quadrature over them.
+// Faces selected by a user with a plane, and quadrature over them.
 #pragma once
 
 #include <variant>
@@ -8,7 +8,7 @@
 
 namespace ashlar {
 
-/// A plane as the user wrote it; the length and side of its normal do not matter.
+/// A plane as given by the user; length and sign of its normal are irrelevant.
 struct Plane {
   Vector3 point = Vector3::Zero();    ///< m
   Vector3 normal = Vector3::UnitZ();  ///< not zero
@@ -19,12 +19,11 @@ struct FaceList {
   std::vector<int> faces;
 };
 
-/// Where a support or a load is: all faces in a plane, one material point, or faces by index. Reference
-/// coordinates, m.
+/// Place of a support or load: all faces in a plane, one material point, or faces by index. Reference coordinates, m.
 using BlockPlace = std::variant<Plane, Vector3, FaceList>;
 
-/// How far a plane or point may be from the solid it is meant for, in parts of the diagonal of the solid's
-/// box: users write decimals, and a rotated block's corners are rounded.
+/// Largest distance of a plane or point from the solid it refers to, as a share of the diagonal of the solid's box:
+/// users write decimals, and a rotated block's corners are rounded.
 inline constexpr double placement_tolerance = 1e-6;
 
 /// That distance in m.
@@ -34,8 +33,8 @@ inline constexpr double placement_tolerance = 1e-6;
 /// @throws std::invalid_argument if the normal is zero or not finite
 [[nodiscard]] std::vector<int> faces_in_plane(const Polyhedron& solid, const Plane& plane);
 
-/// Faces that a place stands for, none for a point. @throws std::invalid_argument as faces_in_plane, or if an
-/// index is not one of a face
+/// Faces of a place, none for a point. @throws std::invalid_argument as faces_in_plane, or if an index is not that of
+/// a face
 [[nodiscard]] std::vector<int> faces_at(const Polyhedron& solid, const BlockPlace& place);
 
 /// Points (m) with weights (m^2) that integrate polynomials of a degree exactly over some faces.

@@ -15,7 +15,7 @@ bool GravityHistory::changes_between(double start, double end) const {
 }
 
 double GravityHistory::largest() const {
-  // Between two rows it is never larger than at both.
+  // Between two rows its norm does not exceed the larger one.
   double most = 0.0;
   for (const Vector3& value : values) most = std::max(most, value.norm());
   return most;

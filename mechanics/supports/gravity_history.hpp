@@ -1,4 +1,4 @@
-// Gravity that changes over time: a table that is tilted, an earthquake as a force (pseudo-static analysis).
+// Gravity that changes over time: a tilted table, an earthquake as a force (pseudo-static analysis).
 #pragma once
 
 #include <vector>
@@ -13,9 +13,9 @@ struct GravityHistory {
   std::vector<Vector3> values;  ///< same number, m/s^2
 
   [[nodiscard]] bool empty() const { return times.empty(); }
-  /// @return m/s^2; of a history that is not empty
+  /// @return m/s^2. @pre the history is not empty
   [[nodiscard]] Vector3 at(double time) const;
-  /// Whether gravity may differ between two times.
+  /// True if gravity may differ between two times.
   [[nodiscard]] bool changes_between(double start, double end) const;
   /// Largest absolute value at any time, m/s^2; 0 if empty.
   [[nodiscard]] double largest() const;

@@ -19,7 +19,7 @@ template <class Value>
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
 
-/// Whether values may differ between two times. @param times of the rows; none: never
+/// True if values may differ between two times. @param times of the rows; none: never
 [[nodiscard]] inline bool rows_change_between(const std::vector<double>& times, double start, double end) {
   return !times.empty() && times.front() < end && times.back() > start;
 }

@@ -15,18 +15,18 @@ struct History {
   std::vector<double> times;   ///< s, increasing
   std::vector<double> values;  ///< same number
   [[nodiscard]] double at(double time) const;
-  /// Whether the factor may differ between two times.
+  /// True if the factor may differ between two times.
   [[nodiscard]] bool changes_between(double start, double end) const;
 };
 
-/// A load that keeps its direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N)
-/// spread evenly over them, or a force (N) at a material point.
+/// A load of constant direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N) distributed
+/// evenly over them, or a force (N) at a material point.
 struct Load {
   BlockPlace where;      ///< reference coordinates, m
-  bool traction = true;  ///< of a plane: Pa; false: N in all
+  bool traction = true;  ///< on a plane: true Pa, false total N
   Vector3 vector = Vector3::Zero();
   History history;
-  double factor = 1.0;  ///< on top of the history; BlockModel::set_load_factor changes it
+  double factor = 1.0;  ///< in addition to the history; set by BlockModel::set_load_factor
 };
 
 /// Work-conjugate coefficients: integral of C' f. @return (p, 3) at factor 1

@@ -1,5 +1,5 @@
-// The motion of a support as a record gives it: rows of displacements, velocities or accelerations, and a
-// polynomial of degree 3 or less of time between them.
+// The motion of a support given by a record: rows of displacements, velocities or accelerations, and a polynomial of
+// time of degree 3 or less between them.
 //
 //   displacement         u linear between rows: the velocity jumps at each row
 //   smooth_displacement  u a cubic spline through the rows, twice continuously differentiable, at rest at the
@@ -9,8 +9,8 @@
 //   acceleration         a linear between rows, v and u its integrals; at rest before the first row
 // The integrals are those of the polynomials: exact but for rounding.
 //
-// After the last row a displacement stays, a velocity stays, and an acceleration is zero, so that a support
-// goes on with the velocity that its record leaves it.
+// After the last row a displacement or a velocity is constant and an acceleration is zero, so that a support
+// continues with the velocity at the end of its record.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@
 
 namespace ashlar {
 
-/// What the rows of a history are; see the head of this file.
+/// Quantity of the rows of a history; see the head of this file.
 enum class MotionRecord {
   displacement,         ///< m
   smooth_displacement,  ///< m
@@ -43,19 +43,19 @@ class RecordedMotion {
   /// double precision
   explicit RecordedMotion(const SupportHistory& history);
 
-  /// Whether the velocity has a value at every time that is no end of a jump to another displacement: of all
-  /// but displacements with straight lines between them.
+  /// True if the velocity is defined at all times except the end of a jump to another displacement: for all records
+  /// but displacements that are linear between rows.
   [[nodiscard]] bool smooth() const { return smooth_; }
   [[nodiscard]] Vector3 displacement(double time) const;  ///< m
-  /// m/s; at a jump that after it.
+  /// m/s; at a jump the value after it.
   [[nodiscard]] Vector3 velocity(double time) const;
-  /// m/s^2; at a jump that after it.
+  /// m/s^2; at a jump the value after it.
   [[nodiscard]] Vector3 acceleration(double time) const;
-  /// Whether the displacement may differ between two times.
+  /// True if the displacement may differ between two times.
   [[nodiscard]] bool changes_between(double start, double end) const;
-  /// s: of the rows.
+  /// Times of the rows, s.
   [[nodiscard]] std::vector<double> times() const;
-  /// Largest component of a displacement until a time, m, to a few per cent between rows.
+  /// Largest component of a displacement until a time, m, accurate to a few per cent between rows.
   [[nodiscard]] double farthest_until(double time) const;
 
  private:
@@ -74,10 +74,10 @@ class RecordedMotion {
   bool smooth_;
 };
 
-/// How the slopes of a cubic spline at its ends are chosen.
+/// End conditions of a cubic spline.
 enum class SplineEnds {
   at_rest,  ///< zero
-  natural,  ///< so that the second derivative is zero there
+  natural,  ///< zero second derivative
 };
 
 /// Slopes at the points of a cubic spline whose second derivative is continuous.

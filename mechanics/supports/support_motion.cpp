@@ -8,8 +8,7 @@
 namespace ashlar {
 namespace {
 
-/// What conditions of supports that agree with each other may differ by, as a share of the largest
-/// displacement.
+/// Largest difference of consistent conditions of supports, relative to the largest displacement.
 constexpr double agreement = 1e-9;
 
 /// A of one component, the solution of least squares with it, and which support each row belongs to.
@@ -36,8 +35,8 @@ Conditions conditions_of(const Polyhedron& solid, const PolynomialBasis& basis,
   return result;
 }
 
-/// Times at which polynomials of degree 3 between the times of all histories, and after them, that agree
-/// there agree everywhere.
+/// Times at which piecewise polynomials of degree 3, between the times of all histories and after them, must be equal
+/// to be equal everywhere.
 std::vector<double> telling_times(const std::vector<RecordedMotion>& motions) {
   std::vector<double> rows;
   for (const RecordedMotion& motion : motions) {
@@ -54,8 +53,8 @@ std::vector<double> telling_times(const std::vector<RecordedMotion>& motions) {
   return times;
 }
 
-/// Whether supports that share points want them in one place at all times.
-/// @param unmet (#conditions, #motions) what is left of each condition for a unit displacement
+/// True if supports that share points have the same displacement at all times.
+/// @param unmet (#conditions, #motions) residual of each condition for a unit displacement
 bool agree(const Eigen::MatrixXd& unmet, const std::vector<RecordedMotion>& motions, Eigen::Index component) {
   if (!(unmet.cwiseAbs().maxCoeff() > agreement)) return true;
   const std::vector<double> times = telling_times(motions);
@@ -99,7 +98,7 @@ SupportMotion::SupportMotion(const Polyhedron& solid, const PolynomialBasis& bas
     const auto component = static_cast<Eigen::Index>(axis);
     const Conditions conditions = conditions_of(solid, basis, supports, axis);
     if (conditions.matrix.rows() == 0) continue;
-    // Of each row what is not met of a unit displacement of each group.
+    // Residual of each row for a unit displacement of each group.
     Eigen::MatrixXd unmet(conditions.matrix.rows(), static_cast<Eigen::Index>(driven_.size()));
     for (std::size_t n = 0; n < driven_.size(); ++n) {
       Eigen::VectorXd target(conditions.matrix.rows());

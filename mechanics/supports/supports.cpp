@@ -47,8 +47,8 @@ AdmissibleSpace::AdmissibleSpace(const Polyhedron& solid, const PolynomialBasis&
   for (std::size_t axis = 0; axis < 3; ++axis) {
     null_space_[axis] = null_space(conditions(solid, basis, supports, axis), functions_);
   }
-  // Rigid motions (three translations, three rotations, of unit norm) that are admissible leave nothing when
-  // projected off the admissible space.
+  // Admissible rigid motions (of three translations and three rotations of unit norm) have no component orthogonal to
+  // the admissible space.
   const Eigen::MatrixXd motions = basis.rigid_motions(1.0).colwise().normalized();
   Eigen::MatrixXd outside(3 * functions_, 6);
   for (int mode = 0; mode < 6; ++mode) {

@@ -13,27 +13,27 @@
 
 namespace ashlar {
 
-/// A support of faces or of one material point; chosen components of its displacement are zero or follow a
-/// history.
+/// A support of faces or of one material point; selected components of its displacement are zero or follow a history.
 struct BlockSupport {
   BlockPlace where;  ///< reference coordinates, m
   std::array<bool, 3> components = {true, true, true};
-  SupportHistory history = {};  ///< of the chosen components; empty: at rest
+  SupportHistory history = {};  ///< of the selected components; empty: at rest
 };
 
-/// Singular values below this part of the largest are conditions that repeat others.
+/// Singular values below this part of the largest belong to redundant conditions.
 inline constexpr double support_rank_tolerance = 1e-10;
 
-/// Rows that give one component of the displacement on a support, scaled to comparable sizes: basis values
-/// times sqrt(volume). Coefficients that they take to zero vanish on the support. @return (#conditions, p),
-/// none if the component is not held. @throws std::invalid_argument if a plane holds no face of the solid
+/// Rows for one component of the displacement on a support, scaled to comparable sizes: basis values times
+/// sqrt(volume). Coefficients in their null space vanish on the support. @return (#conditions, p), none if the
+/// component is free.
+/// @throws std::invalid_argument if a plane holds no face of the solid
 [[nodiscard]] Eigen::MatrixXd support_conditions(const Polyhedron& solid, const PolynomialBasis& basis,
                                                  const BlockSupport& support, std::size_t axis);
 
-/// Admissible motions of one block. A free block has no matrices stored.
+/// Admissible motions of one block. A free block stores no matrices.
 class AdmissibleSpace {
  public:
-  /// Everything is free. @param functions p
+  /// No supports. @param functions p
   explicit AdmissibleSpace(int functions) : functions_(functions) {}
 
   /// @throws std::invalid_argument if a plane holds no face of the solid
@@ -50,7 +50,7 @@ class AdmissibleSpace {
   }
   /// True if no rigid motion is admissible: the block can rest under any load.
   [[nodiscard]] bool held() const { return held_; }
-  /// True if some rigid motion that turns the block is admissible; false calls for small-displacement theory.
+  /// True if any admissible rigid motion includes rotation; otherwise small-displacement theory applies.
   [[nodiscard]] bool can_turn() const { return can_turn_; }
 
   /// Z y. @param y (unknowns). @return (p, 3)
@@ -59,8 +59,8 @@ class AdmissibleSpace {
   [[nodiscard]] Eigen::VectorXd restrict(const Eigen::MatrixX3d& f) const;
   /// Z' K Z. @param matrix (3p, 3p). @return (unknowns, unknowns)
   [[nodiscard]] Eigen::MatrixXd restrict(const Eigen::MatrixXd& matrix) const;
-  /// Values at some points that give one component of the displacement with the unknowns of that component. Unknowns
-  /// are those of x, then y, then z. @param phi (m, p) basis values. @return (m, unknowns of the component)
+  /// Values at some points that give one component of the displacement from the unknowns of that component. Unknowns
+  /// are ordered x, then y, then z. @param phi (m, p) basis values. @return (m, unknowns of the component)
   [[nodiscard]] Eigen::MatrixXd component_values(const Eigen::MatrixXd& phi, int axis) const;
 
  private:

@@ -8,7 +8,6 @@
 // so that gains are within rounding error, except for bonds under tension. The loss is an error of the method,
 // measured exactly for each pair and step. Multipliers store no energy: the energy they dissipate is numerical. The
 // energy they release to a pair of blocks beyond that is gained.
-// gained.
 #pragma once
 
 namespace ashlar {
