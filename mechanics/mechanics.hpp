@@ -1,5 +1,5 @@
-// The public face of this layer: blocks as polynomials over solids, what holds and loads them, and the contact
-// points and joint law between two. Headers that this one does not reach are internal and not installed.
+// The public interface of this layer: blocks as polynomials over solids, their supports and loads, and the contact
+// points and joint law between two blocks. Headers not included from here are internal and not installed.
 #pragma once
 
 #include "geometry/geometry.hpp"

@@ -14,8 +14,8 @@
 namespace ashlar {
 namespace {
 
-/// A file of our own to write to. What a killed run left is replaced; anything else that has the name, e.g. a
-/// link that another user of the folder made, is left alone.
+/// A file to write to. The rest of a killed run is replaced. Anything else of that name, e.g. a link made by another
+/// user of the folder, is left alone.
 OutputFile temporary_file(const std::filesystem::path& path) {
   try {
     return {path, OutputFile::Start::created};
@@ -30,13 +30,13 @@ OutputFile temporary_file(const std::filesystem::path& path) {
   return {path, OutputFile::Start::created};
 }
 
-// The new name is an entry of the folder, and the folder reaches the disk on its own schedule.
+// The new name is an entry of the folder, which is written to the disk separately.
 void sync_folder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
   const int reason = errno;
   if (descriptor >= 0) ::close(descriptor);
-  // Some file systems cannot sync a folder and say so with EINVAL; there is nothing more to do on them.
+  // Some file systems cannot sync a folder and return EINVAL; nothing more can be done on them.
   if (!synced && reason != EINVAL) {
     throw std::system_error(reason, std::generic_category(), "cannot write folder " + folder.string());
   }
@@ -55,7 +55,7 @@ void write_file_atomically(const std::filesystem::path& path, Durability durabil
     throw std::system_error(std::make_error_code(std::errc::invalid_argument),
                             "cannot write a file without a name (\"\")");
   }
-  // A rename would take the place of a device or a pipe.
+  // A rename would replace a device or a pipe.
   if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path)) {
     throw std::system_error(std::make_error_code(std::errc::invalid_argument),
                             "cannot write " + path.string() + ", which is no regular file");
@@ -79,7 +79,7 @@ void write_file_atomically(const std::filesystem::path& path, Durability durabil
 void refuse_other_file(const std::filesystem::path& path, const char* kind,
                        std::initializer_list<std::string_view> marks) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return;  // writing tells what else is in the way
+  if (!std::filesystem::is_regular_file(path, ignored)) return;  // writing reports other obstacles
   std::string head(1000, '\0');
   std::ifstream stream(path, std::ios::binary);
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));

@@ -13,7 +13,7 @@ void append(std::vector<double>& values, const Vector3& vector) {
   values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
 }
 
-/// What cells of all kinds have in common; `Drawn` is DrawnSurface or DrawnSolid.
+/// Data common to cells of all kinds; `Drawn` is DrawnSurface or DrawnSolid.
 template <class Drawn>
 class FrameOfBlocks {
  public:
@@ -70,7 +70,7 @@ class FrameOfBlocks {
   const std::vector<std::vector<Vector3>>& origin_;
   UnstructuredGrid grid_;
   std::vector<double> displacement_, velocity_, stress_, principal_;
-  std::vector<std::int32_t> block_, order_, fixed_;  ///< of cells
+  std::vector<std::int32_t> block_, order_, fixed_;  ///< by cell
 };
 
 }  // namespace

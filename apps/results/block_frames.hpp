@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// What frames show of each block.
+/// Drawn geometry of each block.
 struct DrawnBlocks {
   std::vector<DrawnSurface> surfaces;
   std::vector<DrawnSolid> solids;  ///< empty unless output.solid
@@ -19,14 +19,14 @@ struct DrawnBlocks {
 /// @throws CutError as drawn_solids
 [[nodiscard]] DrawnBlocks drawn_blocks(const std::vector<BlockModel>& blocks, const SceneOutput& output);
 
-/// Displacements that results count from, m: those where a stage has set them back.
+/// Displacements subtracted from results, m: those at the last reset by a stage.
 struct DisplacementOrigin {
   std::vector<Vector3> measures;               ///< by measure, zero of pairs; empty: as placed
   std::vector<std::vector<Vector3>> surfaces;  ///< by block and point of its DrawnSurface; empty: as placed
   std::vector<std::vector<Vector3>> solids;    ///< by block and point of its DrawnSolid; empty: as placed
 };
 
-/// All blocks that are there, in a state. Point data, as far as asked for: displacement, velocity, stress (xx, yy, zz, xy,
+/// Frame of all present blocks in a state. Point data, as requested: displacement, velocity, stress (xx, yy, zz, xy,
 /// yz, xz), principal_stress (largest first). Cell data: block, order (0: fixed or rigid), fixed (0, 1) and face.
 /// @param absent by block, or empty
 [[nodiscard]] UnstructuredGrid block_frame(const std::vector<BlockModel>& blocks,

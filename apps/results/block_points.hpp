@@ -1,4 +1,4 @@
-// Whether points are of a block, for callers who may ask for any: outside of it a polynomial goes on, but means nothing.
+// Check of points supplied by callers: outside of its block a polynomial is defined, but has no meaning.
 #pragma once
 
 #include <map>
@@ -11,16 +11,16 @@
 
 namespace ashlar {
 
-/// What becomes of points that are not of the block.
+/// Treatment of points outside the block.
 enum class OutsidePoints { refused, extrapolated };
 
-/// Of the blocks of a run, whose placed, undeformed solids stay the same. May be asked from many threads.
+/// For the blocks of a run, whose placed, undeformed solids are constant. May be called from many threads.
 class BlockPoints {
  public:
-  /// Points of a block are those inside, on its surface, or no farther from it than allowed_offset
-  /// (mechanics/supports/face_selection.hpp), as the points of a scene: coordinates of a turned block are rounded.
+  /// Points of a block are inside, on its surface, or within allowed_offset of it
+  /// (mechanics/supports/face_selection.hpp), as the points of a scene: coordinates of a rotated block are rounded.
   /// @param number of the block in the run. @param points m, of the placed, undeformed block
-  /// @throws std::domain_error with the block, the first point that is not of it, and its distance
+  /// @throws std::domain_error with the block, the first outside point and its distance
   void require(int number, const BlockModel& block, const std::vector<Vector3>& points) const;
 
  private:
@@ -28,7 +28,7 @@ class BlockPoints {
                                                                     const Polyhedron& solid) const;
 
   mutable std::mutex access_;
-  mutable std::map<int, std::shared_ptr<const ClosestPointFinder>> finders_;  ///< of blocks asked for so far
+  mutable std::map<int, std::shared_ptr<const ClosestPointFinder>> finders_;  ///< of blocks requested so far
 };
 
 }  // namespace ashlar

@@ -20,7 +20,7 @@ void ContactChanges::note(const Simulation& simulation) {
     std::array<int, 3>& states = now[{record.a, record.b}];
     for (const PointResponse& point : record.responses) ++states[static_cast<std::size_t>(point.state)];
   }
-  // A pair that has no contacts any more has parted.
+  // A pair without contacts has separated.
   for (const auto& [blocks, pair] : pairs_) now.try_emplace(blocks);
   for (const auto& [blocks, states] : now) {
     const auto [found, is_new] = pairs_.try_emplace(blocks);

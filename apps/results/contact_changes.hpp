@@ -1,4 +1,4 @@
-// Which contacts keep a static analysis from coming to rest: those that open, close, stick or slide anew in iteration
+// Contacts that prevent a static analysis from converging: those that open, close, stick or slide again in iteration
 // after iteration.
 #pragma once
 
@@ -14,19 +14,19 @@ namespace ashlar {
 
 class ContactChanges {
  public:
-  /// Iterations that are looked back on.
+  /// Number of last iterations examined.
   static constexpr int window = 50;
 
-  /// To be told after each iteration of a static analysis.
+  /// To be called after each iteration of a static analysis.
   void note(const Simulation& simulation);
   void forget() { *this = ContactChanges(); }
 
   struct Alternating {
     std::array<int, 2> blocks;
-    int changes;     ///< in which it had other numbers of open, locked and sliding points
-    int iterations;  ///< that were looked at, at most `window`
+    int changes;     ///< iterations in which it had other numbers of open, locked and sliding points
+    int iterations;  ///< iterations examined, at most `window`
   };
-  /// The pair whose contacts changed most often; empty if none did in the last iterations.
+  /// Pair whose contacts changed most often; empty if none did in the last iterations.
   [[nodiscard]] std::optional<Alternating> most() const;
 
   /// Lists all members, for a checkpoint.
@@ -39,14 +39,14 @@ class ContactChanges {
  private:
   struct Pair {
     std::array<int, 3> states = {};  ///< points by ContactState, in the last iteration
-    std::vector<int> changes;        ///< iterations of the window in which they were others than before
+    std::vector<int> changes;        ///< iterations of the window with other numbers than before
   };
   std::map<std::array<int, 2>, Pair> pairs_;
   int iteration_ = 0;
 };
 
-/// Why a static analysis has ended without an answer, and what to try: "no equilibrium was found in 500 iterations under
-/// the loads at t = 1 s: contacts of blocks a and b changed in 48 of the last 50; order = 1 in place of 0, or
+/// Reason for a static analysis without result, and remedies: "no equilibrium was found in 500 iterations under the
+/// loads at t = 1 s: contacts of blocks a and b changed in 48 of the last 50; order = 1 in place of 0, or
 /// contact.augmented = false, may converge".
 [[nodiscard]] std::string describe_unconverged(const Simulation& simulation, const ContactChanges& changes);
 

@@ -7,7 +7,7 @@
 namespace ashlar {
 namespace {
 
-/// Whether a spreadsheet would compute the field, or would if apostrophes before it were taken off.
+/// True if a spreadsheet would evaluate the field, or would without leading apostrophes.
 bool looks_like_formula(std::string_view field) {
   const std::size_t start = field.find_first_not_of('\'');
   return start != std::string_view::npos &&

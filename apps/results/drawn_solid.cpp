@@ -19,7 +19,7 @@ namespace {
 
 constexpr double most_tetrahedra = 100'000;
 
-/// Tetrahedra of blocks, made once for blocks that differ by a translation, as far as rounding tells.
+/// Tetrahedra of blocks, shared by blocks that differ by a translation within rounding error.
 class TetrahedraLibrary {
  public:
   TetrahedronMesh find(const BlockModel& block) {
@@ -41,12 +41,12 @@ class TetrahedraLibrary {
  private:
   struct Shape {
     TetrahedronMesh tetrahedra;
-    Vector3 corner;  ///< where its first point is
+    Vector3 corner;  ///< place of its first point
   };
   std::map<std::pair<std::vector<std::array<int, 3>>, std::vector<double>>, Shape> known_;
 };
 
-/// Pieces of the sides of each block's tetrahedra.
+/// Divisions of the sides of each block's tetrahedra.
 std::vector<int> pieces_of_solids(const std::vector<BlockModel>& blocks,
                                   const std::vector<TetrahedronMesh>& meshes) {
   std::vector<int> wanted;

@@ -15,8 +15,7 @@ constexpr int pieces_per_order = 4;
 constexpr int most_pieces = 16;
 constexpr double most_triangles = 40'000;
 
-/// Longest side of the triangles over the diagonal of the box around them; 0 if that is a point or not
-/// finite.
+/// Longest side of the triangles over the diagonal of the box around them; 0 if that is a point or not finite.
 double relative_side(const CurvedTriangles& block) {
   Eigen::AlignedBox3d box;
   double longest = 0.0;

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* marker_name = ".ashlar";
 constexpr std::string_view marker_text = "This folder was made by ashlar; it keeps other runs out.\n";
 
-/// What a run writes beside the folder `frames`.
+/// Files of a run besides the folder `frames`.
 constexpr std::array run_files = {"history.csv",
                                   "contacts.csv",
                                   "blocks.pvd",
@@ -46,7 +46,7 @@ std::filesystem::file_status status_of(const std::filesystem::path& path) {
   return std::filesystem::symlink_status(path, ignored);
 }
 
-/// The first bytes of a plain file; empty of anything else.
+/// The first bytes of a regular file; empty for anything else.
 std::string start_of(const std::filesystem::path& path, std::size_t bytes) {
   if (!std::filesystem::is_regular_file(status_of(path))) return "";
   std::string text(bytes, '\0');
@@ -56,7 +56,7 @@ std::string start_of(const std::filesystem::path& path, std::size_t bytes) {
   return text;
 }
 
-/// Whether a folder without marker has the files that a run writes, as those of earlier versions have.
+/// True if a folder without marker has the files of a run, as written by earlier versions.
 bool looks_like_results(const std::filesystem::path& folder) {
   constexpr std::string_view checkpoint = "ashlar checkpoint\n";
   constexpr std::string_view history = "step,time,dt,";
@@ -89,7 +89,7 @@ void refuse_results(const std::filesystem::path& folder) {
       folder.string(), ended ? "the results of a run" : "the checkpoint of a run that did not end"));
 }
 
-/// Whether a folder without marker may be had.
+/// Refuses a folder without marker unless it may be used.
 void refuse_strange_folder(const std::filesystem::path& folder, ClaimPurpose purpose) {
   if (std::filesystem::is_empty(folder)) return;
   if (!looks_like_results(folder)) {
@@ -103,7 +103,7 @@ void refuse_strange_folder(const std::filesystem::path& folder, ClaimPurpose pur
                   folder.string()));
 }
 
-/// "process 1234 on host here" as the holder of the lock signed.
+/// "process 1234 on host here" as signed by the holder of the lock.
 std::string holder_of(int descriptor) {
   std::array<char, 512> text{};
   const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
@@ -164,7 +164,7 @@ void FolderClaim::open_marker(ClaimPurpose purpose) {
     throw ClaimRefused(fmt::format("cannot open {}: {}", marker_.string(), reason(code)));
   };
   while (descriptor_ < 0) {
-    // A pipe must not make the program wait.
+    // A pipe must not block the program.
     descriptor_ = ::open(marker_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor_ >= 0) break;
     if (errno != ENOENT) fail(errno);
@@ -176,7 +176,7 @@ void FolderClaim::open_marker(ClaimPurpose purpose) {
   struct stat status {};
   if (::fstat(descriptor_, &status) != 0) fail(errno);
   const std::string start = start_of(marker_, marker_text.size());
-  // One that is empty was just made, or the program was killed then.
+  // An empty marker was just created, or the program was killed then.
   if (!S_ISREG(status.st_mode) || (status.st_size > 0 && start != marker_text))
     throw ClaimRefused(fmt::format("{} is in the way: it was not made by ashlar", marker_.string()));
 }

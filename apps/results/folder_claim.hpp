@@ -1,9 +1,9 @@
-// A result folder that one run has for itself: who may write there, and what may be replaced.
+// Exclusive use of a result folder by one run: permission to write, and to replace files.
 //
-// The file `.ashlar` in a folder says that the program made it. A run holds a lock on that file from before
-// it writes anything until it ends; the system releases it with the process, however that ends. In a folder
-// without the file nothing is written unless it is empty or new, or --force is given for what an earlier
-// version left. Links, pipes and other files that are no plain files where a run would write end the claim.
+// The file `.ashlar` marks a folder as made by the program. A run holds a lock on that file from before its first
+// write to its end; the system releases it with the process in any case. In a folder without the file nothing is
+// written unless it is empty or new, or --force is given for results of an earlier version. The claim is refused if a
+// link, a pipe or another special file is in the place of a file of the run.
 #pragma once
 
 #include <filesystem>
@@ -12,34 +12,34 @@
 
 namespace ashlar {
 
-/// What a folder is claimed for.
+/// Purpose of a claim.
 enum class ClaimPurpose {
-  new_run,      ///< results that are there are kept: the claim is refused
-  replacement,  ///< results that are there are replaced (--force)
-  resume,       ///< results that are there are gone on with
+  new_run,      ///< existing results are kept: the claim is refused
+  replacement,  ///< existing results are replaced (--force)
+  resume,       ///< existing results are continued
   addition,     ///< other files beside results, e.g. those of a study
 };
 
-/// Why a folder cannot be had. what() reads as a message to the user.
+/// Refusal of a folder. what() is a message to the user.
 struct ClaimRefused : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-/// What a claim finds; nothing is changed by looking.
+/// True if a folder holds results. Changes nothing.
 [[nodiscard]] bool holds_results(const std::filesystem::path& folder);
 
 class FolderClaim {
  public:
-  /// Creates the folder if it is not there (but not for resume) and locks it. @throws ClaimRefused
+  /// Creates the folder if it does not exist (except for resume) and locks it. @throws ClaimRefused
   FolderClaim(std::filesystem::path folder, ClaimPurpose purpose);
   ~FolderClaim();
   FolderClaim(const FolderClaim&) = delete;
   FolderClaim& operator=(const FolderClaim&) = delete;
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  /// Why the folder could not be locked, where the file system has no locks; empty: it is locked.
+  /// Reason why the folder could not be locked, on a file system without locks; empty: it is locked.
   [[nodiscard]] const std::string& unlocked() const { return unlocked_; }
-  /// @throws std::runtime_error if the folder is no longer there, or no longer this claim's
+  /// @throws std::runtime_error if the folder no longer exists, or is no longer claimed by this
   void check() const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace ashlar {
 
-/// Not of what a link leads to.
+/// Status of the folder itself, not of a link's target.
 static struct stat status_of(const std::filesystem::path& folder) {
   struct stat status {};
   if (::lstat(folder.c_str(), &status) != 0)

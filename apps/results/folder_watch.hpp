@@ -1,4 +1,4 @@
-// A folder that must stay the one that it was while a run writes into it.
+// A folder that must remain the same during a run that writes into it.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ class FolderWatch {
   /// @throws std::system_error if there is no folder of that name, or a link to one
   explicit FolderWatch(std::filesystem::path folder);
 
-  /// @throws std::system_error if the name is not that folder's any more: it was removed, or replaced by another one or
-  /// by a link, through which files would go elsewhere
+  /// @throws std::system_error if the name no longer refers to that folder: it was removed, or replaced by another
+  /// one or by a link, which would redirect files
   void check() const;
 
  private:

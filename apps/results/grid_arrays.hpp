@@ -1,4 +1,4 @@
-// Fields of a frame by name, held against the type and the number of components that their user needs.
+// Fields of a frame by name, checked for the required type and number of components.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ const std::vector<T>* find_values(const std::vector<DataArray>& arrays, std::str
   return values;
 }
 
-/// The same of an array that must be there. @throws std::runtime_error also if it is not
+/// The same for a required array. @throws std::runtime_error also if it is missing
 template <class T>
 const std::vector<T>& required_values(const std::vector<DataArray>& arrays, std::string_view name,
                                       int components) {

@@ -19,7 +19,7 @@ namespace {
 
 std::size_t count_rows(const std::filesystem::path& path) {
   std::ifstream input(path, std::ios::binary);
-  input.exceptions(std::ios::badbit);  // missing memory is not the end of the file
+  input.exceptions(std::ios::badbit);  // a failed allocation is not the end of the file
   std::size_t lines = 0;
   for (std::string line; std::getline(input, line) && !input.eof();) ++lines;
   return lines == 0 ? 0 : lines - 1;
@@ -47,7 +47,7 @@ HistoryTable read_history(const std::filesystem::path& path, std::size_t most_ro
   naming_the_file(path, [&] { require_regular_file(path); });
   const std::size_t count = count_rows(path);
   std::ifstream input(path, std::ios::binary);
-  input.exceptions(std::ios::badbit);  // missing memory is not the end of the file
+  input.exceptions(std::ios::badbit);  // a failed allocation is not the end of the file
   std::string line;
   if (!std::getline(input, line)) fail(path, "it cannot be opened or is empty");
   HistoryTable table;

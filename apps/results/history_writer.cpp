@@ -48,14 +48,14 @@ HistoryWriter HistoryWriter::resume(const std::filesystem::path& path, std::span
   const std::string header = header_line(columns);
   OutputFile file(path, OutputFile::Start::at_end);
   std::ifstream input(path, std::ios::binary);
-  input.exceptions(std::ios::badbit);  // missing memory is not the end of the file
+  input.exceptions(std::ios::badbit);  // a failed allocation is not the end of the file
   std::string start(header.size(), '\0');
   if (!input.read(start.data(), static_cast<std::streamsize>(start.size())) || start != header) {
     throw std::runtime_error("cannot resume " + path.string() + ": its columns are not those of this scene");
   }
   std::uintmax_t kept = header.size();
   std::int64_t step = 0;
-  // A line that ends with the file instead of a line break was cut while it was written.
+  // A last line without line break was truncated while it was written.
   for (std::string row; std::getline(input, row) && !input.eof(); kept += row.size() + 1) {
     const std::int64_t row_step = step_of(row, path);
     if (row_step > last_step) break;

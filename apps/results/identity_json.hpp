@@ -1,4 +1,4 @@
-// The identity of results as summary.json states it, and what differs from one that was stated.
+// The identity of results in summary.json, and differences from an earlier one.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,16 +9,16 @@
 
 namespace ashlar {
 
-/// As summary.json has it: version, checkpoint_layout, scene (hexadecimal), files.
+/// JSON object for summary.json: version, checkpoint_layout, scene (hexadecimal), files.
 [[nodiscard]] nlohmann::ordered_json to_json(const SceneIdentity& identity);
 
-/// "mesh stone.off has changed", ... for each file whose bytes are others; empty where `was` tells nothing.
-/// @param was an identity as to_json gives it, or what stands in its place
+/// "mesh stone.off has changed", ... for each file with other bytes; empty if `was` has no information.
+/// @param was an identity from to_json, or any JSON in its place
 [[nodiscard]] std::vector<std::string> changed_files(const nlohmann::ordered_json& was,
                                                      const SceneIdentity& is);
 
-/// The same and all other reasons: another version of the program, other blocks. Empty: results of the one are those of
-/// the other, up to the end time.
+/// The same with all other differences: another version of the program, other blocks. Empty: both have the same
+/// results up to the end time.
 [[nodiscard]] std::vector<std::string> identity_differences(const nlohmann::ordered_json& was,
                                                             const SceneIdentity& is);
 

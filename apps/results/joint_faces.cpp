@@ -16,7 +16,7 @@
 namespace ashlar {
 namespace {
 
-/// Surfaces of blocks at the end of the step, made when first asked for.
+/// Surfaces of blocks at the end of the step, computed at the first use.
 class PresentSurfaces {
  public:
   PresentSurfaces(const Simulation& simulation, const std::vector<SubFaceSurface>& surfaces)
@@ -50,7 +50,7 @@ class PresentSurfaces {
   std::map<int, PlacedSurface> surfaces_;
 };
 
-/// What the points of a polygon sum up to.
+/// Sums over the points of a polygon.
 struct JointSums {
   double area = 0.0, gap = 0.0, normal = 0.0;
   Vector3 shear = Vector3::Zero(), slip = Vector3::Zero();
@@ -65,7 +65,7 @@ struct JointFace {
   JointSums sums;
 };
 
-/// How far a place is outside a convex outline, m; 0 inside.
+/// Distance of a place from a convex outline, m; 0 inside.
 double distance_outside(const JointFace& face, const Vector3& place) {
   const Eigen::Vector2d point = face.frame.project(place);
   double most = 0.0;
@@ -79,7 +79,7 @@ double distance_outside(const JointFace& face, const Vector3& place) {
   return most;
 }
 
-/// Half way between both cells.
+/// Point midway between both cells.
 Vector3 lifted(const CellOverlap& overlap, std::size_t corner, const PlacedSurface& b) {
   const ViewFrame& frame = overlap.frame;
   const Eigen::Vector2d& place = overlap.corners[corner].place;
@@ -148,7 +148,7 @@ void add(JointSums& sums, const ContactPoint& point, const PointResponse& respon
   if (broken) sums.broken += point.area;
 }
 
-/// The faces of a pair with what their points sum up to.
+/// The faces of a pair with the sums over their points.
 std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& record,
                                 PresentSurfaces& surfaces) {
   const PlacedSurface& a = surfaces.of(record.a);

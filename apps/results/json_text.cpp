@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_levels = 100;
 constexpr int most_keys = 1000;
 
-// Judges the text before a tree is made of it.
+// Checks the text before a tree is built.
 class LimitCheck {
  public:
   using Json = nlohmann::ordered_json;

@@ -9,7 +9,7 @@
 namespace ashlar {
 namespace {
 
-/// What is inside a face, as a triangle of its own.
+/// Adds the inner nodes of a face, as a triangle of its own.
 void add_face(std::vector<TetrahedronWeights>& nodes, int order, int inset,
               const std::array<std::size_t, 3>& corners) {
   if (order < 3) return;
@@ -33,7 +33,7 @@ void add_side(std::vector<TetrahedronWeights>& nodes, int order, int inset, std:
   }
 }
 
-/// The corners of Kuhn's tetrahedra of a unit cube: along the axes in each order, those of odd orders turned.
+/// The corners of Kuhn's tetrahedra of a unit cube: along the axes in each order, with odd orders reversed.
 constexpr std::array<std::array<int, 3>, 6> axis_orders = {
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}}};
 
@@ -42,7 +42,7 @@ constexpr std::array<std::array<int, 3>, 6> axis_orders = {
 std::vector<TetrahedronWeights> tetrahedron_nodes(int order) {
   if (order < 1) throw std::invalid_argument("a Lagrange tetrahedron needs order 1 or more");
   std::vector<TetrahedronWeights> nodes;
-  // `inset` is how many lattice planes lie between a point and the nearest face.
+  // `inset`: number of lattice planes between a point and the nearest face.
   for (int inset = 0; 4 * inset <= order; ++inset) {
     const int n = order - 4 * inset;
     if (n == 0) {

@@ -18,7 +18,7 @@ double binomial(double z, int count) {
 std::vector<LatticeWeights> lagrange_nodes(int order) {
   if (order < 1) throw std::invalid_argument("a Lagrange triangle needs order 1 or more");
   std::vector<LatticeWeights> nodes;
-  // `ring` is how many lattice lines lie between a point and the nearest side.
+  // `ring`: number of lattice lines between a point and the nearest side.
   for (int ring = 0; 3 * ring <= order; ++ring) {
     const int n = order - 3 * ring;
     const auto add = [&](int i, int j, int k) { nodes.push_back({ring + i, ring + j, ring + k}); };

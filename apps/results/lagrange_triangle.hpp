@@ -1,6 +1,6 @@
-// Triangles that carry a polynomial of any order: VTK's Lagrange triangles (cell type 69). A face of a block
-// of order n is a polynomial of degree n on each flat triangle of the undeformed block, so its values at the
-// (n+1)(n+2)/2 lattice points of the triangle give back the face itself.
+// Triangles with a polynomial of any order: VTK's Lagrange triangles (cell type 69). A face of a block of order n is
+// a polynomial of degree n on each flat triangle of the undeformed block, so that its values at the (n+1)(n+2)/2
+// lattice points of the triangle determine it.
 //
 // A lattice point of order n is a triple of whole weights (i, j, k), i + j + k = n, and lies at
 // (i A + j B + k C) / n of the triangle A B C.

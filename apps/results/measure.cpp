@@ -18,7 +18,7 @@ int index_of(const Scene& scene, const std::string& name) {
   return static_cast<int>(block - scene.block.begin());
 }
 
-/// Gradient of the motion at a point, of a block of the total formulation.
+/// Gradient of the motion at a point, for a block of the total formulation.
 Eigen::Matrix3d gradient_at(const BlockModel& block, const BlockState& state, const Vector3& point) {
   return state.position.transpose() * block.basis().gradients(point);
 }
@@ -69,8 +69,8 @@ Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_
   const BlockModel& b = simulation.blocks()[at(pair.b)];
   if (a.incremental() != nullptr || b.incremental() != nullptr) return Vector3::Zero();
   const BlockState& state = simulation.states()[at(pair.a)];
-  // The two points met at the start of the step: how far they were apart when the blocks were placed, and what they
-  // have gone since.
+  // The two points coincided at the start of the step: distance between them at the initial placement, and their
+  // displacements since then.
   const Vector3 way = gradient_at(a, state, point.material_a) * (point.material_b - point.material_a) +
                       place_of(a, state, point.material_a) -
                       place_of(b, simulation.states()[at(pair.b)], point.material_b);

@@ -14,7 +14,7 @@ namespace ashlar {
 
 OutputFile::OutputFile(std::filesystem::path path, Start start) : path_(std::move(path)) {
   const int mode = start == Start::created ? O_CREAT | O_EXCL : start == Start::empty ? O_CREAT | O_TRUNC : 0;
-  // O_NONBLOCK: opening a pipe does not wait for a reader; of other files it means nothing.
+  // O_NONBLOCK: opening a pipe does not wait for a reader; no effect on other files.
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | mode, 0666);
   if (descriptor_ < 0) fail("open");
   struct stat status {};

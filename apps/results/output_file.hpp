@@ -1,5 +1,5 @@
-// An open output file whose every failure is an exception with the file's name and the system's reason.
-// Streams report neither, and a result that is silently cut short is worse than a run that stops.
+// An open output file whose failures are exceptions with the file's name and the system's reason. Streams provide
+// neither, and a silently truncated result is worse than an aborted run.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ class OutputFile {
   enum class Start {
     created,  ///< must not exist
     empty,    ///< created, or emptied if it exists
-    at_end,   ///< must exist; writing goes on after its last byte
+    at_end,   ///< must exist; writing starts after its last byte
   };
 
-  /// Links are not followed, and pipes are refused: they would wait for a reader.
+  /// Links are not followed, and pipes are refused, as they would wait for a reader.
   OutputFile(std::filesystem::path path, Start start);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
@@ -26,16 +26,17 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Hands all of `bytes` to the system at the current end. Nothing stays in this process, so they outlive
-  /// it, whatever ends it. After a failure the file is cut back to its length before the call.
+  /// Passes all of `bytes` to the system at the current end. Nothing is buffered in this process, so that they
+  /// survive its end. After a failure the file is truncated to its length before the call.
   void write(std::string_view bytes);
-  /// Keeps the first `size` bytes only; writing goes on there.
+  /// Keeps only the first `size` bytes; writing continues there.
   void truncate(std::uintmax_t size);
-  /// Waits until everything written is on the disk.
+  /// Waits until all data are on the disk.
   void sync();
-  /// @throws if the path names this file no more (removed, moved, replaced), or others have cut it or added bytes
+  /// @throws if the path no longer names this file (removed, moved, replaced), or others have truncated it or added
+  /// bytes
   void check_in_place() const;
-  /// Closes and reports what closing finds (network file systems report a full disk here).
+  /// Closes the file and reports errors found in closing (network file systems report a full disk here).
   void close();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

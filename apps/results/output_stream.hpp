@@ -1,5 +1,5 @@
-// Text written to the stream goes into an OutputFile at once: std::ostream stream(&buffer). Where that fails the stream
-// has badbit.
+// Stream buffer that passes text to an OutputFile at once: std::ostream stream(&buffer). On failure the stream has
+// badbit.
 #pragma once
 
 #include <streambuf>

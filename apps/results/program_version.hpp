@@ -1,4 +1,4 @@
-// What this program was built from and with, for --version and for the records of a run.
+// Versions of the program and its tools, for --version and for the records of a run.
 #pragma once
 
 #include <string>

@@ -12,18 +12,17 @@ struct PvdFrame {
   std::string file;  ///< relative to the folder of the .pvd file
 };
 
-/// Keeps a .pvd file complete: it is replaced atomically after each frame, so a killed run leaves one that
-/// ParaView opens with all frames written until then.
+/// Keeps a .pvd file complete: it is replaced atomically after each frame, so that ParaView can open the file of a
+/// killed run with all frames written before.
 class PvdWriter {
  public:
-  /// Writes the collection at once. @param frames those that a resumed run keeps.
+  /// Writes the collection at once. @param frames kept by a resumed run.
   /// @throws std::runtime_error with path and reason, here and in add_frame.
   explicit PvdWriter(std::filesystem::path path, std::vector<PvdFrame> frames = {});
 
-  /// To be called when the frame's own file is complete. Times are expected to increase. What fails adds
-  /// none.
+  /// To be called when the frame's own file is complete. Times must increase. A failed call adds no frame.
   void add_frame(double time, std::string file);
-  /// Forgets the last frame; the file names it until it is written again.
+  /// Removes the last frame; the file names it until it is written again.
   void drop_last() { frames_.pop_back(); }
 
   [[nodiscard]] const std::vector<PvdFrame>& frames() const { return frames_; }

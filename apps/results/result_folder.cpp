@@ -19,7 +19,7 @@
 namespace ashlar {
 namespace {
 
-/// "blocks_0000010.vtu" and the like, or what a killed run left of one
+/// "blocks_0000010.vtu" and the like, or an incomplete one of a killed run
 bool is_frame_name(std::string_view name) {
   for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_"}) {
     if (!name.starts_with(start)) continue;
@@ -38,9 +38,9 @@ void remove_frames_but(const std::filesystem::path& folder, const std::set<std::
   }
 }
 
-/// Results of an earlier run must not be taken for those of the one that starts. Its checkpoint is replaced
-/// by the first one of this run: until then, tables that are not there or not those of the checkpoint keep it from
-/// being used, so that they go before the frames that it counts on.
+/// Results of an earlier run must not be mistaken for those of the new one. Its checkpoint is replaced by the first
+/// one of this run. Until then it cannot be used without its tables, so that these are removed before the frames that
+/// it relies on.
 std::filesystem::path emptied(std::filesystem::path folder) {
   std::error_code error;
   std::filesystem::create_directories(folder / "frames", error);
@@ -48,7 +48,7 @@ std::filesystem::path emptied(std::filesystem::path folder) {
     throw std::runtime_error(
         fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
   }
-  // Removed, not emptied: other names of these files keep what they have.
+  // Removed, not emptied: other names of these files keep their content.
   for (const char* name : {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd"})
     std::filesystem::remove(folder / name);
   remove_frames_but(folder, {});
@@ -292,7 +292,7 @@ void ResultFolder::add_end(const Simulation& simulation) {
 bool ResultFolder::frame_is_due(const Simulation& simulation) const {
   if (simulation.steps() == progress_.last_frame_step) return false;
   if (output_.every) return simulation.steps() % *output_.every == 0;
-  // Half a step early is as near as half a step late.
+  // Half a step early is as close as half a step late.
   const double due = progress_.intervals_written * output_.interval.value_or(0.0);
   return simulation.time() + 0.5 * simulation.report().step >= due;
 }
@@ -310,7 +310,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   };
   std::vector<std::string> names;
   for (const BlockModel& block : simulation.blocks()) names.push_back(block.name());
-  // Asked before each file, when all of its bytes are there: another folder in the place of this one is noticed.
+  // Checked before each file, when all of its bytes are ready: detects a folder replaced by another one.
   const auto write = [&](const std::string& name, UnstructuredGrid grid) {
     grid.time = progress_.elapsed + simulation.time();
     grid.block_names = names;
@@ -331,7 +331,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
       shown(block_frame, drawn_.surfaces));
   add(contacts_, "contacts", contact_frame(simulation));
   add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
-  // What fails leaves none of them.
+  // After a failure none of them remains.
   std::vector<PvdWriter*> added;
   try {
     for (const auto& [to, file] : series) {
@@ -357,7 +357,7 @@ void ResultFolder::add_contact_rows(const Simulation& simulation) {
     for (std::size_t k = 0; k < pair.points.size(); ++k) {
       const ContactPoint& point = pair.points[k];
       const PointResponse& response = pair.responses[k];
-      // A point that is open at the end may have pushed in the step.
+      // A point that is open at the end may have transmitted force in the step.
       if (response.state != ContactState::open) {
         ++count[static_cast<std::size_t>(point.type)];
         area += point.area;

@@ -20,8 +20,8 @@
 
 namespace ashlar {
 
-/// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy,
-/// syz, sxz; Pa, tension positive); of a run in stages `stage` last.
+/// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy, syz,
+/// sxz; Pa, tension positive); for a run in stages `stage` last.
 [[nodiscard]] std::vector<std::string> history_columns(const std::vector<Measure>& measures,
                                                        bool in_stages = false);
 
@@ -31,23 +31,22 @@ namespace ashlar {
                                               const std::vector<Measure>& measures,
                                               const DisplacementOrigin& origin = {}, int stage = 0);
 
-/// All contact points of the last step: gap, force and normal on the first block, area, type, state and both
-/// blocks.
+/// All contact points of the last step: gap, force and normal on the first block, area, type, state and both blocks.
 [[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
 
-/// Where in a run in stages its results begin.
+/// Start of the results in a staged analysis.
 struct StagePlace {
-  int stage = 1;         ///< 1-based; of no meaning if the scene has no stages
+  int stage = 1;         ///< 1-based; unused if the scene has no stages
   double elapsed = 0.0;  ///< s, of all stages before
-  /// Displacements count from here, if it is not empty; else as the first stage asks.
+  /// Subtracted from displacements unless empty; otherwise as the first stage specifies.
   DisplacementOrigin origin;
 };
 
-/// The present displacements of the points of measures and of what frames show.
+/// The present displacements of the points of measures and of drawn points.
 [[nodiscard]] DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
                                            const DrawnBlocks& drawn);
 
-/// What has been added so far.
+/// Progress of the files.
 struct ResultProgress {
   int last_row_step = -1;  ///< in history.csv
   int last_frame_step = -1;
@@ -57,7 +56,7 @@ struct ResultProgress {
   DisplacementOrigin origin;
 };
 
-/// How far the files are; a checkpoint holds it.
+/// State of the files, stored in a checkpoint.
 struct ResultFolderState {
   std::vector<PvdFrame> block_frames;
   std::vector<PvdFrame> surface_frames;  ///< empty unless output.solid
@@ -67,39 +66,38 @@ struct ResultFolderState {
   ResultProgress progress;
 };
 
-/// Writes everything but the summary and the checkpoint; files of frames are in `frames/`. Errors are
+/// Writes all results except the summary and the checkpoint; files of frames are in `frames/`. Errors are
 /// std::runtime_error with path and reason.
 class ResultFolder {
  public:
-  /// Removes the results of an earlier run in the folder but for its checkpoint, which the first one of this
-  /// run replaces, and adds the simulation's present step.
-  /// @param folder that the program has claimed (folder_claim.hpp). @param scene the whole one, of all stages
+  /// Removes the results of an earlier run in the folder except for its checkpoint, which the first one of this run
+  /// replaces, and adds the simulation's present step.
+  /// @param folder claimed by the program (folder_claim.hpp). @param scene the whole one, of all stages
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                const StagePlace& place = {});
 
-  /// Goes on in the folder of an earlier run: what was written after `state` was taken is dropped, and what
-  /// could not be written of the step then is made good.
-  /// @param simulation as it was then
+  /// Continues in the folder of an earlier run: removes data written after `state`, and writes data of its step that
+  /// could not be written then.
+  /// @param simulation at that time
   ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
                const ResultFolderState& state);
 
-  /// Called after every accepted step. What fails to be written is not in state() either.
-  /// @throws std::runtime_error also if a table or the folder of frames is not there any more, or was changed by others
+  /// To be called after every accepted step. Data that cannot be written are not in state() either.
+  /// @throws std::runtime_error also if a table or the folder of frames no longer exists, or was changed by others
   void add_step(const Simulation& simulation);
-  /// Of a run in stages: what follows is of another one. To be called when the last one has been added by
-  /// add_end().
+  /// Starts another stage of a staged analysis. To be called after add_end() for the last one.
   /// @param simulation at the start of the stage. @param elapsed s, of all stages before
   void begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement);
-  /// Adds row and frame of the end of a run or stage, which are there whether they are due or not. A run that goes on
-  /// from a checkpoint before drops them.
+  /// Adds row and frame of the end of a run or stage, whether they are due or not. A run continued from an earlier
+  /// checkpoint removes them.
   void add_end(const Simulation& simulation);
 
-  /// Displacements count from where the last stage has set them back.
+  /// Largest values, with displacements relative to the last reset by a stage.
   [[nodiscard]] LargestValues largest(const Simulation& simulation) const {
     return largest_values(simulation, drawn_.surfaces, progress_.origin.surfaces);
   }
 
-  /// Waits until the tables are on the disk; a checkpoint counts on them.
+  /// Waits until the tables are on the disk, as a checkpoint relies on them.
   [[nodiscard]] ResultFolderState synced_state();
 
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
@@ -120,7 +118,7 @@ class ResultFolder {
   std::vector<SubFaceSurface> joint_surfaces_;
   HistoryWriter history_;
   PvdWriter blocks_;
-  std::optional<PvdWriter> surfaces_;  ///< where blocks_ shows volumes: their surfaces, for the page
+  std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page
   PvdWriter contacts_;
   PvdWriter joints_;
   OutputFile contact_rows_;

@@ -1,5 +1,5 @@
-// The public face of this layer, installed as <ashlar/results.hpp>: runs of scenes step by step, result folders, and
-// tables read back. Headers that this one does not reach are internal and not installed.
+// The public interface of this layer, installed as <ashlar/results.hpp>: stepwise runs of scenes, result folders, and
+// tables read back. Headers not included from here are internal and not installed.
 #pragma once
 
 #include "apps/results/folder_claim.hpp"

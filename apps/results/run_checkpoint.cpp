@@ -14,10 +14,10 @@ namespace ashlar {
 namespace {
 
 constexpr std::string_view magic = "ashlar checkpoint\n";
-/// To be raised where what is stored means something else, though its members are the same.
+/// To be increased if stored values change their meaning but not their layout.
 constexpr std::uint64_t meaning_version = 1;
 
-/// What follows the magic line; then comes the payload, and its hash.
+/// Follows the magic line; precedes the payload and its hash.
 struct Header {
   std::uint32_t layout = checkpoint_layout();
   std::uint64_t scene = 0;

@@ -1,4 +1,4 @@
-// The file `checkpoint` of a result folder: what `ashlar run --resume` goes on from.
+// The file `checkpoint` of a result folder, from which `ashlar run --resume` continues.
 #pragma once
 
 #include <cstdint>
@@ -17,33 +17,33 @@ namespace ashlar {
 /// A run between two steps.
 struct RunCheckpoint {
   SimulationSnapshot simulation;      ///< of the present stage
-  std::vector<FinishedStage> stages;  ///< those before
+  std::vector<FinishedStage> stages;  ///< earlier stages
   ResultFolderState folder;
   RunSeconds seconds;
   ContactChanges changes;  ///< of static iterations of the present stage
 };
 
-/// Why a run cannot go on: no checkpoint, a damaged one, or one of another scene. what() reads as a message
+/// Reason why a run cannot be continued: no checkpoint, a damaged one, or one of another scene. what() is a message
 /// to the user.
 struct CheckpointError : std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-/// That of another scene.
+/// Checkpoint of another scene.
 struct OtherSceneError : CheckpointError {
   using CheckpointError::CheckpointError;
 };
 
-/// Number of the present layout of the file; another one is refused.
+/// Number of the present layout of the file; others are refused.
 [[nodiscard]] std::uint32_t checkpoint_layout();
 
-/// Replaces the file as a whole; it outlives a power failure. @param hash of the scene (scene_identity.hpp).
+/// Replaces the file as a whole; it survives a power failure. @param hash of the scene (scene_identity.hpp).
 /// @return its bytes
 /// @throws std::runtime_error with path and reason
 std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
                                 const RunCheckpoint& checkpoint);
 
-/// @param hash of the scene that is to go on. @throws CheckpointError
+/// @param hash of the scene to be continued. @throws CheckpointError
 [[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash);
 
 }  // namespace ashlar

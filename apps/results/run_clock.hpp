@@ -1,4 +1,4 @@
-// Wall time inside the calls of a run: what its caller does in between does not count.
+// Wall time within the calls of a run, without the time between them.
 #pragma once
 
 #include <chrono>
@@ -25,12 +25,12 @@ class RunClock {
     RunClock& clock_;
   };
 
-  /// The setup began at a time of now() and is over.
+  /// Ends the setup, which began at a time of now().
   void note_setup(double start) { seconds_.total = seconds_.setup = now() - start; }
   /// For a Stopwatch.
   [[nodiscard]] double& output() { return seconds_.output; }
 
-  /// s, with the present call so far.
+  /// s, including the present call so far.
   [[nodiscard]] RunSeconds seconds() const {
     RunSeconds all = seconds_;
     if (call_start_) all.total += now() - *call_start_;

@@ -1,4 +1,4 @@
-// What a run knows of itself beside its simulation: how it went, how long it took, which stages it has been through.
+// Data of a run besides its simulation: status, times, finished stages.
 #pragma once
 
 #include <string>
@@ -9,29 +9,30 @@
 
 namespace ashlar {
 
-/// Wall time of the parts of a run, s; of a resumed one with what came before.
+/// Wall time of the parts of a run, s; of a resumed one including earlier sessions.
 struct RunSeconds {
   double total = 0.0;
   double setup = 0.0;
   double output = 0.0;
 };
 
-/// A stage of a run that has come to its end.
+/// A finished stage of a run.
 struct FinishedStage {
   std::string status;   ///< as in summary.json
-  std::string message;  ///< empty: nothing to tell
+  std::string message;  ///< empty: no message
   int steps;            ///< of the run, at its end
   double time;          ///< s, at its end
 };
 
-/// What only the run itself knows of its end.
+/// Data of a run at its end that the simulation does not have.
 struct RunOutcome {
   RunStatus status;
-  std::string message;  ///< what has to be told of how it ended; empty: nothing
+  std::string message;  ///< message about the end; empty: none
   RunSeconds seconds;
   int frames;
   LargestValues largest;
-  std::vector<FinishedStage> stages;  ///< those that have begun, with the present one; none: not written
+  std::vector<FinishedStage> stages;  ///< those that have begun, including the present one; empty: not
+                                      ///< written
 };
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// How a run has come out, in a word and in sentences: for the summary, for messages, for whoever steps it.
+// Status of a run as a word and as text: for the summary, for messages, and for callers that step it.
 #pragma once
 
 #include <string>
@@ -14,32 +14,32 @@ enum class RunStatus {
   failed,         ///< "failed": a step could not be taken
   interrupted,    ///< "interrupted"
   equilibrium,    ///< "equilibrium": a static analysis found it
-  moving,         ///< "moving": a static analysis found that there is none near: blocks move
-  not_converged,  ///< "not converged": a static analysis found neither
+  moving,         ///< "moving": a static analysis found none near: blocks move
+  not_converged,  ///< "not converged": a static analysis was inconclusive
 };
 [[nodiscard]] std::string to_string(RunStatus status);
 
-/// A block that a static analysis has taken far.
+/// A block displaced by a static analysis.
 struct DisplacedBlock {
   int block;
-  double distance;  ///< root mean square over the block from where it was placed, m
+  double distance;  ///< root mean square over the block from its initial placement, m
 };
-/// Of a block's size: how far a block is from its place that is no more where it was built.
+/// Of a block's size: displacement from which on a block is no longer at its initial placement.
 inline constexpr double displaced_share = 0.1;
-/// Blocks farther than that share of their size from where they were placed, those on supports that move left
-/// out: what they rest in is not what was built.
+/// Blocks displaced from their initial placement by more than that share of their size, except those on moving
+/// supports: they are in equilibrium in another structure than the one built.
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
 /// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2", of the first five; "3 more blocks move"
 [[nodiscard]] std::string describe_motion(const Simulation& simulation);
 
-/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if none is.
+/// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if there is none.
 [[nodiscard]] std::string describe_displaced(const Simulation& simulation);
 
-/// "block A", of blocks that are too deep in each other with depth, place and what is allowed.
+/// "block A", for blocks that penetrate too deep with depth, place and allowed depth.
 [[nodiscard]] std::string description_of(const StateFault& fault, const Simulation& simulation);
 
-/// Why a step was rejected, with the blocks and the place where that is known.
+/// Reason for the rejection of a step, with the blocks and the place if known.
 [[nodiscard]] std::string reason_of(const Rejection& rejection, const Simulation& simulation);
 
 }  // namespace ashlar

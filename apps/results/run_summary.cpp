@@ -82,7 +82,7 @@ nlohmann::ordered_json fixed_blocks_of(const Simulation& simulation) {
   return list;
 }
 
-/// Null if no base is moved.
+/// Motion of the base; null if no base is moved.
 nlohmann::ordered_json base_of(const Scene& scene) {
   const std::optional<std::size_t> base = moved_base(scene);
   if (!base) return nullptr;
@@ -108,7 +108,7 @@ nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& si
           {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
 }
 
-/// Pairs of blocks that are placed in each other by more than rounding.
+/// Pairs of blocks with an initial overlap beyond rounding error.
 nlohmann::ordered_json known_overlaps_of(const BuiltSimulation& built) {
   const auto name = [&](int block) {
     return built.simulation.blocks()[static_cast<std::size_t>(block)].name();
@@ -123,7 +123,7 @@ nlohmann::ordered_json known_overlaps_of(const BuiltSimulation& built) {
   return list;
 }
 
-/// Null where there is none.
+/// Null if there is none.
 nlohmann::ordered_json json_of(const std::optional<PlacedValue>& largest, const Simulation& simulation) {
   if (!largest) return nullptr;
   const Vector3& place = largest->place;

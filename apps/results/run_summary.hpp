@@ -1,4 +1,4 @@
-// summary.json: what a run did, what it skipped, how long it took and how well its energies add up.
+// summary.json: work done and skipped by a run, its times and its energy balance.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,15 +9,15 @@
 
 namespace ashlar {
 
-/// @param scene of the whole run. @param identity of the same
+/// @param scene of the whole run. @param identity of that scene
 [[nodiscard]] nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
                                                  const BuiltSimulation& built, const RunOutcome& outcome);
 
-/// Joints that have lost their strength since the start of the run.
+/// Joints that have failed since the start of the run.
 struct BrokenJoints {
-  int pairs = 0;         ///< of blocks, that have lost any
+  int pairs = 0;         ///< pairs of blocks with failed area
   double area = 0.0;     ///< m^2
-  double of_area = 0.0;  ///< m^2, of all joints that had strength to lose
+  double of_area = 0.0;  ///< m^2, of all joints with strength
 };
 [[nodiscard]] BrokenJoints broken_joints(const Simulation& simulation);
 

@@ -28,7 +28,7 @@ std::uint64_t hash_of(const LoadedScene& loaded, Json json) {
   return hash;
 }
 
-/// Every key `file` of a scene is a path; a record has the hash of what was read beside it.
+/// Every key `file` of a scene is a path; a record has the hash of the content that was read.
 void add_files(const Json& json, const std::filesystem::path& folder, std::vector<SceneFile>& files) {
   if (!json.is_structured()) return;
   if (json.is_object() && json.contains("file") && json["file"].is_string()) {

@@ -1,4 +1,4 @@
-// Identity of a run's input: the one answer that a summary states, a sweep compares and a checkpoint is bound to.
+// Identity of a run's input: stated in a summary, compared by a sweep and required by a checkpoint.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace ashlar {
 
-/// A file that a scene names, as it was when the scene was read.
+/// A file named by a scene, at the time when the scene was read.
 struct SceneFile {
   std::string kind;    ///< "mesh" or "record"
   std::string file;    ///< as the scene names it
@@ -19,9 +19,9 @@ struct SceneFile {
 struct SceneIdentity {
   std::string version;                  ///< of the program
   std::uint32_t checkpoint_layout = 0;  ///< see run_checkpoint.hpp
-  /// Of the scene as used: every key with defaults and overrides, what it includes, SHA-256 of records, points and
-  /// triangles of every block. Left out are analysis.end_time, and that of the last stage, as a run may go on beyond its
-  /// end, and what no result depends on: title, analysis.memory_limit.
+  /// Hash of the scene as used: every key with defaults and overrides, included files, SHA-256 of records, points and
+  /// triangles of every block. Excluded are analysis.end_time, and that of the last stage, as a run may continue
+  /// beyond its end, and keys without influence on results: title, analysis.memory_limit.
   std::uint64_t scene = 0;
   std::vector<SceneFile> files;  ///< each once, in the order of the scene
 };

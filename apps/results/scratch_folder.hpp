@@ -1,4 +1,4 @@
-// A folder for files that nobody needs afterwards.
+// A folder for temporary files.
 #pragma once
 
 #include <stdlib.h>
@@ -11,11 +11,10 @@
 
 namespace ashlar {
 
-/// A new folder, readable for its owner alone, among the system's temporary ones; it is gone with this
-/// object.
+/// A new folder, readable by its owner only, among the system's temporary ones. Removed with this object.
 class ScratchFolder {
  public:
-  /// @throws std::system_error if it cannot be made
+  /// @throws std::system_error if it cannot be created
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "ashlar-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);

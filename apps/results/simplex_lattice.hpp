@@ -1,7 +1,7 @@
-// Points between the corners of triangles and tetrahedra, of which neighbours share those of their common sides.
+// Points between the corners of triangles and tetrahedra, shared by neighbours on common sides.
 //
-// A lattice point of order n has a whole weight for each corner, not negative, whose sum is n; it lies at the mean of the
-// corners with these weights.
+// A lattice point of order n has an integer weight >= 0 for each corner, with sum n. It is the mean of the corners
+// with these weights.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace ashlar {
 template <std::size_t corners>
 struct SimplexLattice {
   using Weights = std::array<int, corners>;
-  /// Where a point lies; of a shared one in the first cell that has it.
+  /// Position of a point; for a shared one in the first cell that has it.
   struct Point {
     std::size_t cell;
     Weights weights;
@@ -30,7 +30,7 @@ struct SimplexLattice {
 template <std::size_t corners>
 [[nodiscard]] SimplexLattice<corners> simplex_lattice(const std::vector<std::array<int, corners>>& cells,
                                                       const std::vector<std::array<int, corners>>& weights) {
-  // Corners with the weight they have in a point: the same from whichever cell it is seen.
+  // Corners with their weights in a point: the same in every cell that has it.
   using Key = std::array<std::pair<int, int>, corners>;
   SimplexLattice<corners> lattice;
   std::map<Key, int> known;

@@ -1,6 +1,6 @@
-// A number that stands for how values of a type are stored (solver/run/byte_archive.hpp): another one as soon as a member of
-// any struct in it is added, left out, moved or of another type. Not if members of the same type change places, or mean
-// something else.
+// Hash of the stored layout of a type (solver/run/byte_archive.hpp). It changes as soon as a member of any contained
+// struct is added, removed, moved or changed in type. It does not change if members of the same type are swapped, or
+// change their meaning.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +17,10 @@
 
 namespace ashlar {
 
-/// Visits what is stored of values without any of their elements: each container is visited as if it had one.
+/// Visits the stored members of values without any elements: each container is visited as if it had one.
 class StoredLayout {
  public:
-  /// @param version of what values mean
+  /// @param version of the meaning of values
   explicit StoredLayout(std::uint64_t version) : hash_(version) {}
 
   template <class... Values>
@@ -105,7 +105,7 @@ class StoredLayout {
   std::uint64_t hash_;
 };
 
-/// Of values of a type.
+/// Layout of a type.
 template <class T>
 [[nodiscard]] std::uint64_t stored_layout(std::uint64_t version = 0) {
   T value{};

@@ -1,4 +1,4 @@
-// A long series of which an even selection is kept.
+// An even selection of a long series.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace ashlar {
 
-/// Keeps items 0, s, 2s, ... and those named at the start, s being the smallest power of two with which the
-/// sum of costs stays within a limit. Items come in order; at no time is more held than the limit and the
-/// item just added. Items named at the start, and item 0, are kept whatever they cost.
+/// Keeps items 0, s, 2s, ... and those named at the start. s is the smallest power of two for which the sum of costs
+/// stays within a limit. Items are added in order. Memory never exceeds the limit plus the item just added. Items
+/// named at the start, and item 0, are kept at any cost.
 template <class T>
 class ThinnedSeries {
  public:
@@ -20,13 +20,13 @@ class ThinnedSeries {
     T value;
   };
 
-  /// @param kept indices of items that are never left out
+  /// @param kept indices of items that are never dropped
   ThinnedSeries(std::size_t limit, std::set<std::size_t> kept) : limit_(limit), kept_(std::move(kept)) {}
 
-  /// Whether the item would be kept so far; one that would not need not be made.
+  /// True if the item would be kept at present; others need not be computed.
   [[nodiscard]] bool wants(std::size_t index) const { return index % stride_ == 0 || kept_.contains(index); }
 
-  /// @param index larger than that of the item before
+  /// @param index larger than that of the last item
   void add(std::size_t index, T value, std::size_t cost) {
     if (!wants(index)) return;
     items_.push_back({index, cost, std::move(value)});

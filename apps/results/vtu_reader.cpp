@@ -39,11 +39,10 @@ std::string required_attribute(std::string_view tag, std::string_view name) {
   return *std::move(value);
 }
 
-/// What the arrays of one file may take in memory together, whatever it claims.
+/// Memory limit for the arrays of one file, independent of the sizes it claims.
 ///
-/// Deflate never gives more than 1032 bytes for one, which bounds each block. A frame as a whole compresses
-/// far less, for no two points and no two cells are alike: the writer's effort gives 192 for one on zeros
-/// alone.
+/// Deflate never expands by more than 1032, which bounds each block. A frame as a whole compresses far less, as all
+/// points and cells differ: at the writer's level zeros alone give a ratio of 192.
 class Allowance {
  public:
   explicit Allowance(std::size_t file_bytes) : left_(free_bytes + most_expansion * file_bytes) {}
@@ -59,7 +58,7 @@ class Allowance {
   std::size_t left_;
 };
 
-/// Reads one array of the appended data, laid out as append_compressed of the writer does.
+/// Reads one array of the appended data in the layout of the writer's append_compressed.
 class CompressedArray {
  public:
   CompressedArray(std::string_view appended, std::size_t offset) : bytes_(appended) {
@@ -82,12 +81,12 @@ class CompressedArray {
     end_ = appended.size() - left;
   }
 
-  /// Where the array ends in the appended data.
+  /// End of the array in the appended data.
   [[nodiscard]] std::size_t end() const { return end_; }
 
   template <class T>
   std::vector<T> values(std::size_t tuples, std::size_t components, Allowance& allowance) {
-    // Division, as the product of what a file claims may wrap round.
+    // By division, as the product of claimed sizes may overflow.
     const std::size_t tuple_bytes = components * sizeof(T);
     if (size_ % tuple_bytes != 0 || size_ / tuple_bytes != tuples)
       fail(fmt::format("an array of {} bytes for {} x {} values", size_, tuples, components));
@@ -138,7 +137,7 @@ class CompressedArray {
   std::size_t end_ = 0;
 };
 
-/// The grid as it grows, element by element of the file.
+/// The grid during reading, element by element of the file.
 class GridReader {
  public:
   GridReader(std::string_view appended, std::size_t file_bytes)
@@ -229,7 +228,7 @@ class GridReader {
     }
   }
 
-  /// Else many arrays could be made of the same bytes.
+  /// Prevents a file from claiming the same bytes for many arrays.
   void take_bytes(std::size_t start, std::size_t end) {
     const auto [place, is_new] = taken_.try_emplace(start, end);
     const bool overlaps = !is_new || (std::next(place) != taken_.end() && std::next(place)->first < end) ||
@@ -294,7 +293,7 @@ class GridReader {
   Section section_ = Section::none;
   bool in_field_data_ = false;
   bool in_names_ = false;       ///< of blocks, in the field data
-  std::size_t names_left_ = 0;  ///< of those that the array says it has
+  std::size_t names_left_ = 0;  ///< number of names still to be read
   bool has_piece_ = false;
   std::size_t points_ = 0;
   std::size_t cells_ = 0;

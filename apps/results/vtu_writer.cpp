@@ -20,17 +20,17 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the files are declared little-endian");
 static_assert(sizeof(Vector3) == 3 * sizeof(double), "points are written as they lie in memory");
 
-// VTK's own block size; a reader unpacks the data block by block.
+// VTK's own block size; a reader decompresses the data block by block.
 constexpr std::size_t kBlockBytes = std::size_t{1} << 15;
-// Coordinates and stresses hardly compress: more effort costs four times the time for a few per cent.
+// Coordinates and stresses hardly compress: higher levels take four times as long for a few per cent.
 constexpr int kCompressionLevel = Z_BEST_SPEED;
 
 void append_uint64(std::string& bytes, std::uint64_t number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-// Appends the array as vtkZLibDataCompressor expects it: number of blocks, bytes of a block, bytes of the
-// last block if that is shorter (else 0), compressed bytes of each block, then the compressed blocks.
+// Appends the array as vtkZLibDataCompressor expects it: number of blocks, bytes of a block, bytes of the last block
+// if that is shorter (otherwise 0), compressed bytes of each block, then the compressed blocks.
 void append_compressed(std::string& bytes, std::span<const std::byte> data) {
   const std::size_t block_count = (data.size() + kBlockBytes - 1) / kBlockBytes;
   std::string blocks;
@@ -52,13 +52,13 @@ void append_compressed(std::string& bytes, std::span<const std::byte> data) {
   bytes += blocks;
 }
 
-// An array of the file: what stands before its place in the XML, and its bytes.
+// An array of the file: the XML text before its place, and its bytes.
 struct PlacedArray {
   std::string element;
   std::span<const std::byte> values;
 };
 
-// The XML elements, with the arrays whose places in the appended bytes they name.
+// The XML elements, and the arrays with their places in the appended bytes.
 class VtuText {
  public:
   void add(std::string_view text) { pending_ += text; }
@@ -83,9 +83,9 @@ class VtuText {
     }
   }
 
-  // The last array's bytes come first. meshio moves every array in turn, in the order of the bytes, and looks the
-  // next one up by its offset, first element first: in the order of the elements it may find one that it has moved
-  // to that very offset (meshio 5.0 to 5.3, _parse_raw_binary).
+  // The last array's bytes come first. meshio moves every array in turn, in the order of the bytes, and looks up the
+  // next one by its offset, first element first. In the order of the elements it may find one that it has moved to
+  // that very offset (meshio 5.0 to 5.3, _parse_raw_binary).
   [[nodiscard]] std::pair<std::string, std::string> elements_and_bytes() const {
     std::string elements, appended;
     std::vector<std::size_t> offsets(arrays_.size());
@@ -151,7 +151,7 @@ void add_data(VtuText& text, std::string_view tag, const std::vector<DataArray>&
   text.add(fmt::format("      </{}>\n", tag));
 }
 
-/// What belongs to the file as a whole. Strings are numbers of their bytes, each with a zero at its end.
+/// Data of the file as a whole. Strings are arrays of their bytes, each with a zero at its end.
 std::string field_data(const UnstructuredGrid& grid) {
   if (!grid.time && grid.block_names.empty()) return {};
   std::string text = "    <FieldData>\n";

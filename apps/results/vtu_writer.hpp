@@ -1,6 +1,6 @@
 // Frames for ParaView: an unstructured grid with data on its points and cells as a VTK XML file (.vtu),
-// little-endian, zlib-compressed, binary data appended raw as ParaView itself writes it, in an order of bytes that meshio
-// reads too (it refuses the names of blocks).
+// little-endian, zlib-compressed, with binary data appended raw as by ParaView itself. The order of bytes suits
+// meshio too (which rejects the names of blocks).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace ashlar {
 
-/// Cells with VTK's numbers for them.
+/// Cells with VTK's numbers.
 enum class VtkCellType : std::uint8_t {
   vertex = 1,                 ///< one point
   line = 3,                   ///< two points
@@ -29,8 +29,8 @@ enum class VtkCellType : std::uint8_t {
 /// Largest number of components of a field: a tensor has nine.
 inline constexpr int most_components = 9;
 
-/// One field. ParaView shows 3 components as a vector and 9 (row by row) as a tensor; it takes 6 as a
-/// symmetric tensor in the order xx, yy, zz, xy, yz, xz.
+/// One field. ParaView shows 3 components as a vector and 9 (row by row) as a tensor; it reads 6 as a symmetric
+/// tensor in the order xx, yy, zz, xy, yz, xz.
 struct DataArray {
   std::string name;
   int components = 1;                        ///< values of each point or cell, 1 to most_components
@@ -39,22 +39,22 @@ struct DataArray {
       values;  ///< (#points or #cells x components), point after point
 };
 
-/// What one file holds. Empty grids are valid: a frame without contacts has no points.
+/// Content of one file. Empty grids are valid: a frame without contacts has no points.
 struct UnstructuredGrid {
   std::vector<Vector3> points;     ///< (#points), m
   std::vector<int> connectivity;   ///< point indices, cell after cell
-  std::vector<int> offsets;        ///< (#cells), where in `connectivity` each cell ends
+  std::vector<int> offsets;        ///< (#cells), end of each cell in `connectivity`
   std::vector<VtkCellType> types;  ///< (#cells)
   std::vector<DataArray> point_data;
   std::vector<DataArray> cell_data;
   std::optional<double> time;            ///< s, VTK's TimeValue
-  std::vector<std::string> block_names;  ///< UTF-8, by the numbers of a field `block`; none: not written
+  std::vector<std::string> block_names;  ///< UTF-8, by the numbers of a field `block`; empty: not written
 
   void add_cell(VtkCellType type, std::span<const int> cell_points);
 };
 
-/// @throws std::invalid_argument if a size, an offset or an index does not fit, or two arrays of the points
-/// (or of the cells) share a name.
+/// @throws std::invalid_argument if a size, an offset or an index is invalid, or two arrays of the points (or of the
+/// cells) share a name.
 void validate(const UnstructuredGrid& grid);
 
 /// @return the bytes of the .vtu file. @throws as validate.

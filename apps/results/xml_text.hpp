@@ -9,7 +9,7 @@
 
 namespace ashlar {
 
-/// @return `text` with the characters that XML reserves replaced by their entities.
+/// @return `text` with the characters reserved in XML replaced by their entities.
 [[nodiscard]] inline std::string escape_xml(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
@@ -34,7 +34,7 @@ namespace ashlar {
   return escaped;
 }
 
-/// @return `text` with the entities that escape_xml writes replaced by their characters; others stay.
+/// @return `text` with the entities of escape_xml replaced by their characters; others are kept.
 [[nodiscard]] inline std::string unescape_xml(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, char>, 4> entities = {
       {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}}};
@@ -54,8 +54,8 @@ namespace ashlar {
   return plain;
 }
 
-/// The value of an attribute of a tag, ` name="value"`, as a program of this project wrote it. Values before
-/// it are passed over, whatever they hold.
+/// The value of an attribute of a tag, ` name="value"`, as written by a program of this project. Earlier values are
+/// skipped, whatever they contain.
 /// @return unescaped; empty if the tag has no such attribute.
 [[nodiscard]] inline std::optional<std::string> xml_attribute(std::string_view tag, std::string_view name) {
   constexpr std::string_view start = "=\"";

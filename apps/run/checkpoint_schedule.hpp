@@ -1,4 +1,4 @@
-// When a run saves itself, by wall time.
+// Schedule of a run's checkpoints, by wall time.
 #pragma once
 
 #include <algorithm>
@@ -6,12 +6,12 @@
 
 namespace ashlar {
 
-/// Due 1 s after the start, then after 2, 4, ... s up to 60 s more each, so that a short run that is killed
-/// loses little and a long one does not write all the time; or at a fixed distance.
+/// Due 1 s after the start, then at intervals that double up to 60 s, or at a fixed interval. A short run that is
+/// killed loses little, and a long one does not write all the time.
 class CheckpointSchedule {
  public:
   static constexpr double first_interval = 1.0;     ///< s
-  static constexpr double longest_interval = 60.0;  ///< s: what a run that is killed loses at most
+  static constexpr double longest_interval = 60.0;  ///< s: largest loss of a run that is killed
 
   /// @param interval s, >= 0; 0: after every step. @param now s, wall time
   CheckpointSchedule(std::optional<double> interval, double now)
@@ -19,7 +19,7 @@ class CheckpointSchedule {
 
   [[nodiscard]] bool due(double now) const { return now - saved_at_ >= interval_; }
 
-  /// To be told when a checkpoint that was due is written; the next one counts from there.
+  /// To be called when a checkpoint that was due is written; the next interval starts then.
   void saved(double now) {
     saved_at_ = now;
     if (!fixed_) interval_ = std::min(2.0 * interval_, longest_interval);

@@ -15,7 +15,7 @@ std::string text_of(const Vector3& vector) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0);
 }
 
-/// Why a stage removes contacts.
+/// Reason for which a stage removes contacts.
 const char* reason_of(ContactStage stage) {
   switch (stage) {
     case ContactStage::search:
@@ -32,7 +32,7 @@ const char* reason_of(ContactStage stage) {
   return "";
 }
 
-/// Where a contact comes from, unless the search found it.
+/// Origin of a contact, unless the search found it.
 const char* origin_of(ContactStage stage) {
   switch (stage) {
     case ContactStage::occluded_faces:
@@ -44,7 +44,7 @@ const char* origin_of(ContactStage stage) {
   }
 }
 
-/// Two blocks by name.
+/// Names of two blocks.
 struct Names {
   std::string a;
   std::string b;
@@ -74,7 +74,7 @@ std::string line_of(const ExplainedContact& contact, const Names& names) {
   return line + '\n';
 }
 
-/// Why there are no contacts to list.
+/// Reason for the absence of contacts.
 std::string without_contacts(const ContactExplanation& explanation) {
   switch (explanation.search) {
     case PairSearch::both_held:

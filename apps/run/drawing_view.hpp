@@ -1,4 +1,4 @@
-// Blocks that may move, seen along the horizontal direction in which they extend least, as an SVG drawing.
+// Moving blocks as an SVG drawing, projected along the horizontal direction of their smallest extent.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace ashlar {
 
 class DrawingView {
  public:
-  /// Where a point of a block is drawn, m. @param point as placed
+  /// Place of a point of a block in the drawing, m. @param point as placed
   using PlaceOf = std::function<Vector3(int block, const Vector3& point)>;
 
   struct Note {
@@ -20,14 +20,14 @@ class DrawingView {
     std::string text;  ///< without <, > and &
   };
 
-  /// @param place empty: blocks lie as they are placed
+  /// @param place empty: blocks are drawn as placed
   DrawingView(const Scene& scene, const Simulation& simulation, PlaceOf place = {});
 
   /// "x,y" of a place, m.
   [[nodiscard]] std::string at(const Vector3& place) const;
   [[nodiscard]] std::string head() const;
   [[nodiscard]] std::string blocks(const Simulation& simulation) const;
-  /// A line of text below, and the end.
+  /// Lines of text below, and the end of the drawing.
   [[nodiscard]] std::string foot(const std::vector<Note>& notes) const;
 
  private:

@@ -46,12 +46,12 @@ TrialOutcome outcome_of(StaticStatus status, const Simulation& simulation) {
   return TrialOutcome::unknown;
 }
 
-/// What most of the area of a pair's contact points does.
+/// Mode of most of the area of a pair's contact points.
 const char* mode_of(const PairRecord& record) {
   std::array<double, 3> area = {};
   for (std::size_t k = 0; k < record.points.size(); ++k)
     area[static_cast<std::size_t>(record.responses[k].state)] += record.points[k].area;
-  // What bears at an edge bears, however much has opened.
+  // A joint that transmits force at an edge is not open, however much of its area is.
   const double open = area[static_cast<std::size_t>(ContactState::open)];
   const double sticks = area[static_cast<std::size_t>(ContactState::locked)];
   const double slides = area[static_cast<std::size_t>(ContactState::sliding)];
@@ -92,7 +92,7 @@ std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, doub
     try {
       status = trial_step(simulation, end_time);
     } catch (const std::bad_alloc&) {
-      throw;  // another try, with more memory, may tell
+      throw;  // may be resolved by another attempt with more memory
     } catch (const std::exception&) {
       status = StaticStatus::not_converged;
     }

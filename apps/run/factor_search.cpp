@@ -38,10 +38,10 @@ class Search {
     return bracket_.lower == range_.upper || bracket_.upper == range_.lower;
   }
 
-  /// The middle of what is left of the bracket: all of it, or the wider of what is below and above the factors
-  /// that told nothing. Empty: those are a quarter of the tolerance from either end
+  /// The middle of the remaining bracket: of all of it, or of the wider part below or above the inconclusive factors.
+  /// Empty if those are within a quarter of the tolerance of either end.
   [[nodiscard]] std::optional<double> middle() const {
-    double first = *bracket_.upper, last = *bracket_.lower;  // that told nothing
+    double first = *bracket_.upper, last = *bracket_.lower;  // inconclusive factors
     for (const FactorTrial& trial : bracket_.trials)
       if (trial.outcome == TrialOutcome::unknown && trial.factor > *bracket_.lower &&
           trial.factor < *bracket_.upper) {
@@ -54,7 +54,7 @@ class Search {
     return below > above ? *bracket_.lower * std::sqrt(below) : last * std::sqrt(above);
   }
 
-  /// @return false: it was told to stop
+  /// @return false if the search was interrupted
   bool decide(double factor) {
     const std::optional<FactorTrial> trial = attempt_(factor);
     bracket_.interrupted = !trial;

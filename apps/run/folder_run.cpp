@@ -84,7 +84,7 @@ RunStatus FolderRun::go_through_stage(std::ostream& err) {
                      : thrust_                    ? show_thrust(progress)
                      : is_static(scene_.analysis) ? find_equilibrium(progress)
                                                   : take_steps(progress);
-  // Before the last frame, which a run that goes on has only if it is due.
+  // Before the last frame, which a continued run has only if it is due.
   save();
   if (status == RunStatus::completed && !drawn_only()) status = audited();
   if (bracket_) status = answered(status);
@@ -101,8 +101,8 @@ FinishedStage FolderRun::finished(RunStatus status) const {
   return {to_string(status), message_, built_.simulation.steps(), built_.simulation.time()};
 }
 
-/// @return false: blocks that it adds have no room, and the run stays at the end of the last stage
-/// @throws std::runtime_error if its blocks cannot be built, which those of the whole scene could
+/// @return false if added blocks overlap others: the run stays at the end of the last stage
+/// @throws std::runtime_error if its blocks cannot be built although those of the whole scene could
 bool FolderRun::begin_next_stage(RunStatus status) {
   const std::vector<bool> was_absent = built_.simulation.system().absent();
   const LoadedScene next = stage_of(loaded_, stages_.size() + 1);
@@ -152,7 +152,7 @@ RunStatus FolderRun::take_steps(ProgressLine& progress) {
   return RunStatus::completed;
 }
 
-/// The audit of depths at the end. After the run is saved: one that goes on has no end here.
+/// Audits depths at the end. After the run is saved, as a continued one has no end here.
 RunStatus FolderRun::audited() {
   Simulation& simulation = built_.simulation;
   const auto deep = simulation.audit();
@@ -162,7 +162,7 @@ RunStatus FolderRun::audited() {
   return RunStatus::failed;
 }
 
-/// Of a search for a factor: what was found, once its motion has been shown.
+/// For a search for a factor: its result, once its motion has been shown.
 RunStatus FolderRun::answered(RunStatus status) {
   if (status == RunStatus::interrupted) return status;
   const std::string motion = status == RunStatus::moving ? "; " + message_ : "";
@@ -170,7 +170,7 @@ RunStatus FolderRun::answered(RunStatus status) {
   return bracket_->resolved ? RunStatus::completed : RunStatus::not_converged;
 }
 
-/// The answer of limit analysis: blocks are drawn as they set off.
+/// The result of limit analysis: the onset of motion is drawn.
 RunStatus FolderRun::show_limits(ProgressLine& progress) {
   Simulation& simulation = built_.simulation;
   if (simulation.steps() == 0) {
@@ -233,7 +233,7 @@ RunStatus FolderRun::find_equilibrium(ProgressLine& progress) {
   return interrupted_here();
 }
 
-/// A fault that no check of the scene foresaw: the state is that before the step.
+/// A fault that no check of the scene detected: the state is that before the step.
 RunStatus FolderRun::failed_in_step(const std::exception& error) {
   message_ = fmt::format("step {} at t = {:.9g} s cannot be taken: {}", built_.simulation.steps() + 1,
                          built_.simulation.time(), error.what());
@@ -259,7 +259,7 @@ void FolderRun::record_step(CheckpointSchedule& schedule, ProgressLine& progress
     try {
       save();
     } catch (const std::system_error&) {
-      // It was for later; the run ends with what has to be written and cannot.
+      // The reserve was for later; the failure to write the last files is reported at the end.
     }
   }
   files_.add_output_seconds(seconds_now() - before);

@@ -1,4 +1,4 @@
-// A run into a result folder, from its first step, or from a checkpoint, to its end: one stage after the other.
+// A run into a result folder from its first step, or from a checkpoint, to its end, stage by stage.
 #pragma once
 
 #include <iosfwd>
@@ -16,19 +16,19 @@
 
 namespace ashlar {
 
-/// What a run is taken on with.
+/// Options of a run.
 struct RunManner {
   int threads = 1;
   std::optional<double> checkpoint_interval;  ///< s; empty: growing, see CheckpointSchedule
-  bool quiet = false;                         ///< no progress
+  bool quiet = false;                         ///< no progress output
 };
 
-/// What a run starts from.
+/// Initial data of a run.
 struct RunStart {
-  BuiltSimulation built;                   ///< of the stage that the run begins or goes on in
-  const RunCheckpoint* earlier = nullptr;  ///< the checkpoint that it goes on from; null: none
+  BuiltSimulation built;                   ///< of the stage in which the run begins or continues
+  const RunCheckpoint* earlier = nullptr;  ///< the checkpoint that it continues from; null: none
   SceneIdentity identity;                  ///< of the whole scene
-  std::optional<FactorBracket> bracket;    ///< of a search for a factor, whose motion the run shows
+  std::optional<FactorBracket> bracket;    ///< of a search for a factor, whose motion is shown
   std::optional<LimitFindings> limits;     ///< the same, by limit analysis
   std::optional<ThrustFindings> thrust;    ///< of an analysis of thrust
   double began = 0.0;                      ///< seconds_now() when the program began
@@ -43,12 +43,12 @@ class FolderRun {
   /// @throws std::runtime_error if the folder cannot be written
   FolderRun(const LoadedScene& loaded, const RunManner& manner, RunStart start, const FolderClaim& claim);
 
-  /// Steps until the end, an interrupt or a failure; the state and a summary are saved. @param err progress
-  /// @throws std::bad_alloc where memory ends, which may leave half a step behind: the checkpoint saved last stays, and
-  /// there is no summary, so that the run counts as one that did not end
+  /// Steps until the end, an interrupt or a failure. Saves the state and a summary. @param err progress
+  /// @throws std::bad_alloc without memory, possibly within a step: the last checkpoint remains, and there is no
+  /// summary, so that the run counts as unfinished
   RunEnd go(std::ostream& err);
 
-  /// True if blocks are only drawn as they set off.
+  /// True if only the onset of motion is drawn.
   [[nodiscard]] bool drawn_only() const { return (limits_.has_value() && !bracket_) || thrust_.has_value(); }
   /// True if the folder has a checkpoint of this run.
   [[nodiscard]] bool saved() const { return saved_; }

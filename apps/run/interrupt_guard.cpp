@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::array handled = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGPIPE, SIGXFSZ};
 
-/// s. `timeout` and others send a signal to a program and to its group: what comes twice so fast is one request.
+/// s. `timeout` and others send a signal to a program and to its group: two signals this close are one request.
 constexpr double one_request = 0.25;
 
-// Handlers read and write these; guards of other threads do, too.
+// Read and written by handlers, and by guards of other threads.
 std::atomic<bool> stop_wanted = false;
 std::atomic<bool> on_terminal = false;
 std::atomic<double> first_request = 0.0;  ///< monotonic time, s
@@ -29,7 +29,7 @@ double monotonic_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Guards that live, and the handlers from before the first of them.
+/// Number of guards, and the handlers before the first of them.
 struct Guards {
   std::mutex mutex;
   int count = 0;
@@ -45,7 +45,7 @@ extern "C" void on_interrupt(int signal) {
   const double now = monotonic_seconds();
   if (!stop_wanted.exchange(true)) {
     first_request = now;
-    // A step may take long, and a second Ctrl-C loses what was not saved.
+    // A step may take long, and a second Ctrl-C loses unsaved results.
     constexpr std::string_view note = "\nstopping after this step; Ctrl-C once more ends at once, unsaved\n";
     if (on_terminal) (void)!::write(STDERR_FILENO, note.data(), note.size());
     return;
@@ -57,7 +57,7 @@ extern "C" void on_interrupt(int signal) {
 
 }  // namespace
 
-/// The caller of a library may want these signals: they are only its own as long as it says nothing.
+/// True if the caller of a library handles a signal, or ignores it.
 static bool left_to_others(int signal, const struct sigaction& old) {
   const bool announces = signal == SIGQUIT || signal == SIGXCPU || signal == SIGUSR1;
   return announces && old.sa_handler != SIG_DFL;

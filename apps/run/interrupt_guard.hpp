@@ -1,17 +1,17 @@
-// Signals while a run goes on.
+// Handling of signals during a run.
 #pragma once
 
 namespace ashlar {
 
-/// As long as one lives, SIGINT, SIGTERM and SIGHUP (a terminal that closes) are requests to stop after the present step; a
-/// second one, later than a quarter of a second, ends the program at once. SIGHUP stays ignored where it was, as under
-/// nohup. SIGQUIT, SIGXCPU (a limit of processor time) and SIGUSR1 (what batch systems announce the end of a job by) are
-/// requests, too, where they would end the process; the system repeats SIGXCPU each second, which is no second request. A
-/// log that nobody reads any more and a limit on the size of files do not end the program: writing fails instead, and
-/// what fails is told.
+/// While an object exists, SIGINT, SIGTERM and SIGHUP (a terminal that closes) are requests to stop after the present
+/// step. A second one, later than a quarter of a second, ends the program at once. SIGHUP stays ignored if it was, as
+/// under nohup. SIGQUIT, SIGXCPU (a limit of processor time) and SIGUSR1 (sent by batch systems before the end of a
+/// job) are requests too, if they would end the process. The system repeats SIGXCPU each second, which is no second
+/// request. A closed log and a limit on file sizes do not end the program: writing fails instead, and the failure is
+/// reported.
 ///
-/// Several may live at a time, in several threads: the first sets the handlers, and the last to end, whichever it is,
-/// puts back those that were there before. A request is to all of them, and is kept until none is left.
+/// Several may exist at a time, in several threads: the first sets the handlers, and the last to be destroyed
+/// restores the earlier ones. A request is for all of them, and is kept until none exists.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -19,7 +19,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// Whether to stop.
+  /// True if a stop was requested.
   [[nodiscard]] static bool interrupted();
 };
 

@@ -13,9 +13,10 @@
 namespace ashlar {
 namespace {
 
-constexpr double seconds_between_lines = 5.0;  // as ProgressLine where stderr is no terminal
+constexpr double seconds_between_lines = 5.0;  // as ProgressLine if stderr is no terminal
 
-/// The state of a trial that was stopped. Where there is none that is whole and of this factor, it starts anew.
+/// Restores the state of an interrupted trial. Without a complete state of this factor the trial starts from the
+/// beginning.
 void restore(Simulation& simulation, ContactChanges& changes, const std::filesystem::path& path,
              std::uint64_t hash) {
   if (!std::filesystem::exists(path)) return;

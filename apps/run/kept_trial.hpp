@@ -1,5 +1,5 @@
-// A static analysis of a search for a factor whose state is kept in the result folder while it goes on, so that one that
-// is stopped goes on where it was.
+// A static analysis of a search for a factor whose state is saved in the result folder during the analysis, so that
+// an interrupted one can be continued.
 #pragma once
 
 #include <cstdint>
@@ -15,36 +15,36 @@
 
 namespace ashlar {
 
-/// Of the state of a trial, in a result folder.
+/// File name of the state of a trial in a result folder.
 inline constexpr const char* trial_state_name = "factor_trial.checkpoint";
 
 struct TrialManner {
   int threads = 1;
   std::optional<double> checkpoint_interval;  ///< s; empty: growing, see CheckpointSchedule
-  bool quiet = false;                         ///< no progress
+  bool quiet = false;                         ///< no progress output
 };
 
 class KeptTrial {
  public:
-  /// @param scene outlives it. @param hash of the scene (scene_identity.hpp). @param folder claimed by this run
+  /// @param scene must outlive this. @param hash of the scene (scene_identity.hpp). @param folder claimed by this run
   KeptTrial(const LoadedScene& scene, std::uint64_t hash, std::filesystem::path folder, TrialManner manner)
       : scene_(scene), hash_(hash), path_(std::move(folder) / trial_state_name), manner_(manner) {}
 
-  /// Runs a trial, or goes on with it if the folder has its state; that is kept when it is due, and when the trial is
-  /// stopped. Tells the number of iterations every few seconds.
-  /// @param goes_on asked before each iteration. @return empty: it was told to stop
+  /// Runs a trial, or continues it if the folder has its state. The state is saved when it is due, and when the trial
+  /// is interrupted. Reports the number of iterations every few seconds.
+  /// @param goes_on called before each iteration; false ends the trial. @return empty if it was ended
   /// @throws std::runtime_error with path and reason if the state cannot be written
   [[nodiscard]] std::optional<FactorTrial> run(double factor, const std::function<bool()>& goes_on,
                                                std::ostream& err);
-  /// Of the last trial.
+  /// Number of iterations of the last trial.
   [[nodiscard]] int iterations() const { return iterations_; }
-  /// Why the last trial found neither equilibrium nor motion; empty if it did.
+  /// Reason for an inconclusive last trial; empty otherwise.
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// To be called once the last trial's outcome is kept elsewhere.
+  /// To be called once the outcome of the last trial is saved elsewhere.
   void forget() const { std::filesystem::remove(path_); }
 
  private:
-  /// State of another factor is of no use.
+  /// Hash that identifies the state of a factor.
   [[nodiscard]] std::uint64_t hash_of(double factor) const;
 
   const LoadedScene& scene_;

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// How far the farthest block is drawn from its place, in its sizes.
+/// Displacement of the farthest block in the drawing, in its sizes.
 constexpr double drawn_share = 0.1;
 
 bool is_safety(const SceneAnalysis& analysis) {
@@ -95,7 +95,7 @@ std::string factor_in_words(const LimitFindings& findings, const SceneAnalysis& 
   return text;
 }
 
-/// Blocks that an engineer has to look at beside the factor.
+/// Blocks to be checked by an engineer in addition to the factor.
 std::string remarks(const LimitFindings& findings, const Simulation& simulation) {
   std::string text;
   const std::vector<int>& kept = findings.answer.kept_by_others;
@@ -173,7 +173,7 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
   const std::optional<LimitTrial>& released = findings.answer.released.motion;
   const std::optional<LimitTrial>& associated = findings.answer.associated.motion;
   if (associated) findings.associated = analysis.motion_of(*associated);
-  // Where nothing moves below the associated limit, its motion is both.
+  // If nothing moves below the associated limit, its motion is both.
   if (released) findings.released = released->released ? analysis.motion_of(*released) : findings.associated;
   return findings;
 }

@@ -1,5 +1,5 @@
-// analysis.type "factor-of-safety" and "capacity" by limit analysis (analysis.method = "limit"): what was found, in
-// words and in the summary.
+// analysis.type "factor-of-safety" and "capacity" by limit analysis (analysis.method = "limit"): result in text and
+// in the summary.
 #pragma once
 
 #include <functional>
@@ -14,25 +14,25 @@
 
 namespace ashlar {
 
-/// The answer of limit analysis for a scene.
+/// Result of limit analysis for a scene.
 struct LimitFindings {
   LimitAnswer answer;
-  LimitMotion released;    ///< at the least factor that moves; empty: none does
-  LimitMotion associated;  ///< at the least factor that nothing stands above; empty: none is known
+  LimitMotion released;    ///< at the smallest factor that moves; empty: none does
+  LimitMotion associated;  ///< at the smallest factor above which nothing stands; empty: unknown
 };
 
-/// The rigid blocks of a scene that seeks a factor or thrust. @param simulation as placed, without factors
-/// @return empty: the scene asks for neither, or limit analysis does not know its formulation
+/// Rigid model of a scene that seeks a factor or thrust. @param simulation as placed, without factors
+/// @return empty if the scene seeks neither, or limit analysis does not support its formulation
 [[nodiscard]] std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation);
 
-/// A search for a factor is one of limit analysis as the scene says, or, if that leaves it to the program, where no
-/// joint of blocks in contact loses strength for good when it fails. @param model of limit_model
+/// True if a search for a factor uses limit analysis: as the scene specifies, or if that is automatic, if no joint of
+/// blocks in contact loses strength permanently. @param model of limit_model
 [[nodiscard]] bool uses_limit_analysis(const Scene& scene, const std::optional<RigidModel>& model);
 
-/// Errors of a scene that leave nothing to be found: no block can move, or no load is multiplied.
+/// Reports scenes with nothing to find: no block can move, or no load is multiplied.
 void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& model, Diagnostics& diagnostics);
 
-/// @param goes_on asked before each trial
+/// @param goes_on called before each trial; false ends the search
 [[nodiscard]] LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
                                         const std::function<bool()>& goes_on);
 
@@ -40,8 +40,8 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 [[nodiscard]] std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
                                    const Simulation& simulation);
 
-/// method, lower, upper (of the released factor; null where there is none), released (the number to sign), associated,
-/// gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, kept_by_others,
+/// method, lower, upper (of the released factor; null if there is none), released (the factor for design),
+/// associated, gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, kept_by_others,
 /// associated_motion, trials.
 [[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
                                                    const Simulation& simulation);
@@ -49,7 +49,8 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 /// "block rock.8 slides on one plane", "12 blocks move, block rock.8 fastest: it topples"
 [[nodiscard]] std::string words_of(const LimitMotion& motion, const Simulation& simulation);
 
-/// How blocks are drawn that set off: each by its acceleration times one time, the farthest by a share of its size.
+/// Displacements for a drawing of the onset of motion: each acceleration times one time, the largest a share of the
+/// block's size.
 [[nodiscard]] std::vector<RigidDisplacement> drawn_motion(const LimitMotion& motion,
                                                           const Simulation& simulation);
 

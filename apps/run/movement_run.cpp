@@ -44,7 +44,7 @@ std::string end_in_words(const SupportPath& path) {
   return "";
 }
 
-/// Joints that have slid by more than this are named: the order in which joints slide is not unique. m
+/// Joints are named if they have slid by more than this, m: the order in which joints slide is not unique.
 double telling_slip(const SupportPath& path) {
   constexpr double share = 0.01;  // of the movement
   return share * path.lower;

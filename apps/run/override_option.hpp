@@ -10,8 +10,8 @@ class App;
 
 namespace ashlar {
 
-/// Declares the repeatable option --set on a sub-command. @param overrides "key.path=value" each, in order;
-/// see scene_overrides.hpp; outlives the parsing.
+/// Declares the repeatable option --set on a sub-command. @param overrides "key.path=value" each, in order; see
+/// scene_overrides.hpp; must outlive the parsing.
 void declare_overrides(CLI::App& command, std::vector<std::string>& overrides);
 
 }  // namespace ashlar

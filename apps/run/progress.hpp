@@ -1,4 +1,4 @@
-// What a running simulation tells on stderr: a live line on a terminal, a few plain lines elsewhere.
+// Progress of a simulation on stderr: a live line on a terminal, a few plain lines elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -14,39 +14,39 @@ struct ProgressState {
   std::int64_t step = 0;
   double time = 0.0;              ///< s, simulated
   double time_step = 0.0;         ///< s
-  int contacts = 0;               ///< point-to-face contacts, whatever their state
+  int contacts = 0;               ///< point-to-face contacts in any state
   int open_close_iterations = 0;  ///< of this step
 };
 
 enum class ProgressMode {
   silent,  ///< nothing
-  plain,   ///< a whole line now and then, and one for the last step
+  plain,   ///< a complete line at intervals, and one for the last step
   live,    ///< one line, rewritten in place with terminal control codes
 };
 
-/// silent if `quiet`, live if stderr is a terminal that can rewrite a line, else plain.
+/// silent if `quiet`, live if stderr is a terminal that can rewrite a line, otherwise plain.
 [[nodiscard]] ProgressMode choose_progress_mode(bool quiet);
 
 /// "step 950  t = 0.95 / 1.35 s  dt = 1e-03 s  contacts 4  open-close 2  left 0:07".
-/// @param seconds_left wall time; left out when not known.
+/// @param seconds_left wall time; omitted if unknown.
 [[nodiscard]] std::string format_progress(const ProgressState& state, double end_time,
                                           std::optional<double> seconds_left);
 
 class ProgressLine {
  public:
-  /// @param end_time s, simulated. @param out stderr, or what stands for it
+  /// @param end_time s, simulated. @param out stderr or its substitute
   ProgressLine(double end_time, bool quiet, std::ostream& out);
-  /// @param wall_clock s since any moment; decides how often something is written and how much time is left.
+  /// @param wall_clock s from any origin; determines the intervals of output and the time left.
   ProgressLine(double end_time, ProgressMode mode, std::ostream& out, std::function<double()> wall_clock);
-  /// Ends the line, so that an error message that follows starts on its own.
+  /// Ends the line, so that a following error message starts on a new one.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Cheap to call after every step: what is written is limited to ten a second (live), one in five seconds
-  /// (plain). The time left is that of a run going on at the mean speed since the first call.
+  /// Cheap to call after every step: output is limited to ten a second (live), one in five seconds (plain). The time
+  /// left is extrapolated with the mean speed since the first call.
   void update(const ProgressState& state);
-  /// Writes the last state if it was not yet. Nothing is written after it.
+  /// Writes the last state unless it has been written. No output is written afterwards.
   void finish();
 
  private:
@@ -60,7 +60,7 @@ class ProgressLine {
   ProgressState last_;
   double start_;            ///< wall clock at construction, then at the first update()
   double written_at_;       ///< wall clock
-  bool unwritten_ = false;  ///< last_ is newer than what is written
+  bool unwritten_ = false;  ///< last_ is newer than the output
   bool line_open_ = false;  ///< live: the cursor stands behind the line
 };
 

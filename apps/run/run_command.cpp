@@ -37,7 +37,7 @@ int exit_status_of(RunStatus status) {
   switch (status) {
     case RunStatus::completed:
     case RunStatus::equilibrium:
-    case RunStatus::moving:  // a mechanism found is an answer
+    case RunStatus::moving:  // a mechanism is a result
       return exit_status::done;
     case RunStatus::failed:
     case RunStatus::not_converged:
@@ -48,7 +48,7 @@ int exit_status_of(RunStatus status) {
   return exit_status::failed;
 }
 
-/// The checkpoint a run goes on from; a fault that keeps it from doing so is reported at the file.
+/// The checkpoint that a run continues from. A fault that prevents it is reported at the file.
 std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder, const LoadedScene& loaded,
                                              const SceneIdentity& identity, Diagnostics& diagnostics) {
   const std::filesystem::path path = folder / checkpoint_name;
@@ -63,7 +63,7 @@ std::optional<RunCheckpoint> find_checkpoint(const std::filesystem::path& folder
   }
 }
 
-/// Whether a search for a factor was ended before its motion was shown.
+/// True if a search for a factor was interrupted before its motion was shown.
 bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
   return seeks_factor(scene.analysis) &&
          (std::filesystem::exists(folder / trials_name) ||
@@ -71,7 +71,7 @@ bool is_in_search(const std::filesystem::path& folder, const Scene& scene) {
          !std::filesystem::exists(folder / checkpoint_name);
 }
 
-/// The ends of what limit analysis has found; empty: one of them is not known.
+/// Bounds found by limit analysis; empty if one of them is unknown.
 std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>& limits) {
   if (!limits || !limits->answer.released.resolved) return std::nullopt;
   const LimitBracket& released = limits->answer.released;
@@ -79,7 +79,7 @@ std::optional<ExpectedFactor> expected_factor(const std::optional<LimitFindings>
   return ExpectedFactor{*released.lower, *released.upper};
 }
 
-/// Looks for the scene's factor by static analyses. What earlier trials in the folder found counts.
+/// Searches for the scene's factor by static analyses. Earlier trials in the folder are used.
 FactorBracket seek_factor(const LoadedScene& loaded, std::uint64_t scene, const RunOptions& options,
                           const FolderClaim& claim, const std::optional<ExpectedFactor>& expected,
                           std::ostream& err) {
@@ -110,7 +110,7 @@ FactorBracket seek_factor(const LoadedScene& loaded, std::uint64_t scene, const 
   return find_factor(search_of(loaded.scene.analysis), attempt, expected);
 }
 
-/// The folder for this run alone. @return null: refused, and told why
+/// Claims the folder for this run. @return null if it was refused, which is reported
 std::unique_ptr<FolderClaim> claim_folder(const std::filesystem::path& folder, const RunOptions& options,
                                           std::ostream& err) {
   const ClaimPurpose purpose = options.resume  ? ClaimPurpose::resume
@@ -130,27 +130,27 @@ std::unique_ptr<FolderClaim> claim_folder(const std::filesystem::path& folder, c
   }
 }
 
-/// What a run begins with.
+/// A run before its first step.
 struct PreparedRun {
   std::optional<LoadedScene> loaded;     ///< the whole scene
   SceneIdentity identity;                ///< of that
   std::optional<LoadedScene> staged;     ///< its first stage, if it has any
-  std::optional<BuiltSimulation> built;  ///< of the stage that the run begins or goes on in
-  std::optional<RunCheckpoint> earlier;  ///< what it goes on from
+  std::optional<BuiltSimulation> built;  ///< of the stage in which the run begins or continues
+  std::optional<RunCheckpoint> earlier;  ///< checkpoint that it continues from
   std::optional<PairKey> explained;      ///< blocks whose contacts are explained at the end
 
-  /// The scene that the run starts with. Not before there is one.
+  /// The scene that the run starts with. @pre it is loaded
   [[nodiscard]] const LoadedScene& first() const { return staged ? *staged : *loaded; }
 };
 
-/// Refuses searches by limit analysis that have nothing to find.
+/// Refuses searches by limit analysis with nothing to find.
 void refuse_idle_searches(const Scene& scene, const Simulation& simulation, Diagnostics& diagnostics) {
   const std::optional<RigidModel> model = limit_model(scene, simulation);
   refuse_idle_limits(scene, model, diagnostics);
   refuse_movements(scene, model, diagnostics);
 }
 
-/// Reads, checks and builds. What is wrong is in the diagnostics.
+/// Reads, checks and builds. Faults go to the diagnostics.
 PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnostics, std::ostream& err) {
   PreparedRun run;
   Preparation preparation(options.quiet, err);
@@ -170,7 +170,7 @@ PreparedRun prepare(const RunOptions& options, int threads, Diagnostics& diagnos
   return run;
 }
 
-/// @return false: the checkpoint cannot be gone on from, which was told
+/// @return false if the checkpoint cannot be continued, which is reported
 bool go_on_from_checkpoint(PreparedRun& run, const std::filesystem::path& folder, int threads,
                            std::ostream& err) {
   Diagnostics faults;
@@ -199,7 +199,7 @@ void tell_beginning(const PreparedRun& run, std::ostream& err) {
   for (const std::string& line : motion_left(scene)) err << line << '\n';
 }
 
-/// Motion that starts from equilibrium: finds that. @return an exit status if the run ends with it
+/// Finds the equilibrium that a motion starts from. @return an exit status if the run ends with it
 std::optional<int> start_statically(PreparedRun& run, std::ostream& err) {
   if (!starts_from_statics(run.first().scene) || run.earlier) return std::nullopt;
   const StaticStart statics =
@@ -210,7 +210,7 @@ std::optional<int> start_statically(PreparedRun& run, std::ostream& err) {
   return std::nullopt;
 }
 
-/// Finds the scene's factor by limit analysis. @return empty: interrupted, which was told
+/// Finds the scene's factor by limit analysis. @return empty if interrupted, which is reported
 std::optional<LimitFindings> find_limits_first(const PreparedRun& run, RigidModel model,
                                                const RunOptions& options, std::ostream& err) {
   LimitFindings findings = find_limits(run.loaded->scene, std::move(model), std::max(options.threads, 1),
@@ -227,7 +227,7 @@ std::optional<LimitFindings> find_limits_first(const PreparedRun& run, RigidMode
   return std::nullopt;
 }
 
-/// Finds thrust and movements of supports. @return empty: interrupted, which was told
+/// Finds thrust and movements of supports. @return empty if interrupted, which is reported
 std::optional<ThrustFindings> find_thrust_first(const Scene& scene, RigidModel model,
                                                 const Simulation& placed, int threads, std::ostream& err) {
   ThrustFindings findings =
@@ -237,7 +237,7 @@ std::optional<ThrustFindings> find_thrust_first(const Scene& scene, RigidModel m
   return std::nullopt;
 }
 
-/// Finds the scene's factor and builds what shows it. @return false: interrupted, which was told
+/// Finds the scene's factor and builds the simulation that shows it. @return false if interrupted, which is reported
 bool find_factor_first(PreparedRun& run, const RunOptions& options, const FolderClaim& claim,
                        const std::optional<LimitFindings>& limits, std::optional<FactorBracket>& bracket,
                        std::ostream& err) {
@@ -267,7 +267,7 @@ void tell_results(const FolderRun& run, const RunEnd& end, const std::filesystem
   warn_of_hops(run.simulation(), err);
 }
 
-/// Puts no text together: there may be no memory for it.
+/// Does not assemble text: there may be no memory for it.
 void tell_missing_memory(const std::bad_alloc& error, const FolderRun& run,
                          const std::filesystem::path& folder, std::ostream& err) {
   err << "ashlar: error: after step " << run.simulation().steps() << ": " << missing_memory(error);
@@ -285,7 +285,7 @@ int run_command(const RunOptions& options, std::ostream& out, std::ostream& err)
   const int threads = std::max(options.threads, 1);
   Diagnostics diagnostics;
   PreparedRun prepared = prepare(options, threads, diagnostics, err);
-  // Where there is nothing to go on from, nothing is made.
+  // Without anything to continue from, no folder is made.
   const bool resumes = options.resume && !(prepared.loaded && is_in_search(folder, prepared.loaded->scene));
   if (prepared.built && resumes && !std::filesystem::exists(folder / checkpoint_name))
     (void)find_checkpoint(folder, *prepared.loaded, prepared.identity, diagnostics);
@@ -302,7 +302,7 @@ int run_command(const RunOptions& options, std::ostream& out, std::ostream& err)
     std::optional<FactorBracket> bracket;
     std::optional<LimitFindings> limits;
     std::optional<ThrustFindings> thrust;
-    // A run that goes on has blocks drawn as they set off.
+    // A continued run has drawn the onset of motion already.
     std::optional<BuiltSimulation> placed;
     if (prepared.earlier && is_static(prepared.loaded->scene.analysis))
       placed = built_or_thrown(prepared.first(), threads);
@@ -313,7 +313,7 @@ int run_command(const RunOptions& options, std::ostream& out, std::ostream& err)
       thrust = find_thrust_first(scene, std::move(model.value()), as_placed, threads, err);
       if (!thrust) return exit_status::interrupted;
     }
-    // A search by static analyses begins with what limit analysis says of the same strengths.
+    // A search by static analyses begins with the result of limit analysis for the same strengths.
     const bool by_limits = uses_limit_analysis(scene, model);
     if (by_limits || (seeks_factor(scene.analysis) && model && !loses_strength(*model))) {
       limits = find_limits_first(prepared, std::move(model.value()), options, err);
@@ -335,7 +335,7 @@ int run_command(const RunOptions& options, std::ostream& out, std::ostream& err)
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    // A folder that cannot be written, or results that are not those of the checkpoint: nothing has run.
+    // The folder cannot be written, or its results are not those of the checkpoint: nothing has run.
     err << "ashlar: error: " << fault_text(error) << '\n';
     return exit_status::bad_input;
   }

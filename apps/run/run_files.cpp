@@ -54,8 +54,8 @@ void RunFiles::save(const SimulationSnapshot& state, const std::vector<FinishedS
                     const ContactChanges& changes) {
   write_state(state, stages, changes);
   contact_points_ = contact_points(state.run.records);
-  // A state of twice the contact points, which asks for another checkpoint (outgrown), and the summary fit in
-  // beside the state that is there.
+  // A state with twice the contact points, which requires another checkpoint (outgrown), and the summary fit in
+  // beside the present state.
   constexpr std::uintmax_t states = 4, scenes = 2, rest = 1U << 18U;
   reserve_.hold(states * state_bytes_ + scenes * scene_bytes_ + rest);
 }

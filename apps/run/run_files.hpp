@@ -1,4 +1,4 @@
-// The files of a run in its result folder: tables and frames, checkpoints, the summary, and room for the last of them.
+// The files of a run in its result folder: tables and frames, checkpoints, the summary, and reserved disk space.
 #pragma once
 
 #include <cstdint>
@@ -17,40 +17,39 @@ namespace ashlar {
 constexpr const char* checkpoint_name = "checkpoint";
 constexpr const char* trials_name = "factor_trials.json";  ///< of a search for a factor
 
-/// Wall time, s, from any moment on.
+/// Wall time from any origin, s.
 [[nodiscard]] double seconds_now();
 
-/// Everything throws std::runtime_error with path and reason where the folder is not there any more or cannot be
-/// written.
+/// All members throw std::runtime_error with path and reason if the folder no longer exists or cannot be written.
 class RunFiles {
  public:
-  /// @param loaded the whole scene; outlives this, as does the claim. @param identity of the scene
-  /// @param simulation at the start of the run, or as the checkpoint has it
-  /// @param earlier null: the run is a new one. @param start seconds_now() when the program began
+  /// @param loaded the whole scene; must outlive this, as must the claim. @param identity of the scene
+  /// @param simulation at the start of the run, or at the checkpoint
+  /// @param earlier null: a new run. @param start seconds_now() when the program began
   RunFiles(const LoadedScene& loaded, SceneIdentity identity, const FolderClaim& claim,
            const Simulation& simulation, const RunCheckpoint* earlier, double start);
 
-  /// All is ready for the first step: what went before is the time of setting up.
+  /// To be called before the first step: ends the time of setup.
   void note_setup() { seconds_.setup = seconds_now() - start_; }
 
   void add_step(const Simulation& simulation);
   [[nodiscard]] ResultFolder& tables() { return tables_; }
   [[nodiscard]] const ResultFolder& tables() const { return tables_; }
 
-  /// True if a state has so many more contact points than the last checkpoint that the room that is kept may be too
-  /// small for it.
+  /// True if a state has so many more contact points than the last checkpoint that the reserved space may be too
+  /// small.
   [[nodiscard]] bool outgrown(const Simulation& simulation) const;
-  /// Writes a checkpoint and keeps room for the next one and a summary.
+  /// Writes a checkpoint and reserves space for the next one and a summary.
   void save(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
             const ContactChanges& changes);
-  /// The same in the room that was kept, for a disk that is full.
+  /// Writes a checkpoint into the reserved space, for a full disk.
   void save_in_reserve(const SimulationSnapshot& state, const std::vector<FinishedStage>& stages,
                        const ContactChanges& changes);
   void write_summary(const nlohmann::ordered_json& summary) const;
-  /// The same in the room that was kept.
+  /// Writes the summary into the reserved space.
   void write_summary_in_reserve(const nlohmann::ordered_json& summary);
 
-  /// Of all sessions of the run so far.
+  /// Times of all sessions of the run so far.
   [[nodiscard]] RunSeconds seconds() const;
   [[nodiscard]] const SceneIdentity& identity() const { return identity_; }
   void add_output_seconds(double seconds) { seconds_.output += seconds; }

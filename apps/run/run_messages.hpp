@@ -1,4 +1,4 @@
-// What `ashlar run` tells its user: numbers that were chosen, how a run ended and why, doubts about results.
+// Messages of `ashlar run`: automatic values, end of a run and its reason, warnings about results.
 #pragma once
 
 #include <filesystem>
@@ -10,35 +10,35 @@
 
 namespace ashlar {
 
-/// How a run ended, in words.
+/// End of a run as text.
 struct RunEnd {
   RunStatus status = RunStatus::failed;
-  std::string message;  ///< why it failed or where it was interrupted, or what moves
-  std::string unsaved;  ///< why the state that it ended in is not saved; empty: it is
+  std::string message;  ///< reason of a failure, place of an interrupt, or moving blocks
+  std::string unsaved;  ///< reason why the final state is not saved; empty: it is saved
 };
 
-/// "; changed: KEY (was A, is B), mesh FILE has changed, ..." from the summary of the run before in a result folder; empty
-/// if it has none or says nothing else.
+/// "; changed: KEY (was A, is B), mesh FILE has changed, ..." from the summary of the earlier run in a result folder;
+/// empty without a summary or differences.
 [[nodiscard]] std::string changes_since(const std::filesystem::path& folder, const Scene& scene,
                                         const SceneIdentity& identity);
 
-/// Numbers that the program chose, and blocks that initial_state left as placed.
+/// Prints automatic values, and blocks that initial_state left as placed.
 void tell_choices(const BuiltSimulation& built, std::ostream& err);
 
-/// Nothing of a run that was completed. @param quiet only errors and interrupts
+/// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
 void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet, std::ostream& err);
 
-/// The largest displacement and stresses, and joints that broke: one line.
+/// Prints the largest displacement and stresses, and failed joints: one line.
 void tell_answers(const Simulation& simulation, const LargestValues& largest, std::ostream& err);
 
-/// Blocks that are farther in each other than contact that does not give way would be.
+/// Warns of blocks that penetrate deeper than rigid contact would allow.
 void warn_of_depth(const Simulation& simulation, std::ostream& err);
 
-/// Multipliers stop what lands by impulses without friction, which the next steps make up for where blocks
-/// stay together: warns where sliding blocks had another friction than Coulomb's.
+/// Warns of sliding blocks whose friction differed from Coulomb's law: multipliers stop impacts by impulses without
+/// friction, which the next steps make up for only if blocks stay in contact.
 void warn_of_friction(const Simulation& simulation, std::ostream& err);
 
-/// Warns where joints that dilate slid without touching, and so without dilation.
+/// Warns of dilating joints that slid without contact, and so without dilation.
 void warn_of_hops(const Simulation& simulation, std::ostream& err);
 
 }  // namespace ashlar

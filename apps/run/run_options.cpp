@@ -11,7 +11,7 @@ namespace ashlar {
 
 void declare_run_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene and write its result folder");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<RunOptions>();
   command->add_option("SCENE", options->scene, "Scene file (TOML); - is standard input")
       ->required()

@@ -1,4 +1,4 @@
-// What `ashlar run` is told on its command line.
+// Options of `ashlar run` on its command line.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@ namespace ashlar {
 
 struct RunOptions {
   std::filesystem::path scene;  ///< "-": standard input
-  /// The scene itself, instead of what is in the file: paths in it are relative to the file's folder all the same
+  /// Text of the scene in place of the file's content; paths in it are still relative to the file's folder
   std::optional<std::string> text = {};
   std::optional<std::filesystem::path>
       out;                             ///< result folder; empty: the scene's name + ".out" ("stdin.out")
   std::vector<std::string> overrides;  ///< "key.path=value" each, in order
-  bool resume = false;                 ///< go on from the checkpoint in the result folder
-  bool force = false;                  ///< replace results that are there; not with resume
+  bool resume = false;                 ///< continue from the checkpoint in the result folder
+  bool force = false;                  ///< replace existing results; not with resume
   std::optional<double> checkpoint;    ///< s between checkpoints, >= 0; empty: growing to a minute
   int threads = 0;                     ///< >= 1; 0: not given
-  bool quiet = false;                  ///< no progress on stderr
+  bool quiet = false;                  ///< no progress output on stderr
   bool view = false;                   ///< write view.html at the end
   std::string explained_pair;          ///< "a,b": blocks whose contacts are explained at the end; empty: none
 };

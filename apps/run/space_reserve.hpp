@@ -1,5 +1,5 @@
-// Disk space that is kept for what a run writes last. When the disk is full it is given back, so that the
-// state that a run has reached can still be saved.
+// Disk space reserved for the last files of a run. It is released when the disk is full, so that the state reached by
+// a run can still be saved.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace ashlar {
 
-/// A file without a name, which the system removes with the process, however that ends.
+/// A file without a name, which the system removes with the process in any case.
 class SpaceReserve {
  public:
-  /// @param folder on the file system where the space is kept; nothing is kept yet
+  /// @param folder on the file system of the reserved space; nothing is reserved yet
   explicit SpaceReserve(std::filesystem::path folder);
   ~SpaceReserve();
   SpaceReserve(const SpaceReserve&) = delete;
   SpaceReserve& operator=(const SpaceReserve&) = delete;
 
-  /// Keeps at least this much. @throws std::system_error "cannot keep <bytes> bytes free in <folder>: ..."
+  /// Reserves at least this much. @throws std::system_error "cannot keep <bytes> bytes free in <folder>: ..."
   void hold(std::uintmax_t bytes);
-  /// Gives all of it back.
+  /// Releases all of it.
   void release() noexcept;
 
   [[nodiscard]] std::uintmax_t held() const { return held_; }

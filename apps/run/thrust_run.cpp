@@ -35,7 +35,7 @@ Json to_json(const ThrustLine& line, const Simulation& simulation) {
   return json;
 }
 
-/// The line of thrust: through each block from joint to joint, by way of the middle where it has more than two.
+/// The line of thrust: through each block from joint to joint, via the centroid if it has more than two.
 std::string drawn_line(const ThrustLine& line, const Simulation& simulation, const DrawingView& view,
                        const char* colour) {
   std::map<int, std::vector<const JointResultant*>> by_block;

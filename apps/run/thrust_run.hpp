@@ -1,4 +1,4 @@
-// analysis.type "thrust": the least and the most thrust on each support, in words, in the summary and as a drawing.
+// analysis.type "thrust": the least and the largest thrust on each support in text, in the summary and as a drawing.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// An extreme of the thrust on one support, and the line of thrust that goes with it.
+/// An extreme of the thrust on one support, and its line of thrust.
 struct ThrustLine {
   double thrust = 0.0;  ///< N
   double gap = 0.0;
@@ -28,24 +28,24 @@ struct SupportThrust {
 
 struct ThrustFindings {
   std::vector<SupportThrust> supports;
-  std::vector<SupportMovement> movements;  ///< of supports that the scene moves, in the order of blocks
-  std::string collapse;  ///< what moves, if no forces within the strengths balance the loads
+  std::vector<SupportMovement> movements;  ///< of supports moved by the scene, in the order of blocks
+  std::string collapse;  ///< moving blocks, if no forces within the strengths balance the loads
 };
 
-/// @param model of limit_model. @param goes_on asked while supports move; if not, the last movement was interrupted
+/// @param model of limit_model. @param goes_on called during movements; false interrupts the last one
 [[nodiscard]] ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation,
                                          int threads, const std::function<bool()>& goes_on);
 
 /// "thrust on abutment between 1.2e+04 and 3.4e+04 N; ..."
 [[nodiscard]] std::string describe(const ThrustFindings& findings, const Simulation& simulation);
 
-/// An array: support, least and most (N; null: no bound), gap, least_line and most_line, each an array of blocks, place
-/// (m) and force (N, on the first block); movement (movement_run.hpp) of supports that were moved.
+/// An array: support, least and most (N; null: unbounded), gap, least_line and most_line, each an array of blocks,
+/// place (m) and force (N, on the first block); movement (movement_run.hpp) for supports that were moved.
 [[nodiscard]] nlohmann::ordered_json thrust_summary(const ThrustFindings& findings,
                                                     const Simulation& simulation);
 
-/// Blocks that may move, seen along the horizontal direction in which they extend least, and the lines of least and most
-/// thrust on the first support, as an SVG drawing. @throws std::runtime_error with path and reason
+/// Draws moving blocks, projected along the horizontal direction of their smallest extent, and the lines of least and
+/// largest thrust on the first support, as SVG. @throws std::runtime_error with path and reason
 void draw_thrust(const ThrustFindings& findings, const Scene& scene, const Simulation& simulation,
                  const std::filesystem::path& path);
 
