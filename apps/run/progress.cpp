@@ -63,7 +63,7 @@ ProgressLine::ProgressLine(double end_time, ProgressMode mode, std::ostream& out
 ProgressLine::~ProgressLine() {
   try {
     finish();
-  } catch (...) {  // a lost progress line must not end the program
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a lost progress line must not end the program
   }
 }
 

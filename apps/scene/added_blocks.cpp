@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// Some blocks, and where their points are.
+/// Some blocks with their present points.
 struct PlacedBlocks {
   std::vector<int> blocks;
   std::vector<std::vector<Vector3>> points;

@@ -1,4 +1,4 @@
-// Blocks that a stage adds where others have moved to.
+// Initial overlap of blocks that a stage adds with blocks that have moved.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace ashlar {
 
-/// The deepest overlap of a block that this stage adds with another one, both as they are placed now, by the points of
-/// their meshes. No contact knows of it yet, so it may be what a depth may be that contacts do not know
+/// The deepest overlap of a block added by this stage with another one, both at their present place, by the points of
+/// their meshes. No contact knows this overlap yet, so that it may be as deep as the allowed unknown depth
 /// (SimulationSettings::depth, notes/stages.md of the solver).
-/// @param simulation at the start of a stage. @param was_absent by block: not there in the stage before
-/// @return "what is wrong (value), what is allowed"; none: all fit
+/// @param simulation at the start of a stage. @param was_absent by block: absent in the stage before
+/// @return "what is wrong (value), what is allowed"; empty if all fit
 [[nodiscard]] std::optional<std::string> overlap_of_added(const Simulation& simulation,
                                                           const std::vector<bool>& was_absent);
 

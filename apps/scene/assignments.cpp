@@ -18,15 +18,15 @@ namespace {
 
 /// About a second of work.
 constexpr double most_tests = 1e7;
-/// Of the places of what an entry gives a block, bytes.
+/// Of the places of values assigned by an entry to a block, bytes.
 constexpr double memory_of_keys = 100.0;
 
 bool is_glob(const std::string& pattern) {
   return pattern.find_first_of("*?[\\") != std::string::npos;
 }
 
-/// Marks the pieces that a pattern means, see apply_assignments_to_pieces. @return whether it matches a block
-/// or a piece
+/// Marks the pieces matched by a pattern, see apply_assignments_to_pieces. @return true if it matches a block or a
+/// piece
 bool choose_pieces(const Scene& scene, const std::string& pattern, std::vector<bool>& chosen) {
   const bool glob = is_glob(pattern);
   const auto matches = [&](const std::string& name) {
@@ -48,7 +48,7 @@ class Assigner {
     for (std::size_t k = 0; k < scene.block.size(); ++k) by_name_.emplace(scene.block[k].name, k);
   }
 
-  /// @return whether there is room for more
+  /// @return true if the limit is not reached
   bool apply(std::size_t index) {
     const SceneAssign& given = scene_.assign[index];
     std::vector<bool> chosen(scene_.block.size(), false);
@@ -56,7 +56,7 @@ class Assigner {
       tests_ += static_cast<double>(chosen.size());
       if (tests_ > most_tests) return refuse_size(index);
       const bool matched = scene_.rock ? choose_pieces(scene_, pattern, chosen) : choose(pattern, chosen);
-      // A pattern that means no block may mean a piece, once there are any.
+      // A pattern that matches no block may match a piece, once there are any.
       if (!matched && (scene_.rock || scene_.cut.empty())) refuse_pattern(index, pattern);
     }
     double memory = memory_of_keys;
@@ -154,7 +154,7 @@ class Assigner {
   Diagnostics& diagnostics_;
   std::unordered_map<std::string, std::size_t> by_name_;
   double tests_ = 0.0;   ///< of names by patterns
-  double memory_ = 0.0;  ///< bytes of what was assigned
+  double memory_ = 0.0;  ///< bytes of assigned values
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ std::string to_base64(std::string_view bytes) {
 std::string from_base64(std::string_view text) {
   const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
   const std::string_view given = text.substr(0, text.size() - padding);
-  // OpenSSL passes over blanks at the ends.
+  // OpenSSL ignores blanks at the ends.
   if (text.size() % 4 != 0 || given.find_first_not_of(digits) != std::string_view::npos)
     throw std::invalid_argument("not base64");
   std::string bytes;

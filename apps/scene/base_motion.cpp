@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-/// Largest component of the second derivative of the natural spline; 0 of one or two rows.
+/// Largest component of the second derivative of the natural spline; 0 for one or two rows.
 double smooth_acceleration(const SupportHistory& history) {
   const auto& [times, values, record] = history;
   if (times.size() < 3) return 0.0;
@@ -29,10 +29,10 @@ double smooth_acceleration(const SupportHistory& history) {
 struct Jump {
   double velocity = 0.0;  ///< m/s, largest component
   double time = 0.0;      ///< s
-  double length = 0.0;    ///< s, of the shorter one of the lines that meet there
+  double length = 0.0;    ///< s, of the shorter one of the adjacent lines
 };
 
-/// The largest jump of velocity at a row that lies farther from its neighbours than a step is long.
+/// The largest jump of velocity at a row whose distance from its neighbours exceeds a step.
 Jump largest_jump(const SupportHistory& history, double step, double end_time) {
   const auto& [times, values, record] = history;
   Jump largest;
@@ -57,7 +57,7 @@ Jump largest_jump(const SupportHistory& history, double step, double end_time) {
 /// Supports of one block over all stages.
 struct BlockSupports {
   bool at_rest = false;                   ///< fixed, or held by a support without a history
-  std::vector<SupportHistory> histories;  ///< each once, of supports that move
+  std::vector<SupportHistory> histories;  ///< each once, of moving supports
 };
 
 bool moves(const SupportHistory& history) {

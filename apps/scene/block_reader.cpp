@@ -15,8 +15,7 @@
 namespace ashlar {
 namespace {
 
-// Of a vector that has to be given: not finite until read, so that no later check is made on one that is not
-// there.
+// Reads a required vector: not finite if missing, so that no later check applies to it.
 Vector3 required_vector(TomlTableReader& table, const char* key) {
   Vector3 result = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   table.require(key);
@@ -24,7 +23,7 @@ Vector3 required_vector(TomlTableReader& table, const char* key) {
   return result;
 }
 
-// The same of coordinates.
+// The same for coordinates.
 Vector3 required_place(TomlTableReader& table, const char* key) {
   Vector3 result = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   table.require(key);
@@ -35,7 +34,7 @@ Vector3 required_place(TomlTableReader& table, const char* key) {
 // A direction of any length but zero.
 Vector3 required_direction(TomlTableReader& table, const char* key) {
   Vector3 result = required_vector(table, key);
-  // The length may underflow although the direction is good; the largest component does not.
+  // The length may underflow for a valid direction; the largest component does not.
   if (result.allFinite() && result.cwiseAbs().maxCoeff() == 0.0) {
     table.error_at_value(
         key, fmt::format("{} has no direction ([0, 0, 0]), a vector other than zero is needed", key));
@@ -58,7 +57,7 @@ SceneShape read_box(TomlTableReader table) {
   return box;
 }
 
-// @return whether the key is absent or good
+// @return true if the key is absent or valid
 bool read_flip(TomlTableReader& table, SceneMesh::Flip& flip) {
   if (!table.given("flip")) return true;
   std::string word;
@@ -76,7 +75,7 @@ bool read_flip(TomlTableReader& table, SceneMesh::Flip& flip) {
   return !is_word || word == "auto";
 }
 
-/// Of a file whose surface is one solid as it is.
+/// Reads a file whose surface is one solid without changes.
 SceneShape read_mesh_as_it_is(TomlTableReader table) {
   SceneMesh mesh;
   std::string file;
@@ -88,7 +87,7 @@ SceneShape read_mesh_as_it_is(TomlTableReader table) {
   return mesh;
 }
 
-/// Of a file of one or many stones, which may be mended.
+/// Reads a file of one or many blocks, which may be repaired.
 SceneShape read_stones(TomlTableReader table) {
   SceneMesh mends;
   const bool split_good = table.read_choice("split", mends.split, split_names) || !table.given("split");
@@ -159,7 +158,7 @@ SceneRotation read_rotation(TomlTableReader table) {
   return rotation;
 }
 
-// Where a support or load acts: exactly one of plane and point.
+// Place of a support or load: exactly one of plane and point.
 std::variant<ScenePlane, Vector3> read_where(TomlTableReader& table) {
   const bool plane_given = table.given("plane"), point_given = table.given("point");
   if (plane_given == point_given)
@@ -197,7 +196,7 @@ constexpr std::array<RecordKey, 3> record_keys = {
      {"velocity_history", MotionRecord::velocity, "v", "[t, vx, vy, vz]"},
      {"acceleration_history", MotionRecord::acceleration, "a", "[t, ax, ay, az]"}}};
 
-// What a history is held to once its rows are good by themselves. @return whether it can be used
+// Checks a history whose rows are valid by themselves. @return true if it can be used
 bool check_history(TomlTableReader& table, const RecordKey& kind, const SceneFix& fix) {
   for (const auto& [time, value] : fix.history) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -297,7 +296,7 @@ SceneLoad read_load(TomlTableReader& table) {
   return load;
 }
 
-// A block that never moves has nothing to support, load or set in motion: whoever asks for both means one.
+// A fixed block cannot have supports, loads or velocities: one of them is a mistake.
 void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block) {
   if (!block.fixed) return;
   for (const char* key : {"fix", "load"})

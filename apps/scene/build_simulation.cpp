@@ -123,7 +123,7 @@ SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>
   const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
     return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
   });
-  // Springs at corners alone would not feel what bends between them.
+  // Springs at corners alone would miss bending between them.
   settings.search.subdivisions =
       scene.contact.subdivisions.value_or(curved && !settings.area_springs ? 1 : 0);
   if (curved && !scene.contact.subdivisions) {
@@ -138,7 +138,7 @@ JointLaw reduced(JointLaw law, double factor) {
   for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.residual->friction,
                            &law.residual->cohesion, &law.residual->tensile_strength})
     *strength /= factor;
-  // A joint dilates by no more than its friction.
+  // The dilation of a joint is limited by its friction.
   law.dilation = std::min(law.dilation, law.residual->friction);
   return law;
 }
@@ -183,23 +183,23 @@ class JointLaws {
     result.friction = tangent(given.friction_angle);
     result.cohesion = given.cohesion;
     result.tensile_strength = given.tensile_strength;
-    // One entry may give the residual and a later one less strength.
+    // One entry may give the residual and a later one a smaller strength.
     result.residual = {
         std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),
         std::min(result.cohesion, given.cohesion_residual.value_or(0.0)),
         std::min(result.tensile_strength, given.tensile_strength_residual.value_or(0.0))};
-    // Neither may several entries together make energy.
+    // Several entries together must not generate energy either.
     result.dilation = std::min(tangent(given.dilation_angle), result.residual->friction);
     result.damping = given.damping;
     return result;
   }
 
-  /// Two blocks, or one, of each kind: equal blocks that the same globs match have the same joints.
+  /// Two blocks, or one, of each kind: equal blocks matched by the same globs have the same joints.
   [[nodiscard]] std::vector<std::vector<std::size_t>> kinds_of_blocks(const Scene& scene) const {
     std::vector<std::vector<std::size_t>> globs(source_.size());
     for (std::size_t joint = 0; joint < scene.joint.size(); ++joint) {
       for (const std::size_t side : {0U, 1U}) {
-        // What matches every block tells none apart.
+        // A glob that matches every block distinguishes none.
         if (table_->matched(joint, side).size() == source_.size()) continue;
         for (const std::size_t block : table_->matched(joint, side)) globs[block].push_back(2 * joint + side);
       }
@@ -214,7 +214,7 @@ class JointLaws {
     return result;
   }
 
-  /// The softest and the stiffest pair whose stiffness is left to the program.
+  /// The softest and the stiffest pair with automatic stiffness.
   void note_choices(const std::vector<std::vector<std::size_t>>& kinds,
                     std::vector<AutomaticChoice>& choices) const {
     double least = std::numeric_limits<double>::infinity();
@@ -239,7 +239,7 @@ class JointLaws {
 
   bool area_;
   bool multipliers_;
-  bool asked_for_;  ///< for all joints, whatever stiffness they are given
+  bool asked_for_;  ///< for all joints, with any given stiffness
   AutomaticRatios ratios_;
   std::shared_ptr<const JointTable> table_;
   double strength_factor_;
@@ -247,7 +247,7 @@ class JointLaws {
   std::vector<StiffnessSource> source_;  ///< (#blocks)
 };
 
-/// Up to which depth contacts start without force, m: between all blocks whose boxes meet.
+/// Depth up to which contacts start without force, m, for all blocks whose boxes intersect.
 std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
   std::map<PairKey, double> depths;
   const double allowed = loaded.scene.contact.allowed_overlap;

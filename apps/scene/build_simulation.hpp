@@ -1,5 +1,4 @@
-// From a checked scene to a simulation: materials, supports, loads, joint laws and every number left to the
-// program.
+// From a checked scene to a simulation: materials, supports, loads, joint laws and all automatic values.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@
 
 namespace ashlar {
 
-/// What the scene left to the program.
+/// A value chosen by the program.
 struct AutomaticChoice {
   std::string key;  ///< as in the scene, e.g. "contact.distance"
   std::variant<double, bool> value;
@@ -22,13 +21,13 @@ struct AutomaticChoice {
 struct BuiltSimulation {
   Simulation simulation;
   std::vector<AutomaticChoice> choices;
-  std::size_t different_blocks;  ///< that share neither basis and stiffness nor supports with others
-  /// Moving blocks that an initial_state of equilibrium does not settle.
+  std::size_t different_blocks;  ///< number of blocks without equal ones
+  /// Moving blocks not settled by an initial_state of equilibrium.
   std::vector<std::string> as_placed;
   std::vector<KnownOverlap> overlaps;  ///< of the scene, see LoadedScene
 };
 
-/// What a search for a factor makes of a scene (analysis.safety, analysis.capacity).
+/// Changes of a scene by a search for a factor (analysis.safety, analysis.capacity).
 struct TrialFactors {
   double strength =
       1.0;            ///< > 0; tan(phi), cohesion and tensile strength of the chosen joints are divided by it
@@ -36,7 +35,7 @@ struct TrialFactors {
 };
 
 /// @param threads >= 1
-/// @return nothing if a block cannot be built (named in diagnostics at its key)
+/// @return empty if a block cannot be built (reported at its key)
 [[nodiscard]] std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
                                                               Diagnostics& diagnostics,
                                                               Preparation* preparation = nullptr,

@@ -17,12 +17,13 @@ namespace {
 // Measured, in bytes.
 constexpr double program = 2e7;
 constexpr double of_triangle = 2000.0;
-constexpr double of_sub_face = 2000.0;            ///< without what grows with the order
+constexpr double of_sub_face = 2000.0;            ///< without the part that grows with the order
 constexpr double of_surface_value = 10.0;         ///< of a function at a point of a sub-face
-constexpr double of_pair_and_unknown = 1e4;       ///< contact points, matrix and factor, where faces meet
-constexpr double matrices_of_kind = 4.0;          ///< of size 3p x 3p, of blocks that differ
-constexpr double matrices_of_block = 2.0;         ///< and of each block
-constexpr double bytes_per_mesh_triangle = 20.0;  ///< of a file, the least of all formats
+constexpr double of_pair_and_unknown = 1e4;       ///< contact points, matrix and factor, per pair of faces in
+                                                  ///< contact
+constexpr double matrices_of_kind = 4.0;          ///< of size 3p x 3p, for each kind of block
+constexpr double matrices_of_block = 2.0;         ///< additionally for each block
+constexpr double bytes_per_mesh_triangle = 20.0;  ///< of a file, the smallest of all formats
 
 double functions_of(int order) {
   return (order + 1.0) * (order + 2.0) * (order + 3.0) / 6.0;
@@ -51,7 +52,7 @@ struct TriangleCount {
   }
 };
 
-/// Sub-faces that each triangle of a block is divided into.
+/// Number of sub-faces per triangle of a block.
 double division_of(const Scene& scene, const SceneBlock& block) {
   if (block.fixed) return 1.0;
   if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental)
@@ -67,12 +68,12 @@ double surface_memory(const SceneBlock& block, double triangles, double sub_face
   return memory;
 }
 
-/// What blocks share that have equal parts.
+/// Key of blocks with equal parts.
 std::pair<std::size_t, int> kind_of(const SceneBlock& block) {
   return {block.shape.index(), block.order};
 }
 
-/// Blocks with boxes that meet, and what those of them take that can touch along faces.
+/// Blocks whose boxes intersect, and the memory of those that can touch along faces.
 struct NearPairs {
   double count = 0.0;
   double memory = 0.0;  ///< bytes
@@ -96,7 +97,7 @@ NearPairs near_pairs(const std::vector<std::optional<Polyhedron>>& solids, const
     pairs.count += 1.0;
     pairs.memory += of_pair_and_unknown * (unknowns_of(first) + unknowns_of(second));
   }
-  // Blocks that touch along an edge or at a corner, and boxes of blocks that lean, have no contact points.
+  // Blocks in contact along an edge or at a corner, and boxes of inclined blocks, have no contact points.
   pairs.memory *= std::min(1.0, 0.5 * faces / std::max(pairs.count, 1.0));
   return pairs;
 }
@@ -155,7 +156,7 @@ bool check_cost(const Scene& scene, const CostEstimate& estimate, Diagnostics& d
                                       to_string(estimate, scene.block.size()), bytes_in_words(limit));
   const std::string raised = fmt::format("analysis.memory_limit = {:.0e} (bytes) allows it",
                                          std::pow(10.0, std::ceil(std::log10(estimate.memory))));
-  // What surfaces take, and the block with most sub-faces.
+  // Memory of surfaces, and the block with most sub-faces.
   std::size_t largest = 0;
   double most = -1.0, of_surfaces = 0.0;
   const std::filesystem::path folder = scene.file.parent_path();

@@ -22,7 +22,7 @@ void read_number_of_planes(TomlTableReader& table, SceneCut& cut) {
   if (!table.holds_infinity("number")) table.read_integer("number", cut.number, 0, largest_integer);
 }
 
-/// Of a spacing's deviation, in means: beyond it nearly all planes are in heaps that rounding cannot tell apart.
+/// Standard deviation of a spacing relative to its mean: beyond it nearly all planes coincide within rounding error.
 constexpr double most_deviation = 100.0;
 
 void read_spacing_law(TomlTableReader table, SceneCut& cut) {
@@ -75,7 +75,7 @@ void read_planes(TomlTableReader& table, SceneCut& cut, bool needed) {
         fmt::format("number of planes without their spacing ({}), a spacing is needed", *cut.number));
 }
 
-/// Keys that only planes have.
+/// Refuses keys that apply to planes only.
 void refuse_plane_keys(TomlTableReader& table, const char* kind) {
   for (const char* key :
        {"dip", "dip_direction", "point", "spacing", "fisher", "persistence", "radius", "number"})

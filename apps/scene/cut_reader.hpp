@@ -1,4 +1,4 @@
-// Reading one [[cut]] of a scene.
+// Reads one [[cut]] of a scene.
 #pragma once
 
 #include "apps/scene/scene.hpp"

@@ -16,7 +16,7 @@ std::string to_string(const Place& place) {
   return fmt::format("{}:{}:{}", place.origin, place.line, place.column);
 }
 
-/// A line with its middle left out where names or values of the user make it too long.
+/// Shortens a line in the middle if the user's names or values make it too long.
 static std::string shortened(std::string line) {
   if (line.size() <= longest_line) return line;
   const auto inside_letter = [&](std::size_t byte) {
@@ -34,13 +34,13 @@ std::string to_string(const Diagnostic& diagnostic) {
       fmt::format("{}: {}: {}", to_string(diagnostic.place),
                   diagnostic.severity == Severity::error ? "error" : "warning", diagnostic.message);
   line = shortened(std::move(line));
-  // Values of the user may hold line breaks.
+  // The user's values may contain line breaks.
   std::replace_if(
       line.begin(), line.end(), [](unsigned char letter) { return letter < ' '; }, ' ');
   return line;
 }
 
-/// What a message says before any name or number of the user's: in parentheses, in quotes, or digits.
+/// Beginning of a message before any name or number of the user's: in parentheses, in quotes, or digits.
 static std::string_view kind_of(const Diagnostic& diagnostic) {
   std::string_view kind = diagnostic.message;
   kind = kind.substr(0, kind.find_first_of("(\"0123456789"));

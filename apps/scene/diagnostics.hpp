@@ -1,4 +1,4 @@
-// What a user is told about bad input: every fault with its place, all of them in one run.
+// Reports on bad input: every fault with its place, all in one run.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace ashlar {
 
-/// Where a fault stands: in a file, or in an argument of the command line.
+/// Place of a fault: in a file, or in an argument of the command line.
 struct Place {
   std::string origin;  ///< the file as the user named it, or the whole argument, e.g. "--set block.B.order=0"
   int line = 0;        ///< 1-based; 0 if the origin has no lines (an argument)
@@ -23,7 +23,7 @@ struct Place {
 
 enum class Severity {
   error,    ///< the input cannot be used
-  warning,  ///< it can, but hardly means what it says
+  warning,  ///< usable, but implausible
 };
 
 /// One fault. The message reads "what is wrong (value), what is allowed", without a full stop.
@@ -33,13 +33,13 @@ struct Diagnostic {
   Severity severity = Severity::error;
 };
 
-/// Bytes of a line that is told; the middle of longer ones is left out.
+/// Longest reported line, bytes; longer ones are shortened in the middle.
 inline constexpr std::size_t longest_line = 2000;
 
-/// "PLACE: error: MESSAGE" or "PLACE: warning: MESSAGE" in one line: control characters become blanks.
+/// "PLACE: error: MESSAGE" or "PLACE: warning: MESSAGE" in one line: control characters are replaced by blanks.
 [[nodiscard]] std::string to_string(const Diagnostic& diagnostic);
 
-/// Faults of one kind that print() lists; of the others it gives the number.
+/// Number of faults of one kind listed by print(); the others are counted.
 inline constexpr std::size_t listed_of_a_kind = 20;
 
 /// All faults found so far.
@@ -49,15 +49,15 @@ class Diagnostics {
   void warning(Place place, std::string message) {
     all_.push_back({std::move(place), std::move(message), Severity::warning});
   }
-  /// Whether the input can be used: there may be warnings, but no errors.
+  /// True if the input can be used: there may be warnings, but no errors.
   [[nodiscard]] bool good() const;
-  /// In file order; faults of arguments come after those of files. Faults at one place keep the order in
-  /// which they were found, and a fault found twice is listed once.
+  /// In file order; faults of arguments come after those of files. Faults at one place keep the order in which they
+  /// were found; duplicates are listed once.
   [[nodiscard]] std::vector<Diagnostic> sorted() const;
-  /// As sorted(), but of faults that differ in names and numbers only the first listed_of_a_kind; at the end one for
-  /// the others of each kind, with their number, where the first of them is.
+  /// As sorted(), but only the first listed_of_a_kind of faults that differ in names and numbers; at the end one for
+  /// the others of each kind, with their number, at the place of the first of them.
   [[nodiscard]] std::vector<Diagnostic> listed() const;
-  /// What is listed, one line each.
+  /// Prints listed(), one line each.
   void print(std::ostream& stream) const;
 
  private:

@@ -37,7 +37,7 @@ void warn_of_no_friction(const Scene& scene, Diagnostics& diagnostics) {
       "slopes and in arches slide; friction_angle = 0 says that this is meant");
 }
 
-/// Of a history: where it begins.
+/// For a history, its first row.
 void warn_of_upward_gravity(const Scene& scene, Diagnostics& diagnostics) {
   const SceneAnalysis& analysis = scene.analysis;
   const bool changes = !analysis.gravity_history.empty();

@@ -1,4 +1,4 @@
-// Keys that are good by themselves and hardly mean what they say.
+// Keys with valid, but implausible values.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,17 @@
 
 namespace ashlar {
 
-/// A block from a mesh file without scale that is this many times as wide as the widest other block is taken
-/// to be in millimetres.
+/// A block from a mesh file without scale whose width relative to the widest other block exceeds this is assumed to
+/// be in millimetres.
 inline constexpr double mesh_in_millimetres = 100.0;
 
 /// Warns, at its key, of
 ///   friction_angle          above 0 and below 1 degree: a coefficient, or radians
-///   no friction_angle       where two or more blocks are not tied: nothing that leans or slopes stands
-///   gravity                 that points upwards, z being up; of a history, its first row
+///   no friction_angle       if two or more blocks are not tied: inclined blocks cannot stand
+///   gravity                 with a positive z; for a history, its first row
 void warn_of_doubtful_keys(const Scene& scene, Diagnostics& diagnostics);
 
-/// Warns of meshes that are probably in millimetres. @param solids one per scene.block; those that are
-/// missing are passed over
+/// Warns of meshes that are probably in millimetres. @param solids one per scene.block; missing ones are ignored
 void warn_of_mesh_units(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                         Diagnostics& diagnostics);
 

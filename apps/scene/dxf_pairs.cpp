@@ -19,7 +19,7 @@ std::string_view without_blanks(std::string_view text) {
                                          : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// Reads a text that is one number as a whole. std::from_chars knows no plus sign.
+/// Reads a text that is a single number. std::from_chars does not accept a plus sign.
 template <class Number>
 bool read_number(std::string_view text, Number& value) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
@@ -27,7 +27,7 @@ bool read_number(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Bytes of the character that begins a text; 0 if it is no UTF-8.
+/// Bytes of the first character of a text; 0 if it is not UTF-8.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t k) -> unsigned { return static_cast<unsigned char>(text[k]); };
   if (byte(0) < 0x80U) return 1;
@@ -35,7 +35,7 @@ std::size_t utf8_length(std::string_view text) {
   if (byte(0) < 0xc2U || byte(0) > 0xf4U || length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k)
     if ((byte(k) & 0xc0U) != 0x80U) return 0;
-  // Longer than needed, a half of a surrogate, or beyond the last character.
+  // Overlong, a surrogate, or beyond the last character.
   const unsigned first = byte(0) << 8U | byte(1);
   const bool none = (first & 0xffe0U) == 0xe080U || (first & 0xffe0U) == 0xeda0U ||
                     (first & 0xfff0U) == 0xf080U || first >= 0xf490U;

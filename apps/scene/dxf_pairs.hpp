@@ -1,4 +1,4 @@
-// The pairs of lines that a DXF file consists of: a group code, then its value.
+// The pairs of lines of a DXF file: a group code, then its value.
 #pragma once
 
 #include <string>
@@ -10,20 +10,21 @@ namespace ashlar {
 
 class DxfPairs {
  public:
-  /// The text must outlive it.
+  /// The text must outlive this.
   explicit DxfPairs(std::string_view text) : rest_(text) {}
 
-  /// Goes to the next pair, past comments. @throws MeshFileError "file ends before EOF", a code that is no number
+  /// Reads the next pair, skipping comments. @throws MeshFileError "file ends before EOF", a code that is not a
+  /// number
   void next();
 
   [[nodiscard]] int code() const { return code_; }
-  /// Without blanks around it.
+  /// Value without surrounding blanks.
   [[nodiscard]] std::string_view value() const { return value_; }
-  /// The same in UTF-8. Older drawings are in the code page of their country; what is no UTF-8 is read as Latin-1.
+  /// Value in UTF-8. Older drawings use a national code page; invalid UTF-8 is read as Latin-1.
   [[nodiscard]] std::string text() const;
   [[nodiscard]] bool is(int code, std::string_view value) const { return code_ == code && value_ == value; }
 
-  /// The value as a number, finite and in the range of coordinates.
+  /// Value as a number, finite and in the range of coordinates.
   [[nodiscard]] double number(const char* what) const;
   [[nodiscard]] long long integer(const char* what) const;
 

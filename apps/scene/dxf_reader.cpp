@@ -60,7 +60,7 @@ struct Polyline {
   long long n = 0;
   int line = 0;
   std::vector<Vector3> points;
-  std::vector<std::array<long long, 4>> faces;  ///< indices from 1, negative behind hidden edges, 0: none
+  std::vector<std::array<long long, 4>> faces;  ///< 1-based indices, negative for hidden edges, 0: none
   std::vector<int> face_lines;
 };
 
@@ -151,7 +151,7 @@ class DxfReader {
     }
   }
 
-  /// From the first entity to the end's name.
+  /// Reads from the first entity to the given end.
   void read_entities(Block& block, std::string_view end) {
     while (!pairs_.is(0, end)) {
       if (pairs_.is(0, "ENDSEC") || pairs_.is(0, "EOF")) pairs_.fail(fmt::format("stands before {}", end));
@@ -166,7 +166,7 @@ class DxfReader {
     }
   }
 
-  /// A coordinate of corner k, if the pair is one. @return its axis
+  /// Reads a coordinate of corner k, if the pair is one. @return its axis
   std::optional<int> read_point(Vector3& point, int k) {
     for (int axis = 0; axis < 3; ++axis) {
       if (pairs_.code() != 10 * (axis + 1) + k) continue;
@@ -287,7 +287,7 @@ class DxfReader {
     return layout;
   }
 
-  /// Size of a block with its inserts. Its shapes are added to the layout. @param level of blocks in blocks
+  /// Size of a block with its inserts. Adds its shapes to the layout. @param level nesting of blocks
   LayoutSize size_of(const Block& block, ShapeLayout& layout, int level) {
     const auto [found, is_new] = known_.try_emplace(&block);
     std::optional<Known>& known = found->second;
@@ -327,7 +327,7 @@ class DxfReader {
   DxfPairs pairs_;
   Block drawing_;
   std::map<std::string, Block> blocks_;
-  std::map<const Block*, std::optional<Known>> known_;  ///< none while its inserts are looked at
+  std::map<const Block*, std::optional<Known>> known_;  ///< empty while its inserts are examined
 };
 
 }  // namespace

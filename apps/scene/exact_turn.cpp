@@ -9,7 +9,7 @@ Turn turn_of(double degrees) {
   int quarters = 0;
   const double rest = std::remquo(degrees, 90.0, &quarters) * std::numbers::pi / 180.0;
   const double sine = std::sin(rest), cosine = std::cos(rest);
-  // remquo gives at least the three low bits of the quotient, with its sign.
+  // remquo returns at least the three low bits of the quotient, with its sign.
   switch (quarters & 3) {
     case 0:
       return {sine, cosine};

@@ -10,7 +10,8 @@
 namespace ashlar {
 namespace {
 
-/// "cannot open directory" of "filesystem error: directory iterator cannot open directory: REASON [PATH]"; some say less.
+/// "cannot open directory" from "filesystem error: directory iterator cannot open directory: REASON [PATH]"; some are
+/// shorter.
 std::string_view action_of(std::string_view what) {
   const std::size_t start = what.find("cannot ");
   if (start == std::string_view::npos) return "cannot use";
@@ -36,7 +37,7 @@ std::string fault_text(const std::exception& error) {
 }
 
 std::string_view missing_memory(const std::bad_alloc& error) {
-  // Where a part of the program tells more, it begins with these words.
+  // Text of more detailed messages begins with these words.
   constexpr std::string_view words = "out of memory";
   const std::string_view what = error.what();
   return what.starts_with(words) ? what : words;

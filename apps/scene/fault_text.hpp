@@ -1,4 +1,4 @@
-// Exceptions in the words of messages.
+// Text of exceptions for messages.
 #pragma once
 
 #include <exception>
@@ -8,11 +8,11 @@
 
 namespace ashlar {
 
-/// Text of an exception in a message: "out of memory"; "cannot open directory PATH: REASON" of what the library for
-/// file systems throws, and the reason alone where a stream failed; what() of all others.
+/// Text of an exception for a message: "out of memory"; "cannot open directory PATH: REASON" for exceptions of the
+/// file system library; the reason alone for a failed stream; what() otherwise.
 [[nodiscard]] std::string fault_text(const std::exception& error);
 
-/// Text of an allocation that failed, without another one: "out of memory", and what was needed where that is known.
+/// Text of a failed allocation, without another allocation: "out of memory", and the requirement if known.
 [[nodiscard]] std::string_view missing_memory(const std::bad_alloc& error);
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// What a file was when it was read, so that a result tells whether it is still the same.
+// Hash of a file when it was read, to detect later changes.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace ashlar {
 
-/// SHA-256 of all bytes as 64 hexadecimal digits, as the command sha256sum prints it; empty if the file
-/// cannot be read.
+/// SHA-256 of all bytes as 64 hexadecimal digits, as printed by the command sha256sum; empty if the file cannot be
+/// read.
 [[nodiscard]] std::string sha256_of(const std::filesystem::path& file);
 
-/// The same of a text.
+/// The same for a text.
 [[nodiscard]] std::string sha256_of_text(std::string_view text);
 
 }  // namespace ashlar

@@ -39,7 +39,7 @@ constexpr std::array<UnaryFunction, 18> unary_functions = {{{"sin", std::sin},
                                                             {"ceil", std::ceil},
                                                             {"round", std::round}}};
 
-// The parser sees to it that there is at least one.
+// The parser ensures that there is at least one.
 double smallest(const double* values, int count) {
   return *std::min_element(values, values + count);
 }
@@ -67,7 +67,7 @@ bool is_constant(std::string_view name) {
                      [&](const auto& constant) { return name == constant.first; });
 }
 
-// Those of the parser, in whatever locale the program runs.
+// Letters of the parser, in any locale.
 bool is_letter(char letter) {
   return letter == '_' || (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
 }
@@ -76,7 +76,7 @@ bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
 }
 
-// Past the number that begins at `at`: digits with a point and an exponent.
+// End of the number that begins at `at`: digits with a point and an exponent.
 std::size_t end_of_number(const std::string& text, std::size_t at) {
   const auto digits = [&] {
     while (at < text.size() && (is_digit(text[at]) || text[at] == '.')) ++at;
@@ -156,12 +156,12 @@ constexpr const char* allowed_words =
 
 struct Formulas::Parser {
   mu::Parser parser;
-  // Variables, not constants: what is not reached of a ? b : c is not evaluated.
+  // Variables, not constants: the branch of a ? b : c that is not taken is not evaluated.
   std::map<std::string, double> values;
   std::set<std::string> left_out;
 
   Parser() {
-    // Only what the reference names: the parser's own log, for one, has changed its base between versions.
+    // Only documented names: the parser's own log, for example, has changed its base between versions.
     parser.ClearFun();
     parser.ClearConst();
     for (const UnaryFunction& function : unary_functions) parser.DefineFun(function.name, function.call);
@@ -252,7 +252,7 @@ double Formulas::value(const std::string& text) const {
                          0);
     return result;
   } catch (const mu::Parser::exception_type& error) {
-    // Positions are those of the text behind "=".
+    // Positions are relative to the text after "=".
     const std::size_t offset =
         std::min(static_cast<std::size_t>(std::max(error.GetPos(), 0)) + 1, text.size());
     throw FormulaError(fmt::format("formula cannot be read ({}), {}", words_of(error), allowed_words),

@@ -39,7 +39,7 @@ std::size_t bytes_of_component(const JsonNode& type) {
   }
 }
 
-/// %41 is A. @throws MeshFileError
+/// Decodes %41 to A. @throws MeshFileError
 std::string percent_decoded(const std::string& uri) {
   const auto digit = [](char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -77,7 +77,7 @@ fs::path file_below(const fs::path& folder, const std::string& uri) {
       uri.find(':') != std::string::npos ||
       std::find(relative.begin(), relative.end(), "..") != relative.end())
     refuse_uri(uri);
-  // Links may lead elsewhere.
+  // Links may lead out of the folder.
   std::error_code error;
   const fs::path base = fs::canonical(folder.empty() ? "." : folder, error);
   const fs::path file = error ? fs::path() : fs::canonical(base / relative, error);

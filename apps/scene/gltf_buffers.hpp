@@ -1,5 +1,5 @@
-// Numbers of a glTF 2.0 file: accessors into views of buffers, whose bytes are in the file as base64, in the binary chunk of
-// a .glb file, or in files beside it.
+// Numbers of a glTF 2.0 file: accessors into views of buffers, whose bytes are in the file as base64, in the binary
+// chunk of a .glb file, or in other files.
 #pragma once
 
 #include <cstdint>
@@ -16,29 +16,30 @@
 
 namespace ashlar {
 
-/// Bytes of a file that a buffer's uri names. @throws MeshFileError
+/// Returns the bytes of the file of a buffer's uri. @throws MeshFileError
 using BufferFile = std::function<std::shared_ptr<const std::string>(const std::string& uri)>;
 
-/// Regular files in a folder or below it, each read once. Names with "..", absolute ones, and links that lead out of the
-/// folder are refused.
+/// Regular files in a folder or below it, each read once. Names with "..", absolute ones, and links out of the folder
+/// are refused.
 [[nodiscard]] BufferFile buffer_files_in(const std::filesystem::path& folder);
 
 class GltfBuffers {
  public:
-  /// @param root, chunk, file must outlive it. @param chunk of a .glb file, empty without one
+  /// @param root, chunk, file must outlive this. @param chunk of a .glb file, otherwise empty
   GltfBuffers(const JsonNode& root, std::string_view chunk, BufferFile file);
 
-  /// Elements of an accessor. They exist: the buffer has bytes for them.
+  /// Number of elements of an accessor. The buffer has bytes for all of them.
   [[nodiscard]] std::size_t count(std::size_t accessor);
 
-  /// Points of the given indices. @param accessor of three floats. @throws MeshFileError where a coordinate is no number
+  /// Points of the given indices. @param accessor of three floats. @throws MeshFileError if a coordinate is not a
+  /// number
   [[nodiscard]] std::vector<Vector3> points(std::size_t accessor, const std::vector<std::uint32_t>& indices);
 
   /// @param accessor of unsigned integers
   [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor);
 
   [[nodiscard]] std::size_t accessors() const { return accessors_; }
-  /// Of all buffers that were used up to now.
+  /// Bytes of all buffers used so far.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:

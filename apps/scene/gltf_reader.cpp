@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// How a primitive's vertices make triangles (section 3.7.2.1); points and lines are modes 0 to 3.
+/// Triangles of a primitive's vertices (section 3.7.2.1); points and lines are modes 0 to 3.
 constexpr std::size_t mode_triangles = 4;
 constexpr std::size_t mode_strip = 5;
 constexpr std::size_t mode_fan = 6;
@@ -27,7 +27,7 @@ std::size_t triangles_of(std::size_t mode, std::size_t vertices) {
 std::array<std::size_t, 3> corners_of(std::size_t mode, std::size_t t) {
   if (mode == mode_triangles) return {3 * t, 3 * t + 1, 3 * t + 2};
   if (mode == mode_fan) return {0, t + 1, t + 2};
-  // Every second triangle of a strip is turned.
+  // Every second triangle of a strip is reversed.
   const bool turned = mode == mode_strip && t % 2 != 0;
   return !turned ? std::array{t, t + 1, t + 2} : std::array{t + 1, t, t + 2};
 }
@@ -64,7 +64,7 @@ Eigen::Matrix<double, size, 1> vector_of(const JsonNode& node) {
   return values;
 }
 
-/// Scaled, then turned, then moved (section 3.5.3).
+/// Scaling, then rotation, then translation (section 3.5.3).
 Eigen::Affine3d transformation_of(const JsonNode& node) {
   const auto matrix = node.find("matrix");
   const auto translation = node.find("translation");
@@ -100,7 +100,7 @@ class GltfReader {
     read_tree();
     const auto meshes = root_.find("meshes");
     shapes_.resize(meshes ? meshes->size() : 0);
-    // Shapes first: what buffers hold is part of the bound.
+    // Shapes first: the bound includes the contents of buffers.
     std::vector<PolygonSoup> read(shapes_.size());
     const std::vector<std::size_t> shown = nodes_of_scene();
     std::vector<bool> known(shapes_.size(), false);
@@ -120,7 +120,7 @@ class GltfReader {
  private:
   [[nodiscard]] LayoutLimits limits() const { return layout_limits(bytes_ + buffers_.bytes()); }
 
-  /// Finds the parent of each node.
+  /// Determines the parent of each node.
   void read_tree() {
     nodes_ = root_.find("nodes");
     parent_.assign(nodes_ ? nodes_->size() : 0, none);
@@ -154,7 +154,7 @@ class GltfReader {
       stack.push_back(root);
     }
     std::reverse(stack.begin(), stack.end());
-    // Each node has one parent, and these have none: nothing is met twice.
+    // Each node has one parent, and these have none: none is visited twice.
     while (!stack.empty()) {
       const std::size_t node = stack.back();
       stack.pop_back();
@@ -246,7 +246,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t place) {
   return read_binary<std::uint32_t>(bytes.substr(place), std::endian::little);
 }
 
-/// A chunk's content, and what follows it.
+/// Content of a chunk, and the rest.
 std::pair<std::string_view, std::string_view> chunk(std::string_view bytes, std::uint32_t kind,
                                                     const char* name) {
   constexpr std::size_t head = 8;

@@ -1,4 +1,4 @@
-// Histories of a scene: rows written in it, or a table that names the file and the columns they are in.
+// Histories of a scene: rows in the scene, or a table with a file and the names of its columns.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace ashlar {
 /// Rows that begin with a time, which increases from row to row.
 struct HistoryRows {
   std::vector<std::vector<double>> rows;
-  std::optional<SceneRecord> file;  ///< where they come from, if not from the scene
+  std::optional<SceneRecord> file;  ///< their file, if not in the scene
 };
 
-/// @param width numbers in a row. @param words for a row, "[t, factor]". @return nothing if absent or faulty
+/// @param width numbers in a row. @param words name of a row, "[t, factor]". @return empty if absent or faulty
 [[nodiscard]] std::optional<HistoryRows> read_history(TomlTableReader& table, std::string_view key,
                                                       std::size_t width, const char* words);
 

@@ -14,7 +14,7 @@ class IdleKeys {
  public:
   IdleKeys(const Scene& scene, Diagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
 
-  /// Warns if the key was given. @param path as in ScenePlaces. @param reason what leaves it without effect
+  /// Warns if the key was given. @param path as in ScenePlaces. @param reason for the missing effect
   void warn(const std::string& path, const std::string& reason) {
     if (!scene_.places.contains(path)) return;
     diagnostics_.warning(scene_.places.key(path),
@@ -49,7 +49,7 @@ void warn_of_analysis(const Scene& scene, IdleKeys& keys) {
   if (!has_multipliers(scene)) keys.warn("contact.penetration_tolerance", "it is that of augmented = true");
 }
 
-/// A key may stand for many blocks, of a file or an array: it has an effect where one of them deforms.
+/// A key may apply to many blocks, of a file or an array: it has an effect if one of them deforms.
 void warn_of_orders(const Scene& scene, IdleKeys& keys) {
   const auto path = [](std::size_t k) { return fmt::format("block.{}.order", k); };
   std::set<std::string> in_effect;  // by place
@@ -72,7 +72,7 @@ void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
   }
 }
 
-/// Only springs have dashpots beside them, and only in motion.
+/// Only springs have dashpots, and only in dynamics.
 void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
   const auto check = [&](const std::string& path, const SceneJointLaw& law, bool gives_way) {
     if (law.damping == 0.0) return;
@@ -97,7 +97,7 @@ void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
   }
 }
 
-/// A joint that ties two blocks by their names. Globs may also match pairs that a later joint unties.
+/// Warns of joints that tie two blocks by their names. Globs may also match pairs untied by a later joint.
 void warn_of_ties(const Scene& scene, IdleKeys& keys) {
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];

@@ -1,4 +1,4 @@
-// Keys of a scene that another key leaves without effect: whoever wrote them expects one.
+// Keys of a scene that have no effect because of another key, although their author expects one.
 #pragma once
 
 #include "apps/scene/diagnostics.hpp"

@@ -25,7 +25,7 @@ bool lists_tables(const toml::node& node) {
          std::all_of(array->begin(), array->end(), [](const toml::node& entry) { return entry.is_table(); });
 }
 
-// Nodes are moved, because a copy would lose its source.
+// Nodes are moved, as a copy would lose its source.
 void merge(toml::table& into, toml::table&& from) {
   for (auto&& [key, node] : from) {
     toml::node* present = into.get(key.str());
@@ -59,7 +59,7 @@ class DocumentReader {
  public:
   explicit DocumentReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  /// @param folder of the file, relative to the document's own; paths in the tree get it in front
+  /// @param folder of the file, relative to the document's own; prefix of paths in the tree
   toml::table parse(std::string_view text, const fs::path& file, const fs::path& folder) {
     const std::string name = file.string();
     files_.push_back(name);
@@ -164,7 +164,7 @@ class DocumentReader {
   std::vector<std::string> files_;
   std::size_t bytes_ = 0;       ///< of all files
   std::vector<fs::path> open_;  ///< being read, each includes the next
-  std::set<fs::path> read_;     ///< or being read
+  std::set<fs::path> read_;     ///< read or being read
   std::error_code ignored_;
 };
 

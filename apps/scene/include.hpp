@@ -1,6 +1,6 @@
-// include = ["materials.toml"]: scenes made of several files. The files are read first, in their order, each
-// with what it includes itself. Lists of tables ([[block]]) are joined, tables are merged key by key, and of
-// what is given twice the later counts: the including file's, and of two included ones the second's.
+// include = ["materials.toml"]: scenes made of several files. The files are read first, in their order, each with its
+// own includes. Lists of tables ([[block]]) are joined and tables are merged key by key. Of values given twice the
+// later one is used: that of the including file, and of two included ones the second.
 #pragma once
 
 #include <toml++/toml.h>
@@ -14,20 +14,20 @@
 
 namespace ashlar {
 
-/// A document with all that it includes; nodes keep the file, line and column that they were written at.
+/// A document with all includes; nodes keep their file, line and column.
 struct SceneDocument {
   toml::table tree;                ///< without the key include
   std::vector<std::string> files;  ///< names under which files were parsed, the document's own first
 };
 
-/// Files within files within files.
+/// Largest nesting of includes.
 inline constexpr std::size_t deepest_include = 32;
 
-/// Parses a document and what it includes. Paths, of includes and of the key `file` anywhere, are relative to
-/// the file that says them; in the tree they are relative to the document's folder. A file that several others
-/// include is read once, where it comes first. Reported at the name of the file: one that cannot be read or is
-/// no regular file, files in a circle, deeper nesting than deepest_include, more than most_input_bytes in all; in the
-/// included file: malformed TOML.
+/// Parses a document and its includes. Paths, of includes and of the key `file` anywhere, are relative to the file
+/// they are in. In the tree they are relative to the document's folder. A file included several times is read once,
+/// at its first place. Reported at the name of the file: a file that cannot be read or is not regular, circular
+/// includes, deeper nesting than deepest_include, more than most_input_bytes in total. Reported in the included file:
+/// malformed TOML.
 /// @param file the document's name. @throws toml::parse_error of the document's own text
 [[nodiscard]] SceneDocument parse_document(std::string_view text, const std::filesystem::path& file,
                                            Diagnostics& diagnostics);

@@ -16,12 +16,11 @@
 namespace ashlar {
 namespace {
 
-/// Slack in barycentric coordinates and in parts of a triangle's size: no crossing is lost between two
-/// triangles, and a triangle is not taken for the other side of its solid.
+/// Slack in barycentric coordinates and relative to a triangle's size: no crossing between two triangles is missed,
+/// and a triangle is not mistaken for the opposite side of its solid.
 constexpr double crossing_slack = 1e-9;
 
-/// A solid with the questions that are asked of it. Rounded crossings only choose the points; how deep these
-/// are is decided by geometry.
+/// A solid with the queries for overlaps. Rounded crossings only choose the points; geometry determines their depth.
 class Probe {
  public:
   explicit Probe(const Polyhedron& solid) : solid_(solid), box_(box_of(solid.mesh().points)), depths_(solid) {
@@ -37,8 +36,8 @@ class Probe {
     return depth ? depth->depth : 0.0;
   }
 
-  /// Where the line from + t (to - from) meets the surface, t increasing. A crossing of a side of a triangle
-  /// may come twice.
+  /// Intersections of the line from + t (to - from) with the surface, t increasing. An intersection with a side of a
+  /// triangle may occur twice.
   [[nodiscard]] std::vector<double> crossings(const Vector3& from, const Vector3& to) const {
     const Vector3 direction = to - from;
     std::vector<double> found;
@@ -59,7 +58,7 @@ class Probe {
     return found;
   }
 
-  /// Corners, and middles of the pieces into which the other's surface cuts the edges.
+  /// Corners, and midpoints of the parts of edges between intersections with the other's surface.
   [[nodiscard]] std::vector<Vector3> edge_points(const Probe& other) const {
     std::vector<Vector3> result;
     for (const int corner : solid_.corners()) result.push_back(point(corner));
@@ -78,7 +77,7 @@ class Probe {
     return result;
   }
 
-  /// Points half way from the middle of each triangle, along its normal, to the other side of the solid.
+  /// Points midway from the centre of each triangle, along its normal, to the opposite side of the solid.
   [[nodiscard]] std::vector<Vector3> inner_points(const Probe& other) const {
     std::vector<Vector3> result;
     for (const auto& corners : triangles_) {
@@ -116,7 +115,7 @@ double sampled_depth(const Probe& a, const Probe& b) {
   return deepest;
 }
 
-/// The shape of a solid that is convex but for rounding.
+/// The shape of a solid that is convex within rounding error.
 std::optional<ConvexShape> convex_shape(const Polyhedron& solid) {
   if (!solid.convex()) return std::nullopt;
   try {
@@ -126,12 +125,12 @@ std::optional<ConvexShape> convex_shape(const Polyhedron& solid) {
   }
 }
 
-/// A solid made ready for the way it is asked in, once for all its pairs.
+/// A solid prepared for its kind of query, once for all its pairs.
 class Candidate {
  public:
   explicit Candidate(const Polyhedron& solid) : solid_(&solid), shape_(convex_shape(solid)) {}
   [[nodiscard]] const std::optional<ConvexShape>& shape() const { return shape_; }
-  /// Made when it is first asked for: pairs of convex solids need none.
+  /// Computed at the first use: pairs of convex solids do not need it.
   [[nodiscard]] const Probe& probe() {
     if (!probe_) probe_.emplace(*solid_);
     return *probe_;
@@ -149,7 +148,7 @@ OverlapDepth overlap_depth(Candidate& a, Candidate& b) {
   return {contact.relation == Relation::crossing ? std::sqrt(contact.squared_depth) : 0.0, true};
 }
 
-/// How deep two blocks may be in each other, m.
+/// Allowed depth of two blocks in each other, m.
 struct AllowedDepth {
   double rounding;    ///< in any case
   double depth;       ///< as the scene has it

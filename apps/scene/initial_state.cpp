@@ -19,7 +19,7 @@ bool has_tie(const Scene& scene, const JointTable& table, std::size_t block) {
   return false;
 }
 
-/// Whether some corner's neighbourhood has no volume any more.
+/// True if a corner's neighbourhood has no positive volume.
 bool is_inside_out(const BlockModel& block, const BlockState& state) {
   const auto inverted = [&](int corner) {
     const Vector3& point = block.solid().mesh().points[static_cast<std::size_t>(corner)];

@@ -34,7 +34,7 @@ std::string too_large(std::uintmax_t bytes) {
 }
 
 std::string whole_stream(std::istream& input, std::size_t most) {
-  // Operators of streams swallow exceptions, that of missing memory too, and what was read so far would pass for all.
+  // Stream operators swallow exceptions, including failed allocations, and a partial content would seem complete.
   std::string bytes;
   std::array<char, 1 << 16> part{};
   while (input.read(part.data(), part.size()) || input.gcount() > 0) {

@@ -1,4 +1,4 @@
-// Reading whole files, with errors that name the file.
+// Reads whole files, with errors that name the file.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,24 +18,25 @@
 
 namespace ashlar {
 
-/// Refuses folders, and devices and pipes, of which some have no end.
+/// Refuses folders, and devices and pipes, some of which are unbounded.
 /// @throws std::runtime_error with the reason alone if `path` is no regular file
 void require_regular_file(const std::filesystem::path& path);
 
-/// Bytes of a scene with all files that it includes, or of a record: 500,000 blocks, 3,000,000 rows.
+/// Largest size of a scene with all includes, or of a record: 500,000 blocks, 3,000,000 rows.
 inline constexpr std::size_t most_input_bytes = 100'000'000;
 
-/// "too large (30.0 GB), at most 100 MB are allowed" @param bytes that there are, or are known to be at least
+/// "too large (30.0 GB), at most 100 MB are allowed" @param bytes present, or a lower bound
 [[nodiscard]] std::string too_large(std::uintmax_t bytes);
 
-/// All bytes. @throws std::runtime_error with the reason alone, too_large() where there are more than `most`
+/// All bytes. @throws std::runtime_error with the reason alone, too_large() if there are more than `most`
 [[nodiscard]] std::string whole_file(const std::filesystem::path& path,
                                      std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// The same of a stream, which may come from a pipe.
+/// The same for a stream, possibly a pipe.
 [[nodiscard]] std::string whole_stream(std::istream& input, std::size_t most);
 
-/// @return the value of `read`. @throws std::runtime_error "cannot read <path>: <reason>" where `read` throws; std::bad_alloc
+/// @return the value of `read`. @throws std::runtime_error "cannot read <path>: <reason>" if `read` throws;
+/// std::bad_alloc
 template <class Read>
 auto naming_the_file(const std::filesystem::path& path, Read read) {
   try {

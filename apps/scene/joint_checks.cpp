@@ -10,10 +10,10 @@
 namespace ashlar {
 namespace {
 
-/// Of joints, with a residual value each.
+/// Keys of joints with a residual value.
 constexpr std::array strength_keys = {"friction_angle", "cohesion", "tensile_strength"};
 
-/// A joint that failed bears no more than one that has not. @param path of the table that gave the last of both
+/// Reports a residual strength above that of an intact joint. @param path of the table with the last of both
 void check_residuals(const Scene& scene, const SceneJointLaw& law, const std::string& path,
                      Diagnostics& diagnostics) {
   const auto check = [&](const char* key, double strength, const std::optional<double>& residual,
@@ -30,8 +30,8 @@ void check_residuals(const Scene& scene, const SceneJointLaw& law, const std::st
   check("tensile_strength", law.tensile_strength, law.tensile_strength_residual, "Pa");
 }
 
-/// A joint that dilates by more than friction bears does more work than sliding takes from it.
-/// @param path of the table that gave the last of both
+/// Reports dilation above friction: such a joint would do more work than sliding dissipates.
+/// @param path of the table with the last of both
 void check_dilation(const Scene& scene, const SceneJointLaw& law, const std::string& path,
                     Diagnostics& diagnostics) {
   const bool weakens = law.friction_angle_residual && *law.friction_angle_residual < law.friction_angle;
@@ -39,7 +39,7 @@ void check_dilation(const Scene& scene, const SceneJointLaw& law, const std::str
   if (law.dilation_angle <= most) return;
   const char* bound = weakens ? "friction_angle_residual" : "friction_angle";
   const bool given = scene.places.contains(fmt::format("{}.dilation_angle", path));
-  // A table that gives neither repeats a fault of [contact].
+  // A table that gives neither would repeat a fault of [contact].
   if (!given && !scene.places.contains(fmt::format("{}.{}", path, bound))) return;
   diagnostics.error(scene.places.value(fmt::format("{}.{}", path, given ? "dilation_angle" : bound)),
                     fmt::format("dilation_angle is above {} ({} degrees), at most {} degrees is allowed",

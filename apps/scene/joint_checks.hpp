@@ -1,4 +1,4 @@
-// Checks of what [contact] and each [[joint]] say about strength and dilation.
+// Checks of strength and dilation in [contact] and each [[joint]].
 #pragma once
 
 #include "apps/scene/diagnostics.hpp"
@@ -6,7 +6,7 @@
 
 namespace ashlar {
 
-/// Residual values above those of joints that have not failed, and dilation above friction, are errors at their keys.
+/// Reports residual values above those of intact joints, and dilation above friction, at their keys.
 void check_joint_laws(const Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace ashlar

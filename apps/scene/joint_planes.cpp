@@ -26,7 +26,7 @@ NumberSpan regular_numbers(const SceneCut& cut, const PlaneRange& range) {
           std::min(limit, std::floor(range.high / *cut.spacing))};
 }
 
-/// Ranges from below, those that overlap as one.
+/// Ranges in increasing order, overlapping ones joined.
 std::vector<PlaneRange> joined(std::vector<PlaneRange> ranges) {
   std::sort(ranges.begin(), ranges.end(),
             [](const PlaneRange& a, const PlaneRange& b) { return a.low < b.low; });
@@ -40,7 +40,7 @@ std::vector<PlaneRange> joined(std::vector<PlaneRange> ranges) {
   return result;
 }
 
-/// The same seen from above: planes to the other side go up, too.
+/// Ranges of reversed heights: planes to the other side increase too.
 std::vector<PlaneRange> reversed(const std::vector<PlaneRange>& ranges) {
   std::vector<PlaneRange> result;
   for (auto range = ranges.rbegin(); range != ranges.rend(); ++range)

@@ -18,7 +18,7 @@ JointTable::JointTable(const Scene& scene)
   const auto matched_by = [&](const std::string& pattern) {
     const auto [place, is_new] = blocks_of_.emplace(pattern, std::vector<std::size_t>{});
     if (!is_new) return &place->second;
-    // A name without glob letters matches itself alone.
+    // A name without glob characters matches itself only.
     if (pattern.find_first_of("*?[\\") == std::string::npos) {
       const auto found = by_name.find(pattern);
       if (found != by_name.end()) place->second = found->second;

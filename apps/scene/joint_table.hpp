@@ -1,8 +1,7 @@
-// Which joints hold between which blocks, found once: a scene may have thousands of both.
+// Table of the joints between blocks, computed once: a scene may have thousands of both.
 //
-// A joint that matches a pair matches one of its blocks by its rarer glob, the one that fewer blocks match.
-// So it is listed with those blocks only, and a pair asks the few joints that are listed with either of its
-// blocks.
+// A joint that matches a pair matches one of its blocks by its rarer glob, the one that matches fewer blocks. So it
+// is listed with those blocks only, and a pair checks the few joints listed with either of its blocks.
 #pragma once
 
 #include <cstddef>
@@ -26,16 +25,15 @@ class JointTable {
   [[nodiscard]] std::vector<std::size_t> joints_between(std::size_t a, std::size_t b) const;
   /// As joint_law_between(scene, name, name).
   [[nodiscard]] SceneJointLaw law_between(std::size_t a, std::size_t b) const;
-  /// Indices of the blocks that the first or the second glob of a joint matches, increasing. @param side 0 or
-  /// 1
+  /// Indices of the blocks matched by the first or the second glob of a joint, increasing. @param side 0 or 1
   [[nodiscard]] const std::vector<std::size_t>& matched(std::size_t joint, std::size_t side) const {
     return *matched_[2 * joint + side];
   }
-  /// Whether a joint is of the faces that a cut made, not of all between the blocks it names.
+  /// True if a joint applies to the faces made by a cut, not to all faces between the blocks it names.
   [[nodiscard]] bool is_of_cut(std::size_t joint) const { return !joints_[joint].cut.empty(); }
-  /// Pairs (a < b) that a joint matches and its cut has given a common face, sorted.
+  /// Pairs (a < b) that match a joint and have a common face made by its cut, sorted.
   [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> pairs_parted_by(std::size_t joint) const;
-  /// Whether some two different blocks are matched, cuts aside.
+  /// True if any two different blocks are matched, regardless of cuts.
   [[nodiscard]] bool matches_a_pair(std::size_t joint) const;
 
  private:

@@ -18,7 +18,7 @@ MeshFileError error_at(std::string_view text, std::size_t position, const std::s
   return {what, static_cast<int>(line), static_cast<int>(read.size() - begin) + 1};
 }
 
-/// Judges the text before a tree is made of it.
+/// Checks the text before a tree is built.
 class SyntaxCheck {
  public:
   using Json = nlohmann::json;

@@ -1,4 +1,4 @@
-// Values of a JSON file that may come from anywhere: each access checks the type, and says where it failed.
+// Values of an untrusted JSON file: each access checks the type, and errors state the place.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,21 +10,21 @@
 
 namespace ashlar {
 
-/// Levels of arrays and objects in each other. glTF's own go 7 deep; what programs add under "extras" may be deeper.
+/// Largest nesting of arrays and objects. glTF itself needs 7 levels; data under "extras" may be deeper.
 inline constexpr std::size_t most_json_levels = 100;
 
-/// Parses a whole text. The tree takes up to 50 times its bytes. @throws MeshFileError with line and column
+/// Parses a whole text. The tree needs up to 50 times its bytes. @throws MeshFileError with line and column
 [[nodiscard]] nlohmann::json parse_json_file(std::string_view text);
 
-/// A value with its path, such as accessors[3].count. The tree must outlive it.
+/// A value with its path, such as accessors[3].count. The tree must outlive this.
 /// All members @throws MeshFileError "PATH is ..., allowed ...".
 class JsonNode {
  public:
   JsonNode(const nlohmann::json& value, std::string path);
 
-  /// A member of an object; none if there is none.
+  /// A member of an object; empty if there is none.
   [[nodiscard]] std::optional<JsonNode> find(const char* key) const;
-  /// The same, which must be there.
+  /// The same for a required member.
   [[nodiscard]] JsonNode at(const char* key) const;
   /// Elements of an array.
   [[nodiscard]] std::size_t size() const;

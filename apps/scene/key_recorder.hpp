@@ -1,5 +1,5 @@
-// What a reader asks of the keys of each table, noted while it reads: the schema of scenes (scene_schema.hpp) is what
-// the reader does, not a second account of it.
+// Records the keys that a reader requests from each table: the schema of scenes (scene_schema.hpp) is derived from
+// the reader, not from a second description.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace ashlar {
 
-/// One form that a key's value may have.
+/// One form of a key's value.
 struct KeyForm {
   enum class Kind {
     boolean,
@@ -43,7 +43,7 @@ class KeyRecorder {
   struct Table {
     int read = 0;  ///< times
     std::map<std::string, std::vector<KeyForm>> keys;
-    std::map<std::string, int> required;  ///< how often the table was said to need them
+    std::map<std::string, int> required;  ///< number of times the table was found to need them
   };
 
   void note_table(const std::string& name) { ++tables_[name].read; }

@@ -1,4 +1,4 @@
-// Which joints and loads of a scene a search for a factor changes.
+// Joints and loads of a scene that are changed by a search for a factor.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace ashlar {
 
-/// The joints whose strength a search for a factor of safety divides (analysis.safety.joints).
+/// The joints whose strength is divided by a search for a factor of safety (analysis.safety.joints).
 class ReducedJoints {
  public:
   explicit ReducedJoints(const Scene& scene);
@@ -19,10 +19,10 @@ class ReducedJoints {
 
  private:
   std::shared_ptr<const CutRock> rock_;
-  std::vector<bool> block_, cut_;  ///< (#blocks), (#cuts) whether they are named
+  std::vector<bool> block_, cut_;  ///< (#blocks), (#cuts) true if named
 };
 
-/// By block: whether a search for a capacity multiplies its loads (analysis.capacity.blocks).
+/// By block, true if its loads are multiplied by a search for a capacity (analysis.capacity.blocks).
 [[nodiscard]] std::vector<bool> multiplied_blocks(const Scene& scene);
 
 }  // namespace ashlar

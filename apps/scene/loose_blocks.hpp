@@ -1,4 +1,4 @@
-// Blocks that a static analysis cannot have, because nothing holds them.
+// Unsupported blocks, which a static analysis does not allow.
 #pragma once
 
 #include "apps/scene/diagnostics.hpp"
@@ -7,9 +7,9 @@
 
 namespace ashlar {
 
-/// Reports blocks, or sets of them in contact with each other, that no support, contact or fixed block holds,
-/// at the first one's place: a block alone with the rigid motions that its supports leave it. Contacts of the
-/// initial state count as holding.
+/// Reports blocks, or sets of them in contact with each other, that are restrained by no support, contact or fixed
+/// block, at the place of the first one; for a single block with the rigid motions allowed by its supports. Contacts
+/// of the initial state count as restraints.
 void refuse_loose_blocks(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// What the readers of all kinds of masonry need.
+// Functions shared by the readers of all kinds of masonry.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,24 @@
 
 namespace ashlar {
 
-/// A key that has to be there. @return whether it is, and good
+/// Reads a required key. @return true if it is present and valid
 [[nodiscard]] bool read_length(TomlTableReader& table, std::string_view key, double& length);
 
-/// The same of a key that may be left out.
+/// The same for an optional key.
 [[nodiscard]] bool read_optional_length(TomlTableReader& table, std::string_view key, double& length);
 
 [[nodiscard]] bool read_optional_place(TomlTableReader& table, std::string_view key, Vector3& place);
 
-/// A number of pieces that has to be given, from `low` on.
+/// Reads a required number of pieces, at least `low`.
 [[nodiscard]] bool read_count(TomlTableReader& table, std::string_view key, int& count, int low);
 
-/// Counts pieces of masonry, and reports, at the masonry, where all so far are more than a scene may have.
-/// @return whether they are not
+/// Counts pieces of masonry, and reports, at the masonry, if all so far exceed the limit of a scene.
+/// @return true if they do not
 [[nodiscard]] bool check_pieces(TomlTableReader& table, double pieces);
 
-/// The key `direction`, x if left out: the turn about the vertical through `about` that brings x there, none
-/// if it is x. Refused: a direction that is not level, or none.
-/// @return whether the key is absent or good
+/// Reads the key `direction`, default x: the rotation about the vertical through `about` that maps x to it; empty for
+/// x. Refuses a direction that is not horizontal, or zero.
+/// @return true if the key is absent or valid
 [[nodiscard]] bool read_direction(TomlTableReader& table, const Vector3& about,
                                   std::optional<SceneRotation>& turn);
 

@@ -1,5 +1,5 @@
-// Arches, columns and domes. Corners are computed one by one from the numbers of their joint, so that the
-// pieces on both sides of a joint have the same ones.
+// Arches, columns and domes. Corners are computed individually from the numbers of their joint, so that the pieces on
+// both sides of a joint have the same ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ MasonryPiece hull_piece(std::vector<Vector3> points, std::size_t number) {
   return {std::to_string(number), SceneHull{std::move(points)}, {}, {}};
 }
 
-/// Number k of a row of `count` numbers from `first` to `last`, which are met to the bit.
+/// Number k of a row of `count` numbers from `first` to `last`, exact at both ends.
 double between(double first, double last, int k, int count) {
   return k == count ? last : first + (last - first) * k / count;
 }
@@ -30,7 +30,7 @@ struct Ring {
   double outer = 0.0;
 };
 
-// Mean radius and thickness, which have to be given.
+// Reads mean radius and thickness, which are required.
 std::optional<Ring> read_ring(TomlTableReader& table) {
   double radius = 0.0, thickness = 0.0;
   const bool radius_good = read_length(table, "radius", radius);
@@ -72,7 +72,7 @@ struct Arch {
   int voussoirs = 0;
   std::optional<Fill> fill;
 
-  /// Before it is turned. @param side -0.5 to 0.5 of the width
+  /// Corner before rotation. @param side -0.5 to 0.5 of the width
   [[nodiscard]] Vector3 corner(int joint, double radius, double side) const {
     const bool closed = std::abs(to - from) == 360.0 && joint == voussoirs;
     const Turn angle = turn_of(between(from, to, closed ? 0 : joint, voussoirs));
@@ -115,7 +115,7 @@ bool check_fill(TomlTableReader& table, const Arch& arch) {
   return false;
 }
 
-// The fill stands upright on the outer face, a trapezium seen from the side.
+// The fill is above the outer face, a trapezium in elevation.
 SceneLoad weight_of_fill(const Arch& arch, int voussoir) {
   const Vector3 a = arch.corner(voussoir, arch.ring.outer, 0.0),
                 b = arch.corner(voussoir + 1, arch.ring.outer, 0.0);
@@ -176,7 +176,7 @@ std::vector<MasonryPiece> read_column(TomlTableReader& table) {
   good = (table.read_integer("sides", sides, fewest_sides, 1000) || !table.given("sides")) && good;
   good = read_count(table, "drums", drums, 1) && good;
   if (!good) return {};
-  // A drum has as many corners as some pieces of other kinds.
+  // A drum has as many corners as several pieces of other kinds.
   if (!check_pieces(table, static_cast<double>(drums) * std::max(1.0, sides / 8.0))) return {};
   const Circle circle{center, sides};
   std::vector<MasonryPiece> pieces;

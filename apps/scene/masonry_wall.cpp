@@ -12,9 +12,9 @@
 namespace ashlar {
 namespace {
 
-/// Of a brick: edges that are nearer are the same.
+/// Of a brick: closer edges are equal.
 constexpr double same_edge = 1e-9;
-/// Of a brick: thinner pieces are warned of.
+/// Of a brick: thinner pieces cause a warning.
 constexpr double thin_piece = 1e-2;
 
 enum class Bond { running, stack, header };
@@ -30,7 +30,7 @@ struct WallBox {
 struct Opening {
   WallBox box;
   double lintel = 0.0;   ///< m, height of a lintel above it; 0: none
-  double bearing = 0.0;  ///< m that the lintel lies on the wall at each end
+  double bearing = 0.0;  ///< m, bearing length of the lintel at each end
   bool good = false;
 };
 
@@ -38,7 +38,7 @@ struct Wall {
   Vector3 origin = Vector3::Zero();
   std::optional<SceneRotation> turn;
   Vector3 size = Vector3::Zero();  ///< length, thickness, height
-  Vector3 unit = Vector3::Zero();  ///< of a brick as it lies: along, across, up
+  Vector3 unit = Vector3::Zero();  ///< size of a brick as laid: along, across, up
   bool staggered = true;
   std::vector<Opening> openings;
 };
@@ -66,7 +66,7 @@ Opening read_opening(TomlTableReader& table) {
   return opening;
 }
 
-/// From 0 to the end of the wall, a brick apart.
+/// Edges from 0 to the end of the wall, a brick apart.
 std::vector<double> edges_of(double total, double unit, bool half) {
   std::vector<double> edges = {0.0};
   const double shift = half ? 0.5 : 0.0, tolerance = same_edge * unit;
@@ -79,7 +79,7 @@ std::vector<double> edges_of(double total, double unit, bool half) {
   return edges;
 }
 
-/// Lays bricks, and cuts them at holes.
+/// Lays bricks and cuts them at openings.
 class Bricklayer {
  public:
   explicit Bricklayer(Wall wall) : wall_(std::move(wall)) {
@@ -90,7 +90,7 @@ class Bricklayer {
           edges_of(wall_.size.x(), wall_.unit.x(), wall_.staggered && parity == 1);
   }
 
-  /// A box that stays free. @return whether it meets the wall
+  /// Leaves a box free. @return true if it meets the wall
   bool cut_out(WallBox hole) {
     snap(hole, 2, courses_);
     for (const auto& joints : joints_) snap(hole, 0, joints);
@@ -100,7 +100,7 @@ class Bricklayer {
     return meets;
   }
 
-  /// Bricks, or the first of them: more than `most` are not laid.
+  /// Bricks, or the first of them: at most `most` are laid.
   std::vector<WallBox> lay(std::size_t most) const {
     std::vector<WallBox> bricks;
     for (std::size_t course = 0; course + 1 < courses_.size(); ++course) {
@@ -119,7 +119,7 @@ class Bricklayer {
   [[nodiscard]] const std::vector<WallBox>& holes() const { return holes_; }
 
  private:
-  // An edge that rounding puts beside a joint is on it; so no brick is cut into a sliver.
+  // Moves an edge that differs from a joint by rounding onto it; so no brick is cut into a sliver.
   void snap(WallBox& hole, int axis, const std::vector<double>& edges) const {
     const double tolerance = same_edge * wall_.unit[axis];
     for (double* value : {&hole.low[axis], &hole.high[axis]}) {
@@ -128,8 +128,8 @@ class Bricklayer {
     }
   }
 
-  // What holes leave of a brick: left and right of each hole at full height, then below and above it.
-  // Crossing holes may cut one brick into very many: beyond `most` bricks no further hole is looked at.
+  // Adds the remains of a brick around holes: left and right of each hole at full height, then below and above it.
+  // Crossing holes may cut one brick into very many: beyond `most` bricks no further hole is processed.
   void add_rest_of(const WallBox& brick, std::vector<WallBox>& bricks, std::size_t most) const {
     std::vector<WallBox> rest = {brick};
     for (const WallBox& hole : holes_) {
@@ -195,7 +195,7 @@ std::optional<Wall> read_wall_keys(TomlTableReader& table) {
   return wall;
 }
 
-// Whether openings are such as bricks can be laid around.
+// Checks that bricks can be laid around openings.
 bool check_openings(TomlTableReader& table, const Wall& wall, Bricklayer& bricklayer) {
   bool good = true;
   for (std::size_t k = 0; k < wall.openings.size(); ++k) {
@@ -219,7 +219,7 @@ bool check_openings(TomlTableReader& table, const Wall& wall, Bricklayer& brickl
   return good;
 }
 
-// The lintels, which are cut out of the bricks like openings.
+// Places the lintels, which are cut out of the bricks like openings.
 std::optional<std::vector<WallBox>> place_lintels(TomlTableReader& table, const Wall& wall,
                                                   Bricklayer& bricklayer) {
   std::vector<WallBox> lintels;
@@ -275,7 +275,7 @@ std::vector<MasonryPiece> read_wall(TomlTableReader& table) {
   const auto lintels = place_lintels(table, *wall, bricklayer);
   if (!lintels) return {};
   const std::vector<WallBox> laid = bricklayer.lay(most_laid_blocks);
-  // Openings that cross cut bricks into more than they are estimated to.
+  // Crossing openings cut bricks into more pieces than estimated.
   if (!check_pieces(table, std::max(0.0, static_cast<double>(laid.size()) - estimate))) return {};
   if (laid.empty()) {
     table.error_at_key("openings",

@@ -16,7 +16,7 @@ namespace {
 
 struct ImportedFormat {
   const char* ending;
-  const char* note;  ///< what a file of it does not say by itself
+  const char* note;  ///< properties that a file does not define
   ShapeLayout (*read)(const std::string& bytes, const std::filesystem::path& folder);
 };
 

@@ -11,7 +11,7 @@ std::optional<Polyhedron> load_solid(const std::string& name, const std::filesys
   try {
     TriangleMesh mesh = read_mesh(file);
     try {
-      // A copy is kept only where all defects have to be listed.
+      // Copied only if all defects have to be listed.
       return Polyhedron(std::move(mesh));
     } catch (const MeshError&) {
       for (const MeshDefect& defect : Polyhedron::find_defects(read_mesh(file), listed_mesh_defects)) {

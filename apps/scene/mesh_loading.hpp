@@ -1,4 +1,4 @@
-// A mesh file as a checked solid, or everything that is wrong with it.
+// Loads a mesh file as a checked solid, or reports all of its defects.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,10 @@
 
 namespace ashlar {
 
-/// Defects of one kind that are listed of one mesh.
+/// Largest number of defects of one kind listed for one mesh.
 inline constexpr std::size_t listed_mesh_defects = 100;
 
-/// @param name the file as the user named it. @return none if there were faults, which are added
+/// @param name the file as the user named it. @return empty if there were faults, which are reported
 [[nodiscard]] std::optional<Polyhedron> load_solid(const std::string& name, const std::filesystem::path& file,
                                                    Diagnostics& diagnostics);
 

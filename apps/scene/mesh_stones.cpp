@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t listed_stones = 5;
 
-/// One file on its way to stones.
+/// Conversion of one file to blocks.
 class Import {
  public:
   Import(const SceneMesh& mesh, std::filesystem::path file) : mesh_(mesh), file_(std::move(file)) {}
@@ -33,7 +33,7 @@ class Import {
     return stones;
   }
 
-  /// What was done.
+  /// Summary of the changes.
   [[nodiscard]] std::string note(std::size_t stones) const {
     std::string text = file_.string();
     if (mesh_.split != SceneMesh::Split::none)
@@ -58,7 +58,7 @@ class Import {
   }
 
  private:
-  /// What the file is divided into before anything is done to it.
+  /// Parts of the file before any change.
   [[nodiscard]] std::vector<MeshGroup> bodies() const {
     const bool of_tetrahedra = mesh_.split == SceneMesh::Split::tetrahedra;
     if (!of_tetrahedra && mesh_.group.empty()) {
@@ -82,11 +82,11 @@ class Import {
   }
 
   std::vector<MeshGroup> components_of(TriangleMesh mesh) const {
-    // Where stones touch, which triangles belong together depends on which side is the inside.
+    // If parts touch, the assignment of triangles to parts depends on the orientation.
     const bool turned = mesh_.flip == SceneMesh::Flip::always ||
                         (mesh_.flip == SceneMesh::Flip::automatic && rounded_volume(mesh) < 0.0);
     if (turned) turn_inside_out(mesh);
-    // Of faces that meet in corners that files have in single precision or better, and that were welded.
+    // For corners of adjacent faces that are welded, and in single precision or better in the file.
     constexpr double coincident = 1e-9;
     std::vector<MeshGroup> stones;
     for (TriangleMesh& component : closed_components(mesh, coincident)) {

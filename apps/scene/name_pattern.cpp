@@ -37,7 +37,7 @@ Letter letter_at(std::string_view text, std::size_t at) {
   return {code, bytes};
 }
 
-/// POSIX classes as the C locale has them. A class that there is not has no members.
+/// POSIX classes of the C locale. An unknown class has no members.
 bool is_in_class(std::string_view name, char32_t code) {
   const bool upper = is_between(code, 'A', 'Z'), lower = is_between(code, 'a', 'z');
   const bool digit = is_between(code, '0', '9'), graph = is_between(code, '!', '~');
@@ -59,13 +59,13 @@ bool is_in_class(std::string_view name, char32_t code) {
                      [&](const auto& known) { return known.first == name && known.second; });
 }
 
-/// Answer of a part of a pattern for one letter.
+/// Result of a part of a pattern for one letter.
 struct Verdict {
   bool matches;
-  std::size_t next;  ///< where the pattern goes on
+  std::size_t next;  ///< next part of the pattern
 };
 
-/// Reads a set of a pattern against one letter.
+/// Matches a set of a pattern with one letter.
 class LetterSet {
  public:
   /// @param start of the set's [
@@ -104,7 +104,7 @@ class LetterSet {
     return member.code;
   }
 
-  /// A member, or all from one to another.
+  /// Reads a member, or a range of members.
   bool read_range() {
     const std::optional<char32_t> low = read_member();
     if (!low) return false;
@@ -124,7 +124,7 @@ class LetterSet {
   bool found_ = false;
 };
 
-/// True if the part of a pattern at a place, which is no *, matches a letter.
+/// True if the part of a pattern at a place, other than *, matches a letter.
 Verdict match_letter(std::string_view pattern, std::size_t at, char32_t letter) {
   if (pattern[at] == '[')
     if (const std::optional<Verdict> verdict = LetterSet(pattern, at, letter).read()) return *verdict;
@@ -139,7 +139,7 @@ Verdict match_letter(std::string_view pattern, std::size_t at, char32_t letter) 
 
 bool pattern_matches(std::string_view pattern, std::string_view name) {
   std::size_t at = 0, reached = 0;
-  // After the last *, and how far it reaches: a longer reach is tried where the rest does not match.
+  // Place after the last *, and the end of its match: a longer match is tried if the rest does not match.
   std::size_t after_star = std::string_view::npos, star_end = 0;
   while (at < pattern.size() || reached < name.size()) {
     if (at < pattern.size() && pattern[at] == '*') {

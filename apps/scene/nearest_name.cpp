@@ -11,7 +11,7 @@ namespace ashlar {
 
 namespace {
 
-/// One letter in so many may be another one.
+/// Largest share of changed letters: one in so many.
 constexpr std::size_t most_changed = 3;
 
 char to_small(char letter) {
@@ -37,13 +37,13 @@ std::vector<std::size_t> prefix_distances(std::string_view a, std::string_view b
   return row;
 }
 
-/// How far a name is from a candidate.
+/// Similarity of a name to a candidate.
 struct Likeness {
   std::size_t changes;   ///< of its letters, to the candidate or to a beginning of it
-  std::size_t distance;  ///< the same, with one for the rest behind a beginning
+  std::size_t distance;  ///< the same, plus one for the rest after a beginning
 };
 
-/// A short form has two letters at least and begins as its candidate does.
+/// An abbreviation has at least two letters and the same beginning as its candidate.
 bool may_be_short(std::string_view name, std::string_view candidate) {
   return name.size() >= 2 && !candidate.empty() && to_small(name.front()) == to_small(candidate.front());
 }

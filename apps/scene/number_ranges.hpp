@@ -1,4 +1,4 @@
-// The ranges that numbers of a scene are held to, with the words by which they are explained to users.
+// Allowed ranges of the numbers of a scene, with their descriptions for users.
 #pragma once
 
 #include <limits>
@@ -7,7 +7,7 @@
 
 namespace ashlar {
 
-/// Numbers that are allowed and the words for them ("a number > 0").
+/// A range of numbers and its description ("a number > 0").
 struct NumberRange {
   double low;
   double high;

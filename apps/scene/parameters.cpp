@@ -15,10 +15,10 @@ namespace {
 
 struct Parameter {
   const toml::node* node = nullptr;
-  std::set<std::string> needs;  ///< other parameters that its formula names
+  std::set<std::string> needs;  ///< other parameters named by its formula
 };
 
-/// Parameters in an order in which each comes after those that it needs.
+/// Parameters in an order in which each comes after those it uses.
 class ParameterOrder {
  public:
   explicit ParameterOrder(std::map<std::string, Parameter> parameters) : parameters_(std::move(parameters)) {
@@ -37,17 +37,17 @@ class ParameterOrder {
     }
   }
 
-  /// All parameters, but for those of circles and those that need them.
+  /// All parameters, except those of cycles and those that use them.
   [[nodiscard]] const std::vector<std::string>& order() const { return order_; }
 
-  /// One circle, "a", "b", "a"; empty if there is none.
+  /// One cycle, "a", "b", "a"; empty if there is none.
   [[nodiscard]] std::vector<std::string> circle() const {
     const std::set<std::string> done(order_.begin(), order_.end());
     const auto is_left = [&](const std::string& name) { return !done.contains(name); };
     std::string name;
     for (const auto& [candidate, parameter] : parameters_)
       if (name.empty() && is_left(candidate)) name = candidate;
-    // Whoever is left needs another one that is left.
+    // Each remaining parameter uses another remaining one.
     std::vector<std::string> way;
     while (!name.empty()) {
       const auto seen = std::find(way.begin(), way.end(), name);
@@ -115,7 +115,7 @@ Formulas read_parameters(const toml::table& document, TomlReading& reading) {
   TomlReading::KnownTable& known = reading.add_table(*table, "parameters", "parameters");
   for (const auto& [key, value] : *table) known.keys.emplace(key.str());
   const ParameterOrder parameters(good_parameters(*table, reading));
-  // All have a fault until they have a value.
+  // All count as faulty until they have a value.
   for (const auto& [key, value] : *table) formulas.leave_out(std::string(key.str()));
   for (const std::string& name : parameters.order()) {
     const auto value = reading.number(parameters.node(name), name, formulas);

@@ -1,4 +1,4 @@
-// [parameters]: the named numbers that formulas of a scene use.
+// [parameters]: named numbers for the formulas of a scene.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,13 +8,13 @@
 
 namespace ashlar {
 
-/// Parameters that a scene may have.
+/// Largest number of parameters of a scene.
 inline constexpr std::size_t most_parameters = 10'000;
 
-/// The values of all parameters of a document, each a finite number or a formula of others, in any order.
-/// Reported, each at its place: a value that is neither, a name that formulas cannot have, a formula that
-/// gives no number, parameters that need each other in a circle, more than most_parameters. A parameter with
-/// a fault is left out, and so, without a word, are those that use it.
+/// The values of all parameters of a document, each a finite number or a formula of others, in any order. Reports,
+/// each at its place: a value that is neither, an invalid name, a formula without a number as result, circular
+/// definitions, more than most_parameters. A parameter with a fault is left out, and so are, without another message,
+/// those that use it.
 [[nodiscard]] Formulas read_parameters(const toml::table& document, TomlReading& reading);
 
 }  // namespace ashlar

@@ -13,7 +13,7 @@ namespace {
 constexpr int head_lines = 4;
 constexpr std::string_view blanks = " \t\r,";
 
-/// The number that a text begins with, behind blanks and at most one plus. @param end set behind it
+/// The number at the beginning of a text, after blanks and at most one plus. @param end set to its end
 std::optional<double> leading_number(std::string_view text, std::size_t* end = nullptr) {
   const std::size_t start = text.find_first_not_of(blanks);
   if (start == std::string_view::npos) return std::nullopt;
@@ -31,7 +31,7 @@ struct PeerHead {
   double interval = 0.0;  ///< s
 };
 
-/// NPTS and DT of the last line of the head, each behind its name and an equals sign, or both before their names.
+/// NPTS and DT of the last header line, each after its name and an equals sign, or both before their names.
 std::optional<PeerHead> head_of(std::string_view line) {
   const std::size_t names = line.find("NPTS");
   const std::size_t interval = line.find("DT", names == std::string_view::npos ? 0 : names);

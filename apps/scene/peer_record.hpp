@@ -1,5 +1,5 @@
-// Acceleration records as the PEER ground motion database delivers them (.AT2): four lines of head, of which the last
-// one has the number of values and the time between them, then the values in the order of time, several a line.
+// Acceleration records of the PEER ground motion database (.AT2): four header lines, the last with the number of
+// values and the time between them, then the values in the order of time, several a line.
 //
 //   PEER NGA STRONG MOTION DATABASE RECORD
 //   (event, date, station, component)
@@ -18,14 +18,14 @@
 
 namespace ashlar {
 
-/// True if a file that begins with this line is a record of PEER.
+/// True if a file with this first line is a PEER record.
 [[nodiscard]] bool begins_peer_record(std::string_view line);
 
-/// The rows [time, values...] of a record: the first value is at time 0. Every column that `record` names has the values of
-/// the file times `record.scale`, the others are 0.
+/// The rows [time, values...] of a record: the first value is at time 0. Every column named by `record` has the
+/// values of the file times `record.scale`, the others are 0.
 /// @param content after its first line. @param name of the file, for messages
-/// @return none if there is a fault: the head has no NPTS and DT, a field is no number, there are more or fewer values than
-/// NPTS; each with its line and column
+/// @return empty if there is a fault, each reported with its line and column: no NPTS and DT in the header, a field
+/// that is not a number, more or fewer values than NPTS
 [[nodiscard]] std::optional<std::vector<std::vector<double>>> parse_peer_record(const SceneRecord& record,
                                                                                 std::istream& content,
                                                                                 const std::string& name,

@@ -27,7 +27,7 @@ double area_in_plane(const Polyhedron& solid, const ScenePlane& plane) {
   return sum;
 }
 
-/// By piece, how much of what acts somewhere it gets: all or nothing, but of a force on a plane.
+/// By piece, its share of a support or load at a place: all or nothing, except for a force on a plane.
 std::vector<double> shares_of(const Pieces& pieces, const std::variant<ScenePlane, Vector3>& where) {
   std::vector<double> shares(pieces.size(), 0.0);
   if (const Vector3* point = std::get_if<Vector3>(&where)) {
@@ -53,7 +53,7 @@ Vector3 centroid_of(const Polyhedron& solid) {
   return centroid;
 }
 
-/// What turns about the centroid of the whole moves the centroid of a piece.
+/// Rotation about the centroid of the whole moves the centroid of a piece.
 void set_velocity(const Pieces& pieces, const SceneBlock& whole, std::vector<PieceBlock>& blocks) {
   if (whole.angular_velocity.isZero(0.0)) return;
   std::vector<Vector3> centroids;

@@ -1,4 +1,4 @@
-// What the program is at before the first step, told on stderr where that takes more than a second or so.
+// Progress messages on stderr before the first step, if that takes more than about a second.
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,17 @@
 
 namespace ashlar {
 
-/// Tells the present phase after `patience` and then after twice the last wait each: a line a time, from a
-/// thread of its own. Nothing else may write to the stream until it is destroyed.
+/// Prints the present phase after `patience` and then after twice the last interval each, one line a time, from a
+/// thread of its own. Nothing else may write to the stream until this is destroyed.
 class Preparation {
  public:
-  /// @param quiet nothing is told. @param err stderr, or what stands for it
+  /// @param quiet no output. @param err stderr or its substitute
   Preparation(bool quiet, std::ostream& err, std::chrono::milliseconds patience = std::chrono::seconds(1));
   ~Preparation();
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
 
-  /// What comes now: "solid of block A (3 of 10)".
+  /// Sets the present phase: "solid of block A (3 of 10)".
   void phase(std::string words);
 
  private:

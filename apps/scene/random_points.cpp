@@ -10,10 +10,10 @@
 namespace ashlar {
 namespace {
 
-/// A tetrahedron by three edges from the corner that all of them share.
+/// A tetrahedron by three edges from the common corner.
 using Edges = std::array<Vector3, 3>;
 
-/// A place in a tetrahedron: sorted shares part the unit interval into four, the weights of its corners.
+/// A place in a tetrahedron: sorted random numbers divide the unit interval into four weights of its corners.
 Vector3 draw_place(const Vector3& apex, const Edges& edges, std::mt19937_64& random) {
   std::array<double, 3> shares;
   for (double& share : shares) share = random_share(random);
@@ -29,7 +29,7 @@ std::vector<Vector3> random_points(const Polyhedron& solid, int count, std::mt19
   const auto corner = [&](int point) { return mesh.points[static_cast<std::size_t>(point)]; };
   const Vector3 apex = corner(mesh.triangles.front().front());
   const Box box = box_of(mesh.points);
-  // Volumes are shares of the box's longest side cubed, so that none leaves the range of doubles.
+  // Volumes are relative to the cube of the box's longest side, so that they stay in the range of double precision.
   const double side = (box.high - box.low).maxCoeff();
   std::vector<Edges> tetrahedra;
   std::vector<double> volume_up_to;

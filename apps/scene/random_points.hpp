@@ -1,7 +1,7 @@
-// Points drawn inside a convex solid, evenly spread.
+// Random points with uniform distribution inside a convex solid.
 //
-// The solid is divided into tetrahedra that fan out from one of its corners. Each point draws one of them by volume and
-// a place in it, so that the time does not depend on how much of its bounding box the solid fills.
+// The solid is divided into tetrahedra from one of its corners. Each point selects one of them by volume and a place
+// in it, so that the time does not depend on the share of its bounding box that the solid fills.
 #pragma once
 
 #include <random>

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t listed_faults = 20;
 
 struct Field {
-  std::string_view text;  ///< without blanks and quotes around it
+  std::string_view text;  ///< without surrounding blanks and quotes
   int column;             ///< 1-based
 };
 
@@ -51,14 +51,14 @@ char separator_of(std::string_view names) {
   return ',';
 }
 
-/// Reads one file; keeps count of its faults.
+/// Reads one file and counts its faults.
 class RecordReader {
  public:
   RecordReader(const SceneRecord& record, std::string name, Diagnostics& diagnostics)
       : record_(record), name_(std::move(name)), diagnostics_(diagnostics) {}
 
   std::optional<std::vector<std::vector<double>>> read(std::istream& stream) {
-    // A line that there is no memory for must not pass for the end of the file.
+    // A failed allocation for a line must not be mistaken for the end of the file.
     stream.exceptions(std::ios::badbit);
     std::string line;
     std::vector<std::vector<double>> rows;
@@ -186,7 +186,7 @@ class RecordReader {
   std::string name_;
   Diagnostics& diagnostics_;
   std::vector<std::size_t> columns_;  ///< of the time and of each value
-  std::size_t width_ = 0;             ///< fields of the line of names
+  std::size_t width_ = 0;             ///< number of fields of the line of names
   char separator_ = ',';
   int line_ = 0;
   std::size_t faults_ = 0;

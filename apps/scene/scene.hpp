@@ -1,9 +1,8 @@
-// A scene as the user wrote it, with defaults filled in: one plain struct per TOML table, one member per key
-// of the same name. SI units; angles in degrees. Nothing here knows how a block moves; the builders of the
-// model read this. "auto" is an empty optional: whoever needs the number chooses it.
+// A scene as written by the user, with defaults: one plain struct per TOML table, one member per key of the same
+// name. SI units; angles in degrees. It contains no mechanics; the builders of the model read it. "auto" is an empty
+// optional, to be replaced by the user of the value.
 //
-// A scene that came out of load_scene (scene_loading.hpp) satisfies every range and cross-reference stated
-// here.
+// A scene from load_scene (scene_loading.hpp) satisfies all ranges and cross-references stated here.
 #pragma once
 
 #include <array>
@@ -35,8 +34,7 @@ struct SceneMaterial {
   Elasticity elasticity = Elasticity::linear;
 };
 
-/// [[cut]]: what cuts the blocks that match: parallel planes, the faces of a solid, or the cells around
-/// points.
+/// [[cut]]: cuts the matching blocks by parallel planes, the faces of a solid, or the cells around points.
 struct SceneCut {
   enum class Kind { planes, solid, voronoi };
   enum class Spacing { normal, lognormal, uniform, exponential };
@@ -48,11 +46,11 @@ struct SceneCut {
   double dip_direction = 0.0;       ///< deg from north (y) towards east (x)
   Vector3 point = Vector3::Zero();  ///< m, on the plane numbered 0
   std::optional<double> spacing;    ///< m, > 0, the mean; empty: one plane
-  Spacing law = Spacing::normal;    ///< of spacings, if they deviate
+  Spacing law = Spacing::normal;    ///< distribution of spacings, if they deviate
   double deviation = 0.0;           ///< m, >= 0, standard deviation of spacings
   double fisher = 0.0;              ///< Fisher's k, >= 0; 0: no scatter of orientation
-  double persistence = 1.0;         ///< 0 to 1, chance that a plane cuts a block that it meets
-  std::optional<double> radius;     ///< m, > 0, of the discs that planes are; empty: infinite
+  double persistence = 1.0;         ///< 0 to 1, probability that a plane cuts a block that it meets
+  std::optional<double> radius;     ///< m, > 0, of disc-shaped planes; empty: infinite
   std::optional<int> number;        ///< planes to each side of `point`, >= 0; empty: as many as meet blocks
   int seed = 1;                     ///< >= 0
   double min_volume = 0.0;          ///< m^3, >= 0
@@ -62,17 +60,17 @@ struct SceneCut {
   int count = 0;                    ///< >= 1; kind voronoi: points in each block
 };
 
-/// [[measure]]: a material point, a block or a pair of blocks, of which the history has columns.
+/// [[measure]]: a material point, a block or a pair of blocks with columns in the history.
 struct SceneMeasure {
   std::string name;                 ///< unique; required; heads columns of the history
   std::string block;                ///< name of a [[block]]; empty: `pair` is measured
   std::optional<Vector3> point;     ///< m, in the placed, undeformed block; empty: the block as a whole
-  std::array<std::string, 2> pair;  ///< names of two blocks, whose contacts are measured; else empty
+  std::array<std::string, 2> pair;  ///< names of two blocks whose contacts are measured; otherwise empty
 };
 
-/// [[stage]]: what changes before the run goes on. Names and globs mean blocks, and pieces of cut blocks.
+/// [[stage]]: changes before the run continues. Names and globs match blocks, and pieces of cut blocks.
 struct SceneStage {
-  /// [[stage.fix]], [[stage.load]]: a support or load of the blocks that match, from here on
+  /// [[stage.fix]], [[stage.load]]: a support or load of the matching blocks, from here on
   struct Fix {
     std::vector<std::string> blocks;
     SceneFix fix;
@@ -84,18 +82,17 @@ struct SceneStage {
 
   std::string name;        ///< unique; required
   SceneAnalysis analysis;  ///< [analysis], key by key replaced by the stage's `analysis`; times start at 0
-  std::vector<std::string> remove;  ///< blocks that are there no more
-  /// Blocks that are there from here on, as they were placed. What is added before it is ever removed is held back
-  /// until then.
+  std::vector<std::string> remove;  ///< blocks that are removed
+  /// Blocks added as they were placed. A block that is added before it is ever removed is absent until then.
   std::vector<std::string> add;
   std::vector<Fix> fix;
   std::vector<Load> load;
-  std::vector<SceneJoint> joint;        ///< later than all that came before
+  std::vector<SceneJoint> joint;        ///< after all earlier ones
   std::vector<SceneMaterial> material;  ///< in place of the [[material]] of that name
-  bool reset_displacement = false;      ///< whether results count displacements from here on
+  bool reset_displacement = false;      ///< true: results count displacements from here on
 };
 
-/// Steps between frames where a scene tells neither every nor interval.
+/// Steps between frames if a scene has neither every nor interval.
 inline constexpr int default_frame_distance = 10;
 
 /// [output]
@@ -127,38 +124,38 @@ struct Scene {
   std::vector<SceneCut> cut;            ///< in file order
   std::vector<SceneMeasure> measure;    ///< in file order
   SceneOutput output;
-  /// In file order; empty: there is one analysis. Else `analysis` is that of the first one.
+  /// In file order; empty: a single analysis. Otherwise `analysis` is that of the first one.
   std::vector<SceneStage> stage;
-  std::vector<bool> absent;             ///< of one stage, by block: those that are not there; empty: none
-  std::vector<std::string> notes;       ///< what was done with mesh files, a line each
+  std::vector<bool> absent;             ///< of one stage, by block: true for absent blocks; empty: none
+  std::vector<std::string> notes;       ///< changes made to mesh files, a line each
   ScenePlaces places;                   ///< of every key that was given
-  std::vector<SceneBlock> uncut;        ///< if there are cuts: `block` as the file has it
-  std::shared_ptr<const CutRock> rock;  ///< which block is a piece of what (cut_rock.hpp); null without cuts
+  std::vector<SceneBlock> uncut;        ///< if there are cuts: `block` before them
+  std::shared_ptr<const CutRock> rock;  ///< origin of pieces (cut_rock.hpp); null without cuts
 };
 
 /// The key of a support's history: "displacement_history", "velocity_history" or "acceleration_history".
 [[nodiscard]] const char* history_key(const SceneFix& fix);
 
-/// What a joint gives replaces what the law had.
+/// Replaces values of a law by those given by a joint.
 void override_law(SceneJointLaw& law, const SceneJoint& joint);
 
-/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair and is not of a
-/// [[cut]]. Of many pairs, and of cuts, ask a JointTable.
+/// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair and does not belong to
+/// a [[cut]]. For many pairs, and for cuts, use a JointTable.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
 
-/// Whether nothing moves in time.
+/// True if the analysis is static.
 [[nodiscard]] bool is_static(const SceneAnalysis& analysis);
 
-/// Whether a static analysis comes before the first step of a motion in time.
+/// True if a static analysis precedes the first step of a dynamic one.
 [[nodiscard]] bool starts_from_statics(const Scene& scene);
 
-/// Whether multipliers hold contact: as the scene says; else in statics between blocks whose joints have no
-/// stiffness given, and in motion that starts from statics where no joint has. Stages hand on the forces of
-/// contact, so the answer is one for all.
+/// True if contact uses multipliers: as the scene specifies; otherwise in statics between blocks whose joints have no
+/// given stiffness, and in dynamics that starts from statics if no joint has. Stages pass on the forces of contact,
+/// so that the result is the same for all.
 [[nodiscard]] bool has_multipliers(const Scene& scene);
 
-/// The material called so, or null.
+/// The material of this name, or null.
 [[nodiscard]] const SceneMaterial* find_material(const Scene& scene, const std::string& name);
 
 }  // namespace ashlar

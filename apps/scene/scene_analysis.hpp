@@ -1,4 +1,4 @@
-// [analysis]: what is asked of a scene (scene.hpp), and the times, integrator and gravity of it.
+// [analysis]: type of analysis of a scene (scene.hpp), its times, integrator and gravity.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace ashlar {
 
-/// Times of a static analysis of constant loads that does not give them, s; each gives way to the other one
-/// where that is given.
+/// Default times of a static analysis of constant loads, s. If only one of them is given, the other one is adapted to
+/// it.
 inline constexpr double default_static_end_time = 1.0;
 inline constexpr double default_static_time_step = 1e-3;
 
@@ -20,15 +20,15 @@ struct SceneAnalysis {
   enum class Type {
     dynamic,   ///< "dynamic": motion in time
     statics,   ///< "static": equilibrium
-    safety,    ///< "factor-of-safety": static analyses with less and less strength
-    capacity,  ///< "capacity": static analyses with more and more load
-    thrust,    ///< "thrust": least and most thrust on supports, and how far these can move
+    safety,    ///< "factor-of-safety": static analyses with reduced strength
+    capacity,  ///< "capacity": static analyses with increased load
+    thrust,    ///< "thrust": least and largest thrust on supports, and their range of movement
   };
-  /// How a factor is found (notes/factor_of_safety.md).
+  /// Method of a search for a factor (notes/factor_of_safety.md).
   enum class Method {
-    automatic,  ///< "auto": limit where no joint loses strength for good, elastic where one does
+    automatic,  ///< "auto": limit unless a joint loses strength permanently, otherwise elastic
     limit,      ///< "limit": rigid blocks, by cone programmes
-    elastic,    ///< "elastic": static analyses of the blocks as they are
+    elastic,    ///< "elastic": static analyses of the blocks as modelled
   };
   enum class Integrator {
     dda,                   ///< "dda": Newmark beta 1/2, gamma 1
@@ -38,14 +38,14 @@ struct SceneAnalysis {
   enum class Formulation { total, incremental };
   enum class InitialState {
     as_placed,    ///< "as-placed": undeformed
-    equilibrium,  ///< "equilibrium": each supported block first settles under gravity, contacts off
-    statics,      ///< "static": a static analysis of all blocks comes first, contacts on
+    equilibrium,  ///< "equilibrium": each supported block first settles under gravity, without contacts
+    statics,      ///< "static": preceded by a static analysis of all blocks, with contacts
   };
   enum class Solver { automatic, cholmod, cg };
   /// safety = { joints, tolerance, lower, upper }, capacity = { blocks, tolerance, lower, upper }
   struct FactorSearch {
-    /// Names or globs: of cuts, and of blocks on either side, whose joints lose strength; of blocks whose
-    /// loads grow.
+    /// Names or globs: of cuts, and of blocks on either side of joints with reduced strength; of blocks with
+    /// increased loads.
     std::vector<std::string> of = {"*"};
     double tolerance = 0.01;  ///< > 0, at most 1: relative width of the bracket
     double lower = 0.1;       ///< > 0
@@ -53,7 +53,7 @@ struct SceneAnalysis {
   };
   /// movement = { supports, direction, limit, tolerance }
   struct SupportSearch {
-    std::vector<std::string> supports;  ///< names or globs of blocks that do not move; empty: none is moved
+    std::vector<std::string> supports;  ///< names or globs of fixed blocks; empty: none is moved
     std::optional<Vector3> direction;   ///< of any length > 0; empty: away from the structure
     std::optional<double> limit;        ///< m, > 0; empty: half the structure's size
     std::optional<double> tolerance;    ///< m, > 0; empty: 1e-4 of the structure's size
@@ -64,10 +64,10 @@ struct SceneAnalysis {
   };
 
   Type type = Type::dynamic;
-  /// s, > 0; required unless the analysis is static and nothing has a history: then a time like any other
+  /// s, > 0; required unless the analysis is static without histories: then arbitrary
   double end_time = 0.0;
-  /// s, > 0, <= end_time; required like end_time. The largest step; static: between the loads that a history
-  /// goes through, and how gently the first iteration starts
+  /// s, > 0, <= end_time; required like end_time. The largest step; in statics the interval between load levels of a
+  /// history, and the initial inertia of the first iteration
   double time_step = 0.0;
   Integrator integrator = Integrator::dda;
   double spectral_radius = 0.8;  ///< 0 to 1; only used by generalized-alpha
@@ -75,16 +75,16 @@ struct SceneAnalysis {
   InitialState initial_state = InitialState::as_placed;
   Vector3 gravity = Vector3(0.0, 0.0, -9.81);  ///< m/s^2, unless it has a history
   std::vector<Gravity> gravity_history;        ///< times increase, linear between; empty: constant
-  std::optional<SceneRecord> gravity_file;     ///< where it comes from, if not from the scene
+  std::optional<SceneRecord> gravity_file;     ///< its file, if not in the scene
   Solver solver = Solver::automatic;           ///< "auto"
   double mass_damping = 0.0;                   ///< 1/s, >= 0
   double stiffness_damping = 0.0;              ///< s, >= 0, Rayleigh's beta
-  bool sleeping = true;                ///< whether islands that have come to rest are held until woken
-  Method method = Method::automatic;   ///< of types safety and capacity
-  FactorSearch safety;                 ///< of type safety
-  FactorSearch capacity;               ///< of type capacity
-  SupportSearch movement;              ///< of type thrust
-  std::optional<double> memory_limit;  ///< bytes, > 0, that the estimate may reach; empty: auto
+  bool sleeping = true;                        ///< true: islands at rest are held until woken
+  Method method = Method::automatic;           ///< of types safety and capacity
+  FactorSearch safety;                         ///< of type safety
+  FactorSearch capacity;                       ///< of type capacity
+  SupportSearch movement;                      ///< of type thrust
+  std::optional<double> memory_limit;          ///< bytes, > 0, largest estimated memory; empty: auto
 };
 
 }  // namespace ashlar

@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// A plane in placed coordinates. It names the faces of the block that lie in it, whichever side they face.
+/// A plane in placed coordinates. It selects the faces of the block in it, for both directions of their normals.
 struct ScenePlane {
   Vector3 point = Vector3::Zero();   ///< m
   Vector3 normal = Vector3::Zero();  ///< not zero, any length
@@ -28,11 +28,11 @@ struct SceneFix {
   };
   std::variant<ScenePlane, Vector3>
       where;  ///< a plane with at least one face, or a point, m, placed coordinates
-  std::array<bool, 3> components = {true, true, true};  ///< x, y, z held
-  /// What the rows of the history are; displacements are linear or cubic between rows (`interpolation`).
+  std::array<bool, 3> components = {true, true, true};  ///< fixed components x, y, z
+  /// Quantity of the rows of the history; displacements are linear or cubic between rows (`interpolation`).
   MotionRecord record = MotionRecord::displacement;
-  std::vector<Motion> history;      ///< the rows of the history that is given; times increase; empty: at rest
-  std::optional<SceneRecord> file;  ///< where they come from, if not from the scene
+  std::vector<Motion> history;      ///< the rows of the given history; times increase; empty: at rest
+  std::optional<SceneRecord> file;  ///< their file, if not in the scene
 };
 
 /// [[block.load]]: traction on faces, or a force on faces or at a point.
@@ -43,21 +43,21 @@ struct SceneLoad {
   };
   enum class Kind {
     traction,  ///< Pa, on the plane's faces
-    force,     ///< N, spread evenly over the plane's faces, or at the point
+    force,     ///< N, distributed evenly over the plane's faces, or at the point
   };
   std::variant<ScenePlane, Vector3> where;  ///< as SceneFix::where; a traction needs a plane
   Kind kind = Kind::traction;
   Vector3 vector = Vector3::Zero();  ///< Pa or N
   std::vector<Factor> history;       ///< times increase; empty: factor 1 always
-  std::optional<SceneRecord> file;   ///< where it comes from, if not from the scene
-  bool of_fill = false;              ///< weight of an arch's fill, which a fixed block does without
+  std::optional<SceneRecord> file;   ///< its file, if not in the scene
+  bool of_fill = false;              ///< weight of an arch's fill, which a fixed block ignores
 };
 
 /// array = { count, step, stagger }
 struct SceneArray {
   std::vector<int> count;             ///< (1 to 3), blocks in each direction, >= 1
   std::vector<Vector3> step;          ///< as many, m, from one to the next
-  Vector3 stagger = Vector3::Zero();  ///< m, of every second one of the last direction
+  Vector3 stagger = Vector3::Zero();  ///< m, for every second one of the last direction
 };
 
 /// [[block]]
@@ -70,14 +70,15 @@ struct SceneBlock {
   Vector3 translate = Vector3::Zero();         ///< m, after rotate
   Vector3 velocity = Vector3::Zero();          ///< m/s
   Vector3 angular_velocity = Vector3::Zero();  ///< rad/s about the centroid
-  bool fixed = false;                          ///< the whole block never moves; then no fix, load or velocity
+  bool fixed = false;                          ///< the whole block never moves; excludes fix, load and
+                                               ///< velocity
   std::vector<SceneFix> fix;
   std::vector<SceneLoad> load;
-  std::optional<SceneArray> array;  ///< empty in a scene that has been read: there its copies are blocks
+  std::optional<SceneArray> array;  ///< empty in a scene that has been read: its copies are blocks there
 };
 
-/// [[assign]]: properties of the blocks that patterns match; of several entries the last one counts, key by
-/// key, but supports and loads add up.
+/// [[assign]]: properties of the blocks matched by patterns. The last of several entries has priority, key by key;
+/// supports and loads add up.
 struct SceneAssign {
   std::vector<std::string> blocks;  ///< names or globs, each matches at least one block
   std::optional<std::string> material;

@@ -24,7 +24,7 @@ std::string entry_key(const char* table, std::size_t index, const char* key) {
   return fmt::format("{}.{}.{}", table, index, key);
 }
 
-// Reports repeated names. One that was not read is empty and has been reported already.
+// Reports repeated names. A name that was not read is empty and has been reported already.
 template <typename Entry>
 void check_names(const Scene& scene, const std::vector<Entry>& entries, const char* table,
                  Diagnostics& diagnostics) {
@@ -50,7 +50,7 @@ std::vector<std::string> names_of(const std::vector<Entry>& entries) {
   return names;
 }
 
-// Reports a name that refers to nothing; an empty one was not read.
+// Reports an unknown name; an empty one was not read.
 void check_known(const Scene& scene, const std::string& key, const char* what, const std::string& name,
                  const std::vector<std::string>& known, Diagnostics& diagnostics) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -76,8 +76,8 @@ void check_materials(const Scene& scene, const std::vector<std::string>& known, 
   }
 }
 
-// A material whose volume can hardly change has pressures that rounding makes; the higher the order, the
-// sooner.
+// Reports nearly incompressible materials, whose pressures are dominated by rounding errors, the more so the higher
+// the order.
 void check_poisson_ratios(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.material.size(); ++i) {
     const SceneMaterial& material = scene.material[i];
@@ -121,7 +121,7 @@ void check_joints(const Scene& scene, const std::vector<std::string>& blocks, Di
   }
 }
 
-/// What a search for a factor is of.
+/// Checks the targets of a search for a factor.
 void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
   const bool of_joints = scene.analysis.type == SceneAnalysis::Type::safety;
   if (!of_joints && scene.analysis.type != SceneAnalysis::Type::capacity) return;
@@ -145,7 +145,7 @@ void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
-// What blocks without deformation have no meaning for.
+// Reports keys that have no meaning for rigid blocks.
 void check_rigid_blocks(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];
@@ -164,7 +164,7 @@ void check_rigid_blocks(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
-// What the incremental formulation has no meaning for.
+// Reports keys that have no meaning for the incremental formulation.
 void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
   if (scene.analysis.formulation != SceneAnalysis::Formulation::incremental) return;
   const auto refuse = [&](const std::string& key, const std::string& what) {
@@ -197,7 +197,7 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
              "an incremental block accumulates linear stress (\"st-venant-kirchhoff\")");
 }
 
-// A measure's name heads columns of history.csv beside those of the totals.
+// A measure's name is used in columns of history.csv beside those of the totals.
 void check_measure_names(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.measure.size(); ++i) {
     const std::string& name = scene.measure[i].name;
@@ -216,7 +216,7 @@ std::string in_words(const Vector3& vector) {
 
 struct NearFace {
   ScenePlane plane;
-  double offset;  ///< from the farthest of its corners to the plane it was looked for, m
+  double offset;  ///< largest distance of its corners from the required plane, m
 };
 
 NearFace nearest_face(const Polyhedron& solid, const ScenePlane& plane) {
@@ -263,7 +263,7 @@ class PlacementCheck {
       return;
     }
     const ScenePlane& plane = std::get<ScenePlane>(where);
-    // A plane that was refused by the reader has been reported already.
+    // A plane refused by the reader has been reported already.
     if (!plane.point.allFinite() || !plane.normal.allFinite() || plane.normal.isZero(0.0)) return;
     if (!faces_in_plane(solid, {plane.point, plane.normal}).empty()) return;
     const NearFace nearest = nearest_face(solid, plane);
@@ -299,7 +299,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
         scene.places.value("analysis.time_step"),
         fmt::format("time_step is longer than the analysis ({}), at most end_time ({}) is needed",
                     analysis.time_step, analysis.end_time));
-  // Beyond this the step of generalized-alpha is not stable in contact (time_scheme.hpp).
+  // Beyond this the step of generalized-alpha is unstable in contact (time_scheme.hpp).
   constexpr double most_damping_per_step = 3.0;
   if (analysis.integrator == SceneAnalysis::Integrator::generalized_alpha &&
       analysis.mass_damping * analysis.time_step > most_damping_per_step)

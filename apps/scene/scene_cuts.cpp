@@ -15,7 +15,7 @@ namespace {
 
 using Pieces = std::vector<std::shared_ptr<const Polyhedron>>;
 
-/// The planes of cuts that bound a piece, in words: the first few.
+/// The planes of cuts that bound a piece, as text: the first few.
 std::string planes_of(const Scene& scene, const CutRock& rock, const CutSolid& solid, int piece) {
   constexpr std::size_t named = 6;
   std::vector<std::string> planes;
@@ -42,8 +42,7 @@ std::size_t last_cut_of(const CutRock& rock, const CutSolid& solid, int piece) {
   return last;
 }
 
-/// The solids of a block's pieces; those that are lost in rounding are reported with the planes that bound
-/// them.
+/// The solids of a block's pieces. Pieces lost by rounding are reported with their bounding planes.
 Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, double resolution,
                  Diagnostics& diagnostics) {
   const CutSolid& solid = *rock.solids[block];
@@ -73,7 +72,7 @@ Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, dou
   return pieces;
 }
 
-/// What rounding leaves of the contacts of slivers is more than their weight: a run takes hundreds of iterations for each
+/// The rounding errors of the contacts of slivers exceed their weight: a run needs hundreds of iterations for each
 /// step (solver/notes/rounding_and_states.md).
 void warn_of_slivers(const Scene& scene, const CutRock& rock, std::size_t block, const Pieces& pieces,
                      Diagnostics& diagnostics) {
@@ -100,10 +99,10 @@ void warn_of_slivers(const Scene& scene, const CutRock& rock, std::size_t block,
                                   limit / share, 10.0 * limit, slivers == 1 ? "it" : "them"));
 }
 
-// Where keys of blocks are recorded once pieces have their numbers.
+// Temporary path of the keys of blocks while pieces get their numbers.
 const std::string uncut_blocks = "uncut block";
 
-/// Keys of a piece are those of the block that it comes from.
+/// Keys of a piece refer to those of the block of its origin.
 void record_origin(ScenePlaces& places, std::size_t uncut, std::size_t block, const PieceBlock* piece) {
   const std::string from = fmt::format("{}.{}", uncut_blocks, uncut), to = fmt::format("block.{}", block);
   places.record_origin(to, from);
@@ -116,7 +115,7 @@ void record_origin(ScenePlaces& places, std::size_t uncut, std::size_t block, co
   record("load", piece->load);
 }
 
-/// Puts the pieces in the place of the blocks.
+/// Replaces the blocks by the pieces.
 void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional<Polyhedron>>& solids,
                     Diagnostics& diagnostics) {
   std::vector<SceneBlock> blocks;
@@ -148,7 +147,7 @@ void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional
   scene.places = std::move(places);
 }
 
-/// A glued cut ties what it has parted.
+/// Ties the parts divided by glued cuts.
 void add_ties(Scene& scene) {
   for (std::size_t k = 0; k < scene.cut.size(); ++k) {
     if (!scene.cut[k].glued) continue;

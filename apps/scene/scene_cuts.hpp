@@ -1,4 +1,4 @@
-// The cuts of a scene made: blocks become pieces.
+// Executes the cuts of a scene: blocks become pieces.
 #pragma once
 
 #include "apps/scene/diagnostics.hpp"
@@ -7,13 +7,12 @@
 
 namespace ashlar {
 
-/// Cuts the blocks of a scene by its cuts, one after the other, and puts the pieces in their place: NAME.1,
-/// NAME.2 ... in order; those inside the solid of a cut NAME.inside.1 ... A block that nothing parted stays
-/// as it is. A glob of a cut means a block if it matches the block's name, else those of its pieces whose
-/// names at that time it matches. Measures of a block that was cut move to the piece that has their point.
-/// Everything else that a key can say of blocks is then said of pieces, and places lead to the blocks' keys;
-/// [[assign]]s to pieces are still to be made (apply_assignments_to_pieces).
-/// Sets Scene::uncut and Scene::rock, and adds a tied joint for each glued cut. Does nothing without cuts.
+/// Cuts the blocks of a scene by its cuts, one after the other, and replaces them by the pieces: NAME.1, NAME.2 ...
+/// in order; those inside the solid of a cut NAME.inside.1 ... Blocks that are not divided are unchanged. A glob of a
+/// cut matches a block by the block's name, otherwise those of its pieces whose names at that time match. Measures of
+/// a cut block move to the piece with their point. All other keys of blocks are transferred to pieces, and places
+/// refer to the blocks' keys; [[assign]]s to pieces are applied later (apply_assignments_to_pieces).
+/// Sets Scene::uncut and Scene::rock, and adds a tied joint for each glued cut. No effect without cuts.
 void cut_scene(Scene& scene, Diagnostics& diagnostics, Preparation* preparation = nullptr);
 
 }  // namespace ashlar

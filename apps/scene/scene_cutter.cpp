@@ -15,10 +15,10 @@
 namespace ashlar {
 namespace {
 
-/// Planes are numbered in doubles and kept as int.
+/// Planes are numbered in double and stored as int.
 constexpr double largest_plane_number = 1e9;
-/// Each plane is looked at, also where it cuts nothing by chance. So many are always allowed; of a scene that may have
-/// more blocks as many as blocks, up to a list that takes 160 MB.
+/// Each plane is examined, also if it cuts nothing by chance. This many are always allowed; in a scene that may have
+/// more blocks as many as blocks, up to a list of 160 MB.
 constexpr double least_plane_limit = 1e5, greatest_plane_limit = 1e7;
 
 double most_planes(const SceneCut& cut) {
@@ -41,7 +41,7 @@ std::optional<Polyhedron> build_cut_solid(const Scene& scene, std::size_t index,
   return std::move(build_solids(alone, diagnostics).front());
 }
 
-/// Half the diagonal of what is cut: tilted planes may reach as far.
+/// Half the diagonal of the pieces: extent of tilted planes.
 double reach_of(const CutSolid& solid, const std::vector<int>& pieces) {
   Vector3 low = Vector3::Zero(), high = low;
   for (int axis = 0; axis < 3; ++axis) {
@@ -56,7 +56,7 @@ double reach_of(const CutSolid& solid, const std::vector<int>& pieces) {
   return 0.5 * (high - low).norm();
 }
 
-/// Pieces that come about in a cut belong to it as those do that it began with.
+/// Pieces made by a cut belong to it like the initial ones.
 template <class Target>
 CutSolid::Choice choice_of(const Target& target) {
   return [&target](int piece) {

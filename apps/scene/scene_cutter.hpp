@@ -1,4 +1,4 @@
-// The state of a scene while it is cut: which block is in which pieces, and what they are called.
+// State of a scene during the cuts: the pieces of each block and their names.
 #pragma once
 
 #include <memory>
@@ -22,23 +22,23 @@ class SceneCutter {
   SceneCutter(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
               Diagnostics& diagnostics);
 
-  /// Makes one cut, or reports why it cannot be made.
+  /// Makes one cut, or reports why it is impossible.
   void make_cut(std::size_t index);
   [[nodiscard]] CutRock&& take() { return std::move(rock_); }
 
  private:
-  /// Pieces of one block that a cut is for.
+  /// Pieces of one block affected by a cut.
   struct Target {
     std::size_t block;
     std::vector<int> pieces;  ///< increasing
-    int newest;               ///< those with larger numbers come about in the cut
+    int newest;               ///< pieces with larger numbers are made by the cut
   };
 
   [[nodiscard]] std::vector<Target> targets_of(const SceneCut& cut);
   [[nodiscard]] CutSolid& solid_of(std::size_t block);
-  /// Reports a cut that would make too many blocks. @return whether it may be made
+  /// Reports a cut that would make too many blocks. @return true if it is allowed
   bool check_number(std::size_t index, double added);
-  /// Reports a set whose point is too far from the blocks, and one that has too many planes in them.
+  /// Reports a set whose point is too far from the blocks, or with too many planes in them.
   bool check_distance(std::size_t index, const std::vector<PlaneRange>& ranges);
   bool check_planes(std::size_t index, const JointHeights& heights);
   void cut_by_planes(std::size_t index, const Target& target, const std::vector<JointHeight>& heights);

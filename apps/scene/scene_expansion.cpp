@@ -16,10 +16,10 @@
 namespace ashlar {
 namespace {
 
-// Where [[block]] is recorded once its entries are no longer those of the scene.
+// Temporary path of [[block]] once its entries are no longer those of the scene.
 const std::string written_blocks = "written block";
 
-/// The blocks of a scene, each with the path that it was written at.
+/// The blocks of a scene, each with the path at which it was written.
 struct BlockList {
   std::vector<PieceBlock> blocks;
   std::vector<std::string> origins;
@@ -38,7 +38,7 @@ std::vector<PieceBlock> as_pieces(std::vector<SceneBlock> blocks) {
   return pieces;
 }
 
-/// Stones of a volume mesh are parts of one body, which has the supports, loads and measures.
+/// Parts of a volume mesh belong to one body, which has the supports, loads and measures.
 void share_out(Scene& scene, const SceneBlock& whole, const std::string& path,
                std::vector<PieceBlock>& stones, Diagnostics& diagnostics) {
   Scene parts;
@@ -58,7 +58,7 @@ void share_out(Scene& scene, const SceneBlock& whole, const std::string& path,
   move_measures(scene, whole.name, solids, names);
 }
 
-// One block with an array whose mesh is split is an array of each stone.
+// A block with an array whose mesh is split is an array of each part.
 std::vector<PieceBlock> blocks_of(Scene& scene, const SceneBlock& block, const std::string& path,
                                   Diagnostics& diagnostics) {
   std::vector<PieceBlock> stones = as_pieces(stones_of(scene, block, path, diagnostics));
@@ -87,7 +87,7 @@ std::vector<PieceBlock> blocks_of(Scene& scene, const SceneBlock& block, const s
   return blocks;
 }
 
-/// Keys of a block are those of where it was written; its supports and loads may be some of those there.
+/// Keys of a block refer to the place where it was written; its supports and loads may be some of those there.
 void record_origins(ScenePlaces& places, std::size_t index, const PieceBlock& block,
                     const std::string& origin) {
   const std::string path = fmt::format("block.{}", index);
@@ -127,7 +127,7 @@ void refuse_number(const Scene& scene, const BlockList& list, Diagnostics& diagn
 }  // namespace
 
 void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, Diagnostics& diagnostics) {
-  // What has a fault has no pieces; names that would be theirs are no faults of their own.
+  // Masonry with a fault has no pieces; references to their names are no additional faults.
   const bool complete =
       std::none_of(masonry.begin(), masonry.end(), [](const auto& pieces) { return pieces.empty(); });
   if (!std::all_of(scene.block.begin(), scene.block.end(), is_plain) || !masonry.empty()) {
@@ -135,7 +135,7 @@ void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, D
     const std::vector<SceneBlock> written = std::move(scene.block);
     scene.block.clear();
     scene.places.move_list("block", written_blocks);
-    // Beyond the limit nothing is laid out any more.
+    // Beyond the limit no further blocks are made.
     for (std::size_t k = 0; k < written.size() && list.blocks.size() <= most_laid_blocks; ++k) {
       const std::string origin = fmt::format("{}.{}", written_blocks, k);
       list.add(blocks_of(scene, written[k], origin, diagnostics), origin);
@@ -144,7 +144,7 @@ void expand_blocks(Scene& scene, std::vector<std::vector<SceneBlock>> masonry, D
       list.add(as_pieces(std::move(masonry[k])), fmt::format("masonry.{}", k));
     if (list.blocks.size() > most_laid_blocks) {
       refuse_number(scene, list, diagnostics);
-      // Their names are known to other checks; solids of so many are not built.
+      // Other checks need their names; the solids of so many are not built.
       for (PieceBlock& block : list.blocks) block.block.shape = {};
     }
     for (std::size_t k = 0; k < list.blocks.size(); ++k) {

@@ -302,7 +302,7 @@ Json to_json(const SceneStage& stage) {
   return json;
 }
 
-/// Those to blocks are in the blocks.
+/// Assignments to pieces; those to blocks are included in the blocks.
 Json assignments_to_pieces(const Scene& scene) {
   Json list = Json::array();
   const std::vector<std::vector<std::size_t>> pieces = assigned_pieces(scene);

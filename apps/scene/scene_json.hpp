@@ -1,5 +1,4 @@
-// A scene as JSON: the tables and keys of the scene format, with overrides applied and every default filled
-// in.
+// A scene as JSON: the tables and keys of the scene format, with overrides and all defaults.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,8 +7,8 @@
 
 namespace ashlar {
 
-/// Keys are those of the TOML format; what was left to the program reads "auto". Keys of a [[joint]] that
-/// were not given are left out, and so are excluded ones (interval beside every).
+/// Keys are those of the TOML format; automatic values are "auto". Keys of a [[joint]] that were not given, and
+/// excluded keys (interval beside every), are omitted.
 [[nodiscard]] nlohmann::ordered_json to_json(const Scene& scene);
 
 /// The array of its blocks alone.

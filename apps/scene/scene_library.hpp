@@ -1,5 +1,5 @@
-// The public face of this layer, installed as <ashlar/scene.hpp>: scenes read from TOML and checked, and simulations
-// built from them. Headers that this one does not reach are internal and not installed.
+// The public interface of this layer, installed as <ashlar/scene.hpp>: scenes read from TOML and checked, and
+// simulations built from them. Headers not included from here are internal and not installed.
 #pragma once
 
 #include "apps/scene/build_simulation.hpp"

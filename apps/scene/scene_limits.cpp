@@ -33,7 +33,8 @@ void check_length(const char* name, const std::optional<double>& length, double 
                                 name, *length, least));
 }
 
-/// Masses and moments of inertia go with the fifth power of lengths. @return whether the size is good
+/// Masses and moments of inertia are proportional to up to the fifth power of lengths. @return true if the size is
+/// valid
 bool check_size(const Scene& scene, std::size_t k, const Polyhedron& solid, Diagnostics& diagnostics) {
   constexpr double least = 1e-50, most = 1e50;
   double extent = 0.0;

@@ -1,4 +1,4 @@
-// Numbers that are good by themselves and that doubles cannot follow beside the others of the scene.
+// Valid numbers that exceed double precision in combination with others of the scene.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,16 @@
 namespace ashlar {
 
 /// Reports, at its key, each
-///   a block                                           below 1e-50 or above 1e50 m: its moments are no
-///                                                     doubles
-///   contact.distance, contact.penetration_tolerance   below the rounding of coordinates: what is nearer
-///                                                     cannot be told from what touches
-///   time_step                                         below the rounding of end_time
-///   velocity, angular_velocity                        that moves a block by more than its size, or turns it
-///                                                     by more than 1 rad, in time_step / 4096, the shortest
-///                                                     step that open-close iterations may ask for
-///   a support's history                               that goes so far that coordinates there are rounded to
-///                                                     more than 1e-6 of the block's size, as overlaps are
-///                                                     judged by
-/// @param solids one per scene.block; those that are missing are passed over
+///   a block                                           below 1e-50 or above 1e50 m: its moments are out of range
+///   contact.distance, contact.penetration_tolerance   below the rounding error of coordinates: such distances
+///                                                     cannot be distinguished from contact
+///   time_step                                         below the rounding error of end_time
+///   velocity, angular_velocity                        that moves a block by more than its size, or rotates it by more
+///                                                     than 1 rad, in time_step / 4096, the shortest step of
+///                                                     open-close iterations
+///   a support's history                               with displacements at which coordinates are rounded to more than
+///                                                     1e-6 of the block's size, the tolerance of overlaps
+/// @param solids one per scene.block; missing ones are ignored
 void check_limits(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                   Diagnostics& diagnostics);
 

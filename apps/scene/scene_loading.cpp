@@ -21,7 +21,7 @@
 namespace ashlar {
 namespace {
 
-/// A key of [analysis] is idle if it is so in every stage.
+/// Warns of keys of [analysis] without effect in every stage.
 void warn_of_keys_idle_in_all(const Scene& whole, Diagnostics& diagnostics) {
   std::optional<std::vector<Diagnostic>> idle;
   for_each_stage(whole, [&](const Scene& stage) {
@@ -39,7 +39,7 @@ void warn_of_keys_idle_in_all(const Scene& whole, Diagnostics& diagnostics) {
   for (const Diagnostic& warning : *idle) diagnostics.warning(warning.place, warning.message);
 }
 
-/// Blocks that are there together in several stages are looked at in the first of them.
+/// Blocks present together in several stages are checked in the first of them.
 /// @return pairs that may overlap, each once
 std::vector<KnownOverlap> check_overlaps(const Scene& whole,
                                          const std::vector<std::optional<Polyhedron>>& solids,
@@ -58,7 +58,7 @@ std::vector<KnownOverlap> check_overlaps(const Scene& whole,
   return result;
 }
 
-/// Checks and builds what was read.
+/// Checks and builds a scene that was read.
 std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Preparation* preparation,
                                   LoadPurpose purpose) {
   const auto phase = [&](const char* words) {
@@ -70,7 +70,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   LoadedScene loaded{std::move(scene), {}, {}, {}, {}};
   check_cuts(loaded.scene, diagnostics);
   if (!loaded.scene.cut.empty()) {
-    // Names of pieces are known once they are cut, and only what can be read is cut.
+    // Names of pieces are known after the cuts, which need a valid scene.
     if (!diagnostics.good() || !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
       return std::nullopt;
     cut_scene(loaded.scene, diagnostics, preparation);
@@ -79,12 +79,12 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
     if (!diagnostics.good()) return std::nullopt;
   }
   check_stages(loaded.scene, of_blocks);
-  // What stages say of blocks that are not there has no meaning further on.
+  // Statements of stages about absent blocks have no meaning further on.
   if (!loaded.scene.stage.empty() && !diagnostics.good()) return std::nullopt;
   if (!of_names.good()) loaded.scene.stage.clear();
   for_each_stage(loaded.scene, [&](const Scene& stage) { check_references(stage, diagnostics, of_blocks); });
   for (const Diagnostic& fault : of_names.sorted()) diagnostics.warning(fault.place, fault.message);
-  // Nothing of a scene that is too large is built.
+  // A scene that is too large is not built.
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, estimate_cost(loaded.scene), diagnostics))
     return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =

@@ -1,4 +1,4 @@
-// The words of the scene format for each choice, in the order in which they are listed to users.
+// Words of the scene format for each choice, in their order in lists for users.
 #pragma once
 
 #include <array>
@@ -69,7 +69,7 @@ inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 4> field_names = {
      {"stress", &SceneOutput::Fields::stress},
      {"principal_stress", &SceneOutput::Fields::principal_stress}}};
 
-/// The word for a choice.
+/// The word of a choice.
 template <typename Choice, std::size_t count>
 [[nodiscard]] constexpr const char* name_of(const ChoiceNames<Choice, count>& names, Choice choice) {
   for (const auto& [name, value] : names)

@@ -122,8 +122,8 @@ std::size_t find_entry(const toml::array& array, const std::string& step, const 
   throw OverrideError(fmt::format("no such entry of {} ({}), {} is needed", where, step, allowed));
 }
 
-// Moves the only key of `from` to `to`, in place of itself and of those it excludes. Keys are moved as nodes
-// are, because a copy would lose its source.
+// Moves the only key of `from` to `to`, replacing it and the keys it excludes. Nodes are moved, as a copy would lose
+// its source.
 void move_only_key(toml::table& from, toml::table& to) {
   auto only = from.begin();
   const toml::key key = only->first;

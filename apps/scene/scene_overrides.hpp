@@ -1,5 +1,5 @@
-// `--set key.path=value`: changing a scene after it is parsed and before it is read, so that an override
-// passes through the same checks as a line of the file.
+// `--set key.path=value`: changes a scene after parsing and before reading, so that an override passes the same
+// checks as a line of the file.
 #pragma once
 
 #include <toml++/toml.h>
@@ -12,15 +12,16 @@
 namespace ashlar {
 
 /// Applies overrides in order. Each is "key.path=value":
-/// - the path is a dotted TOML key; an entry of an array of tables is named by its `name` or, if none is
-///   called so, by its 0-based index ("block.B.order", "block.0.order"); an entry of a plain array by its
-///   index;
-/// - the value is a TOML value; what is none and starts like no bracket or quote is taken as a text;
-/// - tables that are missing on the way are made;
-/// - a key that excludes others takes their place (interval and every; the shapes; chord_tolerance and
-///   subdivisions; traction and force; plane and point).
-/// The new nodes have the source "--set key.path=value". Faults of the form or the path go to diagnostics at
-/// that place and leave the scene as it was; whether keys and values are allowed is for the reader to say.
+/// - the path is a dotted TOML key; an entry of an array of tables is identified by its `name` or, if none has that
+///   name, by its
+///   0-based index ("block.B.order", "block.0.order"); an entry of a plain array by its index;
+/// - the value is a TOML value; invalid ones without an initial bracket or quote are read as text;
+/// - missing tables of the path are created;
+/// - a key that excludes others replaces them (interval and every; the shapes; chord_tolerance and subdivisions;
+///   traction and
+///   force; plane and point).
+/// The new nodes have the source "--set key.path=value". Faults of the form or the path go to diagnostics at that
+/// place and leave the scene unchanged; the reader checks keys and values.
 void apply_overrides(toml::table& scene, const std::vector<std::string>& overrides, Diagnostics& diagnostics);
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// Where each key of a scene was written, so that a fault found long after reading still points at its line.
+// Place of each key of a scene, so that later faults refer to its line.
 #pragma once
 
 #include <map>
@@ -21,30 +21,29 @@ class ScenePlaces {
 
   void record(const std::string& path, KeyPlaces places) { places_[path] = std::move(places); }
   [[nodiscard]] bool contains(const std::string& path) const { return places_.contains(origin_of(path)); }
-  /// Place of the key's name, or of the innermost table around it that was given; the scene's start if none
-  /// was.
+  /// Place of the key's name, or of the innermost given table around it; the scene's start if there is none.
   [[nodiscard]] Place key(const std::string& path) const { return find(path).key; }
-  /// Same for the key's value.
+  /// The same for the key's value.
   [[nodiscard]] Place value(const std::string& path) const { return find(path).value; }
-  /// Says that what is called `path` was written at another one: the places of "block.7" and its keys are
-  /// then those of "masonry.0" and its keys, but for those that are recorded under their own path. An origin
-  /// may have one of its own; no path is its own origin, over however many.
+  /// Records that `path` was written at another one: the places of "block.7" and its keys are then those of
+  /// "masonry.0" and its keys, except those recorded under their own path. An origin may have an origin of its own;
+  /// cycles are not allowed.
   void record_origin(const std::string& path, std::string origin) { origins_[path] = std::move(origin); }
-  /// Takes back what record_origin said of a path.
+  /// Removes the origin of a path.
   void remove_origin(const std::string& path) { origins_.erase(path); }
-  /// Moves the places of a list's entries, and their origins: what was recorded as "block.3.box" is from then
-  /// on "FOLDER.3.box".
+  /// Moves the places of a list's entries, and their origins: entries recorded as "block.3.box" become
+  /// "FOLDER.3.box".
   void move_list(const std::string& list, const std::string& folder);
   /// All given keys by path.
   [[nodiscard]] const std::map<std::string, KeyPlaces>& all() const { return places_; }
 
  private:
   [[nodiscard]] KeyPlaces find(std::string path) const;
-  /// Where a key was written.
+  /// Path at which a key was written.
   [[nodiscard]] std::string origin_of(std::string path) const;
 
   std::map<std::string, KeyPlaces> places_;     ///< "" is the start of the scene
-  std::map<std::string, std::string> origins_;  ///< paths that were written elsewhere
+  std::map<std::string, std::string> origins_;  ///< paths written elsewhere
 };
 
 }  // namespace ashlar

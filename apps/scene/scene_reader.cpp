@@ -59,7 +59,7 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
   table.read_choice("formulation", analysis.formulation, formulation_names);
   table.read_choice("initial_state", analysis.initial_state, initial_state_names);
-  // Of a stage: gravity in one form takes the place of gravity in the other.
+  // For a stage: one form of gravity replaces the other.
   if (table.read_vector("gravity", analysis.gravity)) analysis.gravity_history.clear();
   if (auto history = read_history(table, "gravity_history", 4, "[t, gx, gy, gz]")) {
     analysis.gravity_history.clear();
@@ -85,11 +85,11 @@ bool has_history(const SceneBlock& block) {
                      [](const SceneLoad& load) { return !load.history.empty(); });
 }
 
-/// A static analysis of constant loads has no use for times. @param loads_change whether anything but gravity does
+/// A static analysis of constant loads does not need times. @param loads_change true if anything but gravity does
 void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_change) {
   const bool timeless = is_static(analysis) && analysis.gravity_history.empty() && !loads_change;
   if (!timeless) {
-    // A stage has what [analysis] says.
+    // A stage inherits [analysis].
     if (!(analysis.end_time > 0.0)) table.require("end_time");
     if (!(analysis.time_step > 0.0)) table.require("time_step");
     return;
@@ -137,7 +137,7 @@ void read_contact(TomlTableReader table, SceneContact& contact) {
                                    *contact.subdivisions));
 }
 
-// A stiffness of a joint tells "not given" from "auto".
+// Distinguishes "not given" from "auto" for the stiffness of a joint.
 void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::optional<double>>& result) {
   std::optional<double> stiffness;
   if (table.read_number_or_auto(key, stiffness, range::positive)) result.emplace(stiffness);
@@ -202,7 +202,7 @@ SceneMeasure read_measure(TomlTableReader& table) {
   table.require("block");
   table.read_name("block", measure.block);
   if (table.given("point")) {
-    // Not finite until read, so that no later check is made on a point that is not there.
+    // Not finite until read, so that no later check applies to a missing point.
     measure.point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
     table.read_place("point", *measure.point);
   }
@@ -232,7 +232,7 @@ std::vector<std::string> read_stage_blocks(TomlTableReader& table) {
   return blocks;
 }
 
-/// @param base what the stage's `analysis` replaces key by key
+/// @param base replaced key by key by the stage's `analysis`
 SceneStage read_stage(TomlTableReader& table, const SceneAnalysis& base) {
   SceneStage stage;
   table.require("name");
@@ -278,7 +278,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
     top.error_at_key("include", "include cannot be set (include), files are read before anything is set");
   const bool has_blocks = !scene.block.empty() || !masonry.empty();
   expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
-  // Once the analysis is complete where there is nothing else.
+  // After the analysis is complete without stages.
   scene.stage =
       top.read_tables("stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
   if (scene.stage.empty())
@@ -321,11 +321,11 @@ void record_keys(std::string_view text, KeyRecorder& recorder) {
   read_tables(TomlTableReader(reading, document, "", ""), scene);
 }
 
-/// All of a scene file, which may be a pipe. @throws std::runtime_error with the reason alone
+/// Text of a scene file, which may be a pipe. @throws std::runtime_error with the reason alone
 static std::string scene_text(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) throw std::runtime_error("is a folder");
-  // Some devices have no end.
+  // Some devices are unbounded.
   if (std::filesystem::is_character_file(file, ignored)) throw std::runtime_error("is a device");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error(std::strerror(errno));

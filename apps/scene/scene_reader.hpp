@@ -1,5 +1,5 @@
-// From TOML text to a Scene: keys, types, ranges and words of every table. What needs more than one table, or
-// geometry, is left to scene_checks.hpp.
+// From TOML text to a Scene: keys, types, ranges and words of every table. Checks that involve several tables, or
+// geometry, are in scene_checks.hpp.
 #pragma once
 
 #include <filesystem>
@@ -13,11 +13,11 @@
 
 namespace ashlar {
 
-/// Reads a scene from its text. Faults do not stop the reading, except malformed TOML, of which the first is
-/// reported: the parser cannot go on.
-/// @param file names the text in messages and gives the folder of its paths; it is not opened.
+/// Reads a scene from its text. Reading continues after faults, except malformed TOML, whose first fault is reported:
+/// the parser cannot continue.
+/// @param file name of the text for messages and folder of its paths; it is not opened.
 /// @param overrides see scene_overrides.hpp.
-/// @return what could be read; only to be used for further checks if diagnostics grew.
+/// @return the parts that could be read; only for further checks if diagnostics grew.
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                                 const std::vector<std::string>& overrides, Diagnostics& diagnostics);
 
@@ -25,7 +25,7 @@ namespace ashlar {
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                                Diagnostics& diagnostics);
 
-/// Reads a scene only to note what its tables are asked for; its faults do not matter.
+/// Reads a scene only to record the requested keys; its faults are ignored.
 void record_keys(std::string_view text, KeyRecorder& recorder);
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// A file that a scene takes a history from (scene.hpp).
+// A file with a history of a scene (scene.hpp).
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct SceneRecord {
   std::string time;            ///< name of the column of times
   std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
   double scale = 1.0;               ///< of the values
-  std::string sha256;               ///< of the file as it was read
+  std::string sha256;               ///< of the file when it was read
 };
 
 }  // namespace ashlar

@@ -17,7 +17,7 @@ Json formula() {
   return {{"type", "string"}, {"pattern", "^\\s*="}};
 }
 
-/// A number in a range, or a formula for one.
+/// A number in a range, or a formula for it.
 Json number(const NumberRange& range, const char* type) {
   Json json = {{"type", type}};
   if (std::isfinite(range.low)) json[range.low_allowed ? "minimum" : "exclusiveMinimum"] = range.low;
@@ -117,7 +117,7 @@ class SchemaMaker {
   const KeyRecorder& recorder_;
 };
 
-/// Tables of blocks and what they are made of, as a scene has them first.
+/// Tables of blocks and their materials, at the beginning of a scene.
 constexpr const char* block_tables = R"([analysis]
 end_time = 1
 time_step = 1

@@ -1,4 +1,4 @@
-// A JSON schema of scenes, for editors and validators: noted from the reader as it reads a scene with every table.
+// A JSON schema of scenes, for editors and validators: recorded while the reader reads a scene with every table.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,11 +6,11 @@
 
 namespace ashlar {
 
-/// A scene with a table of each kind and with all that a table may be, each with the keys that have no default.
+/// A scene with a table of each kind and all variants of tables, each with the keys that have no default.
 [[nodiscard]] std::string scene_with_every_table();
 
-/// JSON schema (draft 2020-12). It knows keys, types, ranges, words and what is required wherever the table stands;
-/// what needs more than one key is left to `ashlar check`. Any number may be the text of a formula, "= 2*h".
+/// JSON schema (draft 2020-12). It covers keys, types, ranges, words and required keys of tables; checks that involve
+/// several keys are left to `ashlar check`. Any number may be the text of a formula, "= 2*h".
 [[nodiscard]] nlohmann::ordered_json scene_schema();
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// What a block of a scene (scene.hpp) looks like and how it is turned.
+// Shape and rotation of a block of a scene (scene.hpp).
 #pragma once
 
 #include <filesystem>
@@ -21,24 +21,25 @@ struct SceneBox {
 /// mesh = { file, scale, split, group, weld, flip, repair }
 struct SceneMesh {
   enum class Split {
-    none,        ///< "none": the file is one stone
-    components,  ///< "components": each closed surface is one
-    groups,      ///< "groups": each object or group of an OBJ file is one, each physical group of an MSH file
-    tetrahedra,  ///< "tetrahedra": each of an MSH file is one
+    none,        ///< "none": the file is one block
+    components,  ///< "components": each closed surface is a block
+    groups,      ///< "groups": each object or group of an OBJ file is a block, each physical group of an MSH
+                 ///< file
+    tetrahedra,  ///< "tetrahedra": each of an MSH file is a block
   };
   enum class Flip {
-    automatic,  ///< "auto": surfaces that are inside out are turned
-    always,     ///< true: all surfaces are turned
+    automatic,  ///< "auto": inverted surfaces are flipped
+    always,     ///< true: all surfaces are flipped
     never,      ///< false
   };
   std::filesystem::path file;  ///< as written; relative paths are relative to the scene file's folder
   double scale = 1.0;          ///< > 0
   Split split = Split::none;
   std::string group;  ///< of an MSH file: the only physical group that is read, by name or number; empty: all
-  double weld = 0.0;  ///< m, >= 0: corners this near are one
+  double weld = 0.0;  ///< m, >= 0: closer corners are merged
   Flip flip = Flip::never;
-  bool repair = false;  ///< whether holes are filled and the like (surface_repair.hpp)
-  /// What a block gets of a file that is split, in the file's units, and its 1-based number there.
+  bool repair = false;  ///< true: holes are filled and other defects repaired (surface_repair.hpp)
+  /// Part of a split file for a block, in the file's units, and its 1-based number there.
   std::shared_ptr<const TriangleMesh> stone;
   int number = 0;
 };
@@ -55,7 +56,7 @@ struct SceneSphere {
   int subdivisions = 3;              ///< 0 to 7
 };
 
-/// A piece of a block that a [[cut]] has cut, already placed. No scene can say it.
+/// A piece of a block cut by a [[cut]], already placed. It cannot be given in a scene.
 struct ScenePiece {
   std::shared_ptr<const Polyhedron> solid;
 };

@@ -30,7 +30,7 @@ Eigen::Matrix3d rotation_matrix(const SceneRotation& rotation) {
   return cosine * Eigen::Matrix3d::Identity() + (1.0 - cosine) * axis * axis.transpose() + sine * cross;
 }
 
-// Scale, then rotate. A step that is not given leaves the points bit for bit.
+// Scale, then rotate. Steps that are not given leave the points unchanged bit for bit.
 std::vector<Vector3> turned_points(std::vector<Vector3> points, double scale, const SceneBlock& block) {
   if (scale != 1.0)
     for (Vector3& point : points) point *= scale;
@@ -117,7 +117,7 @@ struct SolidBuilder {
   Polyhedron operator()(const ScenePiece& piece) const { return *piece.solid; }
 };
 
-// Up to translate.
+// Shape before translation.
 Polyhedron build_shape(const Scene& scene, const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   try {
@@ -151,7 +151,7 @@ const char* shape_key(const SceneShape& shape) {
   return keys[shape.index()];
 }
 
-// At the name of the mesh's file, which may come from an argument, or at the key of any other shape.
+// Place of the name of the mesh's file, which may come from an argument, or of the key of any other shape.
 Place shape_place(const Scene& scene, std::size_t index) {
   const SceneShape& shape = scene.block[index].shape;
   const std::string key = fmt::format("block.{}.{}", index, shape_key(shape));
@@ -172,7 +172,8 @@ std::vector<std::optional<Polyhedron>> build_solids(const Scene& scene, Diagnost
   std::vector<std::optional<Polyhedron>> solids(scene.block.size());
   if (shapes != nullptr) shapes->assign(scene.block.size(), nullptr);
   const nlohmann::ordered_json json = blocks_to_json(scene.block);
-  std::map<std::string, std::shared_ptr<const Polyhedron>> built;  // by what the scene says of the shape
+  std::map<std::string, std::shared_ptr<const Polyhedron>> built;  // by the description of the shape in the
+                                                                   // scene
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];
     if (std::holds_alternative<std::monostate>(block.shape)) continue;

@@ -1,5 +1,4 @@
-// The solids of a scene: each block's shape built in its own coordinates and placed by scale, rotate,
-// translate.
+// The solids of a scene: each block's shape in its own coordinates, placed by scale, rotate, translate.
 #pragma once
 
 #include <memory>
@@ -13,18 +12,16 @@
 
 namespace ashlar {
 
-/// What given coordinates are known to, m: they may have been turned before, in double precision and some
-/// operations, by whoever wrote them.
+/// Resolution of given coordinates, m: they may have been rotated before, in double precision with some operations,
+/// by the author of the scene.
 [[nodiscard]] double resolution_of(const std::vector<Vector3>& points);
 
-/// Builds and places the shape of every block, in the scene's order. Faces are merged before placing: where
-/// they are exactly flat, of meshes and hulls also where they are flat to 2^-46 of the largest coordinate
-/// (1.4e-14), so that a rotated box still has six. Without rotate a box keeps exactly its corners (plus
-/// translate); turns by multiples of 90 degrees about a coordinate axis have an exact rotation matrix. A
-/// shape that bounds no solid is reported at its key, a mesh with its file and the faulty elements, and
-/// leaves an empty entry. Equal shapes are built once.
-/// @param shapes if given, (#blocks): each solid as it was before translate, shared by equal ones; null where
-/// the solid is empty
+/// Builds and places the shape of every block, in the scene's order. Faces are merged before placing if they are
+/// exactly flat; for meshes and hulls also if they are flat to 2^-46 of the largest coordinate (1.4e-14), so that a
+/// rotated box still has six. Without rotate a box keeps its exact corners (plus translate); rotations by multiples
+/// of 90 degrees about a coordinate axis have an exact matrix. A shape that bounds no solid is reported at its key, a
+/// mesh with its file and the faulty elements, and leaves an empty entry. Equal shapes are built once.
+/// @param shapes if given, (#blocks): each solid before translation, shared by equal ones; null if the solid is empty
 [[nodiscard]] std::vector<std::optional<Polyhedron>> build_solids(
     const Scene& scene, Diagnostics& diagnostics,
     std::vector<std::shared_ptr<const Polyhedron>>* shapes = nullptr, Preparation* preparation = nullptr);

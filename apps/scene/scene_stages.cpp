@@ -16,7 +16,7 @@
 namespace ashlar {
 namespace {
 
-/// True if an analysis goes through states that a stage can begin or end with.
+/// True if stages can begin or end with the states of an analysis.
 bool is_run_of_stages(SceneAnalysis::Type type) {
   return type == SceneAnalysis::Type::dynamic || type == SceneAnalysis::Type::statics;
 }
@@ -30,7 +30,7 @@ bool means_block(const Scene& scene, const std::vector<std::string>& patterns, s
                      [&](const std::string& pattern) { return ashlar::means_block(scene, pattern, block); });
 }
 
-/// Which blocks are there before the first stage: those that are not added before they are ever removed.
+/// Blocks absent before the first stage: those that are added before they are ever removed.
 std::vector<bool> held_back(const Scene& scene) {
   std::vector<bool> absent(scene.block.size(), false);
   for (std::size_t k = 0; k < absent.size(); ++k) {
@@ -50,7 +50,7 @@ void change_presence(const Scene& scene, const SceneStage& stage, std::vector<bo
   }
 }
 
-/// Of a load whose history has ended.
+/// Makes a load constant after its history has ended.
 void stay(SceneLoad& load, double end_time) {
   History history;
   for (const auto& [time, factor] : load.history) {
@@ -62,28 +62,28 @@ void stay(SceneLoad& load, double end_time) {
   load.file.reset();
 }
 
-/// Of a support whose history has ended.
+/// Fixes a support after its history has ended.
 void stay(SceneFix& fix) {
   fix.history.clear();
   fix.file.reset();
 }
 
-/// The scenes of all stages, each made from the one before.
+/// The scenes of all stages, each derived from the one before.
 class StageScenes {
  public:
-  /// @param whole has stages and outlives it
+  /// @param whole has stages and must outlive this
   explicit StageScenes(const Scene& whole)
       : whole_(whole), scene_(whole), was_there_(whole.block.size(), false) {
     scene_.absent = held_back(whole);
   }
 
-  /// Goes on to the next stage, the first one to begin with.
+  /// Advances to the next stage, initially to the first one.
   void advance() {
     if (stage_) end_histories(*stage_);
     stage_ = stage_ ? *stage_ + 1 : 0;
     add_changes(*stage_);
     scene_.analysis = whole_.stage[*stage_].analysis;
-    // Events before the first stage come before no other one.
+    // The initial state applies to the first stage only.
     if (*stage_ > 0) scene_.analysis.initial_state = SceneAnalysis::InitialState::as_placed;
     change_presence(whole_, whole_.stage[*stage_], scene_.absent);
     name_places(*stage_);
@@ -92,14 +92,14 @@ class StageScenes {
   [[nodiscard]] Scene&& take() { return std::move(scene_); }
 
  private:
-  /// Those of [[block]] are those of the first stage that it is in; those of a stage are over with it.
+  /// Histories of [[block]] end with the first stage of the block; those of a stage end with it.
   void end_histories(std::size_t ended) {
     const double end_time = whole_.stage[ended].analysis.end_time;
     for (std::size_t k = 0; k < scene_.block.size(); ++k) {
       if (was_there_[k] || scene_.absent[k]) continue;
       was_there_[k] = true;
       SceneBlock& block = scene_.block[k];
-      // Entries of stages come after the block's own.
+      // Entries of stages follow the block's own.
       for (std::size_t n = 0; n < whole_.block[k].fix.size(); ++n) stay(block.fix[n]);
       for (std::size_t n = 0; n < whole_.block[k].load.size(); ++n) stay(block.load[n], end_time);
     }
@@ -109,7 +109,7 @@ class StageScenes {
     added_loads_.clear();
   }
 
-  /// Of a block, and its index there.
+  /// Index of a block, and of an entry in it.
   using Added = std::vector<std::pair<std::size_t, std::size_t>>;
 
   void add_changes(std::size_t s) {
@@ -147,7 +147,7 @@ class StageScenes {
     }
   }
 
-  /// Keys of the stage's analysis are where they are given, and no longer where the stage before has them.
+  /// Keys of the stage's analysis refer to their place there, no longer to those of the stage before.
   void name_places(std::size_t s) {
     for (const std::string& path : named_) scene_.places.remove_origin(path);
     named_.clear();
@@ -162,8 +162,8 @@ class StageScenes {
 
   const Scene& whole_;
   Scene scene_;
-  std::optional<std::size_t> stage_;  ///< that scene_ is of; empty: before the first
-  std::vector<bool> was_there_;       ///< by block, in a stage that has ended
+  std::optional<std::size_t> stage_;  ///< stage of scene_; empty: before the first
+  std::vector<bool> was_there_;       ///< by block, true if present in a stage that has ended
   Added added_fixes_, added_loads_;   ///< by the present stage
   std::vector<std::string> named_;    ///< keys of the present stage's analysis
 };
@@ -199,7 +199,7 @@ class StageCheck {
     }
   }
 
-  /// @param key of the list. @return the blocks that it means; those without one are reported
+  /// @param key of the list. @return the matching blocks; patterns without one are reported
   std::vector<std::size_t> blocks_of(std::size_t stage, const std::string& key,
                                      const std::vector<std::string>& patterns) {
     std::set<std::size_t> found;

@@ -17,7 +17,7 @@ bool before(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// Sign of the determinant of the linear part, which is scaled so that no product leaves the range of doubles.
+/// Sign of the determinant of the linear part, scaled so that products stay in the range of double precision.
 double orientation(const Eigen::Affine3d& transformation, const std::string& name) {
   const double largest = transformation.matrix().cwiseAbs().maxCoeff();
   if (!transformation.matrix().allFinite() || largest > largest_coordinate)
@@ -82,7 +82,7 @@ PolygonSoup equal_points_joined(PolygonSoup soup) {
   const auto point = [&](int i) -> const Vector3& { return soup.points[static_cast<std::size_t>(i)]; };
   std::vector<int> order(soup.points.size());
   std::iota(order.begin(), order.end(), 0);
-  // Equal points stand side by side afterwards, the first of the file first.
+  // Sorts equal points side by side, in the order of the file.
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return before(point(a), point(b)) || (point(a) == point(b) && a < b); });
   std::vector<int> first(soup.points.size());
@@ -149,7 +149,7 @@ void ShapeLayout::append(const Placement& placement, PolygonSoup& soup) const {
   const PolygonSoup& shape = shapes_[placement.shape];
   const int offset = static_cast<int>(soup.points.size());
   for (const Vector3& point : shape.points) {
-    // A zero has no sign afterwards: -0 and 0 are one point.
+    // Removes the sign of zero: -0 and 0 are one point.
     const Vector3 placed = (placement.transformation * point).array() + 0.0;
     for (const double coordinate : placed)
       if (!(std::abs(coordinate) <= largest_coordinate))

@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-/// A block with what its softness is judged by.
+/// A block with the data that determine its softness.
 struct JudgedBlock {
   const SceneBlock& block;
   const SceneMaterial& material;
@@ -44,7 +44,7 @@ double largest_factor(const SceneLoad& load) {
   return largest;
 }
 
-/// Of a history: its longest row.
+/// For a history: its longest row.
 Vector3 largest_gravity(const SceneAnalysis& analysis) {
   if (analysis.gravity_history.empty()) return analysis.gravity;
   const auto shorter = [](const SceneAnalysis::Gravity& a, const SceneAnalysis::Gravity& b) {
@@ -69,7 +69,7 @@ JudgedBlock judged(const Scene& scene, const SceneBlock& block, const SceneMater
   return result;
 }
 
-/// How much something gives way and why.
+/// A cause of deformation.
 struct Cause {
   double strain = 0.0;
   const char* words = "";
@@ -98,7 +98,7 @@ void warn_of_material(const Scene& scene, std::size_t index, const std::vector<J
                   modulus, largest.block->name, largest.strain, largest.words, largest_ordinary_strain));
 }
 
-/// A body that meets something at a speed v is strained by v / c, c the speed of sound in it.
+/// The strain of a body that hits something at a speed v is v / c, c the speed of sound in it.
 void warn_of_speed(const Scene& scene, std::size_t k, const JudgedBlock& judged, Diagnostics& diagnostics) {
   const double sound = std::sqrt(judged.material.young_modulus / judged.material.density);
   const double strain = judged.speed / sound;
@@ -116,7 +116,7 @@ void warn_of_speed(const Scene& scene, std::size_t k, const JudgedBlock& judged,
           largest_ordinary_strain * sound, judged.material.young_modulus));
 }
 
-/// @param key of a normal stiffness. @param concerns whether a block has joints with it
+/// @param key of a normal stiffness. @param concerns true if a block has joints with it
 template <class Concerns>
 void warn_of_stiffness(const Scene& scene, const std::string& key, double stiffness,
                        const std::vector<JudgedBlock>& blocks, Concerns concerns, Diagnostics& diagnostics) {

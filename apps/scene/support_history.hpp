@@ -1,4 +1,4 @@
-// The history of a support as mechanics takes it.
+// Converts the history of a support for mechanics.
 #pragma once
 
 #include "apps/scene/scene.hpp"

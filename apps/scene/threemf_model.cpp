@@ -13,7 +13,7 @@ namespace ashlar {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw MeshFileError(what, 0, 0);  // the reader of XML knows the place
+  throw MeshFileError(what, 0, 0);  // the XML reader adds the place
 }
 
 std::string_view required(const char* element, const char* name, const XmlAttributes& attributes) {
@@ -45,7 +45,7 @@ long long integer(const char* element, const char* name, const XmlAttributes& at
   return value;
 }
 
-/// Points are rows: p' = p M, the last row is the move (section 3.3).
+/// Points are rows: p' = p M, the last row is the translation (section 3.3).
 Eigen::Affine3d transformation_of(const XmlAttributes& attributes) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
   const auto text = attributes.find("transform");
@@ -110,7 +110,7 @@ void ThreemfModel::start(std::string_view name, const XmlAttributes& attributes)
   if (element == Element::object) start_object(attributes);
   if (element == Element::vertex) add_vertex(attributes);
   if (element == Element::triangle) add_triangle(attributes);
-  // An object is known to others once it is complete.
+  // An object can be referred to once it is complete.
   if (element == Element::component)
     objects_.back().components.push_back(use_of("component", attributes, objects_.size() - 1));
   if (element == Element::item) items_.push_back(use_of("item", attributes, objects_.size()));
@@ -175,7 +175,7 @@ ShapeLayout ThreemfModel::take_layout(std::size_t bytes) {
   ShapeLayout layout(ShapeLayout::SameName::numbered, layout_limits(bytes));
   std::vector<std::size_t> shapes;
   for (Object& object : objects_) shapes.push_back(layout.add(std::move(object.mesh)));
-  // Components stand above the object that has them.
+  // Components precede the object that contains them.
   std::vector<LayoutSize> sizes;
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     LayoutSize& size = sizes.emplace_back(LayoutSize{1.0, static_cast<double>(layout.faces(shapes[i]))});

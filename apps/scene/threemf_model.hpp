@@ -18,11 +18,11 @@ class ThreemfModel : public XmlHandler {
   void start(std::string_view name, const XmlAttributes& attributes) override;
   void end() override;
 
-  /// After the whole part, once. @param bytes of it
+  /// To be called once, after the whole part. @param bytes of it
   [[nodiscard]] ShapeLayout take_layout(std::size_t bytes);
 
  private:
-  /// Elements that are read; all others are passed over with what is in them.
+  /// Elements that are read; all others are ignored with their content.
   enum class Element {
     other,
     model,
@@ -53,11 +53,11 @@ class ThreemfModel : public XmlHandler {
   void start_object(const XmlAttributes& attributes);
   void add_vertex(const XmlAttributes& attributes);
   void add_triangle(const XmlAttributes& attributes);
-  /// @param known objects that may be used
+  /// @param known number of objects that may be used
   [[nodiscard]] Use use_of(const char* what, const XmlAttributes& attributes, std::size_t known) const;
 
   std::vector<Element> open_;
-  std::string prefix_;  ///< of the names of the core's elements, with its colon; mostly empty
+  std::string prefix_;  ///< of the names of the core's elements, with its colon; usually empty
   std::map<long long, std::size_t> number_of_id_;
   std::vector<Object> objects_;
   std::vector<Use> items_;

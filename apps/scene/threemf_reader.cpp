@@ -12,7 +12,7 @@
 namespace ashlar {
 namespace {
 
-/// The list of what a package begins with.
+/// The list of the root parts of a package.
 class Relationships : public XmlHandler {
  public:
   void start(std::string_view name, const XmlAttributes& attributes) override {
@@ -22,7 +22,7 @@ class Relationships : public XmlHandler {
   }
   void end() override {}
 
-  /// Name of the part with the model; empty: there is none.
+  /// Name of the model part; empty: there is none.
   [[nodiscard]] std::string model_part() const {
     return target_.starts_with('/') ? target_.substr(1) : target_;
   }
@@ -31,7 +31,7 @@ class Relationships : public XmlHandler {
   std::string target_;
 };
 
-/// Parses a part as it is inflated. @return its bytes
+/// Parses a part while it is inflated. @return its bytes
 std::size_t read_part(const ZipArchive& archive, std::string_view name, std::size_t most,
                       XmlHandler& handler) {
   const ZipArchive::Entry* entry = archive.find(name);

@@ -27,7 +27,7 @@ void for_each_pair(const JointTable& table, std::size_t joint, Visit visit) {
   }
 }
 
-/// Pairs that a joint ties, sorted.
+/// Pairs tied by a joint, sorted.
 std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, const JointTable& table,
                                                             const std::vector<BlockModel>& blocks) {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
@@ -42,7 +42,7 @@ std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, 
   return {pairs.begin(), pairs.end()};
 }
 
-/// Whether a later [[joint]] of the blocks that one ties unties all of them.
+/// True if later [[joint]]s untie all pairs tied by a joint.
 bool is_untied(const JointTable& table, std::size_t joint) {
   bool left_any = false;
   for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
@@ -52,7 +52,7 @@ bool is_untied(const JointTable& table, std::size_t joint) {
   return table.matches_a_pair(joint) && !left_any;
 }
 
-/// Whether some block that a joint ties is not there yet, or not any more.
+/// True if a block tied by a joint is absent at present.
 bool waits(const JointTable& table, std::size_t joint, const BlockSystem& system) {
   bool waits = false;
   for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {

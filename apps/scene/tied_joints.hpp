@@ -1,4 +1,4 @@
-// Joints that are tied: the pairs of blocks that a simulation glues together, and joints that ask for it in vain.
+// Tied joints: the pairs of blocks bonded by a simulation, and joints without effect.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,8 @@ namespace ashlar {
 [[nodiscard]] std::vector<TieRequest> ties_of(const Scene& scene, const JointTable& table,
                                               const std::vector<BlockModel>& blocks);
 
-/// A [[joint]] that ties nothing is an error at its key, one that later ones undo a warning. @param system with the ties
+/// Reports a [[joint]] that ties nothing as an error at its key, and one undone by later ones as a warning. @param
+/// system with the ties
 void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& system,
                 Diagnostics& diagnostics);
 

@@ -26,21 +26,21 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find('\n'));
 }
 
-/// Words in apostrophes of a parser's message: a key.
+/// Key in apostrophes in a parser's message.
 std::string_view quoted_in(std::string_view message) {
   const std::size_t start = message.find('\'');
   const std::size_t end = message.rfind('\'');
   return start == end ? std::string_view() : message.substr(start + 1, end - start - 1);
 }
 
-/// Where the number that the fault follows ends: at the fault, but for blanks.
+/// End of the number before a fault: at the fault, without blanks.
 std::string_view before_fault(std::string_view line, std::size_t column) {
   std::string_view before = line.substr(0, std::min(column - 1, line.size()));
   while (!before.empty() && (before.back() == ' ' || before.back() == '\t')) before.remove_suffix(1);
   return before;
 }
 
-/// A unit begins with one of these; bytes of other alphabets (micro, degree, Angstrom) too.
+/// True for the first letter of a unit; bytes of other alphabets (micro, degree, Angstrom) too.
 bool begins_unit(char letter) {
   const auto byte = static_cast<unsigned char>(letter);
   return std::isalpha(byte) != 0 || byte >= 0x80 || letter == '%';

@@ -1,4 +1,4 @@
-// What slips look like to a TOML parser, and what they are.
+// Explanations of frequent mistakes from the errors of a TOML parser.
 #pragma once
 
 #include <toml++/toml.h>
@@ -8,12 +8,12 @@
 
 namespace ashlar {
 
-/// "what is wrong (the parser's words), what is allowed" of a document that cannot be parsed: [name] for
-/// [[name]], units behind numbers, decimal commas; else in the parser's words.
+/// "what is wrong (the parser's words), what is allowed" for a malformed document: [name] instead of [[name]], units
+/// after numbers, decimal commas; otherwise in the parser's words.
 [[nodiscard]] std::string malformed_toml(std::string_view text, const toml::parse_error& error);
 
-/// What a text in place of a number may have meant: "; numbers have no unit and no quotes (SI units)" or a
-/// hint to the decimal point; empty if it begins with no number.
+/// Hint for a text in place of a number: "; numbers have no unit and no quotes (SI units)" or a hint on the decimal
+/// point; empty if it does not begin with a number.
 [[nodiscard]] std::string number_hint(std::string_view text);
 
 }  // namespace ashlar

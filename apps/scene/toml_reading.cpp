@@ -15,7 +15,7 @@ namespace ashlar {
 
 namespace {
 
-// Numbers keep the shortest form that reads back the same, and the point that makes them no whole number.
+// Numbers in the shortest form that reads back the same, with a point if they are not integers.
 std::string as_text(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (const auto* number = node.as_floating_point()) return fmt::format("{:#}", **number);
@@ -30,8 +30,8 @@ std::string as_text(const toml::node& node) {
   return stream.str();
 }
 
-// Where a run of letters that can stand in a dotted key has too many dots; the end if there is none. Numbers
-// have commas between them.
+// Place of a run of letters of a dotted key with too many dots; the end if there is none. Numbers are separated by
+// commas.
 std::string_view::const_iterator find_deep_key(std::string_view text) {
   constexpr int most_parts = 1000;
   int dots = 0;
@@ -61,8 +61,8 @@ toml::table parse_toml(std::string_view text, std::string_view origin) {
   try {
     return toml::parse(text, origin);
   } catch (const toml::parse_error&) {
-    // It reads numbers through streams, which swallow a failed allocation: "0.5" is then no number. What is malformed is
-    // so the second time too.
+    // It reads numbers through streams, which swallow a failed allocation: "0.5" is then not a number. Malformed text
+    // fails the second time too.
     return toml::parse(text, origin);
   }
 }
@@ -86,8 +86,8 @@ bool TomlReading::has_number(const toml::node& node) {
   return node.is_number() || (text != nullptr && is_formula(**text));
 }
 
-// The place of a character of a text in quotes. Where characters were escaped or the text has several lines,
-// they cannot be counted, and the place is that of the text.
+// Place of a character in a quoted text. If characters were escaped or the text has several lines, they cannot be
+// counted, and the place is that of the text.
 Place TomlReading::place_in_text(const toml::node& node, std::size_t offset) const {
   Place start = place(node.source());
   const toml::source_region& region = node.source();

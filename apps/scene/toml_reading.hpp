@@ -1,6 +1,5 @@
-// What the readers of all tables of one TOML document share: places, faults, and which keys are known. Every
-// key that a reader asks for becomes a known one; those that nobody asked for are reported at the end, with
-// the nearest known one.
+// Data shared by the readers of all tables of one TOML document: places, faults, and known keys. Every key requested
+// by a reader becomes known; keys that were never requested are reported at the end, with the nearest known one.
 #pragma once
 
 #include <toml++/toml.h>
@@ -21,10 +20,10 @@
 
 namespace ashlar {
 
-/// One document being read.
+/// One document during reading.
 class TomlReading {
  public:
-  /// What is known of one table: its content, its path, and the keys asked for so far.
+  /// Data of one table: its content, its path, and the keys requested so far.
   struct KnownTable {
     const toml::table* table;
     std::string path;  ///< as in ScenePlaces
@@ -32,8 +31,8 @@ class TomlReading {
     std::set<std::string> keys;
   };
 
-  /// @param files names under which the document and those that it includes were parsed, its own first; nodes
-  /// of any other source are taken as arguments.
+  /// @param files names under which the document and its includes were parsed, its own first; nodes of any other
+  /// source are arguments.
   TomlReading(std::vector<std::string> files, Diagnostics& diagnostics, ScenePlaces& places)
       : files_(std::move(files)), diagnostics_(diagnostics), places_(places) {}
 
@@ -45,31 +44,31 @@ class TomlReading {
   void error(Place place, std::string message) { diagnostics_.error(std::move(place), std::move(message)); }
   [[nodiscard]] const ScenePlaces& places() const { return places_; }
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
-  /// That relative paths of the document are relative to.
+  /// Folder of relative paths in the document.
   [[nodiscard]] std::filesystem::path folder() const {
     return std::filesystem::path(files_.front()).parent_path();
   }
 
-  /// Counts pieces of masonry. @return all so far
+  /// Counts pieces of masonry. @return total so far
   double add_pieces(double pieces) { return pieces_ += pieces; }
 
-  /// The parameters of the document, which formulas use from then on.
+  /// Sets the parameters of the document for later formulas.
   void set_formulas(Formulas formulas) { formulas_ = std::move(formulas); }
-  /// Whether a node is a number or the text of a formula.
+  /// True if a node is a number or the text of a formula.
   [[nodiscard]] static bool has_number(const toml::node& node);
-  /// The value of such a node; a formula's is finite. A fault of a formula is reported at the character that
-  /// it is at, with the key.
+  /// The value of such a node; a formula's is finite. A fault of a formula is reported at its character, with the
+  /// key.
   [[nodiscard]] std::optional<double> number(const toml::node& node, std::string_view key);
   [[nodiscard]] std::optional<double> number(const toml::node& node, std::string_view key,
                                              const Formulas& formulas);
 
-  /// Notes from then on what readers ask for. @param recorder outlives the reading
+  /// Records from then on the keys requested by readers. @param recorder must outlive the reading
   void record_keys(KeyRecorder& recorder) { recorder_ = &recorder; }
-  /// Null: nothing is noted.
+  /// Null: no recording.
   [[nodiscard]] KeyRecorder* recorder() const { return recorder_; }
 
-  /// One error for each key of a registered table that was never asked for. A key known in another table only
-  /// is said to belong there: TOML makes it easy to write a key below the wrong header.
+  /// Reports each key of a registered table that was never requested. For a key known in another table only, names
+  /// that table: TOML makes it easy to write a key below the wrong header.
   void report_unknown_keys();
 
  private:
@@ -84,11 +83,11 @@ class TomlReading {
   std::list<KnownTable> tables_;  // readers keep references
 };
 
-/// Parses a document as toml::parse does. @throws toml::parse_error, also where a dotted key has more than a
-/// thousand parts: every part is a nested table, and the parser's recursion would exhaust the stack
+/// Parses a document as toml::parse does. @throws toml::parse_error, also if a dotted key has more than a thousand
+/// parts: every part is a nested table, and the parser's recursion would exhaust the stack
 [[nodiscard]] toml::table parse_toml(std::string_view text, std::string_view origin);
 
-/// A value as shown in a message: short ones as TOML, long ones by their kind.
+/// A value for a message: short ones as TOML, long ones by their kind.
 [[nodiscard]] std::string describe(const toml::node& node);
 
 }  // namespace ashlar

@@ -1,5 +1,5 @@
-// Reading one TOML table key by key. Every fault goes to the diagnostics with its place, and a value is only
-// ever handed out after its type, range and finiteness are checked.
+// Reads one TOML table key by key. Every fault goes to the diagnostics with its place. A value is returned only after
+// its type, range and finiteness are checked.
 #pragma once
 
 #include <toml++/toml.h>
@@ -19,11 +19,11 @@
 
 namespace ashlar {
 
-/// One table. Each read_... leaves its result untouched if the key is absent or faulty, and returns whether a
-/// good value was read.
+/// One table. Each read_... leaves its result unchanged if the key is absent or faulty, and returns true if a valid
+/// value was read.
 class TomlTableReader {
  public:
-  /// @param path,name see TomlReading::KnownTable. @param table outlives the reader.
+  /// @param path,name see TomlReading::KnownTable. @param table must outlive the reader.
   TomlTableReader(TomlReading& reading, const toml::table& table, std::string path, std::string name)
       : reading_(reading), known_(reading.add_table(table, std::move(path), std::move(name))) {
     if (reading_.recorder() != nullptr) reading_.recorder()->note_table(known_.name);
@@ -32,11 +32,11 @@ class TomlTableReader {
   [[nodiscard]] const std::string& path() const { return known_.path; }
   [[nodiscard]] const std::string& name() const { return known_.name; }
   [[nodiscard]] std::string path(std::string_view key) const;
-  /// Whether the key is there, good or not. Makes it a known one.
+  /// True if the key is present, valid or not. Makes it a known one.
   [[nodiscard]] bool given(std::string_view key) { return find(key) != nullptr; }
-  /// Whether the key holds inf. Makes it a known one.
+  /// True if the key holds inf. Makes it a known one.
   [[nodiscard]] bool holds_infinity(std::string_view key);
-  /// The table that the key holds, null if it holds none. Makes it a known one.
+  /// The table of the key, null if there is none. Makes it a known one.
   [[nodiscard]] const toml::table* table_at(std::string_view key) {
     const toml::node* node = find(key);
     return node == nullptr ? nullptr : node->as_table();
@@ -47,15 +47,15 @@ class TomlTableReader {
   void error_at_table(std::string message);
   void error_at_key(std::string_view key, std::string message);
   void error_at_value(std::string_view key, std::string message);
-  /// Reports a key that earlier versions had, where it is given. It is no key of the schema.
+  /// Reports a key of earlier versions, if given. It is not part of the schema.
   void refuse_former(std::string_view key, std::string message);
 
-  /// Whether the key holds a text. Makes it a known one.
+  /// True if the key holds a text. Makes it a known one.
   [[nodiscard]] bool text_at(std::string_view key) {
     const toml::node* node = find(key);
     return node != nullptr && node->is_string();
   }
-  /// @param form words for what else the key may hold
+  /// @param form description of other values of the key
   bool read_bool(std::string_view key, bool& result, const char* form = "");
   bool read_text(std::string_view key, std::string& result);
   /// A text of at least one character and no control characters (tabs, line breaks).
@@ -72,13 +72,13 @@ class TomlTableReader {
   /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
   bool read_place(std::string_view key, Vector3& result);
   bool read_texts(std::string_view key, std::vector<std::string>& result);
-  /// An array of rows of `width` finite numbers each, at least `minimum` of them. @param words for a row.
+  /// An array of at least `minimum` rows of `width` finite numbers each. @param words name of a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                  std::size_t minimum, const char* words, const char* form = "");
   /// Rows of three coordinates, as read_rows and read_place.
   bool read_places(std::string_view key, std::vector<Vector3>& result, std::size_t minimum);
-  /// Rows whose first number is a time, which must increase from row to row. @param form words for what else
-  /// the key may hold
+  /// Rows whose first number is a time, which must increase from row to row. @param form description of other values
+  /// of the key
   bool read_history(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                     const char* words, const char* form = "");
 
@@ -104,12 +104,12 @@ class TomlTableReader {
     return read_words_among(key, result, words);
   }
 
-  /// A table; an absent or faulty one is none.
+  /// A table; empty if absent or faulty.
   [[nodiscard]] std::optional<TomlTableReader> table(std::string_view key);
-  /// A table; an absent or faulty one reads as empty, so that its keys are known all the same.
+  /// A table; an absent or faulty one reads as empty, so that its keys become known.
   [[nodiscard]] TomlTableReader table_or_empty(std::string_view key);
-  /// What `read` makes of each entry of an array of tables. An entry that is no table is a fault and an
-  /// untouched result, so that indices stay; none if absent or no array.
+  /// Results of `read` for each entry of an array of tables. An entry that is no table is a fault with a default
+  /// result, so that indices are preserved; empty if absent or no array.
   template <typename Read>
   [[nodiscard]] auto read_tables(std::string_view key, Read read) {
     using Entry = std::invoke_result_t<Read, TomlTableReader&>;
@@ -120,12 +120,12 @@ class TomlTableReader {
   }
 
  private:
-  /// For a schema of what is read.
+  /// Records a key for a schema.
   void note(std::string_view key, KeyForm form) {
     if (reading_.recorder() != nullptr)
       reading_.recorder()->note_form(known_.name, std::string(key), std::move(form));
   }
-  /// Null where an entry is no table.
+  /// Null for entries that are no tables.
   [[nodiscard]] std::vector<std::optional<TomlTableReader>> tables(std::string_view key);
   [[nodiscard]] const toml::node* find(std::string_view key);
   [[nodiscard]] std::optional<std::size_t> read_word(std::string_view key,
@@ -134,7 +134,7 @@ class TomlTableReader {
                         const std::vector<std::string>& words);
   [[nodiscard]] const toml::array* find_array(std::string_view key, const std::string& words);
   [[nodiscard]] std::string child_name(std::string_view key) const;
-  /// A node that the key holds, or has in its array.
+  /// A node held by the key, or an element of its array.
   [[nodiscard]] TomlValue value(const toml::node& node, std::string_view key) {
     return {reading_, node, key};
   }

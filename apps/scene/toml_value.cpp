@@ -13,7 +13,7 @@
 
 namespace ashlar {
 
-// A formula with what it comes to.
+// A formula with its value.
 static std::string describe_number(const toml::node& node, double value) {
   return node.is_string() ? fmt::format("{} = {}", describe(node), value) : describe(node);
 }

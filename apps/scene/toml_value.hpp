@@ -1,5 +1,5 @@
-// From a node of a TOML document to a number, a word or a row: its type, range and finiteness are checked, and what is
-// wrong with it is reported at its place.
+// From a node of a TOML document to a number, a word or a row: its type, range and finiteness are checked, and faults
+// are reported at its place.
 #pragma once
 
 #include <toml++/toml.h>
@@ -15,24 +15,24 @@
 
 namespace ashlar {
 
-/// The value of a key, or an entry of one that is an array. What has a result returns none after a fault.
+/// The value of a key, or an entry of its array. Functions with a result return empty after a fault.
 class TomlValue {
  public:
-  /// @param reading,node,key outlive this
+  /// @param reading,node,key must outlive this
   TomlValue(TomlReading& reading, const toml::node& node, std::string_view key)
       : reading_(reading), node_(node), key_(key) {}
 
-  /// Reports that it is of another type. @param words for what is needed @param hint what else to say of it
+  /// Reports a wrong type. @param words description of the allowed values. @param hint additional text
   void wrong_type(std::string_view words, std::string_view hint = "") const;
-  /// @param words for what is needed
+  /// @param words description of the allowed values
   [[nodiscard]] std::optional<double> finite_number(std::string_view words) const;
   [[nodiscard]] std::optional<double> number(const NumberRange& range) const;
   [[nodiscard]] std::optional<int> whole_number(int low, int high) const;
-  /// The index of the word that it is.
+  /// Index of the word.
   [[nodiscard]] std::optional<std::size_t> word(const std::vector<std::string>& words) const;
-  /// Finite numbers. @param words for the row
+  /// Finite numbers. @param words description of the row
   [[nodiscard]] std::optional<std::vector<double>> row(std::size_t width, std::string_view words) const;
-  /// Reports the first coordinate that is too large, m. @return whether there is none
+  /// Reports the first coordinate that is too large, m. @return true if there is none
   [[nodiscard]] bool holds_place(const Vector3& place) const;
 
  private:

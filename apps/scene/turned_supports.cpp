@@ -12,7 +12,7 @@
 namespace ashlar {
 namespace {
 
-/// Points of a block that a support holds, and where its history takes them.
+/// Points of a block held by a support, and their motion.
 struct SupportedPoints {
   std::vector<Vector3> points;  ///< m, placed
   std::array<bool, 3> components;
@@ -40,9 +40,9 @@ std::vector<SupportedPoints> supported_points(const SceneBlock& block, const Pol
   return supports;
 }
 
-/// The affine map of least gradient that comes nearest to the motion of the supported points in the
-/// components in which they are held, without its translation: a common translation of all of them has none.
-/// Where they lie in one plane and are held in all components, what is across the plane turns with it.
+/// The affine map of least gradient closest to the motion of the supported points in their fixed components, without
+/// its translation: a common translation of all of them has no gradient. If they are coplanar and fixed in all
+/// components, the normal of the plane rotates with it.
 class SupportedFrame {
  public:
   explicit SupportedFrame(std::vector<SupportedPoints> supports) : supports_(std::move(supports)) {
@@ -51,7 +51,7 @@ class SupportedFrame {
       held_alike_ = held_alike_ && support.components == std::array{true, true, true};
   }
 
-  /// Angle by which the points are turned, rad.
+  /// Rotation angle of the points, rad.
   [[nodiscard]] double turn_at(double time) const {
     Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
     for (std::size_t n = 0; n < supports_.size(); ++n) {

@@ -1,4 +1,4 @@
-// Supports that turn a block whose elasticity does not follow.
+// Supports that rotate a block beyond the validity of its elasticity.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,12 @@
 
 namespace ashlar {
 
-/// rad: up to here linear elasticity in a frame that stands still strains a block by no more than angle^2/2 =
-/// 0.5 %.
+/// rad: up to this angle linear elasticity in a fixed frame strains a block by at most angle^2/2 = 0.5 %.
 inline constexpr double largest_ordinary_turn = 0.1;
 
-/// Warns of each block with linear elasticity whose supports hold its frame (BlockModel::elastic) and whose
-/// histories turn its supported points by more than that before end_time. What a translation of supports does
-/// to the rest of the block is no turn.
+/// Warns of each block with linear elasticity whose frame is fixed by supports (BlockModel::elastic) and whose
+/// histories rotate its supported points by more than that before end_time. Rotation of the rest of the block due to
+/// a translation of supports does not count.
 /// @param blocks one per scene.block
 void warn_of_turned_supports(const Scene& scene, const std::vector<BlockModel>& blocks,
                              Diagnostics& diagnostics);

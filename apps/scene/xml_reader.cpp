@@ -22,7 +22,7 @@ struct XmlReader::State {
     return {what, number(XML_GetCurrentLineNumber(parser)), number(XML_GetCurrentColumnNumber(parser)) + 1};
   }
 
-  /// Exceptions do not pass through expat.
+  /// Exceptions must not pass through expat.
   template <class Action>
   void guarded(Action action) {
     if (failure) return;

@@ -1,4 +1,4 @@
-// XML of a file that may come from anywhere, as it streams by: elements with their attributes, parsed by expat.
+// Streaming reader of untrusted XML: elements with their attributes, parsed by expat.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@
 
 namespace ashlar {
 
-/// Elements in each other.
+/// Largest nesting of elements.
 inline constexpr std::size_t most_xml_levels = 100;
-/// Bytes of one tag, comment or instruction. expat begins again with one that is not whole, hence a bound.
+/// Largest size of one tag, comment or instruction, bytes. expat rescans incomplete ones, hence a limit.
 inline constexpr std::size_t longest_xml_token = 1U << 20U;
 
-/// Names and values of a start tag, as they are written; prefixes are part of names.
+/// Names and values of a start tag, unprocessed; prefixes are part of names.
 class XmlAttributes {
  public:
   explicit XmlAttributes(const char** list) : list_(list) {}
@@ -29,7 +29,7 @@ class XmlAttributes {
   const char** list_;
 };
 
-/// Receives elements; a MeshFileError that it throws gets the place of the tag.
+/// Receives elements; the place of the tag is added to a MeshFileError that it throws.
 class XmlHandler {
  public:
   virtual ~XmlHandler() = default;
@@ -44,10 +44,10 @@ class XmlReader {
   XmlReader(const XmlReader&) = delete;
   XmlReader& operator=(const XmlReader&) = delete;
 
-  /// @throws MeshFileError: not well-formed, a document type (entities are declared there), too deep, a tag that is too
-  /// long, and what the handler throws
+  /// @throws MeshFileError: not well-formed, a document type (which may declare entities), nesting too deep, a tag
+  /// that is too long, and exceptions of the handler
   void take(std::string_view piece);
-  /// After the last piece.
+  /// To be called after the last part.
   void finish();
 
  private:

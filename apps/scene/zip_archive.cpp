@@ -18,7 +18,7 @@ namespace {
   throw MeshFileError(what, 0, 0);
 }
 
-/// Fields of the archive, none of which is trusted to be there.
+/// Fields of the archive, which may be missing.
 template <class T>
 T field(std::string_view bytes, std::uint64_t place) {
   if (place > bytes.size() || bytes.size() - place < sizeof(T)) refuse("zip archive is cut off or damaged");
@@ -37,7 +37,7 @@ struct Directory {
   std::uint64_t entries;
 };
 
-/// The record at the end of the archive, behind which there is only its comment.
+/// The record at the end of the archive, followed only by its comment.
 std::uint64_t end_record(std::string_view bytes) {
   constexpr std::uint64_t size = 22;
   constexpr std::uint64_t longest_comment = 65535;
@@ -69,7 +69,7 @@ Directory directory_of(std::string_view bytes) {
   return directory;
 }
 
-/// Values that do not fit into 32 bits stand in an extra field, in this order.
+/// Values that do not fit into 32 bits are in an extra field, in this order.
 void read_zip64(std::string_view extra, ZipArchive::Entry& entry) {
   constexpr std::uint32_t elsewhere = std::numeric_limits<std::uint32_t>::max();
   constexpr std::uint16_t zip64 = 1;
@@ -100,12 +100,12 @@ class Inflater {
   Inflater& operator=(const Inflater&) = delete;
 
   void take(std::string_view packed) {
-    // zlib's pointer is not const, it reads only.
+    // zlib's pointer is not const, but it only reads.
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
     stream_.avail_in = static_cast<uInt>(packed.size());
   }
 
-  /// The next bytes, none at the end. @throws MeshFileError
+  /// The next bytes, empty at the end. @throws MeshFileError
   std::string_view give() {
     if (ended_) return {};
     stream_.next_out = reinterpret_cast<Bytef*>(piece_.data());

@@ -1,5 +1,5 @@
-// Reading zip archives in memory, inflated by zlib: stored and deflated entries, ZIP64 and streamed ones, as 3MF files have
-// them. Nothing is allocated that the archive only claims.
+// Reads zip archives in memory, inflated by zlib: stored and deflated entries, ZIP64 and streamed ones, as in 3MF
+// files. Memory is not allocated by sizes that the archive merely claims.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,20 @@ class ZipArchive {
     std::string_view name;
     std::uint64_t packed_size;
     std::uint64_t size;
-    std::uint64_t header;  ///< where its local header begins
+    std::uint64_t header;  ///< start of its local header
     std::uint32_t checksum;
     std::uint16_t method;
     std::uint16_t flags;
   };
 
-  /// Reads the directory. @param bytes must outlive it. @throws MeshFileError
+  /// Reads the directory. @param bytes must outlive this. @throws MeshFileError
   explicit ZipArchive(std::string_view bytes);
 
-  /// The entry of a name, in any case, as part names of packages are compared; null if there is none.
+  /// The entry of a name, regardless of case, as for part names of packages; null if there is none.
   [[nodiscard]] const Entry* find(std::string_view name) const;
 
-  /// Hands over the content piece by piece, at most `most` bytes of it.
-  /// @throws MeshFileError: more than that, damaged, encrypted, another method, and what `use` throws
+  /// Passes on the content in parts, at most `most` bytes of it.
+  /// @throws MeshFileError: more than that, damaged, encrypted, another method, and exceptions of `use`
   void read(const Entry& entry, std::uint64_t most, const std::function<void(std::string_view)>& use) const;
 
  private:
