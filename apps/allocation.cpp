@@ -1,5 +1,5 @@
-// operator new of the program: mimalloc's memory, and std::bad_alloc where there is none. Debian builds mimalloc as C, and
-// its own operator new then calls abort(). Only the program links this file, and nothing else may: a process has one.
+// operator new of the program: mimalloc's memory, and std::bad_alloc on failure. Debian builds mimalloc as C, whose
+// operator new then calls abort(). Only the program may link this file: a process has one operator new.
 #include <mimalloc.h>
 #include <unistd.h>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// @param get of a number of bytes; null: there are none. As the standard asks: the new-handler may make room.
+/// @param get allocates a number of bytes; null: failure. As the standard requires, the new-handler may free memory.
 template <class Get>
 void* allocated(std::size_t bytes, Get get) {
   while (true) {
@@ -20,7 +20,7 @@ void* allocated(std::size_t bytes, Get get) {
   }
 }
 
-/// Where not even a byte can be had, the initialisers of libraries end in a stack overflow; so this comes before them.
+/// Without any memory, the initialisers of libraries end in a stack overflow; so this is checked before them.
 void refuse_to_start_without_memory() {
   void* place = mi_malloc(1);
   if (place == nullptr) {
@@ -31,8 +31,8 @@ void refuse_to_start_without_memory() {
   mi_free(place);
 }
 
-/// Each iteration of a step asks for what the one before gave back. Where that went back to the system between, a quarter
-/// of the time of a wall of 1620 bricks was page faults.
+/// Each iteration of a step allocates the memory freed by the one before. If it was returned to the system in
+/// between, page faults took a quarter of the time of a wall of 1620 bricks.
 void prepare() {
   refuse_to_start_without_memory();
   mi_option_disable(mi_option_allow_decommit);
@@ -76,7 +76,7 @@ void* operator new[](std::size_t bytes, std::align_val_t alignment, const std::n
   return mi_malloc_aligned(bytes, static_cast<std::size_t>(alignment));
 }
 
-// mimalloc knows size and alignment of what it frees.
+// mimalloc knows the size and alignment of freed memory.
 void operator delete(void* place) noexcept {
   mi_free(place);
 }

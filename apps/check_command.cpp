@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a good scene says of itself, a line each.
+/// Summary of a valid scene, a line each.
 std::vector<std::string> notes_of(const Scene& scene) {
   std::vector<std::string> lines = scene.notes;
   for (std::string& line : motion_left(scene)) lines.push_back(std::move(line));
@@ -53,7 +53,7 @@ Json fault_json(const Diagnostic& fault) {
   return json;
 }
 
-/// @param loaded is there if there are no errors
+/// @param loaded present if there are no errors
 Json report_json(const Diagnostics& diagnostics, const std::optional<LoadedScene>& loaded) {
   Json json{{"good", diagnostics.good()}, {"faults", Json::array()}};
   for (const Diagnostic& fault : diagnostics.listed()) json["faults"].push_back(fault_json(fault));
@@ -98,7 +98,7 @@ int check_command(const CheckOptions& options, std::ostream& out, std::ostream& 
 
 void declare_check_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("check", "Read and validate a scene; lists every error");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<CheckOptions>();
   command->add_option("SCENE", options->scene, "Scene file (TOML); - is standard input")
       ->required()

@@ -29,7 +29,7 @@
 namespace ashlar {
 namespace {
 
-// In the order in which --help lists them.
+// In the order of --help.
 constexpr std::array<CommandDeclaration, 12> commands = {
     declare_run_command,       declare_sweep_command,  declare_view_command,   declare_picture_command,
     declare_movie_command,     declare_check_command,  declare_blocks_command, declare_contacts_command,
@@ -46,7 +46,7 @@ void refuse_unknown_command(const CLI::App& program, const std::vector<std::stri
                         CLI::ExitCodes::InvalidError);
 }
 
-/// The same without what is done where something is thrown.
+/// The same without treatment of exceptions.
 int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
   CLI::App program("Ashlar: high-order 3-D discontinuous deformation analysis", "ashlar");
   CommandContext context{out, err};
@@ -57,7 +57,7 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
   program.failure_message([](const CLI::App*, const CLI::Error& error) {
     return fmt::format("ashlar: error: {}\nRun with --help for more information.\n", error.what());
   });
-  // As other programs have it: help, help COMMAND.
+  // As in other programs: help, help COMMAND.
   if (!arguments.empty() && arguments.front() == "help") {
     std::rotate(arguments.begin(), arguments.begin() + 1, arguments.end());
     arguments.back() = "--help";
@@ -68,7 +68,7 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
     std::reverse(arguments.begin(), arguments.end());
     program.parse(arguments);
   } catch (const CLI::ParseError& error) {
-    // Also how --help and --version end the parsing; those are no faults.
+    // --help and --version end the parsing in this way too; they are no faults.
     return program.exit(error, out, err) == 0 ? exit_status::done : exit_status::bad_input;
   }
   if (out.flush()) return context.status;
@@ -79,7 +79,7 @@ int parse_and_run(std::vector<std::string> arguments, std::ostream& out, std::os
 }  // namespace
 
 int run_command_line(std::vector<std::string> arguments, std::ostream& out, std::ostream& err) {
-  // No fault of the input ends here; what does is the program's own failure.
+  // Faults of the input do not end here; these are failures of the program.
   try {
     return parse_and_run(std::move(arguments), out, err);
   } catch (const std::bad_alloc& error) {

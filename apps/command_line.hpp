@@ -22,7 +22,7 @@ inline constexpr int bad_input = 2;      ///< faults in files, arguments or usag
 inline constexpr int interrupted = 130;  ///< stopped by the user; state saved
 }  // namespace exit_status
 
-/// What every command is given, and what it leaves behind.
+/// Streams and status of a command.
 struct CommandContext {
   std::ostream& out;  ///< results
   std::ostream& err;  ///< faults and progress

@@ -10,8 +10,8 @@
 
 namespace {
 
-/// A standard stream that the caller has closed would lend its number to the first file that is opened, and messages
-/// would go into that.
+/// If the caller has closed a standard stream, its number would be reused for the first opened file, and messages
+/// would be written into it.
 void open_closed_streams() {
   for (const int stream : {0, 1, 2})
     if (fcntl(stream, F_GETFD) == -1) (void)open("/dev/null", O_RDWR);

@@ -11,8 +11,8 @@
 
 #include "apps/command_line.hpp"
 
-// OpenBLAS asks itself, when it is loaded, for how many threads its environment tells; each takes address space at once. It
-// is used with one thread, and this answer, which takes the place of its own, lets it start none.
+// When loaded, OpenBLAS reads the number of threads from its environment; each allocates address space at once. It is
+// used with one thread, and this replacement of its function prevents others.
 extern "C" int openblas_num_threads_env();
 extern "C" int openblas_num_threads_env() {
   return 1;
@@ -23,7 +23,7 @@ namespace {
 
 std::terminate_handler other_end = nullptr;
 
-/// @return true if the program ends for want of memory: there is no exception where not even that could be allocated.
+/// @return true if the program ends for lack of memory: there is no exception if even that could not be allocated.
 bool is_for_memory() {
   const std::exception_ptr error = std::current_exception();
   if (!error) return true;
@@ -36,7 +36,7 @@ bool is_for_memory() {
   }
 }
 
-/// Allocates nothing and runs no destructors: a result folder keeps the last state that was saved.
+/// Allocates nothing and runs no destructors: a result folder keeps the last saved state.
 [[noreturn]] void end_of_program() {
   if (!is_for_memory()) {
     if (other_end != nullptr) other_end();
@@ -48,7 +48,7 @@ bool is_for_memory() {
   ::_exit(exit_status::failed);
 }
 
-// GMP ends the program by abort() where memory ends; exceptions are the only other way out of it.
+// GMP calls abort() without memory; an exception is the only alternative.
 void* thrown_if_none(void* place) {
   if (place == nullptr) throw std::bad_alloc();
   return place;

@@ -20,7 +20,7 @@ constexpr int most_fine_classes = 18;
 double bound(int number) {
   constexpr std::array<double, 3> mantissas = {1.0, 2.0, 5.0};
   const int exponent = static_cast<int>(std::floor(number / 3.0));
-  // Read from text, because a product with a power of ten is rounded.
+  // Read from text, as a product with a power of ten is rounded.
   return std::stod(
       fmt::format("{}e{}", mantissas[static_cast<std::size_t>(number - 3 * exponent)], exponent));
 }
@@ -83,7 +83,7 @@ std::vector<SizeClass> size_classes(const std::vector<double>& volumes) {
   if (volumes.empty()) return {};
   const auto [least, most] = std::minmax_element(volumes.begin(), volumes.end());
   const int first = class_of(*least), last = class_of(*most);
-  // Whole powers of ten where finer classes would be too many.
+  // Whole powers of ten if finer classes would be too many.
   const int step = last - first < most_fine_classes ? 1 : 3;
   const int start = step == 1 ? first : 3 * static_cast<int>(std::floor(first / 3.0));
   std::vector<SizeClass> classes;

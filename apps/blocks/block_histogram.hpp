@@ -1,4 +1,4 @@
-// How large the blocks of a scene are, as a table and as a picture.
+// Size distribution of the blocks of a scene, as a table and as a picture.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace ashlar {
 
-/// Classes of size whose bounds are 1, 2 and 5 times powers of ten, or powers of ten alone where these would
-/// be too many, without empty ones at the ends.
+/// Size classes with bounds 1, 2 and 5 times powers of ten, or powers of ten alone if these would be too many,
+/// without empty classes at the ends.
 struct SizeClass {
   double from, to;  ///< m^3; a volume equal to `to` belongs to the next class
   int blocks = 0;

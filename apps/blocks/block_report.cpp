@@ -11,14 +11,14 @@
 namespace ashlar {
 namespace {
 
-/// Faces whose normals differ by less lie against each other.
+/// Faces whose normals differ by less are in contact.
 constexpr double parallel_sine = 1e-6;
 
 bool is_piece(const LoadedScene& loaded, std::size_t block) {
   return loaded.scene.rock && loaded.scene.rock->origin[block].piece >= 0;
 }
 
-/// Of one block and cut together; the plane is that of the largest part.
+/// Merges borders of one block and cut; the plane is that of the largest part.
 std::vector<BlockBorder> merged(std::vector<BlockBorder> borders) {
   std::sort(borders.begin(), borders.end(), [](const BlockBorder& a, const BlockBorder& b) {
     return std::tuple(a.block, a.cut, a.plane, a.below) < std::tuple(b.block, b.cut, b.plane, b.below);
@@ -108,7 +108,7 @@ void BlockReport::add_border(std::size_t block, std::size_t other, const Vector3
 }
 
 double BlockReport::volume() const {
-  // Neumaier's sum: what additions lose is added at the end.
+  // Neumaier's sum: rounding errors of additions are added at the end.
   double sum = 0.0, lost = 0.0;
   for (const BlockEntry& entry : blocks_) {
     const double next = sum + entry.volume;

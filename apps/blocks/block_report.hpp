@@ -1,4 +1,4 @@
-// What blocks a scene has: their sizes, their neighbours, and what cuts parted them.
+// Blocks of a scene: their sizes, their neighbours, and the cuts between them.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace ashlar {
 
-/// A face, or a part of one, that a block has in common with another.
+/// A face, or a part of one, shared with another block.
 struct BlockBorder {
   std::size_t block;               ///< the other one
   double area;                     ///< m^2
-  std::optional<std::size_t> cut;  ///< that made it; none: the blocks were apart before
-  int plane;                       ///< of the block's CutSolid, and its side
+  std::optional<std::size_t> cut;  ///< origin of the border; empty: the blocks were separate before
+  int plane;                       ///< of the block's CutSolid; `below` is its side
   bool below;
 };
 
@@ -24,7 +24,7 @@ struct BlockEntry {
   double surface = 0.0;              ///< m^2, of the whole block
 };
 
-/// The solid that a block is a piece of, made for blocks that were not cut.
+/// The solid of which a block is a piece, also made for blocks that were not cut.
 struct BlockSolid {
   const CutSolid* solid;
   int piece;
@@ -32,9 +32,9 @@ struct BlockSolid {
 
 class BlockReport {
  public:
-  /// Borders of pieces of one block are exact, each area rounded once. Those of other blocks are where faces
-  /// meet to within the overlap that a scene may have, with areas of rounded corners.
-  /// @param loaded outlives the report
+  /// Borders of pieces of one block are exact, each area rounded once. Those of other blocks are faces in contact
+  /// within the allowed overlap of a scene, with areas of rounded corners.
+  /// @param loaded must outlive the report
   explicit BlockReport(const LoadedScene& loaded);
 
   [[nodiscard]] const std::vector<BlockEntry>& blocks() const { return blocks_; }
@@ -51,7 +51,7 @@ class BlockReport {
   void add_border(std::size_t block, std::size_t other, const Vector3& normal, double area);
 
   const LoadedScene& loaded_;
-  std::vector<std::optional<CutSolid>> whole_;  ///< by block, those that are no pieces
+  std::vector<std::optional<CutSolid>> whole_;  ///< by block, for those that are no pieces
   std::vector<BlockEntry> blocks_;
 };
 

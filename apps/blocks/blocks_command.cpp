@@ -38,7 +38,7 @@ std::filesystem::path folder_of(const BlocksOptions& options) {
   return options.scene.stem().string() + ".blocks";
 }
 
-/// @return what to tell the user
+/// @return message to the user
 std::string write_files(const std::filesystem::path& folder, const BlockReport& report,
                         const std::vector<RemovableBlock>& removable) {
   const LoadedScene& loaded = report.loaded();
@@ -106,7 +106,7 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
 void declare_blocks_command(CLI::App& program, CommandContext& context) {
   CLI::App* command =
       program.add_subcommand("blocks", "The blocks of a scene: sizes, neighbours, key blocks; as files too");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<BlocksOptions>();
   command->add_option("SCENE", options->scene, "Scene file (TOML); - is standard input")
       ->required()

@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-/// Areas of contact are rounded; a face is covered if no more than this part of it is not.
+/// Areas of contact are rounded; a face is covered if at most this part of it is not.
 constexpr double covered_part = 1e-9;
 
 struct Hold {
@@ -28,7 +28,7 @@ bool has_free_face(const BlockSolid& block, const Holds& holds) {
   return std::any_of(bare.begin(), bare.end(), [&](const auto& entry) {
     const auto& [plane, area] = entry;
     const auto hold = holds.find(plane);
-    // Areas of neighbours within the solid are on no bare face.
+    // Areas of neighbours within the solid are not on a bare face.
     double covered = hold == holds.end() ? 0.0 : hold->second.area;
     for (const PieceFace& face : block.solid->faces(block.piece))
       if (face.neighbour >= 0 && std::pair(face.plane, face.below) == plane)

@@ -1,4 +1,4 @@
-// JSON is written piece by piece: 10,000 reports in a second leave no time for a tree of each.
+// JSON is written directly: 10,000 reports in a second leave no time for a tree of each.
 #include "apps/contacts/contact_report_json.hpp"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ void put_vectors(Buffer& out, const std::vector<Vector3>& vectors) {
   put_list(out, vectors, [&](const Vector3& v) { put(out, v); });
 }
 
-// The words of contact_types.md; a corner is named after the point of the mesh it is.
+// Names as in contact_types.md; a corner is named by its point of the mesh.
 std::string name_of(const ReportedFeature& feature) {
   if (feature.index >= 0)
     return fmt::format("{} {}", feature.dimension == 0 ? "vertex" : names[feature.dimension], feature.index);

@@ -42,7 +42,7 @@ Diagnostic fault_at(const std::string& origin, int line, int column, std::string
   return fault;
 }
 
-// A file ready for reports, or what is wrong with it.
+// A file ready for reports, or its faults.
 struct LoadedBody {
   std::optional<ReportedSolid> body;
   std::vector<Diagnostic> faults;
@@ -63,7 +63,7 @@ std::optional<Resolution> resolution_of(const ContactsOptions& options) {
                     std::sin(options.angle.value_or(0.0) * std::numbers::pi / 180.0)};
 }
 
-// The report of two loaded files; faults are added to instead if there is none.
+// The report of two loaded files. If there is none, faults are added instead.
 std::optional<ContactReport> report_of(const LoadedBody& a, const LoadedBody& b, const std::string& a_path,
                                        const std::string& b_path, const std::optional<Resolution>& resolution,
                                        std::vector<Diagnostic>& faults) {
@@ -102,11 +102,11 @@ struct ListedPath {
 
 struct ListedPair {
   int line = 0;
-  std::vector<ListedPath> paths;  // two, or the line is at fault
+  std::vector<ListedPath> paths;  // two, otherwise the line is faulty
   bool open_quote = false;
 };
 
-// Columns count characters (UTF-8), as everywhere.
+// Columns count characters (UTF-8), as for all places.
 int column_of(std::string_view line, std::size_t byte) {
   int column = 1;
   for (std::size_t i = 0; i < byte; ++i) column += (static_cast<unsigned char>(line[i]) & 0xc0U) != 0x80U;
@@ -132,7 +132,7 @@ ListedPair split_line(std::string_view line, int number) {
 }
 
 std::vector<ListedPair> read_list(std::istream& file) {
-  file.exceptions(std::ios::badbit);  // missing memory is not the end of the file
+  file.exceptions(std::ios::badbit);  // a failed allocation is not the end of the file
   std::vector<ListedPair> pairs;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -151,8 +151,8 @@ class PairList {
         out_(out),
         err_(err) {}
 
-  /// A block of pairs at a time: its files are read, its pairs answered, both in parallel, and the answers
-  /// printed in order. A file stays in memory until its last pair is answered.
+  /// Processes a block of pairs at a time: reads its files and answers its pairs, both in parallel, and prints the
+  /// answers in order. A file stays in memory until its last pair is answered.
   int answer(std::istream& list) {
     constexpr std::size_t block = 512;
     const std::vector<ListedPair> pairs = read_list(list);
@@ -258,7 +258,7 @@ class PairList {
   int status_ = exit_status::done;
 };
 
-// CLI::Range lets NaN through.
+// CLI::Range accepts NaN.
 auto within(double high) {
   return [high](const std::string& text) {
     double value = 0.0;
@@ -272,7 +272,7 @@ auto within(double high) {
 int contacts_command(const ContactsOptions& options, std::ostream& out, std::ostream& err) {
   if (!options.pairs) return answer_two_meshes(options, out, err);
   std::ifstream file(*options.pairs);
-  // A folder opens, but has no first character.
+  // A folder can be opened, but has no first character.
   if (!file || (file.peek() == std::ifstream::traits_type::eof() && !file.eof())) {
     err << to_string(fault_at(*options.pairs, 0, 0, "list of pairs cannot be read")) << '\n';
     return exit_status::bad_input;
@@ -283,7 +283,7 @@ int contacts_command(const ContactsOptions& options, std::ostream& out, std::ost
 void declare_contacts_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("contacts", "Exact contact report of two meshes");
   command->footer(help_text);
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<ContactsOptions>();
   CLI::Option* a = command->add_option("A", options->a, "First mesh")->type_name("");
   CLI::Option* b = command->add_option("B", options->b, "Second mesh")->type_name("");

@@ -21,9 +21,9 @@ struct ContactsOptions {
 /// Declares `ashlar contacts`.
 void declare_contacts_command(CLI::App& program, CommandContext& context);
 
-/// Reports on out, faults on err: for two meshes "FILE:LINE:COLUMN: error: ..." for every defect of both; for
-/// a list the same behind the place of the file's name in the list. A bad pair of a list is answered in its
-/// place by {"error": [...]} (text: "error"), and the pairs after it are answered as ever.
+/// Prints reports on out and faults on err: for two meshes "FILE:LINE:COLUMN: error: ..." for every defect of both;
+/// for a list the same after the place of the file's name in the list. For a bad pair of a list {"error": [...]}
+/// (text: "error") is printed in its place, and later pairs are processed as usual.
 /// @return exit_status::done, or exit_status::bad_input if there was any fault.
 [[nodiscard]] int contacts_command(const ContactsOptions& options, std::ostream& out, std::ostream& err);
 

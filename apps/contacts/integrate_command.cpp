@@ -70,7 +70,7 @@ int integrate_command(const IntegrateOptions& options, std::ostream& out, std::o
 
 void declare_integrate_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("integrate", "All moments of a mesh up to a degree");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<IntegrateOptions>();
   command->add_option("MESH", options->mesh, "Mesh (OFF, OBJ, STL, PLY)")->required()->type_name("");
   command->add_option("--degree", options->degree, "Largest a + b + c")

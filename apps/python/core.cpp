@@ -1,5 +1,5 @@
-// The extension ashlar._core: scenes and simulations for the Python module `ashlar`, which is thin over it
-// (ashlar/__init__.py). Arrays are copies: what a simulation holds moves when it steps.
+// The extension ashlar._core: scenes and simulations for the Python module `ashlar`, a thin layer above it
+// (ashlar/__init__.py). Arrays are copies: the data of a simulation change when it steps.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -53,7 +53,7 @@ CoreScene load_core(const std::string& text, const std::filesystem::path& file,
   return scene;
 }
 
-/// What a command of the program prints with --json. @throws std::invalid_argument with its faults
+/// Output of a command of the program with --json. @throws std::invalid_argument with its faults
 template <class Command, class Options>
 std::string printed(Command command, const Options& options) {
   std::ostringstream out, err;
@@ -66,7 +66,7 @@ std::string printed(Command command, const Options& options) {
   return out.str();
 }
 
-/// @param text of the scene; none: that of the file
+/// @param text of the scene; empty: that of the file
 py::tuple run_scene(const std::filesystem::path& scene, const std::optional<std::string>& text,
                     const std::filesystem::path& out, const std::vector<std::string>& overrides, int threads,
                     bool resume, bool force) {

@@ -1,4 +1,4 @@
-// A scene as the Python module holds it.
+// A scene in the Python module.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -11,7 +11,7 @@
 
 namespace ashlar {
 
-/// A scene and what was found at fault in it.
+/// A scene and its faults.
 struct CoreScene {
   std::shared_ptr<const LoadedScene> loaded;  ///< null: there are errors
   std::vector<Diagnostic> faults;             ///< errors and warnings
@@ -23,7 +23,7 @@ struct CoreScene {
   }
 };
 
-/// Of a class whose objects the extension alone makes: Python's NAME.__new__(NAME) would be one that holds nothing.
+/// For a class whose objects are made by the extension only: Python's NAME.__new__(NAME) would be empty.
 inline pybind11::custom_type_setup made_here() {
   return pybind11::custom_type_setup([](PyHeapTypeObject* type) {
     type->ht_type.tp_new = [](PyTypeObject* of, PyObject*, PyObject*) -> PyObject* {

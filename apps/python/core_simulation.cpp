@@ -20,7 +20,7 @@ namespace py = pybind11;
 namespace ashlar {
 namespace {
 
-/// @param values row by row, as many as the shape asks for
+/// @param values row by row, as many as the shape requires
 py::array_t<double> array_of(std::vector<py::ssize_t> shape, const std::vector<double>& values) {
   return py::array_t<double>(std::move(shape), values.data());
 }
@@ -75,13 +75,13 @@ ContactRow row_of(const PairRecord& pair, std::size_t k) {
   return row;
 }
 
-/// A SceneRun with arrays of numpy. A thread that asks waits for the step that another one takes.
+/// A SceneRun with numpy arrays. Calls from a thread wait for the step of another one.
 class CoreSimulation {
  public:
   CoreSimulation(const CoreScene& scene, int threads) : run_(scene.good(), threads) {}
 
-  /// What a function of the run gives. The interpreter is free while the thread waits, and while the function runs
-  /// if it is not to make Python objects.
+  /// Result of a function of the run. The interpreter lock is released while the thread waits, and during the
+  /// function unless it makes Python objects.
   template <class Function>
   auto with_run(const Function& function) {
     std::unique_lock<std::mutex> access = wait();
@@ -141,7 +141,7 @@ struct CoreBlock {
   std::shared_ptr<CoreSimulation> of;
   int index;
 
-  /// What a function of the model gives, which stays as it is but for a block of the incremental formulation.
+  /// Result of a function of the model, which is constant except for a block of the incremental formulation.
   template <class Function>
   [[nodiscard]] auto of_model(const Function& function) const {
     return of->with_run([&](const SceneRun& run) { return function(run.simulation().blocks()[at(index)]); });
@@ -153,7 +153,7 @@ struct CoreBlock {
     return of->without_interpreter([&](const SceneRun& run) { return run.motions(index, places, outside); });
   }
 
-  /// @param part of a point's motion that is asked for. @return (n, 3)
+  /// @param part requested part of a point's motion. @return (n, 3)
   [[nodiscard]] py::array_t<double> vectors(const py::object& points, bool extrapolate,
                                             Vector3 PointMotion::*part) const {
     std::vector<Vector3> rows;
@@ -195,7 +195,7 @@ struct CoreBlock {
   }
 };
 
-/// A property whose value is that of a function of the run.
+/// A property given by a function of the run.
 template <class Function>
 auto of_run(Function function) {
   return [function](CoreSimulation& simulation) { return simulation.with_run(function); };

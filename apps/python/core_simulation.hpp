@@ -1,4 +1,5 @@
-// Simulations and their blocks for Python: a SceneRun that several Python threads may ask and step, one after the other.
+// Simulations and their blocks for Python: a SceneRun that several Python threads may query and step, one after the
+// other.
 #pragma once
 
 #include <pybind11/pybind11.h>

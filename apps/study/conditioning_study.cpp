@@ -22,7 +22,7 @@ Polyhedron cantilever_at(double distance) {
   return Polyhedron(make_box({distance, -1.5, -0.5}, {distance + 8, 1.5, 0.5}));
 }
 
-/// The matrices of one basis: what a clamped block is made of.
+/// The matrices of one basis for a clamped block.
 struct Matrices {
   Eigen::MatrixXd gram;
   Eigen::MatrixXd stiffness;
@@ -41,12 +41,11 @@ double condition(const Eigen::MatrixXd& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(matrix, Eigen::EigenvaluesOnly);
   const double least = solver.eigenvalues()[0];
   const double most = solver.eigenvalues()[matrix.rows() - 1];
-  // What rounding has made singular or indefinite is no better than the largest number that can be told from
-  // it.
+  // A matrix that is singular or indefinite by rounding has an infinite condition number.
   return least > 0.0 ? most / least : std::numeric_limits<double>::infinity();
 }
 
-/// Null space of the clamp for one component, as supports.cpp finds it.
+/// Null space of the clamp for one component, as in supports.cpp.
 Eigen::MatrixXd free_motions(const Eigen::MatrixXd& clamp) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(clamp.transpose());
   qr.setThreshold(1e-10);
@@ -118,7 +117,7 @@ StudyResult study_conditioning_to(int most_order) {
   constexpr double half_width = 4.0;
   double worst_orthonormal = 0.0;
   double worst_paper = 0.0;
-  // The orthonormal basis at the origin is the reference: its own error is seen at the other places.
+  // The orthonormal basis at the origin is the reference; its own error appears at the other places.
   std::vector<double> references;
   for (int order = 1; order <= most_order; ++order)
     references.push_back(solve(orthonormal_matrices(-half_width, order)).deflection);

@@ -16,11 +16,11 @@
 namespace ashlar {
 namespace {
 
-/// Of the picture: settings that are exact would otherwise squeeze all others together.
+/// Smallest error in the picture: exact settings would otherwise compress all others.
 constexpr double least_drawn = 1e-5;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// What a run is made with.
+/// Settings of a run.
 struct Setting {
   Formulation formulation = Formulation::total;
   bool area_springs = true;
@@ -38,7 +38,7 @@ Setting papers_own(Setting setting) {
   return setting;
 }
 
-/// Puts runs into the table and the picture.
+/// Adds runs to the table and the picture.
 class Curves {
  public:
   explicit Curves(StudyResult& result) : result_(result) {}
@@ -48,7 +48,7 @@ class Curves {
     result_.plot.series.push_back({std::move(name), {}, {}, dashed, false});
   }
 
-  /// @param error_of runs and returns the error. @return that
+  /// @param error_of runs and returns the error. @return that error
   double add(const Setting& setting, const std::function<double(const Setting&)>& error_of) {
     const auto start = std::chrono::steady_clock::now();
     const double error = error_of(setting);
@@ -149,7 +149,7 @@ void study_hertz(Curves& curves) {
   }
 }
 
-/// From just above the cantilever at the speed of the fall, until the tip has come up again.
+/// Starts just above the cantilever at the speed of the fall, and runs until the tip has come up again.
 double deepest_tip(const Setting& setting) {
   FallingBlock example;
   example.drop = 0.01;
@@ -160,7 +160,7 @@ double deepest_tip(const Setting& setting) {
   example.subdivisions = setting.levels;
   example.chord_tolerance = std::numeric_limits<double>::infinity();
   example.stiffness = setting.stiffness;
-  // How far off coarse sub-faces, point springs and the paper's formulation are is what is measured.
+  // The errors of coarse sub-faces, point springs and the paper's formulation are the subject of the measurement.
   example.allowed_depth = 1.0;
   example.time_step = setting.time_step;
   Simulation simulation = falling_block(example);

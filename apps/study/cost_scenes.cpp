@@ -46,7 +46,7 @@ void SceneText::add_hull(const Vector3& centre, int number) {
   };
   constexpr int corners = 20;
   for (int k = 0; k < corners; ++k) {
-    // Even on the sphere: height and longitude are.
+    // Uniform on the sphere: height and longitude are.
     const double height = between(-1.0, 1.0);
     const double longitude = between(0.0, 2.0 * std::numbers::pi);
     const double radius = std::sqrt(1.0 - height * height);
@@ -159,7 +159,7 @@ box = { min = [-1, -1, -0.1], max = [2, 1, 0] }
         std::back_inserter(text),
         "[[block]]\nname = \"d{}\"\nmaterial = \"stone\"\nbox = {{ min = [{}, 0, 0], max = [{}, {}, {}] }}\n",
         k, x, x + thickness, width, height);
-    // About its lower edge in front.
+    // Rotation about its lower front edge.
     if (k == 0)
       fmt::format_to(std::back_inserter(text), "velocity = [{}, 0, {}]\nangular_velocity = [0, {}, 0]\n",
                      0.5 * push * height, 0.5 * push * thickness, push);

@@ -14,13 +14,13 @@
 namespace ashlar {
 namespace {
 
-/// What a run cost.
+/// Cost of a run.
 struct Cost {
   double unknowns = 0.0;
   double points = 0.0;     ///< contact points a step
   double building = 0.0;   ///< s
   double step = 0.0;       ///< s
-  double mebibytes = 0.0;  ///< that the process grew by
+  double mebibytes = 0.0;  ///< growth of the process
 };
 
 std::optional<Cost> cost_of(const SceneText& scene, int steps) {
@@ -47,7 +47,7 @@ std::optional<Cost> cost_of(const SceneText& scene, int steps) {
   return cost;
 }
 
-/// Sizes of a scene and how they are made.
+/// Sizes of a scene and its construction.
 struct Family {
   const char* name;
   std::vector<int> sizes;

@@ -18,22 +18,22 @@
 namespace ashlar {
 namespace {
 
-/// On the machine of reference, s: the amount of machine_factor(), and what Bullet's hulls take for 240 steps.
+/// On the machine of reference, s: the amount of machine_factor(), and 240 steps of Bullet's hulls.
 constexpr double reference_seconds = 0.208;
 constexpr double bullet_wall_20 = 1.38;
 constexpr double bullet_pyramid_14 = 6.7;
 constexpr double bullet_pile_10 = 2.6;
 
-/// What steps of a scene cost.
+/// Cost of the steps of a scene.
 struct Steps {
   double building = 0.0;   ///< processor seconds, from the text to the first step
-  double seconds = 0.0;    ///< processor seconds of the steps that count
+  double seconds = 0.0;    ///< processor seconds of the measured steps
   double worst = 0.0;      ///< of one of them
   double wall = 0.0;       ///< wall seconds of them
-  double mebibytes = 0.0;  ///< that the process grew by
+  double mebibytes = 0.0;  ///< growth of the process
 };
 
-/// @param skipped steps before those that count. @return empty: a step was not accepted
+/// @param skipped steps before the measured ones. @return empty if a step was not accepted
 std::optional<Steps> run(const std::string& text, int skipped, int steps, int threads) {
   const double memory = most_memory_kib();
   const double start = processor_time();
@@ -174,7 +174,7 @@ double seconds_of_factorisations() {
   Eigen::Matrix<double, size, 1> x = Eigen::Matrix<double, size, 1>::Ones();
   const double start = processor_time();
   for (int k = 0; k < repetitions; ++k) {
-    // Of what was found, so that nothing of it can be left out.
+    // Depends on the result, so that the compiler cannot remove the work.
     matrix(0, 0) = size + 1e-3 * x[0];
     x = matrix.llt().solve(x + Eigen::Matrix<double, size, 1>::Ones());
   }

@@ -1,8 +1,9 @@
-// Run time and memory of scenes of many blocks beside their targets, and beside a rigid-body engine.
+// Run time and memory of scenes of many blocks compared with their targets and with a rigid-body engine.
 //
-// Times are processor seconds of one thread in steps of 1/240 s. Those of another machine are made comparable by a fixed
-// amount of small dense factorisations, which is most of what both programs do: seconds here over `machine_factor`. Those
-// of the engine (Bullet 3.24, convex hulls, 10 iterations, sleeping off) were measured beside that amount on one machine.
+// Times are processor seconds of one thread in steps of 1/240 s. Times of different machines are made comparable by a
+// fixed amount of small dense factorisations, the main work of both programs: seconds here over `machine_factor`.
+// Those of the engine (Bullet 3.24, convex hulls, 10 iterations, sleeping off) were measured together with that
+// amount on one machine.
 #pragma once
 
 #include <string>
@@ -21,18 +22,18 @@ struct CostFigure {
   [[nodiscard]] bool met() const { return speedup ? measured >= target : measured <= target; }
 };
 
-/// How far the measurement goes.
+/// Extent of the measurement.
 struct CostFigureSize {
-  /// 0 to 1: scenes with fewer blocks and steps, whose figures say nothing but that they are measured
+  /// 0 to 1: scenes with fewer blocks and steps, whose figures only show that they are measured
   double share = 1.0;
 };
 
-/// How many times as long as on the machine of reference small dense factorisations take here.
+/// Time of small dense factorisations here relative to the machine of reference.
 [[nodiscard]] double machine_factor();
 
 [[nodiscard]] std::vector<CostFigure> cost_figures(const CostFigureSize& size);
 
-/// A line for each: what, measured, target, whether it is met.
+/// A line for each figure: name, measured value, target, verdict.
 [[nodiscard]] std::vector<std::string> target_lines(const std::vector<CostFigure>& figures);
 
 }  // namespace ashlar

@@ -22,11 +22,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 4> problem_names = {"incline", "swelling", "tumbling", "cantilever"};
 constexpr std::array<const char*, 3> integrator_names = {"dda", "average", "alpha"};
 
-/// What a run is made with.
+/// Settings of a run.
 struct Setting {
   int order = 1;
   Integrator integrator = Integrator::dda;
-  bool springs = false;  ///< hold contact, instead of multipliers
+  bool springs = false;  ///< contact by springs instead of multipliers
   bool incremental = false;
   double time_step = 0.0;
 };
@@ -71,7 +71,7 @@ double incline_error(const Setting& setting) {
   return std::abs((centroid(simulation, cube) - start).norm() / way - 1.0);
 }
 
-/// A cube that swells by 1 + e has the energy 9/2 B e^2, B its bulk modulus, and the inertia rho / 4 for e.
+/// A cube that swells by 1 + e has the energy 9/2 B e^2, with its bulk modulus B, and the inertia rho / 4 for e.
 double swelling_error(const Setting& setting) {
   const Material material{2000, 1e8, 0.25};
   const double bulk = material.young_modulus / (3.0 * (1.0 - 2.0 * material.poisson_ratio));
@@ -141,7 +141,7 @@ double tumbling_error(const Setting& setting) {
   return (turn - reference).norm();
 }
 
-/// Puts runs into the table and the picture.
+/// Adds runs to the table and the picture.
 class Curves {
  public:
   Curves(const ErrorTimeStudySize& size, StudyResult& result) : size_(size), result_(result) {}
@@ -203,7 +203,7 @@ enum Column : std::size_t {
   of_front
 };
 
-/// Marks what nothing faster beats. @return a sentence for each problem
+/// Marks the runs without a faster and more accurate one. @return a sentence for each problem
 std::vector<std::string> find_fronts(StudyResult& result) {
   std::vector<std::string> sentences;
   for (int problem = 1; problem <= static_cast<int>(problem_names.size()); ++problem) {
@@ -268,7 +268,7 @@ StudyResult study_error_time(const ErrorTimeStudySize& size) {
   for (int order = 1; order <= 8; ++order)
     curves.add({order}, [](const Setting& setting) { return cantilever_error(setting.order); });
   result.findings = find_fronts(result);
-  // Deforming blocks stretch as they turn: they converge to another motion, 2e-4 from this one.
+  // Deformable blocks stretch as they rotate: they converge to another motion, which differs by 2e-4.
   for (const PlotSeries& series : result.plot.series) {
     if (series.name.starts_with("tumbling: order 0"))
       result.holds = result.holds && series.y.back() < 0.5 * series.y.front();

@@ -29,7 +29,7 @@ struct Point {
   double y;
 };
 
-/// Points in the numbers of the axes: their logarithms, of those that have one, unless the axes are linear.
+/// Points in the coordinates of the axes: their logarithms, if they exist, unless the axes are linear.
 std::vector<Point> points_of(const PlotSeries& series, bool linear) {
   std::vector<Point> points;
   for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k) {
@@ -43,13 +43,13 @@ std::vector<Point> points_of(const PlotSeries& series, bool linear) {
   return points;
 }
 
-/// One axis. A logarithmic one goes from the last 1, 2 or 5 times a power of ten at or below the least value to the first
-/// above the largest; a linear one from tick to tick, which are 1, 2 or 5 times a power of ten apart.
+/// One axis. A logarithmic one extends from the last 1, 2 or 5 times a power of ten at or below the smallest value to
+/// the first above the largest; a linear one from tick to tick, with intervals of 1, 2 or 5 times a power of ten.
 class Axis {
  public:
   struct Tick {
-    double value;       ///< in the numbers of the axis
-    std::string label;  ///< SVG; empty: a fine line alone
+    double value;       ///< in the coordinates of the axis
+    std::string label;  ///< SVG; empty: a fine line only
   };
   struct Ends {
     double start;  ///< in pixels
@@ -75,10 +75,10 @@ class Axis {
   [[nodiscard]] std::vector<Tick> ticks() const { return step_ > 0.0 ? linear_ticks() : decade_ticks(); }
 
  private:
-  // Far below what a picture shows, far above the rounding of logarithms.
+  // Far below the resolution of a picture, far above the rounding of logarithms.
   static constexpr double slack = 1e-9;
 
-  /// For four to ten of them.
+  /// Interval for four to ten ticks.
   static double linear_step(double range) {
     const double power = std::pow(10.0, std::floor(std::log10(range / 4.0)));
     for (const double mantissa : {5.0, 2.0})

@@ -1,5 +1,5 @@
-// Plots as SVG: the pictures of studies, with logarithmic axes, and of sweeps, with linear ones. Every series of a study
-// carries the slope of its last points in the legend, which is what a convergence study is read for.
+// Plots as SVG: pictures of studies, with logarithmic axes, and of sweeps, with linear ones. The legend of a study
+// shows the slope of the last points of every series, the result of a convergence study.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace ashlar {
 
-/// Points of a series that are not finite, and on logarithmic axes those that are not positive, are left out of the
-/// picture.
+/// Points of a series that are not finite, and on logarithmic axes those that are not positive, are not drawn.
 struct PlotSeries {
   std::string name;
   std::vector<double> x;
@@ -23,7 +22,7 @@ struct LogLogPlot {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series;
-  bool slopes = true;   ///< write them into the legend; false where a power law is not what is looked for
+  bool slopes = true;   ///< write them into the legend; false if no power law is expected
   bool linear = false;  ///< both axes
 };
 

@@ -31,8 +31,8 @@ struct Solved {
   double seconds;
 };
 
-/// Tip of record of the converged cantilever, 8 by 1 by 3 with the long side of its section upright, computed
-/// independently of this program.
+/// Reference tip deflection of the converged cantilever, 8 by 1 by 3 with the long side of its section vertical,
+/// computed independently of this program.
 constexpr double converged_tip = -2.7131353e-3;
 
 Solved solve_cantilever(int order) {
@@ -81,7 +81,7 @@ struct SmoothField {
   }
 };
 
-/// -div sigma: the body force that goes with a field.
+/// -div sigma: the body force in equilibrium with a field.
 Vector3 body_force(const SmoothField& field, const Material& material, const Vector3& x) {
   Vector3 force = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -135,7 +135,7 @@ Eigen::MatrixX3d load_of(const SmoothField& field, const BlockModel& block, cons
   return load;
 }
 
-/// Solves K d = f for a free block, f balanced: rigid motions are given a stiffness of their own.
+/// Solves K d = f for a free block, f balanced: adds stiffness to rigid motions.
 Eigen::MatrixX3d solve_free(const BlockModel& block, const Eigen::MatrixX3d& load) {
   const Eigen::Index p = block.basis().size();
   Eigen::MatrixXd stiffness = elastic_stiffness(block.basis(), block.material());

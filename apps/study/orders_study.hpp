@@ -1,4 +1,4 @@
-// Error and cost of one block against its order.
+// Error and cost of one block by its order.
 #pragma once
 
 #include "apps/study/study.hpp"
@@ -11,7 +11,7 @@ namespace ashlar {
 /// norm), seconds.
 [[nodiscard]] StudyResult study_orders();
 
-/// The same, orders up to a given one, at least 5; the promise is held to the largest order only.
+/// The same with orders up to a given one, at least 5; only the largest order is checked against the required error.
 [[nodiscard]] StudyResult study_orders_to(int most_order);
 
 /// Relative error of the tip of the first problem.

@@ -1,4 +1,4 @@
-// Work in a process of its own: memory that other work has left would hide what this one takes.
+// Runs work in a process of its own: memory left by other work would hide its requirement.
 #pragma once
 
 #include <sys/resource.h>
@@ -12,14 +12,14 @@
 
 namespace ashlar {
 
-/// Most memory that this process has taken so far, KiB.
+/// Largest memory of this process so far, KiB.
 [[nodiscard]] inline double most_memory_kib() {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   return static_cast<double>(used.ru_maxrss);
 }
 
-/// @param work returns std::optional<Result>. @return its result; empty: it had none, threw or could not be started
+/// @param work returns std::optional<Result>. @return its result; empty if it had none, threw or could not be started
 template <class Result, class Work>
 [[nodiscard]] std::optional<Result> in_own_process(const Work& work) {
   static_assert(std::is_trivially_copyable_v<Result>);

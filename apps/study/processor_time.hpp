@@ -1,11 +1,11 @@
-// Time that studies count: that of the processor, which other programs hardly change.
+// Processor time for studies, which other programs hardly change.
 #pragma once
 
 #include <ctime>
 
 namespace ashlar {
 
-/// Of this process so far, s.
+/// Processor time of this process so far, s.
 [[nodiscard]] inline double processor_time() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);

@@ -46,7 +46,7 @@ struct Outcome {
   bool ended = false;
 };
 
-/// Of a block's elastic stiffness over the motions that strain it.
+/// Condition number of a block's elastic stiffness without rigid motions.
 double stiffness_condition(const BlockModel& block) {
   constexpr Eigen::Index rigid_motions = 6;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
@@ -71,7 +71,7 @@ void choose_numbers(ContactScene& scene, const Subject& subject) {
   scene.settings.time_step = subject.time_step;
 }
 
-/// How far the top of the uppermost block sinks by hand, m.
+/// Settlement of the top of the uppermost block by the formula, m.
 double settled_by_hand(const Subject& subject, double normal_stiffness) {
   const double height = subject.extent().z();
   const double lower = density * gravity * height;  // Pa, at its bottom
@@ -80,7 +80,7 @@ double settled_by_hand(const Subject& subject, double normal_stiffness) {
   return subject.multipliers ? blocks : blocks + (lower + 2.0 * upper) / normal_stiffness;
 }
 
-/// How far the corners of the top of the uppermost block have sunk on the mean, m.
+/// Mean settlement of the top corners of the uppermost block, m.
 double settled(const Simulation& simulation) {
   const BlockModel& block = simulation.blocks().back();
   const auto& points = block.solid().mesh().points;
@@ -96,7 +96,7 @@ double settled(const Simulation& simulation) {
   return sum / count;
 }
 
-/// What doubles and what a static analysis may leave unbalanced make of a displacement.
+/// Error of a displacement due to rounding and to the tolerance of a static analysis.
 double promised_at_rest(const Subject& subject, double by_hand) {
   constexpr double unbalanced = 1e-6;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -128,7 +128,7 @@ Outcome slide(const Subject& subject) {
   constexpr double speed = 3.0;  // m/s
   constexpr double time = speed / (friction * gravity);
   constexpr double way = 0.5 * speed * time;
-  // The block meets the floor without having sunk into it: it leaves it for moments at first.
+  // The block touches the floor without penetration: initially it loses contact at times.
   constexpr double start_share = 3e-3;
   ContactScene scene;
   choose_numbers(scene, subject);
@@ -142,8 +142,8 @@ Outcome slide(const Subject& subject) {
   Outcome outcome = outcome_of(simulation);
   outcome.ended = accepted;
   outcome.error = std::abs((centroid(simulation, 1).x() - start) / way - 1.0);
-  // In shorter steps the block leaves the floor and meets it again from one step to the next, and what
-  // multipliers stop it by then has no friction (solver/notes/augmented_contact.md): a run says so.
+  // In shorter steps the block loses and regains contact from one step to the next, and the impulses of multipliers
+  // then have no friction (solver/notes/augmented_contact.md): a run warns of it.
   constexpr double least_with_multipliers = 1e-3;  // s
   const bool promises = !subject.multipliers || subject.time_step >= least_with_multipliers;
   outcome.promised =
@@ -151,7 +151,7 @@ Outcome slide(const Subject& subject) {
   return outcome;
 }
 
-/// One number of a scene that is taken far from the ordinary.
+/// One parameter of a scene that is taken to extremes.
 struct Sweep {
   const char* name;
   double ordinary;
@@ -183,7 +183,7 @@ std::vector<Sweep> sweeps(const StabilityRange& range) {
            {1e-6, 1e-4, 1e-2, 1, 1e2, 1e4, 1e6},
            [](Subject& s, double v) {
              s.mass_ratio = v;
-             // The same load at any ratio above 1: what is asked is the ratio, not the strain.
+             // The same load at any ratio above 1: the subject is the ratio, not the strain.
              s.young_modulus *= std::max(1.0, v);
            }},
           {"Young's modulus, Pa",
@@ -194,16 +194,16 @@ std::vector<Sweep> sweeps(const StabilityRange& range) {
           {"time step, s", 1e-3, steps, [](Subject& s, double v) { s.time_step = v; }, slide}};
 }
 
-/// The worst of a sweep against its promise.
+/// The largest error of a sweep relative to the required one.
 struct Worst {
   double error = 0.0;
-  double share = 0.0;  ///< of what is promised
+  double share = 0.0;  ///< of the required error
   bool ended = true;
   std::size_t rejected = 0;
 
   void take(const Outcome& outcome) {
     error = std::max(error, outcome.error);
-    share = std::max(share, outcome.error / outcome.promised);  // 0 where nothing is promised
+    share = std::max(share, outcome.error / outcome.promised);  // 0 without a requirement
     ended = ended && outcome.ended;
     rejected += outcome.rejected;
   }

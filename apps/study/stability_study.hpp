@@ -1,4 +1,4 @@
-// How far from the ordinary a scene may be: order, place, shape, masses, stiffness, size and step.
+// Extreme parameters of a scene: order, place, shape, masses, stiffness, size and step.
 #pragma once
 
 #include <vector>
@@ -7,29 +7,30 @@
 
 namespace ashlar {
 
-/// Blocks at rest on a floor, one number of the scene after the other taken far from the ordinary, everything
-/// else as in a cube of 1 m of stone (2500 kg/m^3, 1e9 Pa). With Poisson's ratio 0 the answer is known for
-/// every order: at the top of a block of height h that bears a pressure q
-///     u = -(q h + rho g h^2 / 2) / E  more than at its bottom,
-/// which is by (q + rho g h) / kn below the floor on springs, and on the floor with multipliers.
-/// The time step is varied with a block that slides to rest from 3 m/s, v^2 / (2 mu g) on.
+/// Blocks at rest on a floor, with one parameter of the scene after the other taken to extremes, and all others as
+/// for a cube of 1 m of rock (2500 kg/m^3, 1e9 Pa). With Poisson's ratio 0 the answer is known for every order: at
+/// the top of a block of height h under a pressure q the displacement is
+///     u = -(q h + rho g h^2 / 2) / E
+/// relative to its bottom, which is by (q + rho g h) / kn below the floor on springs, and on the floor with
+/// multipliers.
+/// The time step is varied with a block that slides from 3 m/s to rest over the distance v^2 / (2 mu g).
 ///
 /// Columns: sweep (0 order, 1 offset from the origin in block sizes, 2 slab: width over height, 3 bar lying:
 /// length over height, 4 upper over lower density of two blocks, 5 Young's modulus in Pa, 6 size in m, 7 time
-/// step in s), value, order, contact (0 springs, 1 multipliers), error (relative, of the displacement of the
-/// top or the distance slid), condition (of the block's elastic stiffness, rigid motions apart), iterations
-/// (of the static analysis, or steps), rejected steps, ended (1: as it should), promised (what the error is
-/// promised to be below; infinity: nothing is).
+/// step in s), value, order, contact (0 springs, 1 multipliers), error (relative, of the displacement of the top or
+/// the sliding distance), condition (of the block's elastic stiffness without rigid motions), iterations (of the
+/// static analysis, or steps), rejected steps, ended (1: as required), promised (required upper bound of the error;
+/// infinity: none).
 [[nodiscard]] StudyResult study_stability();
 
-/// How far a study of stability goes.
+/// Extent of a study of stability.
 struct StabilityRange {
-  std::vector<int> orders;  ///< of all sweeps but the first
+  std::vector<int> orders;  ///< of all sweeps except the first
   int most_order;           ///< of the first
   double least_step;        ///< s, of the last
 };
 
-/// The same within a range: study_stability() takes orders 1, 2 and 4, up to 12, and steps from 2.5e-5 s on.
+/// The same within a range: study_stability() uses orders 1, 2 and 4, up to 12, and steps down to 2.5e-5 s.
 [[nodiscard]] StudyResult study_stability_of(const StabilityRange& range);
 
 }  // namespace ashlar

@@ -1,4 +1,4 @@
-// What studies have in common: a table that is printed and written as CSV, a picture, and findings.
+// Common parts of studies: a table that is printed and written as CSV, a picture, and findings.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace ashlar {
 
-/// What a study found.
+/// Result of a study.
 struct StudyResult {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;  ///< (#rows, #columns)
   LogLogPlot plot;
   std::vector<std::string> findings;  ///< sentences
-  bool holds = true;                  ///< false if a finding contradicts what is promised
+  bool holds = true;                  ///< false if a finding violates a requirement
 };
 
 /// A study of the program; each is one file, x_study.{hpp,cpp}, and one line in study_command.cpp.
@@ -27,7 +27,7 @@ struct Study {
 
 /// The table as CSV.
 [[nodiscard]] std::string table_csv(const StudyResult& result);
-/// The table for reading, columns aligned, numbers with four digits.
+/// The table as text, columns aligned, numbers with four digits.
 [[nodiscard]] std::string table_text(const StudyResult& result);
 
 }  // namespace ashlar

@@ -25,7 +25,7 @@
 namespace ashlar {
 namespace {
 
-// In the order in which --help lists them.
+// In the order of --help.
 const std::array<Study, 7> studies = {
     {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
       study_sub_faces},
@@ -79,7 +79,7 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
 void declare_study_command(CLI::App& program, CommandContext& context) {
   CLI::App* command =
       program.add_subcommand("study", "Measure error against cost; writes a table and a picture");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<StudyOptions>();
   std::string list = "Study:";
   for (const Study& study : studies) list += fmt::format("\n  {}: {}", study.name, study.description);

@@ -17,10 +17,9 @@ struct StudyOptions {
 /// Declares `ashlar study`.
 void declare_study_command(CLI::App& program, CommandContext& context);
 
-/// Runs a study: its table and findings go to out and, with its picture, to FOLDER/NAME.csv, FOLDER/NAME.svg
-/// and, where a browser draws it, FOLDER/NAME.png.
-/// @return exit_status::done; failed if a finding contradicts what is promised; bad_input for an unknown
-/// name.
+/// Runs a study: prints its table and findings on out, and writes them with its picture to FOLDER/NAME.csv,
+/// FOLDER/NAME.svg and, if a browser is available, FOLDER/NAME.png.
+/// @return exit_status::done; failed if a finding violates a requirement; bad_input for an unknown name.
 [[nodiscard]] int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err);
 
 }  // namespace ashlar

@@ -18,7 +18,7 @@ constexpr int most_order = 8;
 constexpr double arc_radius = 5.0;  ///< m, of the bent middle plane
 constexpr double twist = 0.02;      ///< 1/m
 constexpr int samples = 8;          ///< along each side of a sub-face
-/// The ratio of bound and error is promised where the error is below this share of the block's length.
+/// The ratio of bound and error is required where the error is below this share of the block's length.
 constexpr double small_error = 1e-3;
 constexpr double promised_ratio = 3.0;
 
@@ -33,7 +33,7 @@ double truncated(bool sine, double t, int degree) {
   return sum;
 }
 
-/// The bent and twisted place of a material point: a polynomial of the order in it.
+/// The bent and twisted place of a material point: a polynomial of the given order in it.
 Vector3 bent_place(const Vector3& x, int order) {
   const double angle = x.x() / arc_radius;
   return {arc_radius * truncated(true, angle, order) + x.z() * truncated(true, angle, order - 1), x.y(),

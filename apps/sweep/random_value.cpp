@@ -46,7 +46,7 @@ std::vector<double> numbers_in(const std::string& list, const std::string& text)
   return numbers;
 }
 
-/// The parameters that are needed; empty: these are right.
+/// The required parameters; empty if these are valid.
 std::string fault_of(Kind kind, const std::vector<double>& p) {
   const bool deviates = kind == Kind::normal || kind == Kind::lognormal;
   if (deviates && p.size() != 2 && p.size() != 4)
@@ -106,7 +106,7 @@ double Draws::draw(const Distribution& distribution) {
   constexpr int most_tries = 10'000;
   constexpr double half_step = 0x1p-53, steps = 0x1p-52;
   for (int n = 0; n < most_tries; ++n) {
-    // The upper 52 bits, in the middle of their step: neither 0 nor 1.
+    // The upper 52 bits, in the middle of their interval: neither 0 nor 1.
     const double share = static_cast<double>(numbers_() >> 12U) * steps + half_step;
     const double value = quantile(distribution, share);
     if (!distribution.within || (value >= (*distribution.within)[0] && value <= (*distribution.within)[1]))

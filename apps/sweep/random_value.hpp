@@ -1,4 +1,4 @@
-// Values of a sweep that are drawn: strengths, spacings and loads that are known by a mean and a deviation.
+// Random values of a sweep: strengths, spacings and loads given by a mean and a standard deviation.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace ashlar {
 
-/// How a value is spread. Parameters are of the value itself, in its unit.
+/// Distribution of a value. Parameters are those of the value itself, in its unit.
 struct Distribution {
   enum class Kind {
     normal,      ///< mean, deviation >= 0
@@ -20,25 +20,25 @@ struct Distribution {
   };
   Kind kind = Kind::normal;
   std::vector<double> parameters;
-  /// Of normal and lognormal: values outside are drawn again.
+  /// For normal and lognormal: values outside are drawn again.
   std::optional<std::array<double, 2>> within;
 
   bool operator==(const Distribution&) const = default;
 };
 
 /// "normal(32, 2)", "normal(32, 2, 20, 45)" (least and most), "lognormal(1e5, 3e4)", "uniform(20, 30)",
-/// "triangular(20, 25, 40)". @return empty: the text has none of these names
-/// @throws std::invalid_argument with what is wrong and needed
+/// "triangular(20, 25, 40)". @return empty if the text has none of these names
+/// @throws std::invalid_argument with the fault and the requirement
 [[nodiscard]] std::optional<Distribution> parse_distribution(const std::string& text);
 
-/// The value that a share of all draws is below. @param share within 0 to 1, without them
+/// Quantile of a distribution. @param share strictly between 0 and 1
 [[nodiscard]] double quantile(const Distribution& distribution, double share);
 
-/// Numbers of a seed: the same ones on any machine, to rounding of the functions of the mathematical library.
+/// Random numbers of a seed: the same on any machine, up to rounding of the mathematical library.
 class Draws {
  public:
   explicit Draws(std::uint64_t seed) : numbers_(seed) {}
-  /// @throws std::invalid_argument if hardly any value lies within its bounds
+  /// @throws std::invalid_argument if very few values lie within its bounds
   [[nodiscard]] double draw(const Distribution& distribution);
 
  private:

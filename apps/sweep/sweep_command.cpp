@@ -25,7 +25,7 @@
 namespace ashlar {
 namespace {
 
-/// True if a file is a table of these keys, or is not there.
+/// True if a file is a table of these keys, or does not exist.
 bool may_be_replaced(const std::filesystem::path& table, const SweepTable& mine) {
   if (!std::filesystem::exists(table)) return true;
   std::ifstream stream(table);
@@ -35,7 +35,7 @@ bool may_be_replaced(const std::filesystem::path& table, const SweepTable& mine)
   return line.starts_with(fmt::format("{}", fmt::join(mine.columns.begin(), folder + 2, ",")));
 }
 
-/// Samples may have drawn the same values: these are run once.
+/// Equal samples are run once.
 std::vector<SweepRun> runs_of(const SweepOptions& options, const std::vector<VariedKey>& keys,
                               const std::vector<Variant>& variants,
                               const std::vector<std::filesystem::path>& folders) {
@@ -58,13 +58,13 @@ std::vector<SweepRun> runs_of(const SweepOptions& options, const std::vector<Var
   return runs;
 }
 
-/// @throws std::invalid_argument if what has the names of the pictures is none
+/// @throws std::invalid_argument if a file with the name of a picture is not a picture
 void refuse_other_pictures(std::filesystem::path picture) {
   if (picture.extension() == ".png") refuse_other_file(picture, "PNG picture", {png_mark});
   refuse_other_file(picture.replace_extension(".svg"), "SVG picture", {svg_mark});
 }
 
-/// The first value that was asked for, or else the first usual one beside the time.
+/// The first requested value, or else the first default one besides the time.
 std::string first_value(const SweepOptions& options, const std::vector<VariedKey>& keys,
                         const SweepTable& table) {
   if (!options.values.empty()) return options.values.front();
@@ -109,7 +109,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   try {
     for (const std::string& text : options.varied) keys.push_back(parse_varied_key(text));
     variants = variants_of(keys, options.samples);
-    // Told before the runs, not after.
+    // Faults are reported before the runs.
     if (options.picture && options.samples.count == 0) (void)sweep_svg(keys, {{"value"}, {}}, "value");
     if (options.picture && !options.force) refuse_other_pictures(*options.picture);
   } catch (const std::invalid_argument& fault) {
@@ -150,7 +150,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
 void declare_sweep_command(CLI::App& program, CommandContext& context) {
   CLI::App* command =
       program.add_subcommand("sweep", "Run a scene with several values of some keys; writes a table");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<SweepOptions>();
   const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* text) {
     return command->add_option(name, values, text)

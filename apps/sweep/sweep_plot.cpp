@@ -12,7 +12,7 @@
 namespace ashlar {
 namespace {
 
-/// The first key of numbers.
+/// The first numeric key.
 std::size_t key_along_x(const std::vector<VariedKey>& keys) {
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (std::all_of(keys[k].values.begin(), keys[k].values.end(),

@@ -41,7 +41,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr auto poll_interval = std::chrono::milliseconds(20);
 
-/// The summary of a run that has ended; null: there is none.
+/// The summary of a finished run; null: there is none.
 Json ended_summary(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "summary.json";
   if (!std::filesystem::exists(file)) return nullptr;
@@ -55,10 +55,10 @@ int exit_status_in(const Json& summary) {
   return status == "failed" || status == "not converged" ? exit_status::failed : exit_status::done;
 }
 
-/// How the log of a run begins whose results were not of the present files.
+/// Beginning of the log of a run that replaced results of other files.
 constexpr std::string_view again = "run again: ";
 
-/// A run that has ended: kept, run again where files or the program are others, or refused where the scene is.
+/// Treats a finished run: it is kept, run again if files or the program have changed, or refused if the scene has.
 int run_over_results(RunOptions run, const Json& summary, std::ostream& log) {
   Diagnostics diagnostics;
   const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, diagnostics);
@@ -84,12 +84,12 @@ int run_over_results(RunOptions run, const Json& summary, std::ostream& log) {
   return run_command(run, log, log);
 }
 
-/// True if a run that did not end left a state to go on from.
+/// True if an unfinished run left a state to continue from.
 bool has_state(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / checkpoint_name) || std::filesystem::exists(folder / trials_name);
 }
 
-/// True if a run can go on from the state in its folder. What is wrong with the scene is told when it is run.
+/// True if a run can continue from the state in its folder. Faults of the scene are reported when it is run.
 bool is_of_this_scene(const RunOptions& run) {
   Diagnostics told_later;
   const std::optional<LoadedScene> loaded = load_scene(run.scene, run.overrides, told_later);
@@ -102,7 +102,7 @@ bool is_of_this_scene(const RunOptions& run) {
   }
 }
 
-/// One variant: kept, gone on with, or run. Called in a process of its own.
+/// One variant: kept, continued, or run. Called in a process of its own.
 int run_variant(RunOptions run, std::ostream& log) {
   const Json summary = ended_summary(*run.out);
   if (!summary.is_null()) return run_over_results(std::move(run), summary, log);
@@ -111,7 +111,7 @@ int run_variant(RunOptions run, std::ostream& log) {
   return run_command(run, log, log);
 }
 
-/// The same with whatever is thrown in the log.
+/// The same with exceptions written to the log.
 int logged_variant(const RunOptions& run, std::ostream& log) {
   try {
     return run_variant(run, log);
@@ -125,16 +125,16 @@ int logged_variant(const RunOptions& run, std::ostream& log) {
 
 /// The process ends with the status of the run.
 [[noreturn]] void run_in_child(const RunOptions& run, OutputFile log_file) {
-  // A signal to the terminal's group is the sweep's to pass on: once.
+  // The sweep passes on a signal to the terminal's group: once.
   (void)setpgid(0, 0);
-  // A sweep that is killed leaves no run behind.
+  // A killed sweep leaves no run behind.
   (void)prctl(PR_SET_PDEATHSIG, SIGTERM);
   OutputStreamBuffer buffer(std::move(log_file));
   std::ostream log(&buffer);
   _exit(logged_variant(run, log));
 }
 
-/// Why results were not kept, as a log tells; empty: they were, or there were none.
+/// Reason from a log for replacing results; empty: they were kept, or there were none.
 std::string reason_in(const std::filesystem::path& log) {
   std::ifstream stream(log);
   std::string line;
@@ -189,7 +189,7 @@ class Runs {
     children_.emplace(child, run);
   }
 
-  /// Takes note of one run that has ended. @return whether there was one
+  /// Records a finished run. @return true if there was one
   bool collect() {
     for (const auto& [child, run] : children_) {
       int how = 0;
@@ -205,7 +205,7 @@ class Runs {
 
   void note(std::size_t run, int status) {
     ++done_;
-    // Refused is worse than failed, being stopped is told by stopped_.
+    // Refused is worse than failed; interrupts are recorded in stopped_.
     if (status == exit_status::interrupted)
       stopped_ = true;
     else

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What one run left.
+/// Results of one run.
 struct RunValues {
   Json summary;                                        ///< null: none
   std::vector<std::pair<std::string, double>> at_end;  ///< columns of the history
@@ -52,7 +52,7 @@ RunValues values_in(const std::filesystem::path& folder) {
   return values;
 }
 
-/// What is of interest where nobody says.
+/// Default columns.
 std::vector<std::string> usual_values(const std::vector<RunValues>& runs) {
   std::vector<std::string> names = {"time"};
   const auto add = [&](const std::string& name) {
@@ -70,7 +70,7 @@ std::vector<std::string> usual_values(const std::vector<RunValues>& runs) {
   return names;
 }
 
-/// Of a variant whose run has left no summary: a sweep that was stopped may not have come to it.
+/// Status of a variant without summary: an interrupted sweep may not have reached it.
 std::string status_without_summary(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(folder.string() + ".log")) return "not run";
   return std::filesystem::exists(folder / ".ashlar") ? "interrupted" : "refused";
@@ -92,7 +92,7 @@ SweepTable sweep_table(const std::vector<VariedKey>& keys, const std::vector<Var
   for (std::size_t k = 0; k < runs.size(); ++k) {
     std::vector<std::string>& row = table.rows.emplace_back();
     for (const std::string& value : variants[k].values) {
-      // Numbers, negative ones too, are numbers in the table.
+      // Numbers, including negative ones, are numbers in the table.
       row.push_back(csv_number(value) ? value : quote_csv_field(value));
     }
     row.push_back(quote_csv_field(folders[k].parent_path().filename().string() + "/" + variants[k].folder));

@@ -19,7 +19,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-/// Parts between commas that are in no brackets and no quotes.
+/// Parts between commas outside brackets and quotes.
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts = {""};
   int depth = 0;
@@ -43,7 +43,7 @@ std::vector<std::string> parts_of(const std::string& text) {
   return parts;
 }
 
-/// Keys and values as a file name; a digest tells those apart that are alike in it.
+/// Keys and values as a file name; a digest makes it unique.
 std::string folder_of(const std::vector<VariedKey>& keys, const std::vector<std::string>& values) {
   std::string text;
   for (std::size_t k = 0; k < keys.size(); ++k)
@@ -59,11 +59,11 @@ std::string folder_of(const std::vector<VariedKey>& keys, const std::vector<std:
   return fmt::format("{}-{}", name, sha256_of_text(text).substr(0, 12));
 }
 
-/// Of the values that are listed.
+/// Number of combinations of listed values.
 std::size_t combinations(const std::vector<VariedKey>& keys, const Samples& samples) {
   std::set<std::string> known;
   std::size_t count = 1;
-  // Of each combination there are as many variants as samples.
+  // Each combination has as many variants as samples.
   const std::size_t most = most_variants / std::max<std::size_t>(samples.count, 1);
   const auto refuse_more = [&](std::size_t factor) {
     if (factor > most / count)
@@ -119,7 +119,7 @@ VariedKey parse_varied_key(const std::string& text) {
 
 std::vector<Variant> variants_of(const std::vector<VariedKey>& keys, const Samples& samples) {
   const std::size_t count = combinations(keys, samples);
-  // Of each sample, the values of the keys that are drawn, in order.
+  // For each sample, the values of the random keys, in order.
   std::vector<std::vector<std::string>> drawn(std::max<std::size_t>(samples.count, 1));
   Draws draws(samples.seed);
   for (std::vector<std::string>& sample : drawn)

@@ -1,4 +1,4 @@
-// The variants of a sweep: every combination of the values that keys of a scene take, and samples of those that are drawn.
+// The variants of a sweep: all combinations of listed values of keys, and samples of random ones.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,32 @@ namespace ashlar {
 /// A key of a scene and its values, as in --set (scene_overrides.hpp).
 struct VariedKey {
   std::string key;
-  std::vector<std::string> values;  ///< empty: drawn
+  std::vector<std::string> values;  ///< empty: random
   std::optional<Distribution> drawn = std::nullopt;
 };
 
-/// How often values are drawn, and by which seed.
+/// Number and seed of random samples.
 struct Samples {
-  std::size_t count = 0;  ///< 0: no key is drawn
+  std::size_t count = 0;  ///< 0: no random key
   std::uint64_t seed = 1;
 };
 
 /// "key=a,b,c", or "key=normal(32, 2)" (random_value.hpp). Commas within brackets, braces and quotes belong to a value.
-/// @throws std::invalid_argument with what is wrong and needed
+/// @throws std::invalid_argument with the fault and the requirement
 [[nodiscard]] VariedKey parse_varied_key(const std::string& text);
 
 /// One run of a sweep.
 struct Variant {
   std::vector<std::string> values;  ///< one for each key
-  std::string folder;               ///< a file name made of keys and values, different for different ones
+  std::string folder;               ///< a file name made of keys and values, unique
 
   bool operator==(const Variant&) const = default;
 };
 
-/// All combinations of listed values, the last key fastest, and of each the same samples of drawn ones, in 6 digits: the
-/// first samples are the same whatever their number is.
-/// @throws std::invalid_argument if a key comes twice, or a value of one, or there are more than 100,000; if keys are
-/// drawn without a number of samples, or none is drawn with one
+/// All combinations of listed values, the last key fastest, each with the same samples of random ones, in 6 digits:
+/// the first samples do not depend on their number.
+/// @throws std::invalid_argument if a key, or a value of one, is repeated, or there are more than 100,000; if there
+/// are random keys without a number of samples, or a number of samples without random keys
 [[nodiscard]] std::vector<Variant> variants_of(const std::vector<VariedKey>& keys,
                                                const Samples& samples = {});
 

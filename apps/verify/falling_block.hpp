@@ -1,13 +1,12 @@
-// The paper's example: a cube that falls onto the free end of a cantilever which has bent under its own
-// weight.
+// The paper's example: a cube falls onto the free end of a cantilever bent by its own weight.
 #pragma once
 
 #include "apps/verify/placement.hpp"
 
 namespace ashlar {
 
-/// What of the example is varied. The rest is that of record: cube of 1.5 m, cantilever 8 x 3 x 1 m clamped
-/// at x = 0, density 3600, E = 5e8 Pa, nu = 0.2, friction angle 30 degrees.
+/// Variable parameters of the example. The others are fixed: cube of 1.5 m, cantilever 8 x 3 x 1 m clamped at x = 0,
+/// density 3600, E = 5e8 Pa, nu = 0.2, friction angle 30 degrees.
 struct FallingBlock {
   double drop = 1.0;   ///< m, of the cube above the undeformed cantilever
   double speed = 0.0;  ///< m/s, of the cube at the start, downwards
@@ -16,7 +15,7 @@ struct FallingBlock {
   Formulation formulation = Formulation::total;
   bool area_springs = true;
   bool curved_surface = true;
-  /// Pa/m, normal and shear. Point springs share what area springs have on the cube's face among its four
+  /// Pa/m, normal and shear. Point springs distribute the stiffness of area springs on the cube's face over its four
   /// corners.
   double stiffness = 5e10;
   double chord_tolerance = 7.5e-3;  ///< m, see SimulationSettings
@@ -27,7 +26,7 @@ struct FallingBlock {
 /// Block 0 is the cube, block 1 the cantilever, at rest under its weight.
 [[nodiscard]] Simulation falling_block(const FallingBlock& example, const Placement& placement = {});
 
-/// The middle of the cantilever's free end, a material point that every formulation follows, m.
+/// The centre of the cantilever's free end, a material point followed by every formulation, m.
 [[nodiscard]] Vector3 falling_block_tip();
 
 }  // namespace ashlar

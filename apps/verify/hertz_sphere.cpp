@@ -21,7 +21,7 @@ double height(double radius, double x, double y) {
   return radius - std::sqrt(radius * radius - x * x - y * y);
 }
 
-/// Boxes [0, R]^3 in shells of seven about the origin, those inside the sphere at least in part.
+/// Boxes [0, R]^3 in shells of seven about the origin, if at least partly inside the sphere.
 std::vector<Cell> cells_of(const HertzSphere& sphere) {
   std::vector<Cell> cells;
   const auto add = [&](const Vector3& low, const Vector3& high, int order, int facets) {
@@ -41,7 +41,7 @@ std::vector<Cell> cells_of(const HertzSphere& sphere) {
         low[axis] = inner;
         high[axis] = outer;
       }
-      // Beyond the first shell only the blocks under and beside the contact see much of it.
+      // Beyond the first shell only the blocks below and beside the contact are affected by it.
       const bool is_near = low.norm() < 2.2 * sphere.inner_size;
       add(low, high, is_near ? sphere.near_order : sphere.far_order, coarse);
     }
@@ -50,8 +50,8 @@ std::vector<Cell> cells_of(const HertzSphere& sphere) {
   return cells;
 }
 
-/// The part of a box inside the sphere, as the hull of its corners and of points on the sphere and on the
-/// circles in which the box's faces cut it.
+/// The part of a box inside the sphere, as the hull of its corners and of points on the sphere and on the circles
+/// where the box's faces intersect it.
 Polyhedron cut_to_sphere(const Cell& cell, double radius) {
   std::vector<Vector3> points;
   const auto add = [&](const Vector3& point) {
@@ -94,7 +94,7 @@ double area_in(const Polyhedron& solid, const Plane& plane) {
   return area;
 }
 
-/// The quarter of the sphere, block 0 with the contact patch, and the plane after it.
+/// Builds the quarter of the sphere, block 0 with the contact patch, and the plane as the last block.
 Simulation put_together(const HertzSphere& sphere) {
   const Plane equator{{0, 0, sphere.radius}, Vector3::UnitZ()};
   std::vector<BlockDefinition> blocks;
@@ -110,7 +110,7 @@ Simulation put_together(const HertzSphere& sphere) {
   scene.settings.area_springs = sphere.area_springs;
   scene.settings.curved_surface = sphere.curved_surface;
   scene.settings.contact_distance = 0.5 * sphere.approach();
-  // What is compared with is known to some parts in a hundred.
+  // The references are accurate to a few per cent.
   scene.settings.statics.tolerance = 1e-6;
   scene.settings.statics.residual_tolerance = 1e-9;
   const double share = sphere.inner_size / (sphere.facets + 1);

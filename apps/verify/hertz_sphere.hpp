@@ -1,9 +1,9 @@
 // Hertz's contact: a sphere pressed onto a rigid plane, as graded tied blocks.
 //
-// By symmetry a quarter of the lower half of the sphere is enough. Boxes around the contact point, each shell
-// of seven about twice as far out as the last, are cut to the sphere: polynomials of low order far from the
-// contact, of high order in the one block that holds the contact patch. The sphere's surface in that block is
-// a polyhedron with corners on the sphere, facets of side h lie up to h^2/(8 R) inside it.
+// By symmetry a quarter of the lower half of the sphere suffices. Boxes around the contact point, in shells of seven
+// with about twice the size of the last one, are cut to the sphere: polynomials of low order far from the contact, of
+// high order in the one block with the contact patch. The sphere's surface in that block is a polyhedron with corners
+// on the sphere; facets of side h are up to h^2/(8 R) inside it.
 //
 // Formulas (Hertz 1882), E* = E/(1 - nu^2):
 //     a^3 = 3 F R/(4 E*)    approach = a^2/R    p(r) = p0 sqrt(1 - (r/a)^2),  p0 = 3 F/(2 pi a^2)
@@ -13,7 +13,7 @@
 
 namespace ashlar {
 
-/// What is pressed, and how it is divided.
+/// Parameters of the problem and its division.
 struct HertzSphere {
   double radius = 0.1;          ///< m
   double force = 1000.0;        ///< N
@@ -26,7 +26,7 @@ struct HertzSphere {
   int near_order = 5;       ///< of the blocks around it
   int far_order = 3;        ///< of the others
   int facets = 6;           ///< along the sides of the inner block
-  double stiffness = 2e15;  ///< Pa/m; the springs give way by p0/stiffness. Point springs: times the inner
+  double stiffness = 2e15;  ///< Pa/m; compression of the springs p0/stiffness. Point springs: times the inner
                             ///< block's area over the corners of its facets, N/m
   bool area_springs = true;
   bool curved_surface = true;
@@ -36,7 +36,7 @@ struct HertzSphere {
   [[nodiscard]] double peak_pressure() const;   ///< p0, Pa
 };
 
-/// What came out. Of the whole sphere, not of a quarter.
+/// Results, for the whole sphere.
 struct HertzContact {
   bool equilibrium = false;
   double force = 0.0;          ///< N, sum of the contact forces

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pressure = 1e6;
 
-/// A box whose level face at one end is a fan of triangles about a point of it.
+/// A box whose horizontal face at one end is a fan of triangles about one of its points.
 Polyhedron box_with_fan(const Vector3& low, const Vector3& high, bool at_top, double x, double y) {
   TriangleMesh mesh = make_box(low, high);
   const double level = at_top ? high.z() : low.z();
@@ -50,7 +50,7 @@ Simulation put_together(const PatchTest& patch) {
   scene.settings.area_springs = patch.area_springs;
   scene.settings.curved_surface = patch.curved_surface;
   scene.settings.search.subdivisions = patch.subdivisions;
-  // Ten periods of the blocks on their springs: a dda step leaves a seventieth of such a swing.
+  // Ten periods of the blocks on their springs: a dda step reduces such an oscillation to a seventieth.
   if (patch.formulation == Formulation::incremental) scene.settings.time_step = 0.1;
   for (const bool upper : {false, true}) {
     const Vector3 from(0, 0, upper ? 1.0 : 0.0), to(1, 1, upper ? 2.0 : 1.0);

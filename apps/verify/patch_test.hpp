@@ -1,5 +1,5 @@
-// The contact patch test: two blocks one on the other under a uniform pressure, their sides held against
-// widening, so that the area stays what it was. Stress is -p everywhere and the springs give way by p/kn.
+// The contact patch test: two stacked blocks under a uniform pressure, with their sides supported against lateral
+// expansion, so that the area is constant. The stress is -p everywhere and the compression of the springs is p/kn.
 #pragma once
 
 #include "mechanics/block/block_definition.hpp"
@@ -15,7 +15,7 @@ struct PatchTest {
   double stiffness =
       1e9;               ///< kn, Pa/m; point springs have a quarter of it in N/m, for the faces' four corners
   int subdivisions = 1;  ///< uniform levels of the faces of blocks of order >= 2
-  /// Total: static analysis. Incremental, which has none: `dda` steps from rest until all is still.
+  /// Total: static analysis. Incremental, which has none: `dda` steps from rest until motion has ceased.
   Formulation formulation = Formulation::total;
 };
 

@@ -24,7 +24,7 @@ SlidingWedge::SlidingWedge() : n1(plane_normal(40, 130)), n2(plane_normal(60, 22
   if (d1.dot(n2) < 0.0) d1 = -d1;
   d2 = n2.cross(line);
   if (d2.dot(n1) < 0.0) d2 = -d2;
-  // N1 n1 + N2 n2 carries what of the weight is across the line.
+  // N1 n1 + N2 n2 balances the part of the weight normal to the line.
   Eigen::Matrix3d directions;
   directions << n1, n2, line;
   const Vector3 parts = directions.inverse() * Vector3::UnitZ();

@@ -1,4 +1,4 @@
-// A prism between two planes that slides along the line they meet in: planes 40/130 and 60/220 (dip and dip
+// A prism that slides on two planes along their line of intersection: planes 40/130 and 60/220 (dip and dip
 // direction, degrees).
 #pragma once
 
@@ -10,7 +10,7 @@ struct SlidingWedge {
   Vector3 n1;    ///< outward normal of plane 1
   Vector3 n2;    ///< of plane 2
   Vector3 line;  ///< down the line of intersection
-  Vector3 d1;    ///< up plane 1, across the line
+  Vector3 d1;    ///< up plane 1, normal to the line
   Vector3 d2;    ///< up plane 2
   double grip;   ///< sum of normal forces over weight
   double slip;   ///< driving force over weight

@@ -1,5 +1,5 @@
-// Verification cases: what `ashlar verify` runs. Each compares numbers of this program with references that
-// do not come from it: formulas, or values computed independently.
+// Verification cases of `ashlar verify`. Each compares numbers of this program with independent references: formulas,
+// or values computed by other means.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ struct VerificationCheck {
   std::string what;
   double measured;
   double reference;
-  double error;      ///< as compared with the tolerance: relative to the reference, or absolute
+  double error;      ///< compared with the tolerance: relative to the reference, or absolute
   double tolerance;  ///< error <= tolerance passes
   [[nodiscard]] bool passed() const { return error <= tolerance; }
 };
@@ -33,10 +33,10 @@ class VerificationCase {
   using Run = std::vector<VerificationCheck> (*)();
   using RunPlaced = std::vector<VerificationCheck> (*)(const Placement&);
 
-  /// A case that has one place, because its supports hold single components.
+  /// A case with a fixed placement, because its supports fix single components.
   constexpr VerificationCase(const char* case_name, const char* text, Run function)
       : name(case_name), description(text), run_(function) {}
-  /// A case whose scene can be turned and moved; what it measures must stay the same.
+  /// A case whose scene can be rotated and translated without effect on the results.
   constexpr VerificationCase(const char* case_name, const char* text, RunPlaced function)
       : name(case_name), description(text), run_placed_(function) {}
 
@@ -45,7 +45,7 @@ class VerificationCase {
 
   [[nodiscard]] std::vector<VerificationCheck> run() const { return run_ ? run_() : run_placed_({}); }
   [[nodiscard]] bool can_be_placed() const { return run_placed_ != nullptr; }
-  /// Of a case that can be placed.
+  /// For a case with variable placement.
   [[nodiscard]] std::vector<VerificationCheck> run_placed(const Placement& placement) const {
     return run_placed_(placement);
   }
@@ -63,7 +63,7 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> contact_spring_cases();
 /// Friction on slopes.
 [[nodiscard]] std::span<const VerificationCase> slope_cases();
-/// What joints have beside friction.
+/// Properties of joints besides friction.
 [[nodiscard]] std::span<const VerificationCase> joint_cases();
 /// Factors of safety.
 [[nodiscard]] std::span<const VerificationCase> safety_cases();
@@ -71,20 +71,20 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> limit_cases();
 /// Stacks, columns and arches.
 [[nodiscard]] std::span<const VerificationCase> stack_cases();
-/// Solids that are not convex.
+/// Nonconvex solids.
 [[nodiscard]] std::span<const VerificationCase> non_convex_cases();
 /// Hertz's contact.
 [[nodiscard]] std::span<const VerificationCase> hertz_cases();
 /// Impacts, waves and rocking.
 [[nodiscard]] std::span<const VerificationCase> impact_cases();
-/// Supports that move.
+/// Moving supports.
 [[nodiscard]] std::span<const VerificationCase> support_cases();
 /// Rock cut by joints.
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
 /// The paper's example.
 [[nodiscard]] std::span<const VerificationCase> falling_block_cases();
 
-/// All of them, in the order of the list.
+/// All cases, in the order of the list.
 [[nodiscard]] std::vector<VerificationCase> all_verification_cases();
 
 }  // namespace ashlar

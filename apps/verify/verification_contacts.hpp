@@ -1,4 +1,4 @@
-// Scenes with contacts and what verification cases measure in them.
+// Scenes with contacts and measurements for verification cases.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace ashlar {
 
-/// Blocks that are put together one by one, with one joint law for all of them.
+/// A scene built block by block, with one joint law for all blocks.
 class ContactScene {
  public:
-  /// @param placement of all blocks, motions and gravity: what is given to add() is in the scene's own axes,
-  /// what is read in the simulation is turned and moved
+  /// @param placement of all blocks, motions and gravity: arguments of add() are in the scene's own axes, results of
+  /// the simulation are rotated and translated
   explicit ContactScene(Placement placement = {}) : placement_(std::move(placement)) {}
 
-  /// Read anew in every step, so that a joint can be made weaker on the way.
+  /// Read again in every step, so that a joint can be weakened during the run.
   std::shared_ptr<JointLaw> law = std::make_shared<JointLaw>(JointLaw{1e9, 1e9, 0.0, 0.0, 0.0, true});
   SimulationSettings settings;
 
@@ -27,12 +27,12 @@ class ContactScene {
   int add(BlockDefinition block, const InitialMotion& motion = {});
   /// A block that never moves. @return its index
   int add_fixed(Polyhedron solid);
-  /// Bonds two blocks over their common faces, as stiffly as scenes do without being told. @param a,b a < b
+  /// Bonds two blocks over their common faces with the default stiffness of scenes. @param a,b a < b
   void tie(int a, int b) { ties_.push_back({a, b}); }
-  /// The same of all moving blocks so far that have common faces; between others no contacts are looked for.
+  /// The same for all moving blocks so far that have common faces; no contacts are searched between others.
   void tie_all();
-  /// The scene as far as it was put together; it is empty afterwards.
-  /// @throws std::invalid_argument if blocks are to be tied that have no common face
+  /// The scene built so far; it is empty afterwards.
+  /// @throws std::invalid_argument if blocks to be tied have no common face
   [[nodiscard]] Simulation build();
 
  private:
@@ -43,12 +43,12 @@ class ContactScene {
   Placement placement_;
 };
 
-/// What scenes get that leave all numbers to the program in statics: contact held by multipliers.
+/// Applies the automatic settings of scenes in statics: contact by multipliers.
 /// @param size of the smallest block, m; @param young_modulus Pa; @param friction tan(phi)
 void choose_as_for_statics(ContactScene& scene, double size, double young_modulus, double friction);
 
-/// Rotation about the y axis that lowers the side of positive x. @param degrees of the slope that a level
-/// face becomes
+/// Rotation about the y axis that lowers the side of positive x. @param degrees slope of a horizontal face after
+/// rotation
 [[nodiscard]] Eigen::Matrix3d slope(double degrees);
 
 /// Convex hull of some points as a solid.
@@ -57,7 +57,7 @@ void choose_as_for_statics(ContactScene& scene, double size, double young_modulu
 /// tan of an angle in degrees.
 [[nodiscard]] double tangent_of(double degrees);
 
-/// Takes one step, not beyond a time. @throws std::runtime_error if it cannot be taken
+/// Takes one step that does not pass a time. @throws std::runtime_error if it cannot be taken
 void take_step(Simulation& simulation, double end_time);
 
 /// Takes steps up to a time. @throws std::runtime_error if one cannot be taken
@@ -69,11 +69,11 @@ void run_until(Simulation& simulation, double time);
 /// 1 if a static analysis ends with this status, else 0, to be compared with 1.
 [[nodiscard]] VerificationCheck check_status(std::string what, Simulation& simulation, StaticStatus expected);
 
-/// Largest residual of the energies in one step, or all that contacts gained by being found anew, over the
-/// largest energy of the run.
+/// Largest residual of the energies in one step, or total gain of re-detected contacts, relative to the largest
+/// energy of the run.
 [[nodiscard]] VerificationCheck check_energy(std::string what, const Simulation& simulation);
 
-/// Where a block's centroid is.
+/// Place of a block's centroid.
 [[nodiscard]] Vector3 centroid(const Simulation& simulation, int block);
 
 }  // namespace ashlar

@@ -20,7 +20,7 @@
 namespace ashlar {
 namespace {
 
-/// The cases asked for, in the order of the list; none, with an error, if a name is unknown.
+/// The requested cases, in the order of the list; empty, with an error, if a name is unknown.
 std::vector<VerificationCase> chosen_cases(const std::vector<std::string>& names, std::ostream& err) {
   std::vector<VerificationCase> all = all_verification_cases();
   if (names.empty()) return all;
@@ -130,7 +130,7 @@ int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream
 
 void declare_verify_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("verify", "Run built-in cases against independent references");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<VerifyOptions>();
   command->add_option("CASE", options->cases, "Names of cases (default: all)")->type_name("");
   command->add_flag("--list", options->list, "List the cases");

@@ -17,9 +17,9 @@ struct VerifyOptions {
 /// Declares `ashlar verify`.
 void declare_verify_command(CLI::App& program, CommandContext& context);
 
-/// Runs cases and prints, for each of their checks, what was measured, its reference, error, tolerance and
-/// verdict, and the seconds of each case. With json one object: {"passed": B, "cases": [{"name", "passed",
-/// "seconds", "checks": [{"what", "measured", "reference", "error", "tolerance", "passed"}]}]}.
+/// Runs cases and prints, for each check, the measured value, its reference, error, tolerance and verdict, and the
+/// seconds of each case. With json one object: {"passed": B, "cases": [{"name", "passed", "seconds", "checks":
+/// [{"what", "measured", "reference", "error", "tolerance", "passed"}]}]}.
 /// @return exit_status::done; failed if a check fails; bad_input for an unknown case
 [[nodiscard]] int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream& err);
 

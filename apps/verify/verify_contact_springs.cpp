@@ -112,8 +112,8 @@ std::vector<VerificationCheck> pair_derivatives(const char* state, const JointLa
 }
 
 std::vector<VerificationCheck> contact_derivatives() {
-  // Locked: the energy is quadratic. Sliding at a limit that the normal force does not change: the part of
-  // the derivative that the symmetric solution keeps.
+  // Locked: the energy is quadratic. Sliding at a limit independent of the normal force: the part of the derivative
+  // in the symmetric solution.
   auto checks = pair_derivatives("locked", {3e5, 2e5, 0.0, 1e9, 0.0, true}, 1e-3);
   const auto sliding = pair_derivatives("sliding", {3e5, 2e5, 0.0, 10.0, 0.0, true}, 1e-2);
   checks.insert(checks.end(), sliding.begin(), sliding.end());
@@ -150,12 +150,13 @@ std::vector<VerificationCheck> contact_patch_point() {
   return checks;
 }
 
-/// A block that can only move up and down, and what it rests on.
+/// A block that can only move vertically, and its support.
 struct Rest {
   const char* name;
   std::vector<Vector3> upper;
   std::vector<Vector3> lower;
-  int springs;  ///< that carry it, all upright; 0: along the faces that the edge or vertex belongs to
+  int springs;  ///< number of vertical springs that carry it; 0: springs along the normals of the faces
+                ///< adjacent to the edge or vertex
 };
 
 std::vector<VerificationCheck> resting_six_types() {
@@ -180,7 +181,7 @@ std::vector<VerificationCheck> resting_six_types() {
     *scene.law = {kn, 0.0, 0.0, 0.0, 0.0, false};
     scene.settings.area_springs = false;
     scene.add_fixed(hull_of(rest.lower));
-    // A ten-thousandth above, so that it comes from above whatever face the edge or vertex below belongs to.
+    // A ten-thousandth above, so that it approaches from above for any face adjacent to the edge or vertex below.
     std::vector<Vector3> upper = rest.upper;
     for (Vector3& point : upper) point.z() += 1e-4;
     BlockDefinition block = define_block(hull_of(upper), {2500, 1e9, 0.2}, 1);
@@ -215,9 +216,9 @@ std::vector<VerificationCheck> resting_six_types() {
   return checks;
 }
 
-/// Two blocks in uniform pressure and shear on a clamped base, through a joint that all of it sticks: shear
-/// tractions on the sides make the stress uniform. The loads are those at which changes of shape, of second
-/// order in the strains, are below the tolerance.
+/// Two blocks in uniform pressure and shear on a clamped base, through a joint in sticking contact: shear tractions
+/// on the sides make the stress uniform. The loads are so small that changes of shape, of second order in the
+/// strains, are below the tolerance.
 Simulation sheared_blocks(int order, double height, double friction_angle) {
   constexpr double p = 2e4;
   constexpr double tau = 1e4;
@@ -242,7 +243,7 @@ Simulation sheared_blocks(int order, double height, double friction_angle) {
   return scene.build();
 }
 
-/// No point slides where the exact answer has none, whatever the way there.
+/// No point slides if the exact solution has no sliding, independent of the path.
 std::vector<VerificationCheck> shear_patch() {
   constexpr double p = 2e4;
   constexpr double tau = 1e4;

@@ -1,4 +1,4 @@
-// Cases of rock cut by joints: what is cut fits together and adds up; which blocks can leave their places.
+// Cases of rock cut by joints: consistency of pieces; removable blocks.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -80,9 +80,9 @@ Polyhedron random_solid(int seed, std::mt19937_64& random) {
 }
 
 struct Faults {
-  double volume = 0.0;   ///< of the sum, in parts of the solid
+  double volume = 0.0;   ///< of the sum, relative to the solid
   double overlap = 0.0;  ///< deepest, m
-  double faces = 0.0;    ///< number of cut faces that no neighbour has just so
+  double faces = 0.0;    ///< number of cut faces without an equal face of a neighbour
 };
 
 void find_face_faults(const CutSolid& solid, Faults& faults) {
@@ -164,9 +164,9 @@ std::vector<HeldFace> joints_of(const CutSolid& solid, int piece) {
   return held;
 }
 
-/// Three joints of 60 degrees to the roof z = 0 of a tunnel. Where they meet above the roof the block between
-/// them gets narrower upward: a key block. Where they meet below, it gets wider and is held, under a joint at
-/// z = 5, by its own shape. And the wedge of two planes of the case `wedge`, whose friction angle is known.
+/// Three joints of 60 degrees to the roof z = 0 of a tunnel. If they meet above the roof the block between them
+/// narrows upwards: a key block. If they meet below, it widens and is held, under a joint at z = 5, by its own shape.
+/// Also the wedge of two planes of the case `wedge`, whose friction angle is known.
 std::vector<VerificationCheck> removable() {
   const Vector3 down(0, 0, -1);
   const auto roof = [&](double apex) {

@@ -1,4 +1,4 @@
-// The paper's example against itself: finer steps, orders and sub-faces; momentum, energy; the incremental
+// Convergence of the paper's example: finer steps, orders and sub-faces; momentum, energy; the incremental
 // formulation.
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,10 @@ namespace ashlar {
 namespace {
 
 struct Impact {
-  double deepest = 0.0;         ///< m, least height of the cantilever's tip over where it was undeformed
+  double deepest = 0.0;         ///< m, smallest height of the cantilever's tip relative to its undeformed
+                                ///< place
   double momentum_error = 0.0;  ///< of the cube, largest, over its momentum at impact
-  double energy_error = 0.0;    ///< residual of a step, or gain of contacts, over the largest energy
+  double energy_error = 0.0;    ///< residual of a step, or gain of contacts, relative to the largest energy
 };
 
 /// Up to 1.1 s, after the first impact and before the cube comes back to the cantilever.

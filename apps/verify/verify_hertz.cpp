@@ -1,4 +1,4 @@
-// Hertz's contact of record.
+// Hertz's contact with the reference settings.
 #include <cmath>
 
 #include "apps/verify/hertz_sphere.hpp"
@@ -7,7 +7,7 @@
 namespace ashlar {
 namespace {
 
-/// The springs take 2.5 % of the approach, p0/kn.
+/// The compression of the springs, p0/kn, is 2.5 % of the approach.
 std::vector<VerificationCheck> hertz_sphere() {
   const HertzSphere sphere;
   const HertzContact contact = press(sphere);

@@ -1,4 +1,4 @@
-// Cases of what joints have beside friction: strength that falls, dilation, damping.
+// Cases of joint properties besides friction: degradation of strength, dilation, damping.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double gravity = 9.81;
 
-/// Force along the surface and across it that the first pair of blocks exchanges, N.
+/// Components of the force between the first pair of blocks along the surface and normal to it, N.
 struct JointForce {
   double shear;
   double normal;
@@ -23,8 +23,8 @@ JointForce force_of(const Simulation& simulation, const Vector3& normal) {
   return {(force - across * normal).norm(), std::abs(across)};
 }
 
-/// A block under a constant pressure that supports move against its friction and cohesion, out, back and out again. It
-/// bears c A + N tan(phi) once, then N tan(phi_r).
+/// A block under a constant pressure moved by supports against its friction and cohesion, out, back and out again.
+/// The resistance is c A + N tan(phi) once, then N tan(phi_r).
 std::vector<VerificationCheck> shear_degradation() {
   constexpr double side = 2.0, p = 1e5, ks = 1e9, peak = 0.6, residual = 0.3, cohesion = 2e4, far = 1e-3;
   constexpr double area = side * side, normal = p * area;
@@ -68,8 +68,8 @@ std::vector<VerificationCheck> shear_degradation() {
   return checks;
 }
 
-/// A block whose top is pressed down by w and moved aside by u: sigma = K (w + s tan(psi)), s = u - sigma tan(phi) C with
-/// K and C of the joint and the block in series.
+/// A block whose top is pressed down by w and moved sideways by u: sigma = K (w + s tan(psi)), s = u - sigma tan(phi)
+/// C with K and C of the joint and the block in series.
 std::vector<VerificationCheck> dilation_under_stiffness() {
   constexpr double height = 0.5, young = 1e9, kn = 4e9, ks = 3e9, w = 1e-4, u = 4e-4, friction = 0.5;
   std::vector<VerificationCheck> checks;
@@ -107,8 +107,8 @@ std::vector<VerificationCheck> dilation_under_stiffness() {
   return checks;
 }
 
-/// A slab that sets off along the way that dilation lets it take. m x'' = -N tan(phi), m z'' = N - m g and z = x tan(psi) give
-/// N = m g / (1 + tan(phi) tan(psi)).
+/// A slab accelerates along the direction given by dilation. m x'' = -N tan(phi), m z'' = N - m g and z = x tan(psi)
+/// give N = m g / (1 + tan(phi) tan(psi)).
 std::vector<VerificationCheck> dilation_under_load(const Placement& placement) {
   constexpr double friction = 0.5, speed = 1.5;
   const double dilation = tangent_of(10);
@@ -140,8 +140,8 @@ std::vector<VerificationCheck> dilation_under_load(const Placement& placement) {
   return checks;
 }
 
-/// A cube that lands on a damped joint leaves it with e = exp(-z/sqrt(1 - z^2) (pi - 2 asin z)) of its speed (Kelvin and
-/// Voigt's contact that never pulls); one that is bonded to it swings with exp(-z w t).
+/// A cube that lands on a damped joint rebounds with e = exp(-z/sqrt(1 - z^2) (pi - 2 asin z)) of its speed
+/// (Kelvin-Voigt contact without tension). A cube bonded to it oscillates with exp(-z w t).
 std::vector<VerificationCheck> joint_damping(const Placement& placement) {
   constexpr double kn = 5e7, density = 2000.0, side = 0.2, speed = 0.1;
   const double natural = std::sqrt(kn / (density * side));

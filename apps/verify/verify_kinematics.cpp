@@ -75,7 +75,7 @@ double volume_after_turn(Formulation formulation) {
   SimulationSettings settings;
   settings.time_step = 0.01;
   settings.gravity.setZero();
-  // Stiff, so that the centrifugal stretch rho w^2 L^2 / E is below what is looked for.
+  // Stiff, so that the centrifugal stretch rho w^2 L^2 / E is below the tolerance.
   BlockDefinition definition = define_block(Polyhedron(make_box({0, 0, 0}, {1, 2, 3})), {1, 1e12, 0.2}, 1);
   definition.formulation = formulation;
   Simulation simulation = lone_block(std::move(definition), {Vector3::Zero(), {0, 0, 1}}, settings);
@@ -85,7 +85,7 @@ double volume_after_turn(Formulation formulation) {
 }
 
 std::vector<VerificationCheck> spin_volume() {
-  // 628 steps of t = 0.01 and the rest of the turn, each times 1 + t^2: the fault of the incremental
+  // 628 steps of t = 0.01 and the rest of the rotation, each with the factor 1 + t^2: the error of the incremental
   // formulation.
   const double rest = 2.0 * std::numbers::pi - 6.28;
   const double growth = std::pow(1.0 + 1e-4, 628) * (1.0 + rest * rest);
@@ -133,7 +133,7 @@ std::vector<VerificationCheck> torque_free() {
   return checks;
 }
 
-/// The mean under a Hann window: oscillations of several periods leave nothing.
+/// The mean under a Hann window: removes oscillations of several periods.
 class WindowedMean {
  public:
   WindowedMean(double start, double end) : start_(start), end_(end) {}
@@ -156,14 +156,14 @@ std::vector<VerificationCheck> spinning_bar() {
   SimulationSettings settings;
   settings.gravity.setZero();
   settings.integrator = Integrator::average_acceleration;
-  // The slowest stretching mode has a period of 4e-4 s. Elastic forces are taken at the middle of the chord a
-  // point moves along, (w dt)^2 / 8 nearer to the axis: far below the strain of 3e-5.
+  // The slowest stretching mode has a period of 4e-4 s. Elastic forces are evaluated at the middle of the chord of a
+  // point's motion, (w dt)^2 / 8 closer to the axis: far below the strain of 3e-5.
   settings.time_step = 2.5e-6;
   Simulation simulation = lone_block(
       define_block(Polyhedron(make_box({-0.5, -0.05, -0.05}, {0.5, 0.05, 0.05})), {density, modulus, 0.0}, 3),
       {Vector3::Zero(), {0, 0, spin}}, settings);
   const BlockModel& block = simulation.blocks()[0];
-  // Released without stretch the bar rings about its steady state, which is the mean over many periods.
+  // Released without stretch the bar oscillates about its steady state, which is the mean over many periods.
   const double time = 8e-3;
   WindowedMean stress(0.0, time);
   WindowedMean length(0.0, time);
@@ -183,9 +183,8 @@ std::vector<VerificationCheck> spinning_bar() {
 }
 
 std::vector<VerificationCheck> dda_damping() {
-  // A bar clamped at one end with nu = 0 and n = 1 has one stretching mode, w^2 = 3 E / (rho L^2); gravity
-  // along it sets it off. With s_k = (u - u_rest, v), det(s_k, s_k+1) falls by the squared spectral radius
-  // each step.
+  // A bar clamped at one end with nu = 0 and n = 1 has one stretching mode, w^2 = 3 E / (rho L^2), excited by gravity
+  // along it. With s_k = (u - u_rest, v), det(s_k, s_k+1) decreases by the squared spectral radius in each step.
   const double density = 2000.0, modulus = 1e8, length = 2.0, gravity = 10.0;
   const double frequency = std::sqrt(3.0 * modulus / density) / length;
   const double rest = density * gravity * length * length / (2.0 * modulus);

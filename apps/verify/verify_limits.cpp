@@ -1,7 +1,7 @@
-// Cases of limit analysis: rigid blocks whose limits are known in closed form or from linear programmes of their own.
+// Cases of limit analysis: rigid blocks with limits in closed form or from independent linear programmes.
 //
-// The programmes: blocks of the plane problem, normal force and friction at both ends of each joint, solved by HiGHS; of
-// walls, arches and portals they have the same limit as the cones of a scene that does not change across its plane.
+// The programmes: blocks of the plane problem, normal force and friction at both ends of each joint, solved by HiGHS.
+// For walls, arches and portals they have the same limit as the cones of a scene that is uniform across its plane.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ const Material rock{2500.0, 1e10, 0.2};
 
 using Build = std::function<void(ContactScene&)>;
 
-/// Of a scene whose blocks are rigid. @param multiplied whether a factor multiplies its loads
+/// Limit analysis of a scene with rigid blocks. @param multiplied true if its loads get a factor
 LimitAnalysis limit_analysis(const JointLaw& law, const Build& add, const Placement& placement,
                              bool multiplied = false) {
   ContactScene scene(placement);
@@ -53,13 +53,13 @@ LimitAnswer load_of(const JointLaw& law, const Build& add, const Placement& plac
   return limit_analysis(law, add, placement, true).load_factor({0.01, 100.0, 1e-4}, [] { return true; });
 }
 
-/// Middle of a bracket, not a number unless it is as narrow as asked for.
+/// Middle of a bracket; not a number unless it is narrow enough.
 double middle(const LimitBracket& bracket) {
   const bool known = bracket.resolved && bracket.lower && bracket.upper;
   return known ? std::sqrt(*bracket.lower * *bracket.upper) : std::nan("");
 }
 
-/// Both limits of a scene that has one.
+/// Adds both limits of a scene for which they coincide.
 void add_both(std::vector<VerificationCheck>& checks, const std::string& what, const LimitAnswer& answer,
               double unit, double reference, double tolerance) {
   checks.push_back(check_relative(what + ", released", unit * middle(answer.released), reference, tolerance));
@@ -92,8 +92,8 @@ std::vector<VerificationCheck> limit_plane(const Placement& placement) {
   return checks;
 }
 
-/// F = ((N_A + N_B) tan(phi) + c (A_A + A_B)) / T, released: friction acts against the sliding. Forces in balance
-/// may press across the line as well.
+/// F = ((N_A + N_B) tan(phi) + c (A_A + A_B)) / T, released: friction opposes the sliding. Forces in balance may also
+/// act normal to the line.
 std::vector<VerificationCheck> limit_wedge(const Placement& placement) {
   const SlidingWedge wedge;
   const double weight = wedge.volume() * rock.density * gravity;
@@ -111,7 +111,7 @@ std::vector<VerificationCheck> limit_wedge(const Placement& placement) {
   return checks;
 }
 
-/// Columns whose forces Goodman and Bray's recursion gives are at their limit at 38.15 degrees.
+/// Columns under the forces of Goodman and Bray's recursion have the limit 38.15 degrees.
 std::vector<VerificationCheck> limit_toppling(const Placement& placement) {
   const LimitAnswer answer = strength_of(joint(tangent_of(39.5)), add_toppling_columns, placement);
   return {check_relative("factor of safety, released", middle(answer.released),
@@ -130,7 +130,7 @@ std::vector<VerificationCheck> limit_arch_sliding(const Placement& placement) {
   return checks;
 }
 
-/// The least t / R of semicircular arches that hinge, from the linear programme.
+/// The least t / R of semicircular arches with hinges, from the linear programme.
 std::vector<VerificationCheck> limit_arch_thickness(const Placement& placement) {
   std::vector<VerificationCheck> checks;
   for (const auto& [count, least] : {std::pair{8, 0.0999716}, {27, 0.1067209}}) {
@@ -152,8 +152,8 @@ std::vector<VerificationCheck> limit_arch_thickness(const Placement& placement) 
   return checks;
 }
 
-/// Two posts b x h and a lintel that spans them, pushed at the lintel's middle. Both posts turn about their toes, and the
-/// lintel is lifted by their heels without turning, H h = (W_posts + 2 W_lintel) b/2.
+/// Two posts b x h and a lintel across them, pushed at the lintel's middle. Both posts rotate about their toes, and
+/// their heels lift the lintel without rotation, H h = (W_posts + 2 W_lintel) b/2.
 std::vector<VerificationCheck> limit_portal(const Placement& placement) {
   constexpr double b = 1.0, h = 4.0, span = 6.0, depth = 1.0;
   const double specific = rock.density * gravity;
@@ -196,8 +196,8 @@ struct BondWall {
   }
 };
 
-/// 33 bricks pushed along at the top corner: friction of the top course gives way, and with joints as rough as these
-/// steps of the bond turn over (linear programme).
+/// 33 bricks pushed at the top corner: the top course slides, and with such rough joints steps of the bond overturn
+/// (linear programme).
 std::vector<VerificationCheck> limit_wall_pushed(const Placement& placement) {
   const BondWall wall{6, 5, {0.5, 0.25, 0.25}};
   const double course = 2.5 * 0.25 * 0.25 * rock.density * gravity;
@@ -222,7 +222,7 @@ std::vector<VerificationCheck> limit_wall_pushed(const Placement& placement) {
   return checks;
 }
 
-/// Walls under a horizontal share of their weight: from a cone programme of its own, and the linear one.
+/// Walls under a horizontal share of their weight: from an independent cone programme, and the linear one.
 std::vector<VerificationCheck> limit_wall_capacity(const Placement& placement) {
   std::vector<VerificationCheck> checks;
   for (const auto& [courses, limit] : {std::pair{6, 0.60656}, {12, 0.51934}}) {
@@ -246,9 +246,9 @@ std::vector<VerificationCheck> limit_wall_capacity(const Placement& placement) {
   return checks;
 }
 
-/// Two blocks side by side between walls, half span L and depth h. They hinge at the lower corners at the walls and at the
-/// upper one between them, two bars D^2 = L^2 + h^2 that are in line where a wall has moved by 2 (D - L). On the way
-/// H y = W (L + s/2) / 2 with y^2 = D^2 - (L + s/2)^2.
+/// Two blocks side by side between walls, half span L and depth h. They hinge at the lower corners at the walls and
+/// at the upper one between them: two bars D^2 = L^2 + h^2 that are aligned when a wall has moved by 2 (D - L). Until
+/// then H y = W (L + s/2) / 2 with y^2 = D^2 - (L + s/2)^2.
 std::vector<VerificationCheck> limit_support_movement(const Placement& placement) {
   constexpr double half = 2.0, depth = 0.5;
   ContactScene scene(placement);
@@ -273,8 +273,8 @@ std::vector<VerificationCheck> limit_support_movement(const Placement& placement
           check_absolute("thrust on the way, over its value", error, 0.0, 1e-3)};
 }
 
-/// A square slab of side a that a couple twists: mu W times the mean distance of its base from the middle,
-/// a/6 (sqrt(2) + asinh(1)), if its pressure is uniform.
+/// A square slab of side a twisted by a couple: mu W times the mean distance of its base from the centre, a/6
+/// (sqrt(2) + asinh(1)), for uniform pressure.
 std::vector<VerificationCheck> limit_twist(const Placement& placement) {
   constexpr double side = 2.0, depth = 0.3, force = 1000.0;
   const auto add = [&](ContactScene& scene) {

@@ -1,4 +1,4 @@
-// Cases of solids that are not convex: landings in valleys, and rings that hang in each other.
+// Cases of nonconvex solids: landings in valleys, and interlocked rings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,15 +43,15 @@ Polyhedron prism(const Outline& outline) {
   return Polyhedron(std::move(mesh));
 }
 
-/// Ground of one mesh and the same of convex pieces.
+/// Ground of one mesh and the same of convex parts.
 struct Ground {
   std::string name;
   Polyhedron whole;
   std::vector<Polyhedron> pieces;
-  double low, high;  ///< where blocks are let go, x in m
+  double low, high;  ///< range of initial places, x in m
 };
 
-/// A trench of rectangular section is a pit seen from within: floor and walls at right angles.
+/// A trench of rectangular section is a pit seen from inside: floor and walls at right angles.
 std::vector<Ground> grounds() {
   std::vector<Ground> all;
   const Outline slope = {{-2, -1}, {0, -1}, {0, 0}, {-2, 1.1547}};
@@ -90,7 +90,7 @@ std::vector<Ground> grounds() {
   return all;
 }
 
-/// Height of the ground's outline at x: the largest of all pieces.
+/// Height of the ground's outline at x: the maximum over all parts.
 double height_at(const Ground& ground, const Vector3& point) {
   double highest = -1.0;
   for (const Polyhedron& piece : ground.pieces) {
@@ -118,7 +118,7 @@ Polyhedron ell() {
   return Polyhedron(std::move(mesh));
 }
 
-/// A double in [0, 1) that is the same everywhere.
+/// A random double in [0, 1) that is the same on every machine.
 double uniform(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
@@ -137,7 +137,7 @@ std::vector<std::pair<std::string, Polyhedron>> falling_blocks() {
           {"L block", ell()}};
 }
 
-/// The block turned at random, 1 mm above the ground's outline.
+/// The block in random orientation, 1 mm above the ground's outline.
 Polyhedron let_go(const Polyhedron& block, const Ground& ground, std::mt19937_64& random) {
   const Vector3 axis(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
   const Eigen::AngleAxisd turn(6.0 * uniform(random), axis.normalized());
@@ -169,8 +169,8 @@ Simulation landing(const std::vector<Polyhedron>& ground, const Polyhedron& bloc
   return scene.build();
 }
 
-/// A landing for a time. @return the most by which the true depth exceeds what contacts know at the end of
-/// any step, over the block's size
+/// A landing for a given time. @return largest excess of the true depth over that of contacts at the end of any step,
+/// relative to the block's size
 double land(Simulation& simulation, double time) {
   double most = 0.0;
   while (!simulation.reached(time)) {
@@ -180,9 +180,9 @@ double land(Simulation& simulation, double time) {
   return most / block_size(simulation.blocks().back());
 }
 
-/// Blocks let go over valleys of one mesh sink nowhere, and go where they go on convex pieces of the same
-/// shape. Places are compared with multipliers: how far springs throw a block back depends on when in a step
-/// it arrives, and steps are cut at other times on other ground.
+/// Blocks released over valleys of one mesh do not sink, and move as on convex parts of the same shape. Places are
+/// compared with multipliers: the rebound from springs depends on the time of contact within a step, and steps are
+/// cut at other times on other ground.
 std::vector<VerificationCheck> non_convex_ground_case(const Placement& placement) {
   constexpr int turns = 8;
   constexpr double time = 0.2;
@@ -241,7 +241,7 @@ Polyhedron moved(const Polyhedron& solid, const Eigen::AngleAxisd& turn, const V
   return solid.with_points(std::move(points));
 }
 
-/// The upper ring is held, the lower one hangs in it, saddle corner on saddle corner.
+/// The upper ring is held, the lower one hangs in it, with saddle corners in contact.
 std::vector<VerificationCheck> hanging_ring_case(const Placement& placement) {
   const Material rock{2500.0, 1e10, 0.2};
   ContactScene scene(placement);

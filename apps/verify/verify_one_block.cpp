@@ -14,7 +14,7 @@
 namespace ashlar {
 namespace {
 
-/// Every case is run as recorded and turned and moved by this: results must turn with the block.
+/// Every case is run as given, and rotated and translated by this: results must transform likewise.
 struct NamedPlacement : Placement {
   const char* name;
 };
@@ -29,7 +29,7 @@ Eigen::MatrixX3d rest_position(const BlockModel& block, const Vector3& gravity) 
   return *position;
 }
 
-/// Clamped in one corner, held against turning in two more: three points take no force in self-equilibrium.
+/// Clamped in one corner, supported against rotation in two more: three points transmit no self-equilibrated forces.
 void hold_in_three_corners(BlockDefinition& block) {
   const auto& points = block.solid->mesh().points;
   const Vector3& first = points[0];
@@ -44,8 +44,7 @@ void hold_in_three_corners(BlockDefinition& block) {
     if (distance(points[k]) > distance(points[off])) off = k;
   }
   block.supports.push_back({first, {true, true, true}});
-  // The far point may move along the line only as far as components allow: the one most along it is left
-  // free.
+  // The far point may move along the line only as far as components allow: the component closest to the line is free.
   Eigen::Index axis = 0;
   along.cwiseAbs().maxCoeff(&axis);
   std::array<bool, 3> held = {true, true, true};
@@ -101,7 +100,7 @@ std::vector<VerificationCheck> pure_bending() {
       return Vector3(-curvature * x.x() * x.z(), ratio * curvature * x.y() * x.z(),
                      0.5 * curvature * (x.x() * x.x() + ratio * (x.z() * x.z() - x.y() * x.y())));
     };
-    // Coefficients of the field from its values, by least squares on a grid: the field is in the space.
+    // Coefficients of the field from its values, by least squares on a grid: the field is in the function space.
     std::vector<Vector3> points;
     for (int i = 0; i <= 12; ++i) {
       for (int j = 0; j <= 12; ++j) {
@@ -123,7 +122,7 @@ std::vector<VerificationCheck> pure_bending() {
     }
     checks.push_back(
         check_absolute(fmt::format("relative error of stress, n = {}", order), worst / scale, 0.0, 1e-8));
-    // In equilibrium with tractions on the ends alone: the internal force is their work.
+    // In equilibrium with tractions on the ends alone: the internal force equals their work-conjugate force.
     Eigen::MatrixX3d force = Eigen::MatrixX3d::Zero(block.basis().size(), 3);
     for (const double side : {-1.0, 1.0}) {
       const Plane end{{2 * side, 0, 0}, {1, 0, 0}};
@@ -160,7 +159,7 @@ std::vector<VerificationCheck> self_weight_column() {
   return checks;
 }
 
-/// The cantilever of record: 8 by 3 by 1, clamped at x = 0.
+/// The reference cantilever: 8 by 3 by 1, clamped at x = 0.
 BlockDefinition cantilever(int order, double ratio, const Placement& placement) {
   const Polyhedron box(make_box({0, -1.5, -0.5}, {8, 1.5, 0.5}));
   BlockDefinition definition = define_block(placed(box, placement), {3600, 1e9, ratio}, order);
@@ -235,8 +234,8 @@ std::vector<VerificationCheck> cantilever_frequencies() {
   return checks;
 }
 
-/// Torsional stiffness GJ of a bar from the least energy of displacements (-t z y, t z x, w), w free: the
-/// warping is found among the polynomials of the block's order.
+/// Torsional stiffness GJ of a bar from the least energy of displacements (-t z y, t z x, w), w free: the warping is
+/// found among the polynomials of the block's order.
 double torsional_constant(double a, double b, int order) {
   const double length = 1.0, twist = 1e-3, modulus = 2.6e9, ratio = 0.3;
   const BlockModel block(define_block(
@@ -275,10 +274,10 @@ std::vector<VerificationCheck> torsion_bar() {
                          torsional_constant(2 * a, a, 6) / (2 * a * std::pow(a, 3)), 0.22868, 0.01)};
 }
 
-/// A slender strip clamped at x = 0, bent by a couple of two forces +-F x that keep their direction, at the
-/// upper and the lower edge of its end. No force is left over, so the moment is the same all along: M = F h
-/// cos(angle of the end), and the strip is an arc of radius E I / M: angle = F h L cos(angle) / (E I). Such a
-/// couple cannot turn the end beyond 90 degrees; one that could would have to follow it, which loads do not.
+/// A slender strip clamped at x = 0, bent by a couple of two forces +-F x of constant direction, at the upper and the
+/// lower edge of its end. There is no resultant force, so that the moment is constant: M = F h cos(angle of the end),
+/// and the strip is an arc of radius E I / M: angle = F h L cos(angle) / (E I). Such a couple cannot rotate the end
+/// beyond 90 degrees; that would need follower forces, which loads are not.
 std::vector<VerificationCheck> large_rotation_cantilever() {
   const double length = 10.0, height = 0.25, modulus = 1e9;
   const double stiffness = modulus * std::pow(height, 4) / 12.0;

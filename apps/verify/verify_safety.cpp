@@ -1,4 +1,4 @@
-// Cases of strength reduction: blocks whose factor of safety limit equilibrium gives in closed form.
+// Cases of strength reduction: blocks whose factor of safety is known in closed form from limit equilibrium.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 constexpr double gravity = 9.81;
 const Material rock{2500.0, 1e10, 0.2};
 
-/// A joint that cohesion holds whatever has slipped. @param cohesion Pa
+/// A joint whose cohesion does not depend on slip. @param cohesion Pa
 JointLaw plastic_joint(double friction, double cohesion) {
   JointLaw law;
   law.friction = friction;
@@ -26,8 +26,8 @@ JointLaw plastic_joint(double friction, double cohesion) {
   return law;
 }
 
-/// The bracket of a scene's factor of safety, with numbers that the program chooses.
-/// @param size of the smallest block, m. @param add puts the blocks into a scene
+/// The bracket of a scene's factor of safety, with automatic settings.
+/// @param size of the smallest block, m. @param add adds the blocks to a scene
 FactorBracket safety_of(const JointLaw& strength, double size, const std::function<void(ContactScene&)>& add,
                         const Placement& placement) {
   return find_factor({}, [&](double factor) {
@@ -50,7 +50,7 @@ VerificationCheck check_factor(const std::string& what, const FactorBracket& bra
   return check_relative("factor of safety, " + what, found, reference, 0.01);
 }
 
-/// F = (W cos(alpha) tan(phi) + c A) / (W sin(alpha)), as long as all of the base bears: the weight meets it in its
+/// F = (W cos(alpha) tan(phi) + c A) / (W sin(alpha)), if the whole base is in compression: the weight acts in its
 /// middle third, height tan(alpha) <= length / 3.
 std::vector<VerificationCheck> plane_slide_safety(const Placement& placement) {
   constexpr double height = 0.5;
@@ -103,7 +103,7 @@ std::vector<VerificationCheck> toppling_safety(const Placement& placement) {
           check_absolute(fmt::format("and at most {:.4f}", most), upper <= most ? 1.0 : 0.0, 1.0, 0.0)};
 }
 
-/// F = tan(phi) over the least friction that rigid voussoirs need: crown and haunch hinge while the springings slide.
+/// F = tan(phi) over the least friction of rigid voussoirs: crown and haunch hinge while the springings slide.
 std::vector<VerificationCheck> arch_safety(const Placement& placement) {
   std::vector<VerificationCheck> checks;
   for (const VoussoirArch& arch : {VoussoirArch{8, 0.15}, VoussoirArch{26, 0.15}}) {

@@ -20,7 +20,7 @@ struct BlockOnIncline {
   double length;  ///< along the slope
   double height;
   double friction_angle;
-  double stiffness = 1.0;  ///< factor of those of rock and springs
+  double stiffness = 1.0;  ///< factor on the stiffness of rock and springs
 };
 
 Simulation on_incline(const BlockOnIncline& block, const SimulationSettings& settings,
@@ -45,7 +45,7 @@ std::vector<VerificationCheck> incline_stick(const Placement& placement) {
   SimulationSettings settings;
   settings.time_step = 0.01;
   Simulation simulation = on_incline({30, 1, 0.5, 31}, settings, placement);
-  // The elastic offset first: at rest where springs and block carry the weight.
+  // The elastic displacement first: equilibrium with the weight on springs and block.
   const bool found = find_equilibrium(simulation, 0.0) == StaticStatus::equilibrium;
   const Vector3 start = centroid(simulation, 1);
   double drift = found ? 0.0 : std::nan("");
@@ -81,14 +81,13 @@ std::vector<VerificationCheck> incline_slide(const Placement& placement) {
   return checks;
 }
 
-/// The mode of a block on an incline is that of statics: it slides if tan(psi) > tan(phi), it topples if
-/// tan(psi) > length / height. A block that starts to turn about its lower edge without sliding has the
-/// angular acceleration 3 g (h sin(psi) - b cos(psi)) / (2 (b^2 + h^2)): 0.17398 rad/s^2 for b = 10, h = 25,
-/// psi = 40 and g = 10.
+/// The mode of a block on an incline is that of statics: it slides if tan(psi) > tan(phi), it topples if tan(psi) >
+/// length / height. A block that starts to rotate about its lower edge without sliding has the angular acceleration 3
+/// g (h sin(psi) - b cos(psi)) / (2 (b^2 + h^2)): 0.17398 rad/s^2 for b = 10, h = 25, psi = 40 and g = 10.
 std::vector<VerificationCheck> slide_or_topple(const Placement& placement) {
   SimulationSettings settings;
   settings.gravity = {0, 0, -10};
-  settings.area_springs = false;  // springs at the corners: the edge it turns about is that of the block
+  settings.area_springs = false;  // springs at the corners: rotation about the edge of the block
   std::vector<VerificationCheck> checks;
   Simulation stable = on_incline({40, 10, 10, 40.1}, settings, placement);
   checks.push_back(check_status("10 x 10, phi 40.1 stands", stable, StaticStatus::equilibrium));
@@ -115,7 +114,7 @@ Simulation wedge_on(const SlidingWedge& wedge, double friction_angle, const Simu
                     const Placement& placement) {
   ContactScene scene(placement);
   scene.settings = settings;
-  // Soft shear springs: stiff ones take hold across the line as it settles and jam it a little.
+  // Soft shear springs: stiff ones would act normal to the line during settling and jam the wedge a little.
   *scene.law = {2e10, 1e8, tangent_of(friction_angle), 0.0, 0.0, settings.area_springs};
   wedge.add_to(scene, stiff_rock);
   return scene.build();
@@ -144,8 +143,8 @@ std::vector<VerificationCheck> wedge(const Placement& placement) {
   return checks;
 }
 
-/// A block under a constant pressure that supports move to and fro on rigid ground. From one end to the other
-/// it goes 2 U, of which the springs give way by 2 mu N / ks before it slides against mu N.
+/// A block under a constant pressure moved to and fro by supports on rigid ground. From one end to the other it moves
+/// by 2 U, of which 2 mu N / ks is deformation of the springs before it slides against mu N.
 std::vector<VerificationCheck> cyclic_shear() {
   constexpr double side = 2.0, p = 1e5, ks = 1e9, mu = 0.6, amplitude = 1e-3;
   constexpr double normal = p * side * side;

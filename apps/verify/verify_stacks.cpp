@@ -16,8 +16,8 @@ namespace {
 
 const Material stiff_rock{2500.0, 1e11, 0.2};
 
-/// Four equal blocks, each farther out than the one below; in the stack that just holds, the k-th from the
-/// top is L/(2k) farther out than the one below it.
+/// Four equal blocks, each with an overhang over the one below; in the limit stack, the overhang of the k-th from the
+/// top is L/(2k).
 Simulation book_stack(double share, const Placement& placement) {
   ContactScene scene(placement);
   scene.settings.area_springs = false;
@@ -39,7 +39,7 @@ std::vector<VerificationCheck> book_stack_case(const Placement& placement) {
           check_status("falls at 1.01", falls, StaticStatus::moving)};
 }
 
-/// Largest way of a centroid in a time.
+/// Largest displacement of a centroid in a time.
 double farthest_in(Simulation& simulation, double time) {
   std::vector<Vector3> start;
   start.reserve(simulation.blocks().size());
@@ -62,8 +62,9 @@ Simulation arch(int count, double ratio, const Placement& placement) {
   return scene.build();
 }
 
-/// Least thicknesses of rigid voussoirs. What stands in the static analysis does not move in the second after
-/// it. What falls there starts as placed; it has gone millimetres after 1 s, as next to nothing sets it off.
+/// Smallest thicknesses of rigid voussoirs. An arch that stands in the static analysis does not move in the following
+/// second. An arch that collapses there starts as placed; it has moved millimetres after 1 s, as the driving forces
+/// are very small.
 std::vector<VerificationCheck> arch_case(const Placement& placement) {
   std::vector<VerificationCheck> checks;
   for (const auto& [count, least] : {std::pair{8, 0.09997}, std::pair{27, 0.10672}}) {
@@ -84,8 +85,8 @@ std::vector<VerificationCheck> arch_case(const Placement& placement) {
   return checks;
 }
 
-/// Walls b x h x 1 on a fixed floor under uniform pressure on one side: with weight W per length they turn
-/// over at W b / h^2.
+/// Walls b x h x 1 on a fixed floor under uniform pressure on one side: with weight W per length they overturn at W b
+/// / h^2.
 std::vector<VerificationCheck> overturning_case(const Placement& placement) {
   struct Wall {
     double b, h;
@@ -112,7 +113,7 @@ std::vector<VerificationCheck> overturning_case(const Placement& placement) {
   return checks;
 }
 
-/// From equilibrium, as the full weight put on at once would set the columns in motion.
+/// From equilibrium, as the sudden application of the full weight would set the columns in motion.
 std::vector<VerificationCheck> goodman_bray(const Placement& placement) {
   ContactScene scene(placement);
   scene.settings.area_springs = false;
@@ -124,7 +125,7 @@ std::vector<VerificationCheck> goodman_bray(const Placement& placement) {
   std::vector<VerificationCheck> checks = {
       check_status("equilibrium at phi 39.5", simulation, StaticStatus::equilibrium)};
   checks.push_back(check_absolute("way in 1 s at phi 39.5, m", farthest_in(simulation, 1.0), 0.0, 1e-4));
-  // Driving and friction forces now differ by some percent, which moves columns by more than this in 1 s.
+  // Driving and friction forces now differ by a few per cent, which moves columns by more than this in 1 s.
   law->friction = tangent_of(36.5);
   simulation.wake();
   const double way = farthest_in(simulation, 1.0);

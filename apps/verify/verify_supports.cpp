@@ -1,4 +1,4 @@
-// Cases of supports that move: a base that follows a record.
+// Cases of moving supports: a base that follows a record.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ SupportHistory acceleration_record() {
   return history;
 }
 
-/// The record on the straight lines between its rows, and its double integral from rest: the integral of
-/// (T - t) a(t) over each line by Simpson's rule, which is exact for it.
+/// The record with linear interpolation between its rows, and its double integral from rest: the integral of (T - t)
+/// a(t) over each interval by Simpson's rule, which is exact for it.
 Vector3 record_at(const SupportHistory& record, double time) {
   const double place = time / sample_step;
   const auto k = std::min(static_cast<std::size_t>(place), record.values.size() - 2);
@@ -52,8 +52,8 @@ Vector3 double_integral(const SupportHistory& record, double time) {
   return sum;
 }
 
-/// A base held on two faces, so that its whole motion is the record's. A step's acceleration is (v' - v) /
-/// dt, that of the record is its mean over the step: its value at the middle of a step that holds no row.
+/// A base supported on two faces, so that its whole motion is that of the record. A step's acceleration is (v' - v) /
+/// dt, that of the record is its mean over the step: its value at the middle of a step without a row.
 std::vector<VerificationCheck> base_record() {
   const SupportHistory record = acceleration_record();
   double peak = 0.0;
@@ -80,7 +80,7 @@ std::vector<VerificationCheck> base_record() {
         take_step(simulation, end);
         const double length = simulation.time() - start;
         const Vector3 velocity = point().velocity;
-        // A last step that only rounding makes has no acceleration to speak of.
+        // A last step due to rounding has no meaningful acceleration.
         if (length > 0.5 * step)
           most = std::max(
               most,

@@ -98,7 +98,7 @@ void append(UnstructuredGrid& grid, const UnstructuredGrid& part) {
   append(grid.cell_data, part.cell_data);
 }
 
-/// The block without a place.
+/// The block with nan places.
 UnstructuredGrid nowhere(UnstructuredGrid part) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   for (Vector3& point : part.points) point.setConstant(none);

@@ -1,5 +1,4 @@
-// Frames of a run in stages as frames that all have the same cells: a block that is not there in one of them is
-// there without a place.
+// Converts frames of a staged analysis to frames with the same cells: absent blocks get no place.
 #pragma once
 
 #include <map>
@@ -11,15 +10,15 @@ namespace ashlar {
 /// The blocks of some frames.
 class BlockUnion {
  public:
-  /// Takes note of blocks that were in no frame before. @param frame with cells by block (the cell array
-  /// "block"), no point of two blocks
-  /// @throws std::runtime_error if there is no such array, or its cells are not in the order of blocks
+  /// Adds blocks that were in no earlier frame. @param frame with cells by block (the cell array "block") and no
+  /// Adds blocks that were in no earlier frame. @param frame with cells by block (the cell array "block") and no
+  /// point shared by blocks
   void add(const UnstructuredGrid& frame);
 
-  /// All blocks, each as the first frame that it was in has it.
+  /// All blocks, each as in its first frame.
   [[nodiscard]] UnstructuredGrid whole() const;
-  /// A frame with the blocks that it lacks: their points and point data are nan. @param frame one of those
-  /// added; if none was, it is returned as it is
+  /// Adds missing blocks to a frame: their points and point data are nan. @param frame one of those added; if none
+  /// was, it is returned unchanged
   [[nodiscard]] UnstructuredGrid completed(UnstructuredGrid frame) const;
 
  private:

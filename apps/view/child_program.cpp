@@ -19,7 +19,7 @@
 namespace ashlar {
 namespace {
 
-/// What a program is started with: its standard output and errors go to files.
+/// Standard output and errors of a program, redirected to files.
 class Redirections {
  public:
   Redirections(const std::filesystem::path& out, const std::filesystem::path& err) {
@@ -39,7 +39,7 @@ class Redirections {
   posix_spawn_file_actions_t actions_{};
 };
 
-/// Makes a program the leader of a process group of its own, so that what it starts can be ended with it.
+/// Makes a program the leader of a process group, so that its child processes can be ended with it.
 class OwnGroup {
  public:
   OwnGroup() {
@@ -67,8 +67,8 @@ extern "C" void end_with_child(int signal) {
   ::raise(signal);
 }
 
-/// As long as it lives, a signal that would end this program ends the child's group with it, which the terminal's signals
-/// do not reach. Signals that something else handles are left to that.
+/// While this exists, a signal that would end this program ends the child's group too, which the terminal's signals
+/// do not reach. Signals handled otherwise are not changed.
 class EndsTogether {
  public:
   EndsTogether() {
@@ -93,7 +93,7 @@ class EndsTogether {
   std::array<struct sigaction, ending_signals.size()> old_{};
 };
 
-/// @return the status of waitpid; empty if the limit passed, and then the program's whole group is ended.
+/// @return the status of waitpid; empty if the limit was reached, and then the program's whole group is ended.
 std::optional<int> wait_for(pid_t child, std::chrono::duration<double> limit) {
   constexpr std::chrono::milliseconds pause(10);
   const auto start = std::chrono::steady_clock::now();

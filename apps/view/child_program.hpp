@@ -1,4 +1,4 @@
-// Other programs that Ashlar starts: a browser, ffmpeg.
+// Programs started by Ashlar: a browser, ffmpeg.
 #pragma once
 
 #include <chrono>
@@ -12,10 +12,10 @@ namespace ashlar {
 /// The first executable file of that name in PATH.
 [[nodiscard]] std::optional<std::filesystem::path> find_program(const std::string& name);
 
-/// Runs a program to its end, with nothing to read. @param command its path and its arguments
-/// @param out,err files for what it writes, made anew
-/// @param limit after which it and all that it has started are ended
-/// @return the status of waitpid; empty if the limit passed
+/// Runs a program to its end, without input. @param command its path and its arguments
+/// @param out,err files for its output, created again
+/// @param limit after which it and all of its child processes are ended
+/// @return the status of waitpid; empty if the limit was reached
 /// @throws std::runtime_error if it cannot be started
 [[nodiscard]] std::optional<int> run_program(const std::vector<std::string>& command,
                                              const std::filesystem::path& out,

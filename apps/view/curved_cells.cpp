@@ -35,7 +35,7 @@ std::vector<Vector3> undeformed(const UnstructuredGrid& frame) {
   return points;
 }
 
-/// With the corners alone as its points, by numbers of its own.
+/// Triangles with their corners as the only points, renumbered.
 CurvedTriangles with_own_points(const CurvedTriangles& triangles, const std::vector<Vector3>& points) {
   CurvedTriangles own{triangles.order, {}, triangles.corners};
   std::unordered_map<int, int> number;
@@ -49,7 +49,7 @@ CurvedTriangles with_own_points(const CurvedTriangles& triangles, const std::vec
   return own;
 }
 
-/// The values of some cells, one after the other.
+/// The values of some cells, consecutively.
 template <class T>
 std::vector<T> chosen(const std::vector<T>& values, const std::vector<int>& cells, int components) {
   std::vector<T> result;

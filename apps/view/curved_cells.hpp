@@ -1,5 +1,4 @@
-// Frames with Lagrange triangles (output.curved) as frames with plain ones, for programs that draw these
-// only.
+// Converts frames with Lagrange triangles (output.curved) to plain triangles, for programs that draw only these.
 #pragma once
 
 #include <array>
@@ -11,19 +10,17 @@
 
 namespace ashlar {
 
-/// How the Lagrange triangles of a run are divided; made from one frame, it serves all, whose cells are the
-/// same.
+/// Division of the Lagrange triangles of a run; made from one frame, and used for all, whose cells are the same.
 class CurvedCells {
  public:
-  /// @param frame with cells in blocks by the cell array "block"; the point array "displacement", if there,
-  /// gives the undeformed places, on which the number of pieces depends (pieces_of_sides)
-  /// @throws std::runtime_error if a Lagrange triangle has a number of points that no order up to 12 has,
-  /// there is no array "block", or one of the two arrays has another type or number of components
+  /// @param frame with cells in blocks by the cell array "block"; the point array "displacement", if present, gives
+  /// the undeformed places, which determine the number of segments (pieces_of_sides)
+  /// @throws std::runtime_error if the number of points of a Lagrange triangle belongs to no order up to 12, there is
+  /// no array "block", or one of the two arrays has another type or number of components
   explicit CurvedCells(const UnstructuredGrid& frame);
 
-  /// The frame with small triangles in place of each Lagrange triangle, their points and real point data from
-  /// the polynomial of the large one; a frame without any as it is. Points that no cell uses and
-  /// whole-numbered point data are left out.
+  /// The frame with small triangles in place of each Lagrange triangle, with points and real point data from the
+  /// polynomial of the large one; a frame without any is unchanged. Unused points and integer point data are omitted.
   /// @throws std::runtime_error if the frame has other cells than the first one
   [[nodiscard]] UnstructuredGrid divided(UnstructuredGrid frame) const;
 
@@ -42,7 +39,7 @@ class CurvedCells {
   struct Block;
   using RowIndex = std::map<std::array<int, 3>, int>;  ///< row of rows_ by the weights of a lattice point
 
-  /// Of a triangle of an order whose sides have so many pieces; made when first asked for.
+  /// Rows of a triangle of an order whose sides have so many segments; computed at the first use.
   const RowIndex& rows_for(int order, int pieces);
   void keep(const UnstructuredGrid& frame, int cell, std::vector<int>& new_index);
   void divide(const Block& block, int pieces);

@@ -36,7 +36,7 @@ std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(input), {}};
 }
 
-/// How a browser ended, and what it wrote on its standard error.
+/// Status of a browser at its end, and its standard error.
 struct BrowserRun {
   int status = 0;  ///< of waitpid
   std::string errors;
@@ -56,7 +56,7 @@ BrowserRun run_browser(std::vector<std::string> command, bool sandbox, const std
   return {*status, read_file(errors)};
 }
 
-/// Chromium's own words where neither user namespaces nor its helper with the rights of root are there.
+/// Chromium's message if neither user namespaces nor its setuid helper are available.
 constexpr std::string_view no_sandbox_there = "No usable sandbox";
 
 }  // namespace
@@ -82,8 +82,8 @@ std::string loaded_page(const std::filesystem::path& browser, const std::filesys
                                             "--user-data-dir=" + (folder / "profile").string(),
                                             "--dump-dom"};
   const std::string address = file_url(page) + "#" + fragment;
-  // The page is this program's own, its data may be a stranger's: the sandbox is kept where it can be had. Chromium
-  // has none for root.
+  // The page is made by this program, but its data may be untrusted: the sandbox is used if available. Chromium has
+  // none for root.
   const bool sandbox = ::geteuid() != 0;
   BrowserRun run = run_browser(command, sandbox, address, folder, limit);
   if (sandbox && !run.good() && run.errors.find(no_sandbox_there) != std::string::npos)

@@ -1,4 +1,4 @@
-// What the contacts of two blocks come to: one force at one place, as a force chain and a thrust line show it.
+// Resultant of the contacts of two blocks: one force at one place, for force chains and thrust lines.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace ashlar {
 
-/// Of a pair of blocks with closed contact points.
+/// Resultant of a pair of blocks with closed contact points.
 struct JointResultant {
   std::int32_t a, b;  ///< numbers of the blocks
-  Vector3 force;      ///< N, on a; b bears the opposite
+  Vector3 force;      ///< N, on a; its opposite acts on b
   Vector3
-      place;  ///< m, centre of the compression: mean place of the points, weighed with their normal forces where
-              ///< they press. Where none presses, with the sizes of their forces
-  std::int32_t state;  ///< of the points that bear most: 1 locked, 2 sliding
+      place;  ///< m, centre of compression: mean place of the points, weighted with their compressive normal
+              ///< forces; without compression, weighted with the magnitudes of their forces
+  std::int32_t state;  ///< of the points with most of the force: 1 locked, 2 sliding
 };
 
-/// @param contacts a frame of contacts.pvd. @return by a, then b; pairs whose forces are all zero are left out
+/// @param contacts a frame of contacts.pvd. @return by a, then b; pairs without force are omitted
 /// @throws std::runtime_error if an array is missing or of another kind
 [[nodiscard]] std::vector<JointResultant> joint_resultants(const UnstructuredGrid& contacts);
 

@@ -19,9 +19,9 @@
 namespace ashlar {
 namespace {
 
-/// How ffmpeg writes a kind of film; empty: it is none.
+/// Options of ffmpeg for a kind of film; empty: unknown.
 std::vector<std::string> codec_of(const std::string& suffix) {
-  // Sides of films with halved colours are even.
+  // Films with subsampled colours need even sides.
   const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
   if (suffix == ".mp4")
     return {"-vf", even, "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart"};
@@ -101,7 +101,7 @@ int movie_command(const MovieOptions& options, std::ostream& out, std::ostream& 
 void declare_movie_command(CLI::App& program, CommandContext& context) {
   CLI::App* command =
       program.add_subcommand("movie", "The frames of a run as a film (needs Chromium and ffmpeg)");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<MovieOptions>();
   options->look.time_limit = 600.0;
   command->add_option("DIR", options->look.folder, "Result folder of a run")->required()->type_name("");

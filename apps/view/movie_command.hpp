@@ -11,13 +11,13 @@
 namespace ashlar {
 
 struct MovieOptions {
-  PictureOptions look;  ///< its folder is that of the run; frame, frames and picture are not used
+  PictureOptions look;                ///< its folder is that of the run; frame, frames and picture are unused
   std::optional<std::string> frames;  ///< "a:b", indices; empty: all
   double rate = 25.0;                 ///< frames in a second, > 0
   std::filesystem::path movie;        ///< .mp4, .webp or .gif
 };
 
-/// Pictures as of `ashlar picture`, put together by ffmpeg.
+/// Pictures as by `ashlar picture`, combined by ffmpeg.
 /// @return exit status; bad_input if an option or the folder is wrong, failed without a browser or ffmpeg
 [[nodiscard]] int movie_command(const MovieOptions& options, std::ostream& out, std::ostream& err);
 

@@ -122,7 +122,7 @@ void PackedNumbers::add_displacements(const std::vector<Vector3>& displacements,
     mean /= static_cast<double>(end - first);
     for (int k = 0; k < 3; ++k) {
       add_float(mean[k]);
-      mean[k] = static_cast<float>(mean[k]);  // as it is read back
+      mean[k] = static_cast<float>(mean[k]);  // as decoded
     }
     double spread = 0.0;
     for (std::size_t i = first; i < end; ++i)

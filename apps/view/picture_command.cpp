@@ -110,7 +110,7 @@ std::string check_positive(std::string_view name, double value) {
                                              : fmt::format("{} ({}), more than 0 is needed", name, value);
 }
 
-/// What follows # in the page's address; page/address.js reads it. @param frames "frame=3" or "frames=0:7"
+/// Fragment of the page's address, read by page/address.js. @param frames "frame=3" or "frames=0:7"
 std::string wishes(const PictureOptions& options, const std::string& frames) {
   const PictureParts& parts = options.parts;
   std::string text =
@@ -135,7 +135,7 @@ std::string wishes(const PictureOptions& options, const std::string& frames) {
   return text;
 }
 
-/// Points that somebody asks for are in the page however many they are.
+/// Requested points are in the page regardless of their number.
 ViewPoints points_of(const PictureOptions& options) {
   const std::string& contacts = options.parts.contacts;
   return contacts == "state" || contacts == "type" ? ViewPoints::all : ViewPoints::few;
@@ -326,7 +326,7 @@ void declare_look(CLI::App& command, PictureOptions& options) {
 
 void declare_picture_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("picture", "Draw frames of a run as PNG, without a display");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<PictureOptions>();
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("--frame", options->frame, "Index of the frame, 0 the first (default: the last)")

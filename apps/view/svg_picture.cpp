@@ -14,8 +14,8 @@
 namespace ashlar {
 namespace {
 
-/// A page that leaves the picture as the text of its element `picture`. The event `load` comes when the image
-/// is there.
+/// A page that stores the picture as the text of its element `picture`. The event `load` is sent when the image is
+/// available.
 std::string page_of(const std::string& svg, int width, int height) {
   return fmt::format(R"(<!DOCTYPE html>
 <img id="svg" src="data:image/svg+xml;base64,{}" width="{}" height="{}">

@@ -1,9 +1,8 @@
-// The files are taken in by the assembler: a megabyte as a C++ literal takes the compiler minutes and memory,
-// and longer literals than 64 KiB need not be accepted at all. The macros ASHLAR_VIEW_* are paths set by
-// CMake.
+// The files are embedded by the assembler: a megabyte as a C++ literal costs the compiler minutes and memory, and
+// literals longer than 64 KiB need not be supported. The macros ASHLAR_VIEW_* are paths set by CMake.
 #include "apps/view/view_assets.hpp"
 
-// The spelling  .incbin "  inside the literal is what ccache looks for to know that a file is read.
+// ccache recognises embedded files by the spelling  .incbin "  inside the literal.
 #define ASHLAR_EMBED(name, path)         \
   __asm__(".pushsection .rodata\n" #name \
           "_begin:\n"                    \

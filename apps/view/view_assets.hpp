@@ -9,7 +9,7 @@ namespace ashlar {
 /// Texts of files, found by CMake and embedded when the program is built: those of the folder page/, and the
 /// libraries of Debian's libjs-three and libjs-chart.js.
 struct ViewAssets {
-  std::string_view page;    ///< page.html, with a line @NAME@ where a part goes
+  std::string_view page;    ///< page.html, with a line @NAME@ in place of each part
   std::string_view style;   ///< page.css
   std::string_view script;  ///< all of page/*.js, one after the other
   std::array<std::string_view, 6>

@@ -40,7 +40,7 @@ void declare_relative_to(CLI::App& command, std::optional<std::string>& block) {
 
 void declare_view_command(CLI::App& program, CommandContext& context) {
   CLI::App* command = program.add_subcommand("view", "Write the results of a run as a page for the browser");
-  // Lives as long as the callback that reads it.
+  // Shared with the callback that reads it.
   const auto options = std::make_shared<ViewCommandOptions>();
   command->add_option("DIR", options->folder, "Result folder of a run")->required()->type_name("");
   command->add_option("-o,--out", options->page, "Page to write (default: DIR/view.html)")->type_name("FILE");

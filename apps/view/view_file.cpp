@@ -45,7 +45,8 @@ Json summary_json(const std::filesystem::path& folder) {
   return naming_the_file(path, [&] { return parse_json(whole_file(path)); });
 }
 
-/// The type of the analysis; of a run in stages "dynamic" if one of them is, else that of the first. Null: not known.
+/// The type of the analysis; for a staged analysis "dynamic" if one of them is, otherwise that of the first. Null:
+/// unknown.
 Json analysis_of(const Json& scene) {
   const auto type_in = [](const Json& table) -> Json {
     if (!table.is_object() || !table.contains("analysis") || !table["analysis"].is_object()) return nullptr;
@@ -71,7 +72,7 @@ std::string text_of(const Json& block, const char* key) {
   return value != block.end() && value->is_string() ? value->get<std::string>() : "";
 }
 
-/// Materials of the blocks of a scene by name. A piece NAME.3 of a block that was cut has that of NAME.
+/// Materials of the blocks of a scene by name. A piece NAME.3 of a cut block has that of NAME.
 class Materials {
  public:
   explicit Materials(const std::vector<Json>& blocks) {
@@ -90,8 +91,9 @@ class Materials {
   std::map<std::string, std::string> known_;
 };
 
-/// What the page needs of the scene: the kind of analysis, names and materials of blocks. The scene itself may
-/// hold long histories. @param summary from which the scene is taken out
+/// Data of the scene for the page: the kind of analysis, names and materials of blocks. The scene itself may hold
+/// long histories.
+/// @param summary from which the scene is removed
 /// @param names of the blocks of frames; empty: those of the scene
 void move_scene(Json& summary, std::vector<std::string> names, Json& page) {
   Json scene;
@@ -109,7 +111,7 @@ void move_scene(Json& summary, std::vector<std::string> names, Json& page) {
     page["blocks"].push_back({{"name", name}, {"material", materials.of(name)}});
 }
 
-/// Number of the block called `name`, or of that number where no block is called so.
+/// Number of the block of this name, or if there is none, of this number.
 /// @throws std::invalid_argument if there is none
 std::size_t number_called(const std::string& name, const Json& blocks) {
   std::vector<std::string> names;
@@ -161,7 +163,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
   return page;
 }
 
-/// JSON that cannot end the script element it stands in, whatever a name in the scene contains.
+/// JSON that cannot end its script element, for any names in the scene.
 std::string script_safe(const Json& json) {
   std::string safe;
   for (const char c : json_text(json)) {
@@ -191,7 +193,7 @@ std::string assembled(std::string_view page,
   return text;
 }
 
-/// Three.js and the others, deflated, a line each in the order in which they are to run.
+/// Three.js and the other libraries, deflated, a line each in the order of execution.
 std::string libraries_text(const ViewAssets& assets) {
   std::string text;
   for (const std::string_view library : assets.libraries) text += deflated_base64(library) + '\n';

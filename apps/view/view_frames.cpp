@@ -53,7 +53,7 @@ ViewSurface surface_of(const UnstructuredGrid& grid) {
   return surface;
 }
 
-/// Numbers of fixed blocks; none: the frame is of a version that wrote no array "fixed".
+/// Numbers of fixed blocks; empty: the frame is from a version without array "fixed".
 std::optional<std::vector<std::int32_t>> fixed_blocks_in(const UnstructuredGrid& grid) {
   const auto* fixed = find_values<std::int32_t>(grid.cell_data, "fixed", 1);
   if (fixed == nullptr) return std::nullopt;
@@ -158,7 +158,7 @@ int step_of(const std::string& file) {
   return step;
 }
 
-/// The folder, if there are results in it.
+/// The folder, if it has results.
 const std::filesystem::path& checked_folder(const std::filesystem::path& folder) {
   constexpr const char* needed =
       "the folder that `ashlar run SCENE` wrote is needed (SCENE.out, or that of --out)";
@@ -173,12 +173,12 @@ const std::filesystem::path& checked_folder(const std::filesystem::path& folder)
   return folder;
 }
 
-/// Frames of a run with output.solid have volumes, and the surfaces of blocks beside them.
+/// Frames of a run with output.solid have volumes, and separate surfaces of blocks.
 const char* surface_series(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "surfaces.pvd") ? "surfaces.pvd" : "blocks.pvd";
 }
 
-/// Whether blocks may come and go.
+/// True if blocks may be added or removed.
 bool has_stages(const std::filesystem::path& folder) {
   const std::vector<std::string> columns = read_history(folder / "history.csv", 1).columns;
   return std::find(columns.begin(), columns.end(), "stage") != columns.end();
@@ -197,7 +197,7 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
       blocks_(read_pvd(folder / surface_series(folder))),
       contacts_(read_pvd(folder / "contacts.pvd")),
       joints_(joint_frames(folder)) {
-  // A run that goes on has written some of them first.
+  // A run in progress has written some of them first.
   count_ = std::min(blocks_.size(), contacts_.size());
   if (!joints_.empty()) count_ = std::min(count_, joints_.size());
   if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));

@@ -1,5 +1,5 @@
-// The frames of a result folder as the page of `ashlar view` holds them: what does not change once, what does
-// frame by frame, packed.
+// The frames of a result folder in the format of the page of `ashlar view`: constant data once, varying data frame by
+// frame, packed.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,10 @@
 
 namespace ashlar {
 
-/// What does not change from frame to frame.
+/// Data that are the same in all frames.
 struct ViewSurface {
-  std::vector<Vector3> reference;   ///< places less displacements, m
-  std::vector<int> block_of_point;  ///< -1: no cell uses it
+  std::vector<Vector3> reference;   ///< present places minus displacements, m
+  std::vector<int> block_of_point;  ///< -1: unused
   std::vector<std::int32_t> cells;  ///< block, order, face, number of corners, corners; cell after cell
   std::vector<std::int32_t> fixed;  ///< numbers of fixed blocks, increasing
   bool velocity = false;
@@ -30,22 +30,23 @@ struct ViewFrameData {
   std::string data;             ///< base64 of a zlib stream of PackedNumbers
 };
 
-/// Which contact points a page holds.
+/// Contact points contained in a page.
 enum class ViewPoints {
-  few,  ///< those of frames with at most most_few_points: more hide the blocks, and are most of a page's bytes
+  few,  ///< those of frames with at most most_few_points: more would hide the blocks, and dominate the size
+        ///< of the page
   all,
 };
 inline constexpr std::size_t most_few_points = 500;
 
-/// The frames of a result folder. Functions throw std::runtime_error with path and reason if a file cannot be read
-/// or is not what a run writes.
+/// The frames of a result folder. Functions throw std::runtime_error with path and reason if a file cannot be read or
+/// is not from a run.
 class ViewFrames {
  public:
   explicit ViewFrames(const std::filesystem::path& folder, ViewPoints points = ViewPoints::few);
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] const ViewSurface& surface() const { return surface_; }
-  /// By number, of all blocks that any frame may have; empty: a version that wrote none.
+  /// Names by number, of all blocks of any frame; empty: from a version without names.
   [[nodiscard]] const std::vector<std::string>& block_names() const { return block_names_; }
 
   /// Packed one after the other, #p points of the surface:
@@ -54,12 +55,12 @@ class ViewFrames {
   ///   length), normal_traction, shear_traction, area; places of the corners, face after face
   ///   links, joint_resultants: blocks a, b, states; forces; places
   ///   points, contact points: types, states, blocks a, blocks b; forces, normals, gaps, areas; places
-  /// A part of which there is none (joints, links or points) takes no bytes.
-  /// head: joints (faces), corners (of all of them), links, points (that are here), contacts (points that there are)
+  /// An empty part (joints, links or points) needs no bytes.
+  /// head: joints (faces), corners (of all of them), links, points (in the data), contacts (all points)
   [[nodiscard]] ViewFrameData read(std::size_t index) const;
 
  private:
-  /// Of versions that wrote no array "fixed": blocks of order 0, fixed or rigid, with the same places in all frames.
+  /// For versions without array "fixed": blocks of order 0, fixed or rigid, with the same places in all frames.
   [[nodiscard]] std::vector<std::int32_t> blocks_that_never_move() const;
 
   std::filesystem::path folder_;
@@ -68,7 +69,7 @@ class ViewFrames {
   std::vector<PvdFrame> contacts_;
   std::vector<PvdFrame> joints_;  ///< none: of a version that wrote no joints.pvd
   std::size_t count_ = 0;
-  BlockUnion all_blocks_;  ///< empty unless blocks come and go
+  BlockUnion all_blocks_;  ///< empty unless blocks are added or removed
   std::unique_ptr<const CurvedCells> curved_;
   ViewSurface surface_;
   std::vector<std::string> block_names_;
