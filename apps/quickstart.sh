@@ -1,26 +1,44 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a first result: installs what is missing, builds ashlar, runs the falling block.
+# From a bare Debian 12 to a first result: installs what is missing, builds the program and the Python module in one build,
+# runs the falling block and puts `ashlar` on the PATH, or says the line that does.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
-# What only tests and checks need is half of all that would be downloaded.
-bash apps/install_packages.sh --except '^clang|vtk|^chromium|^pybind11|^python3-|^furo|^doxygen|^mypy|^pkg-config'
+# Packages that only tests and checks need are half of the download.
+tests_only='^clang|vtk|^chromium|^furo|^doxygen|^mypy|^pkg-config'
+tests_only+='|^python3-(breathe|cvxopt|jsonschema|matplotlib|meshio|myst-parser|pip|pytest|setuptools|sphinx|venv|wheel)'
+bash apps/install_packages.sh --except "$tests_only"
 cmake --preset release
-cmake --build --preset release --target ashlar -j"$(bash apps/build_jobs.sh)"
+cmake --build --preset release --target ashlar ashlar_python -j"$(bash apps/build_jobs.sh)"
 
-program=build/release/apps/ashlar
+program=$root/build/release/apps/ashlar
 scene=data/scenes/falling_block.toml
 results=falling_block.out
 "$program" run "$scene" --out "$results" --view --force
 
+# A link in the user's own folder of programs, unless something else has its name.
+bin=$HOME/.local/bin
+if [[ ":$PATH:" == *":$bin:"* && ( -L $bin/ashlar || ! -e $bin/ashlar ) ]]; then
+  mkdir -p "$bin"
+  ln -sfn "$program" "$bin/ashlar"
+  path="\`ashlar\` is on the PATH: $bin/ashlar."
+else
+  path="To have \`ashlar\` on the PATH, run this line, and add it to ~/.bashrc:
+  export PATH=\"$root/build/release/apps:\$PATH\""
+fi
+
 cat <<END
 
 Done. A block fell on a cantilever; the results are in $root/$results:
-  view.html                  look at it: open this file in any browser
-  blocks.pvd, contacts.pvd   the moving blocks and their contacts: open them in ParaView
+  view.html                  open this file in any browser
+  blocks.pvd, contacts.pvd   the moving blocks and their contacts, for ParaView
   history.csv                positions, energies and contacts, a row for each step
   summary.json               steps, times, energy error
+$path
+For Python:
+  export PYTHONPATH="$root/build/release/apps/python"
+  /usr/bin/python3 apps/python/examples/falling_block.py
 Next: change the scene and run it again,
-  $root/$program run $root/$scene --out my.out --set 'analysis.time_step=5e-4'
+  ashlar run $root/$scene --out my.out --set 'analysis.time_step=5e-4'
 END
