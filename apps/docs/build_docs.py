@@ -1,4 +1,4 @@
-"""Builds the documentation site: pages of this folder, the reference from data/, the API from headers and the module.
+"""Builds the documentation site: the pages of this folder, and the API from headers and the module.
 
     build_docs.py PROJECT OUTPUT --module FOLDER_OF_THE_PYTHON_MODULE
 
@@ -17,9 +17,9 @@ import sys
 # Umbrella headers, as CMakeLists.txt has them.
 UMBRELLAS = ("geometry/geometry.hpp", "mechanics/mechanics.hpp", "solver/solver.hpp", "apps/scene/scene_library.hpp",
              "apps/results/results_library.hpp")
-# Where links to data/README.md's sections lead on the site.
-SECTIONS = {"#scene-reference": "scene.md", "#result-reference": "results.md", "glossary.md": "glossary.md",
-            "limits.md": "limits.md", "stability.md": "stability.md"}
+# What the site takes along of the repository where a page links to it.
+TAKEN_ALONG = (".png", ".toml", ".csv", ".py", ".cpp")
+LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
 
 
 def missing_tools():
@@ -27,35 +27,52 @@ def missing_tools():
     return missing + [tool for tool in ("doxygen", "cmake") if shutil.which(tool) is None]
 
 
-def with_links_of_the_site(text):
-    """Pictures go; links to what is not on the site become their text."""
-    text = re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)
+class Site:
+    """The pages of a folder as Sphinx reads them: they are written for the repository's own pages."""
 
-    def link(match):
-        words, target = match[1], match[2].removeprefix("README.md").removeprefix("data/README.md")
-        if target.startswith("http"):
+    def __init__(self, project, source):
+        self.project, self.docs, self.source = project, project / "apps" / "docs", source
+
+    def link(self, page, match):
+        """Links within the book stay; files of the repository are taken along, other pages of it become their words."""
+        picture, words, target = match.groups()
+        path = target.partition("#")[0]
+        if "://" in target or not path:
             return match[0]
-        return f"[{words}]({SECTIONS[target]})" if target in SECTIONS else words
+        file = (self.docs / page).parent.joinpath(path).resolve()
+        if file.is_relative_to(self.docs) and file.is_file():
+            return match[0]
+        if file.suffix not in TAKEN_ALONG:
+            return words
+        copy = self.source / "files" / file.relative_to(self.project)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(file, copy)
+        return f"{picture}[{words}]({os.path.relpath(copy, (self.source / page).parent)})"
 
-    return re.sub(r"\[([^\]]*)\]\(([^)]*)\)", link, text)
+    def text(self, page):
+        """Also "```toml NAME" gets NAME as its caption; the index gets the tables of contents that Sphinx needs."""
+        text = (self.docs / page).read_text(encoding="utf-8")
+        if page == pathlib.Path("index.md"):
+            text = with_contents(text)
+        text = re.sub(r"^```(\w+) (\S+)$", r"```{code-block} \1\n:caption: \2", text, flags=re.MULTILINE)
+        blocks = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
+        return "".join(block if block.startswith("```") else LINK.sub(lambda match: self.link(page, match), block)
+                       for block in blocks)
+
+    def write(self):
+        for file in sorted(self.docs.rglob("*.md")):
+            page = file.relative_to(self.docs)
+            (self.source / page).write_text(self.text(page), encoding="utf-8")
 
 
-def section(text, title):
-    """The section `## title` as a page of its own."""
-    body = text.split(f"\n## {title}\n", 1)[1].split("\n## ", 1)[0]
-    body = re.sub(r"^###", "##", body, flags=re.MULTILINE)
-    return f"# {title}\n\n{with_links_of_the_site(body)}"
-
-
-def write_reference(project, source):
-    folder = source / "reference"
-    folder.mkdir()
-    text = (project / "data" / "README.md").read_text(encoding="utf-8")
-    (folder / "scene.md").write_text(section(text, "Scene reference"), encoding="utf-8")
-    (folder / "results.md").write_text(section(text, "Result reference"), encoding="utf-8")
-    for name in ("glossary.md", "limits.md", "stability.md"):
-        page = (project / "data" / name).read_text(encoding="utf-8")
-        (folder / name).write_text(with_links_of_the_site(page), encoding="utf-8")
+def with_contents(text):
+    """Each section of the index has a list of links to pages: Sphinx reads it as a table of contents."""
+    head, *sections = re.split(r"^## ", text, flags=re.MULTILINE)
+    for section in sections:
+        pages = [re.sub(r"\.(md|rst)$", "", target) for _, _, target in LINK.findall(section) if "://" not in target]
+        title = section.splitlines()[0]
+        head += f"## {section.rstrip()}\n\n```{{toctree}}\n:caption: {title}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n\n"
+    return head
 
 
 def write_doxygen(project, output):
@@ -97,7 +114,7 @@ def main():
     shutil.copytree(project / "apps" / "docs", source)
     shutil.copy(project / "tests" / "package" / "consumer" / "pier.cpp", source / "api")
     shutil.copy(project / "tests" / "package" / "consumer" / "pier.toml", source / "api")
-    write_reference(project, source)
+    Site(project, source).write()
     environment = {**os.environ, "ASHLAR_VERSION": version_of(project),
                    "ASHLAR_DOXYGEN_XML": str(write_doxygen(project, output)),
                    "PYTHONPATH": os.pathsep.join([str(options.module.resolve()), os.environ.get("PYTHONPATH", "")])}

@@ -1,9 +1,9 @@
 """Runs what the pages show: every page in a folder of its own, its blocks one after the other.
 
-    run_pages.py PROGRAM MODULE_FOLDER [PAGE]...        without pages: all of tutorial/ and howto/
+    run_pages.py PROGRAM MODULE_FOLDER [PAGE]...        without pages: all of tutorial/ and howto/, and the README
 
-    toml with a caption   is written to a file of that name; `ashlar check` must find no error in it
-    toml without          must be TOML
+    toml NAME             (or with a caption) is written to a file of that name; `ashlar check` must find no error in it
+    toml                  must be TOML
     sh                    is run by bash; the program is in the PATH
     python                is run, with the names of the blocks before
     text after sh, python must be what that has printed: words as they are, numbers to a part in 100, where a line
@@ -21,16 +21,17 @@ import tempfile
 import tomllib
 
 HERE = pathlib.Path(__file__).resolve().parent
-FENCE = re.compile(r"^```(?:\{code-block\} )?(\w+)\n((?::\w+:[^\n]*\n)*)(.*?)^```$", re.MULTILINE | re.DOTALL)
+FENCE = re.compile(r"^```(?:\{code-block\} )?(\w+)(?: (\S+))?\n((?::\w+:[^\n]*\n)*)(.*?)^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?")
 
 
 def blocks_of(page):
-    """(line, language, caption, code) of each block."""
+    """(line, language, file name or None, code) of each block."""
     text = page.read_text(encoding="utf-8")
     for match in FENCE.finditer(text):
-        caption = re.search(r":caption: (.*)", match[2])
-        yield text.count("\n", 0, match.start()) + 1, match[1], caption and caption[1].strip(), match[3]
+        caption = re.search(r":caption: (.*)", match[3])
+        name = match[2] or (caption and caption[1].strip())
+        yield text.count("\n", 0, match.start()) + 1, match[1], name, match[4]
 
 
 def agree(expected, seen):
@@ -96,14 +97,14 @@ def main(arguments):
     if arguments[0] == "--page":
         return run_page(pathlib.Path(arguments[1]))
     program, module, *pages = arguments
-    pages = [pathlib.Path(page).resolve() for page in pages] or sorted(
+    pages = [pathlib.Path(page).resolve() for page in pages] or [HERE.parents[1] / "README.md"] + sorted(
         page for folder in ("tutorial", "howto") for page in (HERE / folder).glob("*.md"))
     environment = {**os.environ, "PYTHONPATH": str(pathlib.Path(module).resolve()), "MPLBACKEND": "Agg",
                    "PATH": f"{pathlib.Path(program).resolve().parent}{os.pathsep}{os.environ['PATH']}"}
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         results = list(pool.map(lambda page: run_in_own_process(page, environment), pages))
     for page, status, said in results:
-        print(f"{page.relative_to(HERE)}: {'good' if status == 0 else 'failed'}\n{said}", end="")
+        print(f"{os.path.relpath(page, HERE)}: {'good' if status == 0 else 'failed'}\n{said}", end="")
     return max(status for _, status, _ in results)
 
 

@@ -1,5 +1,5 @@
 // All that the user can change, and the part of the address behind # that says it: what one sees can be sent as a link,
-// and is what `ashlar picture` asks for. data/page.md lists the keys.
+// and is what `ashlar picture` asks for. apps/docs/reference/page.md lists the keys.
 
 /// Members of `current` that the address has as words or numbers: key of the address, member, and the values that it may
 /// have (a list of words, "number", "positive" or "text").

@@ -121,7 +121,7 @@ TEST_F(RunCommand, ContactForcesAreWhatChangesMomentum) {
 TEST_F(RunCommand, EveryColumnIsInTheReferenceOfResults) {
   write_text(scene_, std::string(scene_text).replace(std::string(scene_text).find("\"tip\""), 5, "\"NAME\""));
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
-  const std::string reference = read_text(ASHLAR_DATA_DIR "/README.md");
+  const std::string reference = read_text(ASHLAR_DATA_DIR "/../apps/docs/reference/results.md");
   for (const char* table : {"out/history.csv", "out/contacts.csv"}) {
     std::istringstream columns(lines(table).at(0));
     for (std::string column; std::getline(columns, column, ',');)

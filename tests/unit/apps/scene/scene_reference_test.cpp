@@ -1,4 +1,4 @@
-// The reference of scenes in data/README.md says what the reader does.
+// The reference of scenes, apps/docs/reference/scene.md, says what the reader does.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -74,11 +74,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 // "block.fix.point" and the like, from the rows `| `key` | value | default | meaning |` below headings
-// "### `[[block.fix]]`"; keys below another heading stand at the top of the file.
+// "## `[[block.fix]]`"; keys below another heading stand at the top of the file.
 std::map<std::string, Row> reference() {
   std::map<std::string, Row> rows;
   std::string table;
-  for (const std::string& line : lines_of(read_text(ASHLAR_DATA_DIR "/README.md"))) {
+  for (const std::string& line : lines_of(read_text(ASHLAR_DATA_DIR "/../apps/docs/reference/scene.md"))) {
     if (line.starts_with('#')) {
       const std::size_t start = line.find('['), end = line.find(']');
       table = start == std::string::npos ? "" : fmt::format("{}.", line.substr(start, end - start));
