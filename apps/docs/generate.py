@@ -1,0 +1,209 @@
+"""Writes what pages of the book take from the program itself, and checks that it is up to date.
+
+    generate.py PROGRAM                    rewrites the pages
+    generate.py PROGRAM --check            writes nothing; exit status 1 if a page differs from the program
+
+    reference/commands.md   the help of each command, in the block after `<!-- ashlar NAME --help -->`
+    reference/scene.md      the column `value`: what the reader accepts, in its own words. Keys that the page does not have
+                            are appended to their table, to be described by hand; a unit test holds the column `default`
+    validation.md           the table of `ashlar verify`, with references and sources from verify_sources.toml. --check runs
+                            the cases that take less than a second or two
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+DOCS = pathlib.Path(__file__).resolve().parent
+PROJECT = DOCS.parents[1]
+LISTS = ("joint", "material", "block", "masonry", "cut", "measure", "assign", "stage")
+MASONRY_KINDS = 4
+
+
+def output_of(program, *arguments, **more):
+    return subprocess.run([program, *arguments], capture_output=True, text=True, check=False, **more).stdout
+
+
+# The help of commands.
+
+def with_help(program, text):
+    def block(match):
+        told = output_of(program, *match[1].split()).strip()
+        return f"{match[0].split(chr(10))[0]}\n```text\n{told}\n```"
+
+    return re.sub(r"<!-- ashlar ([^\n]*) -->\n```text\n.*?```", block, text, flags=re.DOTALL)
+
+
+# Keys of a scene.
+
+def scene_with_every_table():
+    """The scene from which `ashlar schema` is made."""
+    source = (PROJECT / "apps" / "scene" / "scene_schema.cpp").read_text(encoding="utf-8")
+    return "".join(re.findall(r'_tables = R"\((.*?)\)";', source, flags=re.DOTALL))
+
+
+def override_paths(path):
+    """block.fix.point as --set takes it: block.0.fix.0.point. Keys of masonry are those of its kind."""
+    head, *rest = path.split(".")
+    if head not in LISTS:
+        return [path]
+    rest = ".".join([f"{part}.0" if part in ("fix", "load", "openings") and k + 1 < len(rest) else part
+                     for k, part in enumerate(rest)])
+    return [f"{head}.{entry}.{rest}" for entry in range(MASONRY_KINDS if head == "masonry" else 1)]
+
+
+def accepted_value(program, scene, path):
+    """What the reader says it needs where it is given a table; None: it takes a table."""
+    for override in override_paths(path):
+        told = json.loads(output_of(program, "check", scene, "--json", "--set", f"{override}={{}}"))
+        for fault in told["faults"]:
+            if match := re.search(r"the wrong type \(a table\), (.*) is needed", fault["message"]):
+                return match[1]
+    return None
+
+
+def keys_of(schema, table=""):
+    """Paths of all keys of the schema that are no tables themselves."""
+    for key, value in schema.get("properties", {}).items():
+        inner = value.get("items", value) if value.get("type") == "array" else value
+        path = f"{table}.{key}" if table else key
+        if "properties" in inner and path != "stage.analysis" and not re.search(r"(stage|assign)\.(fix|load|joint|material)$", path):
+            yield from keys_of(inner, path)
+        else:
+            yield path
+
+
+def with_values(program, text):
+    def table_of(line):
+        match = re.match(r"#+ `\[+([a-z.]*)\]+`", line)
+        return match[1] if match else ""
+
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        scene = pathlib.Path(folder) / "scene.toml"
+        scene.write_text(scene_with_every_table(), encoding="utf-8")
+        rows, table, last = {}, "", {}
+        lines = text.splitlines()
+        for number, line in enumerate(lines):
+            if line.startswith("#"):
+                table = table_of(line)
+            cells = re.match(r"\| `([^`]+)` \| (.*?) \| (.*?) \| (.*)\|$", line)
+            if cells:
+                rows[f"{table}.{cells[1]}" if table else cells[1]] = number, cells
+                last[table] = number
+        found = dict(zip(rows, pool.map(lambda path: accepted_value(program, scene, path), rows), strict=True))
+        for path, (number, cells) in rows.items():
+            if found[path]:
+                lines[number] = f"| `{cells[1]}` | {found[path]} | {cells[3]} | {cells[4]}|"
+        new = {}
+        for path in keys_of(json.loads(output_of(program, "schema"))):
+            named = any(row == path or row.startswith(path + ".") for row in rows)
+            if not named and path not in ("include", "parameters"):
+                home = max((name for name in last if path.startswith(name + ".")), key=len, default="")
+                key = path.removeprefix(home + ".") if home else path
+                new.setdefault(last[home], []).append(
+                    f"| `{key}` | {accepted_value(program, scene, path)} | TO BE SAID | TO BE SAID |")
+        for number in sorted(new, reverse=True):
+            lines[number + 1:number + 1] = new[number]
+    return "\n".join(lines) + "\n"
+
+
+# The table of `ashlar verify`.
+
+def rounded(value):
+    return f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e+")
+
+
+def tolerances(case):
+    values = {check["tolerance"] for check in case["checks"]}
+    words = ["exact"] if 0.0 in values else []
+    words += [rounded(value) for value in sorted(value for value in values if value)]
+    return ", ".join(words + (["reported"] if None in values else []))
+
+
+def error(case):
+    """Of the comparison that is nearest to its tolerance."""
+    checks = [check for check in case["checks"] if check["tolerance"]]
+    if not checks:
+        return "0" if 0.0 in {check["tolerance"] for check in case["checks"]} else \
+            rounded(max(check["error"] for check in case["checks"]))
+    worst = max(checks, key=lambda check: check["error"] / check["tolerance"])
+    return "0" if worst["error"] == 0 else f"{rounded(worst['error'])} of {rounded(worst['tolerance'])}"
+
+
+def validation_rows(cases, listed, sources, errors):
+    """The table's lines; `errors` are those of the page where a case has not been run."""
+    lines, group = [], None
+    by_name = {case["name"]: case for case in cases}
+    for entry in listed:
+        name, source = entry["name"], sources[entry["name"]]
+        if source.get("group", group) != group:
+            group = source["group"]
+            lines += ["", f"### {group}", "", "| case | what | reference | source | tolerance | largest error |",
+                      "|---|---|---|---|---|---|"]
+        case = by_name.get(name)
+        rest = f"{tolerances(case)} | {error(case)}" if case else errors.get(name, "? | ?")
+        lines.append(f"| `{name}` | {entry['description']} | {source['reference']} | {source['source']} | {rest} |")
+    return "\n".join(lines[1:]) + "\n"
+
+
+TABLE = re.compile(r"(<!-- ashlar verify -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+ROW = re.compile(r"^\| `([^`]+)` \| .* \| ([^|]*) \| ([^|]*) \|$", re.MULTILINE)
+
+
+def read_sources():
+    return tomllib.loads((DOCS / "verify_sources.toml").read_text(encoding="utf-8"))
+
+
+def with_verification(program, text, cases=None):
+    """With all cases as they have been run, or without errors of a run: those of the page stay."""
+    listed = json.loads(output_of(program, "verify", "--list", "--json"))
+    sources = read_sources()
+    if {entry["name"] for entry in listed} != set(sources):
+        raise SystemExit("verify_sources.toml and `ashlar verify --list` differ: "
+                         f"{sorted({entry['name'] for entry in listed} ^ set(sources))}")
+    errors = {name: f"{tolerance} | {found}" for name, tolerance, found in ROW.findall(TABLE.search(text)[2])}
+    rows = validation_rows(cases or [], listed, sources, errors)
+    return TABLE.sub(lambda match: f"{match[1]}\n{rows}\n{match[3]}", text)
+
+
+def changed_tolerances(program, text):
+    """Of the quick cases: what differs from the page, or does not pass."""
+    quick = [name for name, source in read_sources().items() if not source.get("slow")]
+    page = {name: tolerance for name, tolerance, _ in ROW.findall(TABLE.search(text)[2])}
+    for case in json.loads(output_of(program, "verify", "--json", *quick))["cases"]:
+        if not case["passed"]:
+            yield f"{case['name']} does not pass"
+        if tolerances(case) != page.get(case["name"]):
+            yield f"{case['name']}: tolerance {tolerances(case)}, the page has {page.get(case['name'])}"
+
+
+def main(arguments):
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--check", action="store_true")
+    options = parser.parse_args(arguments)
+    program = str(pathlib.Path(options.program).resolve())
+    faults = []
+    for name, write in (("reference/commands.md", with_help), ("reference/scene.md", with_values),
+                        ("validation.md", with_verification)):
+        page = DOCS / name
+        old = page.read_text(encoding="utf-8")
+        if options.check:
+            new = write(program, old)
+            faults += [f"{name} differs from the program: generate.py rewrites it"] if new != old else []
+            if write is with_verification:
+                faults += changed_tolerances(program, old)
+            continue
+        more = [json.loads(output_of(program, "verify", "--json"))["cases"]] if write is with_verification else []
+        page.write_text(write(program, old, *more), encoding="utf-8")
+    print("\n".join(faults), end="\n" if faults else "")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
