@@ -1,5 +1,5 @@
-// The public face of this layer: solids from files and shapes, the exact contact of two, and the surfaces and
-// searches that a simulation needs. Headers that this one does not reach are internal and not installed.
+// The public interface of this layer: solids from files and shapes, the exact contact of two, and the surfaces and
+// searches needed by a simulation. Headers not included from here are internal and not installed.
 #pragma once
 
 #include "geometry/any_solid/closest_point.hpp"

@@ -1,4 +1,4 @@
-// Sets of numbers that are united until nothing more belongs together.
+// Disjoint sets of numbers with union operations.
 #pragma once
 
 #include <algorithm>

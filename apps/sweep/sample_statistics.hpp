@@ -34,7 +34,8 @@ struct SampleGroup {
                                                      const SweepTable& table, const std::string& value,
                                                      double limit);
 
-/// "factor_of_safety.lower: 1000 samples, mean 1.21, deviation 0.1, from 0.9 to 1.5; 3.4 % below 1 (standard error 0.6 %)"
+/// "factor_of_safety.lower: 1000 samples, mean 1.21, deviation 0.1, from 0.9 to 1.5; 3.4 % below 1 (standard error
+/// 0.6 %)"
 [[nodiscard]] std::string to_string(const SampleStatistics& statistics, const std::string& value,
                                     double limit);
 

@@ -78,7 +78,7 @@ class ClosestPointFinder::Surface {
       }
       parts[inner_part] = {2, solid_.face_of_triangle()[t]};
     }
-    // In the order of the tree: what is visited together lies together.
+    // In the order of the tree: triangles visited together are stored together.
     for (const int t : tree_.items()) {
       const auto& v = mesh.triangles[t];
       corners_.push_back({mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]});

@@ -1,4 +1,4 @@
-// The point of a solid's surface nearest to a given point, exactly.
+// The point of a solid's surface closest to a given point, exactly.
 //
 // A tree of boxes and floating lower and upper bounds of the distance to single triangles leave the few
 // triangles that can be nearest. For each of them exact signs tell which corner, side or inner part has its
@@ -19,15 +19,14 @@ enum class PointPlace { outside, on_surface, inside };
 struct ClosestPoint {
   Vector3 point;                  ///< m, correctly rounded
   double squared_distance = 0.0;  ///< m^2, correctly rounded
-  /// What has the point in its relative interior: corner (dimension 0, index: the point of the mesh), edge or
-  /// face of the Polyhedron. Of several that are equally near the one of lowest dimension, then lowest index;
-  /// of several points of one face or edge there is only one nearest.
+  /// Feature with the point in its relative interior: corner (dimension 0, index: the point of the mesh), edge or
+  /// face of the Polyhedron. Of several equally near ones the one of lowest dimension, then lowest index; a face or
+  /// edge has only one nearest point.
   ContactFeature feature;
   PointPlace place = PointPlace::outside;  ///< of the given point
 };
 
-/// A solid made ready for questions; keeps a copy of it. Constant after construction: questions may be asked
-/// from many threads.
+/// A solid prepared for queries; keeps a copy of it. Constant after construction: may be used by many threads.
 class ClosestPointFinder {
  public:
   explicit ClosestPointFinder(Polyhedron solid);
@@ -40,8 +39,7 @@ class ClosestPointFinder {
   [[nodiscard]] const BoxTree& triangle_boxes() const;
   /// @param x finite. @throws std::invalid_argument if it is not.
   [[nodiscard]] ClosestPoint find(const Vector3& x) const;
-  /// The same without rational numbers: of features that are as near but for rounding any one may be the
-  /// answer.
+  /// The same without rational numbers: of features equally near within rounding error any one may be returned.
   [[nodiscard]] ClosestPoint find_any(const Vector3& x) const;
 
  private:

@@ -365,7 +365,7 @@ class MinimumFinder {
   Body a_, b_;
   MinimumBound bound_;
   PredicateLadder ladder_;
-  bool floating_ = true;  // what FlatSetting asks
+  bool floating_ = true;  // as required by FlatSetting
   std::set<Key> closed_;  // pairs in the closure of a higher one
   std::vector<DistanceMinimum> found_;
 };

@@ -23,17 +23,16 @@
 
 namespace ashlar {
 
-/// Which minima are wanted.
+/// Selection of minima.
 struct MinimumBound {
-  /// m: those at most so far apart (exact), if given; else those whose squared distance rounds to
-  /// least_squared.
+  /// m: largest distance (exact), if given; else only minima whose squared distance rounds to least_squared.
   std::optional<double> distance;
   double least_squared = 0.0;  ///< m^2
-  bool touching = false;       ///< the solids touch: without a distance, those with w = 0 only
+  bool touching = false;       ///< the solids touch: without a distance, minima with w = 0 only
 };
 
 struct MinimumPoint {
-  ContactFeature a, b;  ///< that carry it
+  ContactFeature a, b;  ///< carriers
   RationalVector on_a;  ///< on_b = on_a - w
 };
 

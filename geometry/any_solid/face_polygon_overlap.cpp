@@ -39,7 +39,7 @@ struct Side {
   std::vector<Shared> shared;
 };
 
-// One of the two pieces with what is known about it and the other one.
+// One of the two pieces with the data of both.
 struct Outline {
   std::vector<PlanePoint> corners;
   std::vector<int> numbers;  // of the corners
@@ -201,7 +201,7 @@ class Overlay {
     has_left_ = false;
     add_pieces(a_, a_.sides[0], b_, false);
     FlatOverlap result;
-    // Neighbouring pieces are one segment: what cuts them apart only touches the edge.
+    // Neighbouring pieces are one segment: the cut between them only touches the edge.
     for (std::size_t k = 0; k < rim_.size(); ++k) {
       if (k == 0 || rim_[k - 1].end != rim_[k].start)
         result.vertices.push_back(output(points_[rim_[k].start]));

@@ -28,14 +28,14 @@ struct FlatSide {
   int edge;      ///< its number in labels
 };
 
-/// A face, or one edge alone: a single side, nothing at its left.
+/// A face, or a single edge: one side, without a face at its left.
 struct FlatPiece {
   const std::vector<Vector3>* points = nullptr;
   std::vector<FlatSide> sides;
   int face = -1;  ///< its number in labels
 };
 
-/// A point of the rim by the features that carry it.
+/// A point of the outline with the features that carry it.
 struct OverlapPoint {
   ContactFeature a, b;  ///< dimension 0: index of a point; 1: of an edge; 2: of the face
   /// m, exact; none where that piece's feature is its face.
@@ -49,8 +49,8 @@ struct FlatOverlap {
   std::vector<OverlapPoint> vertices;
   /// (Area of K across the direction)^2, m^4; zero for an edge.
   Rational squared_area;
-  /// What lies in the rim of K (of an edge: at or within its segments): pairs of features whose own common
-  /// part is in the closure of K.
+  /// Pairs of features in the outline of K (for an edge: at or within its segments), whose own common part is in the
+  /// closure of K.
   std::vector<FeaturePair> closure;
 };
 

@@ -16,7 +16,7 @@ struct Coordinate {
   TrackedNumber tracked;
 };
 
-/// @param is_double whether the number is a double itself, which has no error
+/// @param is_double true if the number is a double itself, which has no error
 [[nodiscard]] Coordinate coordinate(Rational exact, bool is_double);
 
 /// No value that the number stands for is below or above these.

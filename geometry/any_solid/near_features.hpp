@@ -1,5 +1,5 @@
-// Which features of two solids a local minimum of their distance may lie on, by their boxes and by whether they have
-// normal cones at all (solid_features.hpp). Only sources of this layer include this file.
+// Features of two solids that may carry a local minimum of their distance, by their boxes and by the existence of
+// normal cones (solid_features.hpp). Only sources of this layer include this file.
 #pragma once
 
 #include <array>

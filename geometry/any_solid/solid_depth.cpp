@@ -62,7 +62,7 @@ class NearStretch {
   [[nodiscard]] Vector3 at_share(double share) const { return start_ + share * along_; }
 
  private:
-  /// Leaves out what is more than the reach above a plane. @return whether anything is left
+  /// Clips parts higher than the reach above a plane. @return true if anything is left
   [[nodiscard]] bool keep_below(Stretch& stretch, const Vector3& normal, const Vector3& point) const {
     const double room = reach_ - normal.dot(start_ - point), rise = normal.dot(along_);
     if (rise > 0.0) stretch[1] = std::min(stretch[1], room / rise);
@@ -213,8 +213,9 @@ double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const Cl
   return farther_end(triangle_of(solid, triangle));
 }
 
-/// Whatever is within the reach of a triangle lies in that triangle's stretch; a stretch whose ends are no farther than
-/// twice the reach from its triangle is not deeper than that anywhere, as the distance to a triangle is convex along it.
+/// Points within the reach of a triangle lie in that triangle's part of the segment. A part whose ends are at most
+/// twice the reach from its triangle is not deeper than that anywhere, as the distance to a triangle is convex along
+/// it.
 void SolidDepthFinder::divide(const Vector3& start, const Vector3& end, double reach,
                               std::vector<Part>& parts) const {
   const NearStretch near(start, end, reach);

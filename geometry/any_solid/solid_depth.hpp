@@ -1,13 +1,13 @@
-// How deep a point or a segment is inside a solid: the distance to the surface of the solid.
+// Depth of a point or a segment inside a solid: the distance to the surface of the solid.
 //
-// It knows nothing of contacts: it is the measure that they are held against. A solid that is convex but for
-// the rounding of its coordinates is the common part of the half spaces of its faces: the depth of a point is
-// the least of its depths below them, a concave function along a segment. Of other solids the closest point
-// of the surface is found exactly (closest_point.hpp). A segment is divided where it comes within the asked
-// resolution of a triangle: stretches nearer than that to the surface are not deeper, and each of the others lies
-// on one side of the surface, which its middle decides. Within the solid the depth on a part of the segment is
-// bounded above by the distance to the triangle that is nearest at the part's middle, which is convex along
-// the segment, so that parts without a deeper point are left out for certain.
+// It is independent of contacts, as a reference for them. A solid that is convex but for the rounding of its
+// coordinates is the intersection of the half spaces of its faces: the depth of a point is the smallest of its depths
+// below them, a concave function along a segment. For other solids the closest point of the surface is found exactly
+// (closest_point.hpp). A segment is divided where it comes within the given resolution of a triangle: parts closer to
+// the surface are not deeper, and each of the others lies on one side of the surface, determined by its midpoint.
+// Within the solid the depth on a part of the segment is bounded above by the distance to the triangle closest to the
+// part's midpoint, which is convex along the segment, so that parts without a deeper point are excluded with
+// certainty.
 #pragma once
 
 #include <memory>
@@ -27,24 +27,24 @@ struct SolidDepth {
   int face = -1;       ///< the face with the nearest point, or one that meets there
 };
 
-/// A solid made ready for questions. Constant after construction: questions may be asked from many threads.
+/// A solid prepared for queries. Constant after construction: may be used by many threads.
 class SolidDepthFinder {
  public:
   explicit SolidDepthFinder(const Polyhedron& solid);
 
   /// @param x m, finite
-  /// @param clearance of solids that are not convex: set to the distance to the solid, m; 0: the point is not outside;
-  /// null: not wanted
-  /// @return none: not inside
+  /// @param clearance for nonconvex solids: set to the distance to the solid, m; 0: the point is not outside; null:
+  /// not computed
+  /// @return empty if not inside
   [[nodiscard]] std::optional<SolidDepth> of_point(const Vector3& x, double* clearance = nullptr) const;
   /// The deepest point of a segment; of equally deep ones any.
   /// @param start,end m, finite
   /// @param resolution m, > 0, above the rounding of coordinates: solids that are not convex are searched until no
   /// other point is deeper than the answer by more than this
   /// @param known m, >= 0: only points deeper than this are of interest
-  /// @param clearance of solids that are not convex: set to how far the segment is from the solid at least,
-  /// m; 0: not known; null: not wanted
-  /// @return none: no point is inside, or none is deeper than `known` to the resolution
+  /// @param clearance for nonconvex solids: set to a lower bound of the distance of the segment from the solid, m; 0:
+  /// unknown; null: not computed
+  /// @return empty if no point is inside, or none is deeper than `known` within the resolution
   [[nodiscard]] std::optional<SolidDepth> of_segment(const Vector3& start, const Vector3& end,
                                                      double resolution, double known = 0.0,
                                                      double* clearance = nullptr) const;

@@ -1,4 +1,4 @@
-// The corners, edges and faces of a solid that need not be convex, and in which directions it lies from each.
+// The corners, edges and faces of a solid that need not be convex, with the directions of the solid from each.
 //
 // Normal cones. Near an inner point p of a feature the solid is p + T with a polyhedral cone T, the same for
 // all these points. Moving from p by u in T changes the distance to a point p - w by the sign of w . u at
@@ -7,10 +7,13 @@
 // - face: w = -s n, s >= 0, n the outward normal;
 // - edge: w is across it and w . m >= 0 for the inward directions m in both faces; a reflex edge
 //   admits only w = 0, for T then contains a line across it;
-// - corner: w . e >= 0 for all sides e of triangles at it. The surface then is on the side w points to, and
-//   what is on the other side is all in T or all outside. Around the ray of the surface nearest to -w the
-//   solid has less than half of the space in the second case (a convex edge, or a face with n . w < 0), more
-//   than half in the first one. Only saddle corners, with edges of both kinds, need this look.
+// - corner: w . e >= 0 for all sides e of triangles at it. The surface then is on the side w points to, and the
+//   other side is
+//   completely inside T or completely outside. Around the ray of the surface nearest to -w the solid has less than
+//     half of the
+//   space in the second case (a convex edge, or a face with n . w < 0), more than half in the first one. Only
+//     saddle corners,
+//   with edges of both kinds, need this check.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +27,7 @@
 
 namespace ashlar {
 
-/// A merged edge with what decides its normal cone.
+/// A merged edge with the data of its normal cone.
 struct SolidEdge {
   int from, to;               ///< points of the mesh
   int left_apex, right_apex;  ///< points of the mesh, in the left and right face, off the edge

@@ -12,7 +12,7 @@
 
 namespace ashlar {
 
-/// A closed box; as constructed it is empty and meets nothing.
+/// A closed box; initially empty, without intersections.
 struct Box {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 high = Vector3::Constant(-std::numeric_limits<double>::infinity());
@@ -37,7 +37,8 @@ struct Box {
   }
 };
 
-/// The part of a segment within a box, rounded. @return shares of the segment, 0 to 1 in order; none: it misses the box
+/// The part of a segment within a box, rounded. @return shares of the segment, 0 to 1 in order; empty: no
+/// intersection
 [[nodiscard]] inline std::optional<std::array<double, 2>> part_within(const Box& box, const Vector3& start,
                                                                       const Vector3& end) {
   double first = 0.0, last = 1.0;
@@ -64,7 +65,7 @@ struct Box {
   return box;
 }
 
-/// The box along other axes, in their coordinates; contains what the points span in spite of rounding.
+/// The box along other axes, in their coordinates; contains the convex hull of the points in spite of rounding.
 /// @param axes (3, 3), orthonormal columns
 [[nodiscard]] inline Box box_along(const Eigen::Matrix3d& axes, std::span<const Vector3> points) {
   Box box;

@@ -10,7 +10,7 @@ namespace {
 
 using NumberedBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
-/// Lists so short that comparing all is faster than sorting.
+/// For lists this short comparing all is faster than sorting.
 constexpr std::size_t few_pairs = 256;
 
 std::vector<NumberedBox> numbered(const std::vector<Box>& boxes) {

@@ -1,4 +1,4 @@
-// Which boxes meet, in O(N log^3 N + pairs found): the broad phase (theory.md section 6.1).
+// Intersecting boxes, in O(N log^3 N + pairs found): the broad phase (theory.md section 6.1).
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace ashlar {
 
-/// Pairs (i < j) of closed boxes that meet, sorted. Empty boxes meet nothing.
+/// Pairs (i < j) of closed boxes that intersect, sorted. Empty boxes intersect none.
 [[nodiscard]] std::vector<std::array<int, 2>> meeting_boxes(const std::vector<Box>& boxes);
 
 /// Pairs (i, j) of a box of the first list that meets one of the second, sorted.

@@ -1,4 +1,4 @@
-// A tree of boxes: which parts of two surfaces can be near each other.
+// A tree of boxes, for the parts of two surfaces that can be near each other.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ namespace ashlar {
   return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).squaredNorm();
 }
 
-/// True only if boxes of that rounded squared distance are farther apart than a bound of squared distances;
-/// products of the smallest numbers leave it open.
+/// True only if boxes of that rounded squared distance are farther apart than a bound of squared distances; products
+/// of the smallest numbers are undecided.
 [[nodiscard]] inline bool is_certainly_farther(double squared_distance, double bound) {
   constexpr double rounding = 1.0 - 0x1p-49;
   return squared_distance > std::numeric_limits<double>::min() && squared_distance * rounding > bound;
@@ -48,15 +48,15 @@ class BoxTree {
   std::vector<int> items_;
 };
 
-/// The boxes of one tree for questions about points: up to four boxes a node, compared with a point at once.
+/// The boxes of one tree for queries of points: up to four boxes a node, compared with a point at once.
 /// Constant after construction.
 class PackedBoxTree {
  public:
   /// @throws std::invalid_argument for a tree with more than one box in a leaf.
   explicit PackedBoxTree(const BoxTree& tree);
 
-  /// Calls visit(position in tree.items()) for all boxes that are not certainly farther from a point than
-  /// bound(), a squared distance that may shrink from call to call, nearer ones first by and large.
+  /// Calls visit(position in tree.items()) for all boxes that are not certainly farther from a point than bound(), a
+  /// squared distance that may decrease from call to call, approximately in order of distance.
   template <class Bound, class Visit>
   void for_each_near(const Eigen::Vector3d& x, Bound bound, Visit visit) const;
 
@@ -112,9 +112,9 @@ void PackedBoxTree::for_each_near(const Eigen::Vector3d& x, Bound bound, Visit v
   }
 }
 
-/// Calls visit(item of a, item of b) for all pairs that are not certainly farther apart than bound(), a
-/// squared distance that may shrink from call to call, nearer ones first by and large. Ends when a call
-/// returns false. @return false if one did.
+/// Calls visit(item of a, item of b) for all pairs that are not certainly farther apart than bound(), a squared
+/// distance that may decrease from call to call, approximately in order of distance. Ends when a call returns false.
+/// @return false if one did.
 template <class Bound, class Visit>
 bool for_each_near_pair(const BoxTree& a, const BoxTree& b, Bound bound, Visit visit) {
   struct Pair {

@@ -27,11 +27,11 @@ class CellHeight {
   const ViewFrame* frame_;
 };
 
-/// The corners of a cell as a plane set seen against w: counter-clockwise and strictly convex, which rounding
-/// or straight corners may have spoilt.
+/// The corners of a cell as a plane set projected along w: counter-clockwise and strictly convex, which rounding or
+/// straight corners may violate.
 class ProjectedCell {
  public:
-  /// @param towards_viewer whether the cell's outside looks at the viewer
+  /// @param towards_viewer true if the cell's outside faces the viewer
   ProjectedCell(const PlacedSurface& s, int cell, bool towards_viewer, const ContactDirection& w,
                 PredicateLadder& ladder)
       : points_(s.corners(cell)), loop_(points_.size()) {
@@ -61,8 +61,8 @@ class ProjectedCell {
   std::vector<int> loop_;
 };
 
-/// Where the sides ab and cd cross, which they do: rounding may have made them parallel or moved the crossing
-/// of sides that lie almost on each other off one of them.
+/// Crossing of the sides ab and cd, which is known to exist: rounding may have made them parallel, or moved the
+/// crossing of almost coincident sides off one of them.
 Eigen::Vector2d crossing_place(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
                                const Eigen::Vector2d& d) {
   const auto cross = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {

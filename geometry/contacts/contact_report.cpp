@@ -52,8 +52,8 @@ class ContactWriter {
                 const Vector3& normal)
       : a_(a), b_(b), region_(region), normal_(normal) {}
 
-  /// @param gap of all points; none: each point has its own, from the plane across the normal in which the
-  /// other body ends.
+  /// @param gap of all points; empty: each point has its own, relative to the plane normal to the contact direction
+  /// at the end of the other body.
   [[nodiscard]] ReportedContact write(std::optional<double> gap) const {
     ReportedContact contact;
     contact.type = region_.type;
@@ -142,7 +142,7 @@ ReportedFeature ReportedSolid::feature(const ContactFeature& of_shape) const {
   } else {
     for (const int v : shape_->facet(of_shape.index)) feature.points.push_back(source[v]);
     const int triangle = shape_->source_triangles()[of_shape.index];
-    // A facet of the hull may have come from two faces.
+    // A facet of the hull may be made of two faces.
     if (triangle >= 0 && has_points(solid_, solid_.face_of_triangle()[triangle], feature.points))
       feature.index = solid_.face_of_triangle()[triangle];
   }

@@ -1,9 +1,9 @@
-// The contact report of two solids, in the words and numbers of their meshes: what `ashlar contacts` prints.
+// The contact report of two solids with the numbering of their meshes, printed by `ashlar contacts`.
 //
-// A solid whose mesh is exactly convex is seen as the exact set of its corners, edges and facets
-// (convex_shape.hpp). A rotated copy of a convex solid is rarely convex on its rounded coordinates: some
-// edges within its former facets are concave by the rounding. Such a mesh is reported as the exact convex
-// hull of its points, and the report says so; every other solid is reported as it is, not convex.
+// A solid whose mesh is exactly convex is represented by the exact set of its corners, edges and facets
+// (convex_shape.hpp). A rotated copy of a convex solid is rarely convex in its rounded coordinates: some edges within
+// its former facets are concave by rounding. Such a mesh is reported as the exact convex hull of its points, and the
+// report says so. All other solids are reported as nonconvex.
 #pragma once
 
 #include <optional>
@@ -29,13 +29,13 @@ struct ReportedFeature {
 
 enum class ReportedBody { a, b };
 
-/// One contact point: where a body is held by a plane of the other. The numbers of exact contacts are
-/// correctly rounded. At a resolution the plane is the one across the contact direction in which the body of
-/// the facet ends, each point has its own gap, and foot and gap are computed from rounded numbers.
+/// One contact point: a point of a body on a plane of the other. The numbers of exact contacts are correctly rounded.
+/// At a resolution the plane is normal to the contact direction at the end of the body of the facet; each point has
+/// its own gap, and foot and gap are computed from rounded numbers.
 struct ReportedPoint {
   PairKind pair = PairKind::vertex_vertex;
-  /// The body whose facet is the plane: that of the facet in `pair`, else a facet among the carriers of the
-  /// whole contact (that of B if both are); none if no facet takes part.
+  /// The body whose facet is the plane: that of the facet in `pair`, else a facet among the carriers of the whole
+  /// contact (that of B if both are); empty if there is no facet.
   std::optional<ReportedBody> face_of;
   Vector3 point;         ///< on the other body (no facet: on A), m
   Vector3 foot;          ///< on the plane, under the point along the contact direction (no facet: on B), m
@@ -60,7 +60,7 @@ struct ReportedContact {
   Vector3 direction = Vector3::Zero();
 };
 
-/// What is known of two convex solids only.
+/// Data for two convex solids only.
 struct ConvexReport {
   ContactType type = ContactType::crossing;
   int a_dimension = -1, b_dimension = -1, region_dimension = -1;
@@ -73,17 +73,17 @@ struct ContactReport {
   Relation relation = Relation::apart;
   double squared_distance = 0.0;  ///< m^2, correctly rounded
   std::optional<ConvexReport> convex;
-  std::vector<ReportedContact> contacts;  ///< none where the solids cross, unless a resolution is asked for
+  std::vector<ReportedContact> contacts;  ///< empty if the solids cross, unless a resolution is given
   /// Convex solids that cross: m, correctly rounded, and the translations of A of that length that end the
   /// crossing; else zero and none.
   double depth = 0.0;
   std::vector<Vector3> minimal_translations;
   bool hull_of_a = false, hull_of_b = false;  ///< reported as the hull of a rounded mesh
-  std::optional<Resolution> resolution;       ///< if one was asked for: that of type, region and contacts
+  std::optional<Resolution> resolution;       ///< if given: that of type, region and contacts
   DecisionCounts decided_by;
 };
 
-/// A solid made ready for reports. Constant after construction.
+/// A solid prepared for reports. Constant after construction.
 class ReportedSolid {
  public:
   explicit ReportedSolid(Polyhedron solid);
@@ -102,15 +102,14 @@ class ReportedSolid {
   bool is_hull_ = false;
 };
 
-/// Thrown for a type at a contact angle of solids that have none.
+/// Thrown for a type at a contact angle if a solid is not convex.
 class NotConvexError : public std::invalid_argument {
  public:
   NotConvexError() : invalid_argument("solid is not convex") {}
 };
 
-/// @param resolution asks for type, region and contacts at a resolution instead of the exact ones; of solids
-/// that are not convex, for all contacts up to its distance (zero: the exact report), each with its exact
-/// type.
+/// @param resolution if given, type, region and contacts are at this resolution instead of exact; for nonconvex
+/// solids, all contacts up to its distance (zero: the exact report), each with its exact type.
 /// @throws NotConvexError for a resolution with an angle if one of the two is not convex;
 /// std::invalid_argument as classify_at().
 [[nodiscard]] ContactReport report_contact(const ReportedSolid& a, const ReportedSolid& b,

@@ -15,7 +15,7 @@
 namespace ashlar {
 namespace {
 
-/// @param chord bounds of the cells that meet, m
+/// @param chord bounds of both cells, m
 bool within_limits(double gap, double chord, const ContactLimits& limits) {
   return gap <= limits.reach + chord && gap >= -std::min(limits.penetration + chord, limits.deepest);
 }
@@ -27,14 +27,14 @@ bool within_limits(const PlacedSurface& a, const PlacedSurface& b, const CellOve
   return within_limits(least, chord, limits);
 }
 
-/// Whether some cell of a list faces a given direction's opposite within the angle.
+/// True if any cell of a list faces the opposite of a direction within the angle.
 bool any_facing(const PlacedSurface& s, const std::vector<int>& cells, const Vector3& normal, double cosine) {
   return std::any_of(cells.begin(), cells.end(),
                      [&](int cell) { return s.normal(cell).dot(normal) <= -cosine; });
 }
 
-/// A vertex is an end of the block against a normal if no neighbour lies deeper than the angle allows and
-/// some face around it looks that way.
+/// True if a vertex is an end of the block against a normal: no neighbour is deeper than the angle allows, and an
+/// adjacent face faces that way.
 bool is_end(const PlacedSurface& s, const SurfaceVertex& vertex, const Vector3& normal, double sine) {
   const Vector3& place = s.point(vertex.point);
   for (const int neighbour : vertex.neighbours) {
@@ -50,12 +50,12 @@ bool across_convex_edge(const SubFaceSurface& surface, int face_a, int face_b) {
   return face_a == face_b || std::binary_search(neighbours.begin(), neighbours.end(), face_b);
 }
 
-/// A cell that a vertex is over, or would be if the cell went on beyond edges of its face.
+/// A cell below a vertex, or below its extension beyond edges of its face.
 struct CellBelow {
   int cell;
   double gap;             ///< m
-  std::vector<int> past;  ///< sides that the vertex is beyond
-  bool hidden;            ///< whether the face lies on a third block there
+  std::vector<int> past;  ///< sides beyond which the vertex is
+  bool hidden;            ///< true if the face lies on a third block there
 };
 
 /// Where a block's face lies on a third block.
@@ -70,7 +70,7 @@ struct VertexSearch {
   const Hides& hides;
 };
 
-/// Cells of one block that a vertex of the other is near, over or beyond edges of their faces.
+/// Cells of one block near a vertex of the other, below it or below the extension beyond edges of their faces.
 std::vector<CellBelow> near_below(const VertexSearch& search, const Vector3& place,
                                   const std::vector<int>& cells, DecisionCounts& counts) {
   const auto& [with_vertex, with_cell, vertex_of_a, limits, hides] = search;
@@ -89,9 +89,8 @@ std::vector<CellBelow> near_below(const VertexSearch& search, const Vector3& pla
   return near;
 }
 
-/// Those of them that bound the block where the vertex is. Below a reflex edge a cell's half space goes on
-/// under the face across it, and behind a face that is hidden it goes on too: it counts there where that face
-/// is near as well.
+/// The cells that bound the block at the vertex. Below a reflex edge a cell's half space extends under the adjacent
+/// face, and it extends behind an occluded face too: it counts there if that face is near as well.
 std::vector<CellBelow> bounding_cells(const PlacedSurface& with_cell, const std::vector<CellBelow>& near) {
   std::vector<CellBelow> bounding;
   for (const CellBelow& one : near) {
@@ -104,7 +103,7 @@ std::vector<CellBelow> bounding_cells(const PlacedSurface& with_cell, const std:
     });
     if (bounds) bounding.push_back(one);
   }
-  // What is outside of a face is outside of the solid as far as faces are joined to it by convex edges.
+  // A point outside of a face is outside of the solid as far as adjacent faces are joined by convex edges.
   const auto is_beside = [&](const CellBelow& one) {
     return one.gap < 0.0 && std::any_of(near.begin(), near.end(), [&](const CellBelow& other) {
              return other.past.empty() && other.gap > with_cell.chord_bound(other.cell) &&
@@ -132,8 +131,8 @@ void find_vertex_contacts(const VertexSearch& search, int vertex_index, const st
     return !is_end(with_vertex, vertex, normal, sine) ||
            any_facing(with_vertex, vertex.cells, normal, cosine);
   });
-  // Of faces that share a convex edge the vertex entered through one only: where it is least deep. Of those
-  // that share a reflex edge it has to stay outside of both.
+  // A vertex has entered through one of the faces that share a convex edge only: where it is least deep. It must stay
+  // outside of all faces that share a reflex edge.
   std::stable_sort(found.begin(), found.end(), [](const CellBelow& p, const CellBelow& q) {
     return p.hidden != q.hidden ? q.hidden : p.gap > q.gap;
   });
@@ -151,8 +150,7 @@ void find_vertex_contacts(const VertexSearch& search, int vertex_index, const st
         {search.vertex_of_a, vertex.point, vertex.cells.front(), below.cell, below.gap, area});
 }
 
-/// Whether the block is on the far side of its edge seen from the normal's tip: both cells lean away from
-/// `outward`.
+/// True if the block is behind its edge as seen from the tip of the normal: both cells lean away from `outward`.
 bool edge_is_end(const PlacedSurface& s, const SurfaceEdge& edge, const Vector3& outward, double sine) {
   const Vector3 along = (s.point(edge.ends[1]) - s.point(edge.ends[0])).normalized();
   // The edge runs counter-clockwise on its left cell, whose inside is to the left of it seen from outside.
@@ -165,16 +163,15 @@ double chord_bound(const PlacedSurface& s, const SurfaceEdge& edge) {
   return std::max(s.chord_bound(edge.cells[0]), s.chord_bound(edge.cells[1]));
 }
 
-/// Where a crossing is on one of two edges, seen across both: within it, or at or beyond an end at which a
-/// reflex edge of the block ends too. There the block goes on with another edge, and below both of them each
-/// bounds it.
+/// Place of a crossing on one of two edges in the projection along their common normal: within it, or at or beyond an
+/// end at which a reflex edge of the block ends too. There the surface continues with another edge, and below both of
+/// them each bounds the block.
 struct PlaceOnEdge {
   bool counts = false;
   int beyond = -1;  ///< the point of the end, -1: within the edge
 };
 
-/// @param start,end on which side of the other edge's line the ends are. @param along rounded place of the
-/// crossing
+/// @param start,end sides of the other edge's line on which the ends are. @param along rounded place of the crossing
 PlaceOnEdge place_on_edge(const PlacedSurface& s, const SurfaceEdge& edge, int start, int end, double along) {
   if (start * end < 0) return {true, -1};
   const bool at_start = start == 0 || (end != 0 && along < 0.5);
@@ -182,7 +179,7 @@ PlaceOnEdge place_on_edge(const PlacedSurface& s, const SurfaceEdge& edge, int s
   return {s.surface().vertices[at(s.surface().vertex_of_point[at(point)])].reflex, point};
 }
 
-/// Two edges that cross, or would if they went on beyond their ends.
+/// Two edges that cross, or whose extensions beyond their ends do.
 struct EdgeCrossing {
   EdgeContact contact;
   int beyond_a = -1;  ///< point of a at or beyond which it crosses, -1: within the edge
@@ -201,7 +198,7 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
   const Vector3 r = ends_a[0] - ends_b[0];
   Vector3 normal = u.cross(v);
   const double sine = std::sin(limits.angle);
-  // Edges that stay within reach of each other along the shorter one do not cross at this resolution.
+  // Edges that stay within reach of each other along the shorter one are treated as parallel.
   if (normal.norm() <= std::min(sine * u.norm() * v.norm(), limits.reach * std::max(u.norm(), v.norm())))
     return std::nullopt;
   const double squared = normal.squaredNorm();
@@ -209,7 +206,7 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
   double s = v.cross(r).dot(normal) / squared;
   double t = u.cross(r).dot(normal) / squared;
   normal /= std::sqrt(squared);
-  // Out of b: the side to which the faces of b look.
+  // Out of b: the side faced by the faces of b.
   const Vector3 out_of_b = b.normal(eb.cells[0]) + b.normal(eb.cells[1]);
   if (normal.dot(out_of_b) < 0.0) normal = -normal;
   const double gap = normal.dot(r);
@@ -240,7 +237,7 @@ std::optional<EdgeCrossing> edge_crossing(const PlacedSurface& a, int edge_a, co
       {{ea.ends, ea.cells[0], s}, {eb.ends, eb.cells[0], t}, normal, gap, area}, on_a.beyond, on_b.beyond};
 }
 
-/// Whether another edge of the same block that ends at a point crosses too.
+/// True if another edge of the same block that ends at a point crosses too.
 bool goes_on(const std::vector<EdgeCrossing>& crossings, CrossedSide EdgeContact::*side,
              const EdgeCrossing& one, int point) {
   return point < 0 || std::any_of(crossings.begin(), crossings.end(), [&](const EdgeCrossing& other) {
@@ -249,7 +246,7 @@ bool goes_on(const std::vector<EdgeCrossing>& crossings, CrossedSide EdgeContact
          });
 }
 
-/// Crossings within both edges, and those beyond ends where the blocks go on with other edges that cross.
+/// Adds crossings within both edges, and those beyond ends where the surfaces continue with other crossing edges.
 void add_crossings(const std::vector<EdgeCrossing>& crossings, PairContacts& contacts) {
   for (const EdgeCrossing& one : crossings) {
     if (goes_on(crossings, &EdgeContact::of_a, one, one.beyond_a) &&
@@ -258,7 +255,7 @@ void add_crossings(const std::vector<EdgeCrossing>& crossings, PairContacts& con
   }
 }
 
-/// Features of a surface with boxes that meet a given one, and those boxes.
+/// Features of a surface whose boxes intersect a given one, and these boxes.
 struct NearFeatures {
   std::vector<int> indices;
   std::vector<Box> boxes;
@@ -308,7 +305,7 @@ void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& ve
   }
 }
 
-/// Not inlined, so that nothing of it is moved across the change of the rounding mode.
+/// Not inlined, so that no arithmetic is moved across the change of the rounding mode.
 [[gnu::noinline]] PairContacts find_contacts_rounding_to_nearest(const PlacedSurface& a,
                                                                  const PlacedSurface& b,
                                                                  const ContactLimits& limits,
@@ -316,7 +313,7 @@ void find_all_vertex_contacts(const VertexSearch& search, const NearFeatures& ve
   PairContacts contacts;
   const double margin = std::max(limits.reach, limits.penetration);
   if (!a.box().grown(margin).meets(b.box())) return contacts;
-  // Only one of two boxes is grown, so that features meet when nearer than the margin.
+  // Only one of two boxes is grown, so that features closer than the margin are found.
   const NearFeatures cells_a = near_cells(a, b.box(), margin);
   const NearFeatures cells_b = near_cells(b, a.box().grown(margin), 0.0);
   const double cosine = std::cos(limits.angle);

@@ -1,11 +1,10 @@
 // Finds the contacts of two blocks at their current positions, for the mechanics layer (theory.md section 6).
 //
-// Faces that face each other within the contact angle meet as face-face: the overlap polygons of their cells,
-// which hold all vertex-face, edge-face and crossing points in their closure. Beyond that angle a vertex of
-// one block meets a face of the other (vertex-face; both ends of an edge that lies within the angle:
-// edge-face), and two edges meet where they cross (edge-edge). A vertex over an edge or a vertex is given the
-// one face it has entered least. The first block is called a, the second b; normals point out of b, towards
-// a.
+// Faces that face each other within the contact angle have face-face contact: the overlap polygons of their cells,
+// whose closure includes all vertex-face, edge-face and crossing points. Beyond that angle a vertex of one block has
+// contact with a face of the other (vertex-face; both ends of an edge within the angle: edge-face), and two edges
+// have contact where they cross (edge-edge). A vertex over an edge or a vertex is assigned to the one face it has
+// entered least. The first block is called a, the second b; normals point out of b, towards a.
 #pragma once
 
 #include <functional>
@@ -18,13 +17,13 @@
 
 namespace ashlar {
 
-/// What counts as a contact. The comparison with each limit is the user's resolution, never hidden elsewhere.
+/// Limits of contact detection. The comparison with each limit is the user's resolution, and applied nowhere else.
 struct ContactLimits {
   double reach = 0.0;        ///< m, largest gap, beyond the chord bounds of curved cells
-  double penetration = 0.0;  ///< m, deepest entrance that is still taken as one through this face
-  double angle = 0.0;        ///< rad, how far two faces may be from parallel to meet as face-face, 0 to pi/4
-  /// m, no contact is deeper, however coarse its cells are: beyond that, faces may look at each other from
-  /// the far sides of both blocks
+  double penetration = 0.0;  ///< m, largest depth of an entrance through this face
+  double angle = 0.0;        ///< rad, 0 to pi/4, largest angle between faces in face-face contact
+  /// m, largest depth of any contact, for cells of any size: beyond it, faces may face each other from opposite sides
+  /// of both blocks
   double deepest = std::numeric_limits<double>::infinity();
 };
 
@@ -59,7 +58,7 @@ struct PairContacts {
   std::vector<CellOverlap> overlaps;
   std::vector<VertexContact> vertices;
   std::vector<EdgeContact> edges;
-  /// Of two convex solids as a whole (convex_search.hpp).
+  /// Type of two convex solids as a whole (convex_search.hpp).
   std::optional<ContactType> type;
   DecisionCounts counts;
   [[nodiscard]] bool empty() const { return overlaps.empty() && vertices.empty() && edges.empty(); }
@@ -68,16 +67,16 @@ struct PairContacts {
 /// Mean over the faces around some cells of the area that falls to one corner of each, m^2.
 [[nodiscard]] double tributary_area(const SubFaceSurface& surface, const std::vector<int>& cells);
 
-/// Places of a pair's faces that lie on a third block: no way leads in or out there, but through that block.
+/// Places of a pair's faces that lie on a third block, where a vertex can enter or leave through that block only.
 struct OccludedPlaces {
   using Hides = std::function<bool(int face, const Vector3& place)>;
   Hides of_a;
   Hides of_b;
 };
 
-/// Finds every contact of two blocks. The answer is symmetric: swapping a and b swaps their roles in it.
-/// @param hidden of a vertex in a block, faces that are hidden where it is below them are taken only if no
-/// other face bounds the block there, and the faces beside them go on behind them; null: none are
+/// Finds all contacts of two blocks. The result is symmetric: swapping a and b swaps their roles in it.
+/// @param hidden for a vertex inside a block, faces occluded where it is below them are used only if no other face
+/// bounds the block there, and the adjacent faces extend behind them; null: no occlusion
 [[nodiscard]] PairContacts find_contacts(const PlacedSurface& a, const PlacedSurface& b,
                                          const ContactLimits& limits, const OccludedPlaces* hidden = nullptr);
 

@@ -28,7 +28,7 @@ double gap_over(const PlacedSurface& with_point, int point, const PlacedSurface&
   return with_cell.normal(cell).dot(with_point.point(point) - in_plane);
 }
 
-/// The first of some lists that has most of the given points.
+/// The first of some lists with most of the given points.
 template <class ListOf>
 int most_in_common(const std::vector<int>& points, int count, ListOf list_of) {
   int best = 0;
@@ -86,7 +86,7 @@ std::optional<Entrance> entrance_of(const EntranceName& name, const ConvexSurfac
   return std::nullopt;
 }
 
-/// Turns the exact contact of two hulls into contacts of the surfaces' features.
+/// Converts the exact contact of two hulls to contacts of the surfaces' features.
 class ContactMaker {
  public:
   ContactMaker(const ConvexSurface& a, const ConvexSurface& b, const ResolvedContact& exact,
@@ -112,7 +112,8 @@ class ContactMaker {
     }
   }
 
-  /// A corner on a corner or an edge that has entered through a face. @return whether it is one of those
+  /// Adds a corner on a corner or an edge that has entered through a face. @return true if the contact is of this
+  /// kind
   bool make_corner_over(const Entrance& entrance) {
     const RegionVertex& point = exact_.region.points.front();
     const bool vertex_of_a = entrance.kind == EntranceKind::face_of_b;
@@ -185,8 +186,8 @@ class ContactMaker {
   PairContacts& contacts_;
 };
 
-/// A vertex inside the block has entered through the face of the entrance if it is over it, not through those
-/// around it: one contact.
+/// A vertex inside the block has entered through the face of the entrance if it is below it, not through adjacent
+/// ones: one contact.
 void turn_to_entrance(const ConvexSurface& a, const ConvexSurface& b, const EntranceName& entrance,
                       PairContacts& contacts) {
   if (entrance.kind == EntranceKind::edge_edge) return;
@@ -221,7 +222,7 @@ void turn_to_entrance(const ConvexSurface& a, const ConvexSurface& b, const Entr
   contacts.vertices = std::move(kept);
 }
 
-/// Not inlined, so that nothing of it is moved across the change of the rounding mode.
+/// Not inlined, so that no arithmetic is moved across the change of the rounding mode.
 [[gnu::noinline]] std::optional<EntranceName> settle_rounding_to_nearest(const ConvexSurface& a,
                                                                          const ConvexSurface& b,
                                                                          const ContactHistory& history,
@@ -243,7 +244,7 @@ void turn_to_entrance(const ConvexSurface& a, const ConvexSurface& b, const Entr
   const EntranceName name = name_of(*entrance, a, b);
   ContactMaker maker(a, b, exact, contacts);
   if (!crossing) {
-    // Edges that lie along each other are no features that face each other, but can bear.
+    // Collinear edges are no features that face each other, but can transmit forces.
     if (touching && contacts.empty()) maker.make();
     return name;
   }

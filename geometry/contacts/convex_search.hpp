@@ -1,10 +1,10 @@
 // The contacts of two convex blocks whose faces stay flat, with history.
 //
-// The features that meet are found one by one (contact_search.hpp): all that a step may bring together. What
-// they do not fix is decided by the classifier that `ashlar contacts` prints (convex_contact.hpp), with the
-// facet of D = P - Q that was last seen with a positive gap as history: through which of two faces beside
-// each other a corner has entered, and the contact of blocks that cross although no two features of theirs
-// face each other: a corner on a corner or an edge, edges along each other.
+// The features in contact are found one by one (contact_search.hpp): all that a step may bring into contact. Cases
+// not determined by these are decided by the classifier of `ashlar contacts` (convex_contact.hpp), with the facet of
+// D = P - Q that last had a positive gap as history: the face of two adjacent ones through which a corner has
+// entered, and the contact of crossing blocks without features that face each other, such as a corner on a corner or
+// an edge, or collinear edges.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@
 
 namespace ashlar {
 
-/// A facet of D = P - Q (Entrance) by names that outlast a step: where blocks move, rounding changes which
-/// facets and edges their hulls have.
+/// A facet of D = P - Q (Entrance) with names that are stable between steps: when blocks move, rounding changes the
+/// facets and edges of their hulls.
 struct EntranceName {
   EntranceKind kind = EntranceKind::face_of_a;
   std::array<int, 2> a = {-1, -1};  ///< edge: points of the surface; facet: a cell and -1
@@ -36,11 +36,11 @@ class ConvexSurface {
   [[nodiscard]] const PlacedSurface& placed() const { return *placed_; }
   /// Its corners are points of the surface (source_points).
   [[nodiscard]] const ConvexShape& shape() const { return shape_; }
-  /// The cell that has most points in common with a facet, and the reverse: a facet is a cell, part of one or
-  /// several of them that are flat together, but for what rounding has bent.
+  /// The cell with most points in common with a facet, and the reverse: a facet is a cell, part of one, or several
+  /// cells that are coplanar but for rounding.
   [[nodiscard]] int cell_of_facet(int facet) const;
   [[nodiscard]] int facet_of_cell(int cell) const;
-  /// The edge between two points, -1: none now. @param reversed set if the edge runs the other way
+  /// The edge between two points, -1: none at present. @param reversed set if the edge runs the other way
   [[nodiscard]] int find_edge(const std::array<int, 2>& points, bool& reversed) const;
 
  private:
@@ -50,30 +50,29 @@ class ConvexSurface {
   ConvexShape shape_;
 };
 
-/// What is known of a pair from the last search.
+/// History of a pair from the last search.
 struct ContactHistory {
   std::optional<EntranceName> entrance;
-  /// m: blocks that are deeper in each other along it have not met through it
+  /// m: blocks that are deeper along the entrance have not entered through it
   double depth = 0.0;
-  /// m, >= 0, what gaps may be by rounding of coordinates: blocks nearer to touching than this, without
-  /// features that face each other, as diagonal neighbours in a grid, do not bear on each other yet, and
-  /// through which facet they will meet is not known
+  /// m, >= 0, rounding error of gaps. Blocks closer to touching than this without features that face each other, such
+  /// as diagonal neighbours in a grid, do not transmit forces yet, and the facet of entrance is not known
   double rounding = 0.0;
 };
 
-/// Completes the contacts that a search found (contact_search.hpp), with no faces over each other, by what
-/// the exact contact of the hulls says; sets their type to that of the hulls (crossing: along the direction
-/// taken). Where blocks cross along the normal of a face of one, a corner of the other that is on an edge or
-/// a corner is held by this face alone, the one it came through: all other contacts of the pair are dropped.
+/// Completes the contacts of a search (contact_search.hpp) without overlaps of faces by the exact contact of the
+/// hulls; sets their type to that of the hulls (crossing: along the selected direction). If blocks cross along the
+/// normal of a face of one, a corner of the other that is on an edge or a corner is assigned to this face alone, the
+/// one of entrance: all other contacts of the pair are removed.
 /// @param history of the same pair in the same order
-/// @return what the next search of this pair takes as history: of a pair that is apart or just touches the
-/// facet of D it is farthest across, of one that crosses the facet that decided
+/// @return history for the next search of this pair: if apart or just touching, the facet of D with the largest
+/// separation; if crossing, the deciding facet
 [[nodiscard]] std::optional<EntranceName> settle_convex_contacts(const ConvexSurface& a,
                                                                  const ConvexSurface& b,
                                                                  const ContactHistory& history,
                                                                  PairContacts& contacts);
 
-/// The same of faces over each other, which leave nothing open.
+/// The same for overlaps of faces, which are unambiguous.
 [[nodiscard]] EntranceName entrance_of_faces(const CellOverlap& overlap);
 
 }  // namespace ashlar

@@ -14,7 +14,7 @@
 namespace ashlar {
 namespace {
 
-/// A point on its way.
+/// Linear path of a point.
 struct Path {
   Vector3 start;
   Vector3 step;
@@ -48,7 +48,7 @@ double least_after(std::array<double, 4> cubic, double share) {
   return *std::min_element(cubic.begin(), cubic.end());
 }
 
-/// Shares of two segments (a, b) and (c, d) where they are nearest to each other.
+/// Closest points of two segments (a, b) and (c, d), as shares of them.
 std::array<double, 2> nearest_shares(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 u = b - a, v = d - c, r = a - c;
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
@@ -59,12 +59,11 @@ std::array<double, 2> nearest_shares(const Vector3& a, const Vector3& b, const V
   return {s, t};
 }
 
-/// A share of the step before which two features are farther apart than `near`; none if they are so to its
-/// end.
+/// A share of the step before which two features are farther apart than `near`; empty if they are for the whole step.
 /// @param distance_at by share. @param speed fastest approach, m per step
 template <class Distance>
 std::optional<double> first_touch(Distance distance_at, double speed, double near) {
-  constexpr int most_advances = 64;  // then the share reached is a safe answer too
+  constexpr int most_advances = 64;  // then the share reached is a safe result too
   double share = 0.0;
   for (int advance = 0; advance < most_advances; ++advance) {
     const double distance = distance_at(share);
@@ -76,7 +75,7 @@ std::optional<double> first_touch(Distance distance_at, double speed, double nea
   return share;
 }
 
-/// Where a contact is known, and between which faces: near both of two points or convex polygons.
+/// Place and faces of a known contact: near both of two points or convex polygons.
 struct KnownPlace {
   int face_a;
   int face_b;
@@ -90,7 +89,7 @@ double distance_to_place(const Vector3& p, const std::vector<Vector3>& outline) 
   return least;
 }
 
-/// Of the segment from `start` to `end`.
+/// Distance of the place from the segment `start` to `end`.
 double distance_to_place(const Vector3& start, const Vector3& end, const std::vector<Vector3>& outline) {
   if (outline.size() == 1) return (closest_on_segment(outline[0], start, end) - outline[0]).norm();
   double least = std::min(distance_to_place(start, outline), distance_to_place(end, outline));
@@ -160,7 +159,7 @@ class MotionCheck {
     return boxes;
   }
 
-  /// Whether a known contact between faces is where a point or side is at the start or the end of the step.
+  /// True if a known contact between faces is at the place of a point or side at the start or the end of the step.
   /// @param ends of the point or side of surface s
   [[nodiscard]] bool is_known(const std::vector<int>& faces_a, const std::vector<int>& faces_b,
                               const MovingSurface& s, const std::array<int, 2>& ends) {
@@ -192,7 +191,7 @@ class MotionCheck {
     return is_known(faces_a, faces_b, a_, of_a.ends) && is_known(faces_a, faces_b, b_, of_b.ends);
   }
 
-  // What is known is asked for last: most features that are near do not meet.
+  // Known contacts are checked last: most near features do not touch.
   void check_points(const FeatureList<int>& points, const FeatureList<int>& cells, bool point_of_a) {
     const MovingSurface& with_point = point_of_a ? a_ : b_;
     const MovingSurface& with_cell = point_of_a ? b_ : a_;
@@ -213,7 +212,7 @@ class MotionCheck {
     }
   }
 
-  /// When a point that is outside a triangle's plane at the start may get through it.
+  /// Time at which a point outside a triangle's plane at the start may pass through it; empty: never.
   [[nodiscard]] std::optional<double> enters(const Path& p, const std::array<Path, 3>& corners) const {
     const auto volume = signed_volume(p, corners[0], corners[1], corners[2]);
     const auto doubled_area = [&](double share) {
@@ -245,9 +244,9 @@ class MotionCheck {
                                              tributary_area(with_point.surface(), {own_cell})}});
   }
 
-  /// Whether two sides that start beside each other diverge by less than the tolerance there. They meet at
-  /// their ends, which go through the cells beside the other one; where their own lines cross, and on which
-  /// side of each other they start, is rounding.
+  /// True if two sides that start close together diverge by less than the tolerance there. They meet at their ends,
+  /// which pass through the cells beside the other one. The crossing of their lines, and their initial order, are
+  /// matters of rounding.
   [[nodiscard]] bool start_parallel(const std::array<Path, 2>& a, const std::array<Path, 2>& b) const {
     const Vector3 u = a[1].start - a[0].start;
     const Vector3 v = b[1].start - b[0].start;
@@ -261,7 +260,7 @@ class MotionCheck {
       return Vector3((a[1].at(share) - a[0].at(share)).cross(b[1].at(share) - b[0].at(share)));
     };
     if (start_parallel(a, b)) return;
-    // The volume is positive while b is ahead of a along u x v; apart are the two where that leads into b.
+    // The volume is positive while b is ahead of a along u x v; the direction into b decides the order.
     auto volume = signed_volume(b[0], a[0], a[1], b[1]);
     const double sign =
         across(0.0).dot(outward_of(*a_.start, of_a) - outward_of(*b_.start, of_b)) < 0.0 ? -1.0 : 1.0;
@@ -285,8 +284,8 @@ class MotionCheck {
     const auto share = first_touch(distance, speed, 0.25 * limits_.tolerance);
     if (!share || least_after(volume, *share) >= -allowed) return;
     const auto [s, t] = shares(*share);
-    // An end of one that meets the other goes through a cell beside it: which sides of a corner cross there
-    // is rounding.
+    // An end of one that meets the other passes through an adjacent cell: which sides of a corner cross there is a
+    // matter of rounding.
     const auto is_end = [&](const std::array<Path, 2>& side, double along) {
       const double length = (side[1].at(*share) - side[0].at(*share)).norm();
       return std::min(along, 1.0 - along) * length <= 0.25 * limits_.tolerance;
@@ -306,7 +305,7 @@ class MotionCheck {
   const MovingSurface b_;
   const MotionLimits limits_;
   const PairContacts& known_;
-  std::optional<std::vector<KnownPlace>> places_;  ///< of what is known, once it is asked for
+  std::optional<std::vector<KnownPlace>> places_;  ///< of known contacts, computed at the first use
   std::vector<Touch> touches_;
 };
 

@@ -1,12 +1,10 @@
-// Whether two surfaces pass through each other within a step (theory.md section 6): every vertex of one
-// against every cell of the other, every edge against every edge, all points on straight lines from start to
-// end of the step.
+// Continuous collision check of two surfaces within a step (theory.md section 6): every vertex of one against every
+// cell of the other, every edge against every edge, with all points on straight lines from start to end of the step.
 //
-// Conservative: the distance of two features divided by the fastest approach of their points is time in which
-// they cannot touch; advancing by it again and again ends at a time before the first touch, or at the end of
-// the step. A touch counts when the features can be beyond each other afterwards: their signed volume, a
-// cubic in time, is bounded by its Bernstein coefficients. Edges that start along each other, or meet where
-// one of them ends, are left to their ends.
+// Conservative advancement: within the distance of two features divided by the fastest approach of their points they
+// cannot touch. Repeated advancement ends at a time before the first touch, or at the end of the step. A touch counts
+// if the features can be beyond each other afterwards: their signed volume, a cubic in time, is bounded by its
+// Bernstein coefficients. Edges that start collinear, or meet at an end of one of them, are treated by their ends.
 #pragma once
 
 #include <variant>
@@ -24,16 +22,17 @@ struct Touch {
   std::variant<VertexContact, EdgeContact> contact;
 };
 
-/// What counts as passing, and what is taken care of.
+/// Limits of the collision check.
 struct MotionLimits {
   double
-      tolerance;  ///< m, > 0: deeper than this at the end of the step, nearer than a quarter of it: a touch
-  double reach;   ///< m: a known contact stands for features around its place up to this distance
+      tolerance;  ///< m, > 0: a touch is deeper than this at the end of the step, and closer than a quarter
+                  ///< of it before
+  double reach;   ///< m: a known contact represents features around its place up to this distance
 };
 
-/// All touches that none of the known contacts stands for: a contact does for features that share its faces
-/// (or, on the side of a cell, faces next to it) and are near it.
-/// @param known contacts of a and b that the step takes into account
+/// All touches not represented by a known contact: a contact represents nearby features that share its faces (or, on
+/// the side of a cell, adjacent faces).
+/// @param known contacts of a and b included in the step
 [[nodiscard]] std::vector<Touch> find_touches(const MovingSurface& a, const MovingSurface& b,
                                               const PairContacts& known, const MotionLimits& limits);
 

@@ -17,7 +17,7 @@ Box swept_box(const MovingSurface& s, std::span<const int> points) {
   return box;
 }
 
-/// Adds a feature if its way comes near. @param points of it
+/// Adds a feature if its path comes near. @param points of it
 template <class Feature>
 void add_if_near(const MovingSurface& moving, const Box& around, std::span<const int> points,
                  const Feature& feature, FeatureList<Feature>& features) {

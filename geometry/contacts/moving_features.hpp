@@ -1,4 +1,4 @@
-// What of a moving surface a motion check looks at: points, sides and cells whose way comes near a box.
+// Features of a moving surface for collision checks: points, sides and cells whose paths come near a box.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SurfaceSide {
   std::array<int, 2> cells;  ///< beside it; of an inner side the same twice
 };
 
-/// Features of one kind, each with the box of its way, m.
+/// Features of one kind, each with the box of its path, m.
 template <class Feature>
 struct FeatureList {
   std::vector<Feature> list;
@@ -37,7 +37,7 @@ struct MovingFeatures {
 /// Features whose boxes meet `around`: points move on straight lines.
 [[nodiscard]] MovingFeatures features_near(const MovingSurface& moving, const Box& around);
 
-// Faces whose contacts stand for a feature: a known one between them is the feature's own.
+// Faces whose contacts represent a feature.
 
 [[nodiscard]] std::vector<int> faces_of_point(const SubFaceSurface& surface, int point);
 /// The cell's face and those across convex edges of it.

@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-/// Where a corner of an overlap lies on a face, its inner sides and points left out.
+/// Location of a corner of an overlap on a face, ignoring its inner sides and points.
 struct FacePlace {
   int dimension;  ///< 0: at a vertex of the outline, 1: inside an edge, 2: inside
   int index;      ///< vertex, edge of the polyhedron; inside: -1
@@ -35,7 +35,7 @@ FacePlace place_on_face(const SubFaceSurface& surface, const SurfaceCell& cell,
   return {2, -1, -1};
 }
 
-/// Whether two sides run along each other as seen along w.
+/// True if two sides are parallel in the projection along w.
 bool parallel_sides(const PlacedSurface& a, const CellOverlap& overlap, int side_a, const PlacedSurface& b,
                     int side_b) {
   const auto ends = [](const PlacedSurface& s, int cell, int side) {
@@ -49,10 +49,10 @@ bool parallel_sides(const PlacedSurface& a, const CellOverlap& overlap, int side
                      ladder) == 0;
 }
 
-/// Names the features a polygon vertex is made of: the same in every cell overlap it is a corner of.
+/// Features that make a polygon vertex: the same in all cell overlaps with this corner.
 using PointName = std::array<int, 4>;
 
-/// The ends of the side, or twice the point, a location stands for.
+/// The ends of the side, or twice the point, of a location.
 std::array<int, 2> points_of(const SurfaceCell& cell, const PlaneLocation& location) {
   if (location.dimension == 2) return {-1, -1};
   const int first = cell.corners[at(location.index)];
@@ -61,7 +61,7 @@ std::array<int, 2> points_of(const SurfaceCell& cell, const PlaneLocation& locat
   return {std::min(first, second), std::max(first, second)};
 }
 
-/// Of a corner of the division: a point of either block is one corner, whatever cell of the other it is over.
+/// Name of a corner of the division: a point of either block is one corner, over any cell of the other.
 PointName division_name(const SurfaceCell& cell_a, const SurfaceCell& cell_b, const OverlapCorner& corner) {
   const auto in_a = points_of(cell_a, corner.in_a);
   const auto in_b = points_of(cell_b, corner.in_b);
@@ -70,7 +70,7 @@ PointName division_name(const SurfaceCell& cell_a, const SurfaceCell& cell_b, co
   return {in_a[0], in_a[1], in_b[0], in_b[1]};
 }
 
-/// Of a vertex of the polygon of two flat faces; none for a corner that inner sides make.
+/// Name of a vertex of the polygon of two flat faces; empty for a corner made by inner sides.
 std::optional<PointName> polygon_name(const PlacedSurface& a, const PlacedSurface& b,
                                       const CellOverlap& overlap, const OverlapCorner& corner) {
   const FacePlace on_a = place_on_face(a.surface(), a.surface().cells[at(overlap.cell_a)], corner.in_a);

@@ -1,7 +1,7 @@
-// The overlap of two faces from those of their cells: which corners are contact points (theory.md section
-// 6.4). Sides inside a face only cut the overlap into pieces for integration; the corners they make are no
-// contact points. What is left are the vertices of the overlap polygon, holes and several pieces included:
-// corners of one face over the other, and rims that cross.
+// The overlap of two faces from those of their cells: selection of contact points among the corners (theory.md
+// section 6.4). Sides inside a face only divide the overlap for integration; their corners are not contact points.
+// The remaining points are the vertices of the overlap polygon, including holes and several parts: corners of one
+// face over the other, and crossings of edges.
 #pragma once
 
 #include <vector>
@@ -24,8 +24,8 @@ struct FaceOverlap {
   std::vector<FaceOverlapPoint> points;  ///< each vertex of the polygon once, in the order of the list
 };
 
-/// Joins cell overlaps by faces, ordered by (face_a, face_b). Faces that were divided because they curve have
-/// no polygon: there every corner of the cell overlaps is a point, once.
+/// Joins cell overlaps by faces, ordered by (face_a, face_b). Faces divided because they curve have no polygon: all
+/// corners of the cell overlaps are points, once each.
 [[nodiscard]] std::vector<FaceOverlap> join_by_faces(const PlacedSurface& a, const PlacedSurface& b,
                                                      const std::vector<CellOverlap>& overlaps);
 

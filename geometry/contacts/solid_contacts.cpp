@@ -16,7 +16,7 @@ bool less(const Vector3& p, const Vector3& q) {
   return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
 }
 
-// Writes a minimum in the words of the report.
+// Writes a minimum with the numbering of the report.
 class MinimumWriter {
  public:
   MinimumWriter(const SolidFeatures& a, const SolidFeatures& b, const DistanceMinimum& minimum)
@@ -52,7 +52,7 @@ class MinimumWriter {
     p.point = on_a ? of_b : of_a;
     p.foot = p.plane_point = on_a ? of_a : of_b;
     p.plane_normal = direction;
-    // The plane is better known by a point of the mesh and by the normal of the face.
+    // A point of the mesh and the normal of the face define the plane more accurately.
     if (p.face_of) {
       const SolidFeatures& body = on_a ? a_ : b_;
       const int face = on_a ? minimum_.a.index : minimum_.b.index;
@@ -67,7 +67,7 @@ class MinimumWriter {
   const DistanceMinimum& minimum_;
 };
 
-// Apart from report_solids() so that no arithmetic moves across the change of the rounding mode.
+// Separate from report_solids() so that no arithmetic is moved across the change of the rounding mode.
 [[gnu::noinline]] ContactReport report_to_nearest(const Polyhedron& a, const Polyhedron& b,
                                                   const std::optional<double>& distance) {
   const SolidFeatures features_a(a), features_b(b);

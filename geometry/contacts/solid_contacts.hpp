@@ -7,12 +7,12 @@
 
 namespace ashlar {
 
-/// Relation, distance and contacts of two solids of any shape (solid_relation.hpp, distance_minima.hpp): one
-/// contact for each pair of merged faces, edges and corners that is a local minimum of the distance, but none
-/// for a pair in the closure of another one. Their numbers are those of the exact contact, rounded once.
+/// Relation, distance and contacts of two solids of any shape (solid_relation.hpp, distance_minima.hpp): one contact
+/// for each pair of merged faces, edges and corners at a local minimum of the distance, except pairs in the closure
+/// of another one. The numbers are those of the exact contact, rounded once.
 ///
-/// @param distance m, >= 0: all contacts at most so far apart. None: those at the least distance, which are
-/// the touching ones where the solids touch. Solids that cross have no contacts.
+/// @param distance m, >= 0: all contacts up to this distance. Empty: those at the least distance, i.e. touching
+/// contacts if the solids touch. Solids that cross have no contacts.
 /// @throws std::invalid_argument for a negative or non-finite distance.
 [[nodiscard]] ContactReport report_solids(const Polyhedron& a, const Polyhedron& b,
                                           const std::optional<double>& distance = std::nullopt);

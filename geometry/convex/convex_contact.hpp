@@ -17,7 +17,7 @@
 
 namespace ashlar {
 
-/// What decided the direction of a contact.
+/// Rule that determined the direction of a contact.
 enum class DirectionRule {
   closest_points,     ///< apart: w
   unique,             ///< touching in a face or in crossing edges: the only normal
@@ -57,7 +57,7 @@ struct ConvexContact {
   [[nodiscard]] ContactType type() const { return region.type; }
 };
 
-/// What is wanted beyond relation, type and squared lengths.
+/// Optional results besides relation, type and squared lengths.
 struct CrossingDetail {
   bool region = true;               ///< the vertices of the common solid
   bool translation_regions = true;  ///< the contacts the minimal translations lead to
@@ -77,7 +77,7 @@ struct Resolution {
   double sine = 0.0;      ///< of the contact angle, 0 to 1
 };
 
-/// The type at a resolution: what the contact report tells. A step asks for it at resolution zero.
+/// The type at a resolution, for the contact report. A step uses resolution zero.
 ///
 /// With w the direction of the exact contact (touching, crossing: chosen as in classify), P_tau is the convex
 /// hull of the corners of P that are at most `distance` above its support along w, or seen from every support
@@ -102,9 +102,8 @@ struct ResolvedContact {
                                           const Resolution& resolution,
                                           const std::optional<Entrance>& history = std::nullopt);
 
-/// The facet of D = P - Q across which the two are farthest apart (of several the one known from before, else
-/// as in DirectionRule): what the next steps need as history while the two are apart or just touch. None if
-/// they cross.
+/// The facet of D = P - Q with the largest separation of the two (of several the known one, else as in
+/// DirectionRule): the history for later steps while the two are apart or just touch. Empty if they cross.
 [[nodiscard]] std::optional<Entrance> find_entrance(const ConvexShape& a, const ConvexShape& b,
                                                     const std::optional<Entrance>& history = std::nullopt);
 

@@ -1,9 +1,9 @@
 // A convex solid, or a single triangle, as the set of its true corners, edges and facets.
 //
-// What the exact contact classification sees of a body. Coplanar triangles are one facet; a point on a
-// straight edge or inside a flat facet is not a corner; all of it is decided exactly on the given doubles, so
-// two triangulations of the same solid give the same shape up to the numbering. A triangle is a flat shape:
-// three corners, three edges, one facet seen from both sides.
+// The representation of a body for exact contact classification. Coplanar triangles are one facet; a point on a
+// straight edge or inside a flat facet is not a corner. All of it is decided exactly for the given doubles, so that
+// two triangulations of the same solid give the same shape up to the numbering. A triangle is a flat shape: three
+// corners, three edges, one facet seen from both sides.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,11 +40,11 @@ class ConvexShape {
   /// edges are flipped, so the shape is the exact convex hull of the points and its edges between former
   /// facets stay.
   /// @throws std::invalid_argument if the mesh is not closed, is not finite, has a triangle of zero area, or
-  /// is concave beyond what flips of edges repair.
+  /// is concave beyond repair by flips of edges.
   [[nodiscard]] static ConvexShape from_mesh(const TriangleMesh& mesh);
 
-  /// As from_mesh, but what flips of edges do not repair becomes the hull of the mesh's points: for a placed
-  /// copy of a convex solid, however much its points are off their faces.
+  /// As from_mesh, but a mesh that flips of edges do not repair is replaced by the hull of its points: for a placed
+  /// copy of a convex solid, with points at any distance from their faces.
   /// @throws std::invalid_argument if the points are coplanar or not finite.
   [[nodiscard]] static ConvexShape hull_of(const TriangleMesh& mesh);
 

@@ -149,7 +149,7 @@ int CellComplex::side_of_cell(int plane, int cell) const {
   return found;
 }
 
-// The point goes into the loops of all faces around the edge.
+// The point is added to the loops of all faces around the edge.
 void CellComplex::divide_edge(int edge, int plane) {
   const auto [from, to] = edges_[edge].points;
   const auto [p, q] = edges_[edge].planes;
@@ -172,7 +172,7 @@ void CellComplex::divide_edge(int edge, int plane) {
   }
 }
 
-// The face keeps what is below.
+// The face keeps the part below.
 void CellComplex::divide_convex_face(int index, int plane) {
   const std::vector<int> edges = faces_[index].edges;
   for (const int edge : edges)
@@ -242,8 +242,8 @@ void CellComplex::exchange_cell(int face, int old_cell, int new_cell) {
   std::replace(cells.begin(), cells.end(), old_cell, new_cell);
 }
 
-// The sides of the upper cell's faces that lie in the plane, taken as these faces have them when seen from
-// outside, go around the section counter-clockwise as seen from above.
+// The sides of the upper cell's faces in the plane, with their direction as seen from outside, run counter-clockwise
+// around the section as seen from above.
 void CellComplex::add_section(int below, int above, int plane, int mark) {
   std::map<int, std::array<int, 2>> next;  // by point: the next point and the edge to it
   for (const int index : cells_[above].faces) {

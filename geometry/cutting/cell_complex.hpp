@@ -1,12 +1,11 @@
-// A solid as cells that fit together: any two of them meet in common faces, edges and points, and a
-// face between two cells is one object, not two that are equal. So what a plane does to a face, it does to
-// both cells, and neither gaps nor overlaps can come about. Only sources of this layer include this file.
+// A solid as a complex of cells: any two of them meet in common faces, edges and points, and a face between two cells
+// is one object, not two equal ones. So a plane that divides a face divides it for both cells, without gaps or
+// overlaps. Only sources of this layer include this file.
 //
-// Every point is the common point of three planes that were given, never of what was computed before, so its
-// integers do not grow with the number of cuts. A plane that parts a cell needs no more than the side of each
-// of the cell's points, and at faces that are not convex the order of points along a line. Where only
-// one of two neighbours is parted, the face between them is divided all the same: then faces of one cell may be
-// coplanar, and points of a face's loop may lie in straight sides.
+// Every point is the common point of three given planes, never of computed ones, so its integers do not grow with the
+// number of cuts. Division of a cell by a plane needs only the side of each of the cell's points, and for nonconvex
+// faces the order of points along a line. If only one of two neighbours is divided, the face between them is divided
+// all the same: then faces of one cell may be coplanar, and points of a face's loop may lie in straight sides.
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@ namespace ashlar {
 
 struct ComplexPoint {
   ExactPoint place;
-  std::vector<int> planes;  ///< some of those that it lies on, in the order in which that was found
+  std::vector<int> planes;  ///< some of the planes that contain it, in the order of detection
 };
 
 struct ComplexEdge {
@@ -33,7 +32,7 @@ struct ComplexEdge {
 };
 
 /// The outline of a connected part of a plane: its outer loop counter-clockwise as seen from above the plane, then
-/// those of holes. It may touch itself in points, and have an edge there and back.
+/// those of holes. It may touch itself in points, and have an edge in both directions.
 struct FaceOutline {
   std::vector<int> points;  ///< loop by loop
   std::vector<int> edges;   ///< edge k joins point k and the next one of its loop
@@ -57,13 +56,13 @@ struct OutlineSide {
 /// The points of each loop.
 [[nodiscard]] std::vector<std::span<const int>> loops_of(const FaceOutline& outline);
 
-/// A connected solid whose surface is one shell, as parting by planes leaves it.
+/// A connected solid whose surface is one shell, as made by division with planes.
 struct ComplexCell {
   std::vector<int> faces;
   bool convex = true;  ///< all faces, too
 };
 
-/// A face of a cell that is put together with others.
+/// A face of a cell that is assembled with others.
 struct CellFace {
   int plane;
   bool below;                    ///< the cell is below the plane
@@ -71,7 +70,7 @@ struct CellFace {
   std::vector<ExactPoint> loop;  ///< corners, counter-clockwise as seen from above the plane
 };
 
-/// What cells that are put together have in common.
+/// Common parts of assembled cells.
 struct CellSeams {
   std::map<std::array<Integer, 4>, int> points;  ///< by coordinates
   std::map<std::array<int, 2>, int> edges;       ///< by points, increasing
@@ -89,14 +88,14 @@ class CellComplex {
   /// A solid as a cell of its own. Triangles in one plane that are connected over edges make a face.
   /// @param surface closed, outward, without self-intersections, of a connected solid; it may touch itself
   int add_cell(const TriangleMesh& surface);
-  /// A convex cell beside others that it fits to: common points, edges and faces are those that are there.
+  /// Adds a convex cell that fits others: existing common points, edges and faces are shared.
   int add_cell(const std::vector<CellFace>& faces, CellSeams& seams);
 
   [[nodiscard]] const ExactPlane& plane(int index) const { return planes_[index]; }
   [[nodiscard]] const ComplexPoint& point(int index) const { return points_[index]; }
   [[nodiscard]] const ComplexEdge& edge(int index) const { return edges_[index]; }
   [[nodiscard]] const ComplexFace& face(int index) const { return faces_[index]; }
-  /// Of a cell.
+  /// Faces of a cell.
   [[nodiscard]] const std::vector<int>& faces(int cell) const { return cells_[cell].faces; }
   [[nodiscard]] bool convex(int cell) const { return cells_[cell].convex; }
   [[nodiscard]] int cell_count() const { return static_cast<int>(cells_.size()); }
@@ -106,30 +105,31 @@ class CellComplex {
 
   /// 1 above the plane, 0 on it, -1 below.
   [[nodiscard]] int side(int plane, int point) const;
-  /// 1 or -1 if all of the cell is above or below, points on the plane left aside; 0 if the plane parts it.
+  /// 1 or -1 if the cell is above or below the plane, except points on it; 0 if the plane divides it.
   [[nodiscard]] int side_of_cell(int plane, int cell) const;
-  /// Parts a convex cell: it keeps what is below. @pre the plane parts it. @param mark of the face between the
-  /// two @return the cell above
+  /// Divides a convex cell: it keeps the part below. @pre the plane divides it. @param mark of the face between the
+  /// two
+  /// @return the cell above
   int part(int cell, int plane, int mark);
   void set_mark(int face, int mark) { faces_[face].mark = mark; }
-  /// Takes a cell away; it keeps its number and has no faces.
+  /// Removes a cell; its number is not used again, and has no faces.
   void remove(int cell);
 
-  // What parting of any cell is made of (cell_parting.hpp).
+  // Parts of the division of any cell (cell_parting.hpp).
   int add_edge(int from, int to, std::array<int, 2> planes);
-  /// A face around which there is no cell yet.
+  /// A face without adjacent cells.
   int add_face(int plane, FaceOutline outline, int mark);
   /// A cell without faces.
   int add_cell(bool convex);
-  /// Puts faces on the surface of a cell in place of those that it has. @param faces and whether the cell is below them
+  /// Replaces the surface of a cell. @param faces and whether the cell is below them
   void set_faces(int cell, const std::vector<std::pair<int, bool>>& faces);
-  /// @pre it is, and so are its faces
+  /// @pre the cell is convex, and so are its faces
   void set_convex(int cell) { cells_[cell].convex = true; }
-  /// Gives an edge a point where it meets the plane. @pre its ends are on different sides
+  /// Divides an edge at its intersection with the plane. @pre its ends are on different sides
   void divide_edge(int edge, int plane);
-  /// Parts a convex face: it keeps what is below the plane. @pre the plane parts it
+  /// Divides a convex face: it keeps the part below the plane. @pre the plane divides it
   void divide_convex_face(int face, int plane);
-  /// Divides a face into others. @param outlines what it is made of, at least one; the face keeps the first
+  /// Divides a face into others. @param outlines of its parts, at least one; the face keeps the first
   void divide_face(int face, std::vector<FaceOutline> outlines);
 
  private:
@@ -142,7 +142,7 @@ class CellComplex {
   void exchange_cell(int face, int old_cell, int new_cell);
 
   std::vector<ExactPlane> planes_;
-  mutable std::vector<ComplexPoint> points_;  ///< their planes grow as they are found
+  mutable std::vector<ComplexPoint> points_;  ///< their lists of planes grow by detection
   std::vector<ComplexEdge> edges_;
   std::vector<ComplexFace> faces_;
   std::vector<ComplexCell> cells_;

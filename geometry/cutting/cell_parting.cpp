@@ -50,7 +50,7 @@ class CellParting {
     }
   }
 
-  /// Of what the face bounds, also where it lies in the plane.
+  /// Side of the body bounded by the face, also for a face in the plane.
   [[nodiscard]] int side_of(int face, bool below) const {
     for (const int point : complex_.face(face).points)
       if (const int side = complex_.side(plane_, point)) return side;
@@ -59,7 +59,7 @@ class CellParting {
     return sgn(Integer(a * e + b * f + c * g)) * (below ? -1 : 1);
   }
 
-  /// Around edges in the plane: where the cell goes on in the plane, to the left, the right or both.
+  /// Around edges in the plane: the cell continues in the plane to the left, the right or both.
   [[nodiscard]] std::vector<OutlineSide> section_sides() const {
     std::vector<OutlineSide> sides;
     for_each_edge(fan_sides(complex_, surface_of(complex_, cell_)), [&](std::vector<FanSide> around) {
@@ -73,7 +73,7 @@ class CellParting {
     return sides;
   }
 
-  /// Faces belong together where the cell is between them.
+  /// Faces belong together if the cell is between them.
   [[nodiscard]] std::vector<Surface> connected(const Surface& surface) const {
     UnionFind united(surface.size());
     for_each_edge(fan_sides(complex_, surface), [&](const std::vector<FanSide>& around) {

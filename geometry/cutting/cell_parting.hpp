@@ -1,5 +1,5 @@
-// A cell of any shape parted by a plane, exactly. The work goes with the number of its faces, of those through which
-// the plane goes with the squares of their corners at most. Only sources of this layer include this file.
+// Exact division of a cell of any shape by a plane. The work is linear in the number of its faces, and at most
+// quadratic in the number of corners of the divided faces. Only sources of this layer include this file.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace ashlar {
 
-/// At least one each; the cell that was parted comes first among those below.
+/// At least one each; the divided cell comes first among those below.
 struct CellParts {
   std::vector<int> below, above;
 };
 
-/// Faces that the plane goes through are divided along it, for the neighbours too. The plane's own faces are the regions
-/// in which it goes through the cell. Parts that meet in an edge or a point only are different ones.
-/// @pre the plane parts the cell. @param mark of the faces that come about
+/// Divides faces crossed by the plane, for the neighbours too. The new faces in the plane are the regions where it
+/// crosses the cell. Parts that meet in an edge or a point only are separate.
+/// @pre the plane divides the cell. @param mark of the new faces
 CellParts part_cell(CellComplex& complex, int cell, int plane, int mark);
 
 }  // namespace ashlar

@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// A plane through most of the reflex edges. None: all faces that meet make angles of at most half a turn.
+/// A plane through most of the reflex edges. Empty: all adjacent faces make angles of at most 180 degrees.
 std::optional<int> plane_through_reflex_edges(const CellComplex& complex, const std::vector<FanSide>& sides) {
   std::map<int, int> counts;
   for_each_edge(sides, [&](const std::vector<FanSide>& around) {
@@ -30,8 +30,8 @@ std::optional<int> plane_through_reflex_edges(const CellComplex& complex, const 
       ->first;
 }
 
-/// A plane across a face that is not convex although the cell is: through an edge beside which there is a face in the
-/// same plane.
+/// A plane that divides a nonconvex face of a convex cell: through an edge beside which there is a face in the same
+/// plane.
 std::optional<int> plane_across_faces(const CellComplex& complex,
                                       const std::vector<std::pair<int, bool>>& faces,
                                       const std::vector<FanSide>& sides) {

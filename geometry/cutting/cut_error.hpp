@@ -1,4 +1,4 @@
-// A cut that cannot be made.
+// A cut that is impossible.
 #pragma once
 
 #include <stdexcept>

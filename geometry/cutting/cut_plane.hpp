@@ -5,8 +5,7 @@
 
 namespace ashlar {
 
-/// All x with normal . (x - point) = offset, exactly as the doubles say. The side that the normal points to
-/// is above.
+/// All x with normal . (x - point) = offset, exactly for the given doubles. The normal points to the side above.
 struct CutPlane {
   Vector3 normal;       ///< not zero, any length
   Vector3 point;        ///< m

@@ -22,7 +22,7 @@ namespace ashlar {
 namespace {
 
 struct Piece {
-  std::vector<int> cells;  ///< none: it is no more
+  std::vector<int> cells;  ///< empty: the piece does not exist any more
   Box box;
   int label = 0;
   int next = -1;  ///< in order
@@ -36,7 +36,7 @@ struct CutSolid::State {
   std::vector<Piece> pieces;
   std::vector<int> piece_of;  ///< by cell
   mutable std::optional<PieceMeasures> measures;
-  mutable std::vector<int> merged_points;  ///< for one resolution; empty: not known
+  mutable std::vector<int> merged_points;  ///< for one resolution; empty: unknown
   mutable double merged_to = 0.0;
 
   [[gnu::noinline]] void start(const Polyhedron& solid) {
@@ -54,7 +54,7 @@ struct CutSolid::State {
     return result;
   }
 
-  /// What follows from a piece's cells.
+  /// Updates the data derived from a piece's cells.
   void settle(int index) {
     Piece& piece = pieces[index];
     piece.box = Box();
@@ -66,7 +66,7 @@ struct CutSolid::State {
     }
   }
 
-  /// -1 or 1 if all of a piece is below or above, else 0; `parted` if a cell is parted, not only the piece.
+  /// -1 or 1 if a piece is completely below or above, else 0; `parted` if a cell is divided, not only the piece.
   [[nodiscard]] int side_of(int index, int plane) const {
     if (const int side = complex.plane(plane).side_of_box(pieces[index].box.low, pieces[index].box.high))
       return side;
@@ -135,7 +135,7 @@ struct CutSolid::State {
     }
   }
 
-  /// Makes pieces of a piece's cells: those of one class that are connected over faces.
+  /// Makes pieces of a piece's cells: those of one class connected by faces.
   void divide(int index, std::vector<std::pair<int, int>> sorted, int mark) {
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -170,7 +170,7 @@ struct CutSolid::State {
       for (const int face : complex.faces(cell)) mark_between(face, place, mark);
   }
 
-  /// A face between two pieces that were one is of the cut, also where it lay inside before.
+  /// A face between two parts of a former piece belongs to the cut, even if it was inside before.
   void mark_between(int face, const std::map<int, int>& cells, int mark) {
     const auto& [below, above] = complex.face(face).cells;
     if (cells.contains(below) && cells.contains(above) && piece_of[below] != piece_of[above])

@@ -1,8 +1,8 @@
-// A solid that planes and surfaces cut into pieces which fit together exactly; notes/cutting.md says why.
+// A solid cut by planes and surfaces into pieces that fit together exactly; see notes/cutting.md.
 //
-// Every corner is the common point of three given planes, decided exactly and rounded once, so that
-// neighbours have the same corners to the last bit. Pieces are made of cells: one each, until some are glued or a
-// surface has cut them.
+// Every corner is the common point of three given planes, decided exactly and rounded once, so that neighbours have
+// the same corners to the last bit. Pieces are made of cells: one each, until some are glued or a surface has cut
+// them.
 #pragma once
 
 #include <functional>
@@ -17,10 +17,10 @@
 
 namespace ashlar {
 
-/// Most cells that cuts along the surface of a solid, or the convex parts of one, may come to.
+/// Largest number of cells made by cuts along the surface of a solid, or by division into convex parts.
 inline constexpr int most_surface_cells = 200000;
 
-/// A part of a piece's surface: all that is in one plane, on one side of it and next to one neighbour.
+/// A part of a piece's surface: all faces in one plane, on one side of it and next to one neighbour.
 struct PieceFace {
   int plane;               ///< the same number: the same plane
   bool below;              ///< the piece is below it
@@ -29,49 +29,48 @@ struct PieceFace {
   std::vector<int> parts;  ///< flat parts, by numbers that the neighbour's face has too
 };
 
-/// A face that holds a piece in its place.
+/// A face that restrains a piece.
 struct HeldFace {
   int plane;
   bool below;
 };
 
-/// Pieces are numbered from 0, the solid as a whole first. One that is cut or glued away is no more; its
-/// number is not used again, but for the first part of what was cut.
+/// Pieces are numbered from 0, the whole solid first. The number of a piece that is cut or glued is not used again,
+/// except for the first part of a cut piece.
 class CutSolid {
  public:
-  /// Whether a piece that is met is to be cut.
+  /// True if a piece that is crossed is to be cut.
   using Choice = std::function<bool(int piece)>;
 
-  /// A convex solid is the convex hull of its corners; any other has the faces that its triangles are, exactly.
+  /// A convex solid is the convex hull of its corners; any other one has the exact faces of its triangles.
   explicit CutSolid(const Polyhedron& solid);
   ~CutSolid();
   CutSolid(CutSolid&&) noexcept;
   CutSolid& operator=(CutSolid&&) noexcept;
 
-  /// In order: what was cut off a piece follows it.
+  /// In order: a part cut off a piece follows it.
   [[nodiscard]] std::vector<int> pieces() const;
-  /// 0, or what cut_along gave.
+  /// 0, or the label given to cut_along.
   [[nodiscard]] int label(int piece) const;
   /// Least and greatest normal . (x - point) of a piece, rounded.
   [[nodiscard]] std::pair<double, double> extent(int piece, const CutPlane& plane) const;
-  /// m, rounded: from the plane's point, which lies in the plane, to what it cuts out of a piece; infinite if
-  /// it does not part the piece.
+  /// m, rounded: distance in the plane from the plane's point to the section of a piece; infinite if the plane does
+  /// not divide the piece.
   [[nodiscard]] double distance_in_plane(int piece, const CutPlane& plane) const;
 
-  /// Parts pieces. A plane that only touches a piece, or misses it, does nothing, and does not ask. What is
-  /// not connected over faces is several pieces. @param mark >= 0, of the faces that come about.
+  /// Divides pieces. A plane that only touches a piece, or misses it, has no effect, and `chosen` is not called.
+  /// Parts not connected by faces are separate pieces. @param mark >= 0, of the new faces.
   void cut(const CutPlane& plane, int mark, const Choice& chosen);
-  /// Parts pieces along the surface of a solid. @param label of what is inside
-  /// @throws CutError if that takes too many cells
+  /// Divides pieces along the surface of a solid. @param label of the parts inside
+  /// @throws CutError if too many cells are needed
   void cut_along(const Polyhedron& surface, int mark, int label, const Choice& chosen);
   /// @throws CutError unless the solid is convex and was not cut before
   void require_cells() const;
-  /// Parts the whole into the Voronoi cells of points: all that is nearer to one of them than to any other.
-  /// Cells follow the order of the points; those that do not meet the solid are left out. @param mark as of
-  /// cut()
-  /// @throws CutError as require_cells(), or if two points are one
+  /// Divides the whole into the Voronoi cells of points: all places closer to one of them than to any other. Cells
+  /// are in the order of the points; those outside of the solid are omitted. @param mark as for cut()
+  /// @throws CutError as require_cells(), or if two points coincide
   void cut_into_cells(const std::vector<Vector3>& points, int mark);
-  /// Makes two pieces one. @param into keeps its number
+  /// Merges two pieces. @param into keeps its number
   void glue(int piece, int into);
 
   /// m^3, rounded once.
@@ -82,11 +81,13 @@ class CutSolid {
   [[nodiscard]] double area(const PieceFace& face) const;
   /// Outward, unit, rounded once.
   [[nodiscard]] Vector3 normal(const PieceFace& face) const;
-  /// Corners rounded once. Points of the solid within a resolution of each other are one, the first in
-  /// number, for all pieces alike: so a face that is a sliver between two others goes, and these meet. What
-  /// is left without area is left out. @param resolution m, >= 0
+  /// Corners rounded once. Points of the solid within a resolution of each other are merged to the first in number,
+  /// for all pieces alike: a face that is a sliver between two others vanishes, and these become adjacent. Parts
+  /// without area are omitted.
+  /// @param resolution m, >= 0
   [[nodiscard]] TriangleMesh mesh(int piece, double resolution = 0.0) const;
-  /// @param held faces of the piece; KeyBlock::faces are indices into it. @param force any length but zero
+  /// @param held faces that restrain the piece; KeyBlock::faces are indices into it. @param force of any length but
+  /// zero
   [[nodiscard]] KeyBlock key_block(int piece, const std::vector<HeldFace>& held, const Vector3& force) const;
 
  private:

@@ -7,8 +7,8 @@ namespace ashlar {
 
 namespace {
 
-// A face lies in direction way (n x d) from an edge along d. What is below the face is where the angle around d is less
-// if the edge goes forwards: with d = z and n = x the face lies along -y, and the body along -x.
+// A face lies in direction way (n x d) from an edge along d. The body below the face is on the side of smaller angles
+// around d if the edge goes forwards: with d = z and n = x the face lies along -y, and the body along -x.
 FanSide fan_side(int edge, int face, int plane, int way, bool below) {
   return {edge, face, plane, way, below != (way > 0)};
 }

@@ -43,12 +43,12 @@ class EdgeFan {
 
   /// By angle.
   [[nodiscard]] const std::vector<FanSide>& sides() const { return sides_; }
-  /// Whether the cell is around a half-plane that starts at the edge; not if that is along a face.
+  /// True if the cell contains a half-plane that starts at the edge; false if that is along a face.
   [[nodiscard]] bool holds(int plane, int way) const;
-  /// The plane of a face along which a part around the edge that is not convex is to be parted, or parts that meet in
-  /// the edge only; none if there is one part and it is convex.
+  /// The plane of a face for the division of a nonconvex part around the edge, or of parts that meet in the edge
+  /// only; empty if there is one convex part.
   [[nodiscard]] std::optional<int> parting_plane() const;
-  /// Whether there are two faces in one plane.
+  /// True if two faces are in one plane.
   [[nodiscard]] bool flat() const;
 
  private:

@@ -6,8 +6,8 @@
 namespace ashlar {
 namespace {
 
-/// Correctly rounded, without the greatest common divisor that a fraction would need: a quotient of 64 or 65
-/// bits whose last bit also stands for the remainder. @param denominator > 0
+/// Correctly rounded, without the greatest common divisor needed for a fraction: a quotient of 64 or 65 bits whose
+/// last bit also represents the remainder. @param denominator > 0
 double rounded_ratio(const Integer& numerator, const Integer& denominator) {
   if (sgn(numerator) == 0) return 0.0;
   const auto bits = [](const Integer& number) {
@@ -52,7 +52,7 @@ std::array<Integer, count> in_integers(const std::array<Rational, count>& number
 }
 
 constexpr double error_units = 8.0 * 0x1p-53;
-/// Far above what is lost where a coefficient or a product underflows, in parts of 1 + the coordinates.
+/// Far above the loss by underflow of a coefficient or a product, relative to 1 + the coordinates.
 constexpr double underflow = 0x1p-1000;
 
 }  // namespace
@@ -87,7 +87,7 @@ ExactPlane ExactPlane::through(const RationalVector& a, const RationalVector& b,
 }
 
 void ExactPlane::round() {
-  // The largest component of the normal has the size of 1, so that no product overflows.
+  // The largest component of the normal is of size 1, so that no product overflows.
   std::size_t bits = 0;
   for (int k = 0; k < 3; ++k) bits = std::max(bits, mpz_sizeinbase(coefficients_[k].get_mpz_t(), 2));
   Integer unit = 1;

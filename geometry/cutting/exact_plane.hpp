@@ -1,11 +1,9 @@
-// Planes and points with integer coefficients, for cuts that are decided exactly. Only sources of this layer
-// include this file.
+// Planes and points with integer coefficients, for exact cuts. Only sources of this layer include this file.
 //
-// A plane is (a, b, c, d) with a x + b y + c z = d, a point (x, y, z, w) stands for (x/w, y/w, z/w). Each
-// point also has its coordinates correctly rounded, and each plane its coefficients: the side of a point is a
-// sum of four products of doubles with an error of at most 8 u times the sum of their sizes (u = 2^-53: each
-// factor is off by u, a product by another, three sums by three more), and only where that does not tell, of
-// integers.
+// A plane is (a, b, c, d) with a x + b y + c z = d, a point (x, y, z, w) represents (x/w, y/w, z/w). Each point also
+// has its coordinates correctly rounded, and each plane its coefficients. The side of a point is a sum of four
+// products of doubles with an error of at most 8 u times the sum of their sizes (u = 2^-53: each factor has an error
+// u, a product another, three sums three more). Integers are used only if that does not decide.
 #pragma once
 
 #include <gmpxx.h>
@@ -41,9 +39,9 @@ class ExactPlane {
   [[nodiscard]] const std::array<Integer, 4>& coefficients() const { return coefficients_; }
   /// 1 above, 0 on the plane, -1 below.
   [[nodiscard]] int side(const ExactPoint& point) const;
-  /// The same from rounded numbers alone, if they tell.
+  /// The same from rounded numbers alone; empty if undecided.
   [[nodiscard]] std::optional<int> quick_side(const Vector3& rounded) const;
-  /// Whether a box of rounded points is above (1) or below (-1) for sure; else 0.
+  /// 1 or -1 if a box of rounded points is certainly above or below; else 0.
   [[nodiscard]] int side_of_box(const Vector3& low, const Vector3& high) const;
   [[nodiscard]] RationalVector normal() const;
   /// Unit, correctly rounded.
@@ -56,7 +54,7 @@ class ExactPlane {
   std::array<double, 4> rounded_;  ///< scaled by one power of two
 };
 
-/// The common point of three planes; none if they have no single one.
+/// The common point of three planes; empty if there is no unique one.
 [[nodiscard]] std::optional<ExactPoint> common_point(const ExactPlane& p, const ExactPlane& q,
                                                      const ExactPlane& r);
 

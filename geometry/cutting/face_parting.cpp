@@ -38,7 +38,7 @@ class FaceParting {
   }
 
  private:
-  /// A point in the plane, and how many sides go up and down from it.
+  /// A point in the plane, with the numbers of sides that go up and down from it.
   struct LinePoint {
     int point, up = 0, down = 0;
   };
@@ -53,7 +53,7 @@ class FaceParting {
     }
   }
 
-  /// In order along the line.
+  /// Sorts the points along the line.
   void find_line() {
     std::map<int, LinePoint> points;
     const auto count = [&](int point, int other) {
@@ -85,7 +85,7 @@ class FaceParting {
     }
   }
 
-  /// Along the line, just above it and just below, the parity of the sides that were met says what is inside.
+  /// Along the line, just above it and just below, the parity of the sides met so far determines the inside.
   void add_new_sides() {
     std::set<std::pair<int, int>> there;
     for (const OutlineSide& of : on_line_) there.insert(std::minmax(of.from, of.to));

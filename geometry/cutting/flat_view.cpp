@@ -10,7 +10,7 @@ const Integer& coordinate(const ExactPoint& point, int axis) {
   return axis == 0 ? point.x : axis == 1 ? point.y : point.z;
 }
 
-/// Rounding once keeps the order, so that integers are asked only of equal doubles.
+/// Rounding preserves the order, so that integers are needed only for equal doubles.
 int compare_along(const ExactPoint& a, const ExactPoint& b, int axis) {
   if (a.rounded[axis] != b.rounded[axis]) return a.rounded[axis] < b.rounded[axis] ? -1 : 1;
   return sgn(Integer(coordinate(a, axis) * b.w - coordinate(b, axis) * a.w));
@@ -37,8 +37,8 @@ int FlatView::turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c
   return way_ * sgn(determinant);
 }
 
-// Each coordinate is off by u, each difference by u more, products and their difference by two more: less
-// than 12 u times the largest coordinate times the sum of the differences. 0: it does not tell.
+// Each coordinate has an error u, each difference u more, products and their difference two more: less than 12 u
+// times the largest coordinate times the sum of the differences. 0: undecided.
 int FlatView::quick_turn(const Vector3& a, const Vector3& b, const Vector3& c) const {
   const int u = (axis_ + 1) % 3, v = (axis_ + 2) % 3;
   const double p = b[u] - a[u], q = b[v] - a[v], r = c[u] - a[u], s = c[v] - a[v];

@@ -1,5 +1,5 @@
-// Points of a plane seen along the axis nearest to its normal, so that what is counter-clockwise from above the
-// plane is so in the view. All answers are exact. Only sources of this layer include this file.
+// Points of a plane projected along the axis nearest to its normal, so that the orientation as seen from above the
+// plane is preserved. All results are exact. Only sources of this layer include this file.
 #pragma once
 
 #include "geometry/cutting/exact_plane.hpp"
@@ -16,8 +16,8 @@ class FlatView {
   [[nodiscard]] int compare(const ExactPoint& a, const ExactPoint& b) const;
   /// The same by the second coordinate alone.
   [[nodiscard]] int compare_heights(const ExactPoint& a, const ExactPoint& b) const;
-  /// Whether a ray from a point, towards greater first coordinates, meets a segment that the point is not on.
-  /// Of two segments that meet at the ray's height, it meets each or one as their other ends say.
+  /// True if a ray from a point, towards greater first coordinates, meets a segment that does not contain the point.
+  /// Of two segments that meet at the ray's height, it meets both or one depending on their other ends.
   [[nodiscard]] bool ray_meets(const ExactPoint& from, const ExactPoint& a, const ExactPoint& b) const;
   /// Coordinates in the view, whose axes go counter-clockwise.
   [[nodiscard]] std::array<Rational, 2> seen(const ExactPoint& point) const;

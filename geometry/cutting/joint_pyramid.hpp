@@ -11,11 +11,11 @@ namespace ashlar {
 
 using IntegerVector = std::array<Integer, 3>;
 
-/// Whether some s other than zero has n . s <= 0 for all n.
+/// True if there is an s other than zero with n . s <= 0 for all n.
 [[nodiscard]] bool has_direction(const std::vector<IntegerVector>& normals);
 
-/// @param held outward normals of the faces that hold the block; KeyBlock::faces are indices into it.
-/// @param free those of its other faces. @param force any length but zero
+/// @param held outward normals of the faces that restrain the block; KeyBlock::faces are indices into it.
+/// @param free those of its other faces. @param force of any length but zero
 [[nodiscard]] KeyBlock find_key_block(const std::vector<IntegerVector>& held,
                                       const std::vector<IntegerVector>& free, const Vector3& force);
 

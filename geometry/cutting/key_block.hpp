@@ -1,12 +1,11 @@
-// Whether a block can leave its place, and how it would move: the block theory of Goodman and Shi, Block
-// Theory and Its Application to Rock Engineering (1985), for one block.
+// Removability and motion of one block: the block theory of Goodman and Shi, Block Theory and Its Application to Rock
+// Engineering (1985).
 //
-// A block that is held by faces with outward normals n_i can move along s if n_i . s <= 0 for all of them:
-// these s are the joint pyramid. A block is removable if the pyramid has a direction other than zero (their
-// theorem, in terms of moves). Under a force r the block moves along the direction of the pyramid that is
-// nearest to r: r itself (falling, or lifting), the projection of r on one face, or on the line of two faces
-// (sliding). The remainder r - s is what the faces push back with: r - s = sum of l_i n_i with l_i >= 0. All
-// of this is decided by the signs of integers.
+// A block restrained by faces with outward normals n_i can move along s if n_i . s <= 0 for all of them: these s are
+// the joint pyramid. A block is removable if the pyramid has a direction other than zero (their theorem, in terms of
+// moves). Under a force r the block moves along the direction of the pyramid closest to r: r itself (falling, or
+// lifting), the projection of r on one face, or on the line of two faces (sliding). The rest r - s is the reaction of
+// the faces: r - s = sum of l_i n_i with l_i >= 0. All of this is decided by the signs of integers.
 #pragma once
 
 #include <array>
@@ -17,8 +16,8 @@
 namespace ashlar {
 
 enum class BlockMode {
-  not_removable,   ///< the pyramid is empty: neighbours hold the block whatever the force
-  stable,          ///< removable, but the force pushes it against its faces
+  not_removable,   ///< the pyramid is empty: neighbours restrain the block under any force
+  stable,          ///< removable, but the force presses it against its faces
   falling,         ///< along the force, away from all faces or along them without pressure
   sliding_on_one,  ///< along one face
   sliding_on_two,  ///< along the line of two faces
@@ -28,10 +27,10 @@ enum class BlockMode {
 [[nodiscard]] const char* to_string(BlockMode mode);
 
 struct KeyBlock {
-  bool finite = false;     ///< no direction points away from all of its faces, held or free
+  bool finite = false;     ///< no direction points away from all of its faces, restraining or free
   bool removable = false;  ///< the joint pyramid is not empty
   BlockMode mode = BlockMode::not_removable;
-  std::array<int, 2> faces = {-1, -1};  ///< that it slides on, as numbered by the caller
+  std::array<int, 2> faces = {-1, -1};  ///< faces of sliding, as numbered by the caller
   Vector3 direction = Vector3::Zero();  ///< of motion, unit, rounded; zero if it does not move
   std::array<double, 2> pressure = {};  ///< normal forces on `faces` for a force of length 1, rounded
   double thrust = 0.0;                  ///< force along the direction, for a force of length 1, rounded

@@ -22,7 +22,7 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>,
                                                CGAL::No_constraint_intersection_tag>;
 
-/// Triangles know how many constraints there are between them and what is outside, odd or even.
+/// Determines for each triangle if the number of constraints between it and the outside is odd or even.
 void find_inside(Triangulation& triangulation) {
   for (const auto face : triangulation.all_face_handles()) face->info() = not_met;
   std::vector<Triangulation::Face_handle> open = {triangulation.infinite_face()};

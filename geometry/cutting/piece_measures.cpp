@@ -115,7 +115,7 @@ const PieceMeasures::FixedPoint& PieceMeasures::fixed(int point) {
   return *fixed_[k];
 }
 
-// Differences are off by less than a unit each. A determinant of differences of at most D is off by six
+// The error of a difference is less than a unit. The error of a determinant of differences of at most D is six
 // products times 3 D^2 + 3 D + 1, less than 18 (D + 1)^2.
 double PieceMeasures::volume(const std::vector<std::pair<int, bool>>& faces) {
   const auto place = [&](int point) -> const FixedPoint& { return fixed(point); };
@@ -135,8 +135,8 @@ double PieceMeasures::volume(const std::vector<std::pair<int, bool>>& faces) {
   return rounded(Rational(six_volumes<Rational>(complex_, faces, exact) / 6));
 }
 
-// A component of a cross product of differences of at most D is off by two products times 2 D + 1, less than
-// 4 (D + 1); the length of a vector is off by less than twice what each component is.
+// The error of a component of a cross product of differences of at most D is two products times 2 D + 1, less than 4
+// (D + 1); the error of the length of a vector is less than twice that of its components.
 double PieceMeasures::area(const std::vector<int>& faces) {
   const auto place = [&](int point) -> const FixedPoint& { return fixed(point); };
   const Triple<Integer> sum = two_areas<Integer>(complex_, faces, place);

@@ -1,10 +1,10 @@
 // Volumes and areas of parts of a cell complex, each the exact value rounded once. Only sources of this layer
 // include this file.
 //
-// A point of a complex is a fraction of integers of some hundred bits, and a sum of products of many such
-// fractions is slow. So coordinates are cut off to 240 bits below the largest one first; each is then too
-// small by less than one unit, which bounds the error of the sum. Only where both bounds do not round to the
-// same double, which takes a value half way between two of them, are fractions added.
+// A point of a complex is a fraction of integers of some hundred bits, and a sum of products of many such fractions
+// is slow. So coordinates are first truncated to 240 bits below the largest one; the error of each is less than one
+// unit, which bounds the error of the sum. Fractions are added only if both bounds round to different doubles, which
+// needs a value midway between two.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace ashlar {
 
 class PieceMeasures {
  public:
-  /// @param complex outlives this. Its cells may be parted later: that makes no larger coordinates.
+  /// @param complex must outlive this. Its cells may be divided later: that makes no larger coordinates.
   explicit PieceMeasures(const CellComplex& complex);
 
   /// m^3. @param faces a closed surface: faces, and whether the body is below the plane of each
@@ -31,8 +31,8 @@ class PieceMeasures {
   const FixedPoint& fixed(int point);
 
   const CellComplex& complex_;
-  long shift_ = 0;  ///< a fixed coordinate is 2^shift_ times the coordinate, cut off
-  std::vector<std::unique_ptr<const FixedPoint>> fixed_;  ///< by point, null until asked for
+  long shift_ = 0;  ///< a fixed coordinate is 2^shift_ times the coordinate, truncated
+  std::vector<std::unique_ptr<const FixedPoint>> fixed_;  ///< by point, null until the first use
 };
 
 }  // namespace ashlar

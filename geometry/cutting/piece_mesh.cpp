@@ -25,7 +25,7 @@ double distance_from_segment(const Vector3& x, const Vector3& from, const Vector
   return (from + share * along - x).norm();
 }
 
-/// Where an edge goes through a plane, by rounded heights of its ends.
+/// Intersection of an edge with a plane, by rounded heights of its ends.
 Vector3 crossing(const ExactPlane& plane, const Vector3& from, const Vector3& to) {
   const Vector3 normal = plane.unit_normal();
   const auto& [a, b, c, d] = plane.coefficients();
@@ -35,9 +35,9 @@ Vector3 crossing(const ExactPlane& plane, const Vector3& from, const Vector3& to
   return from + std::clamp(low / (low - high), 0.0, 1.0) * (to - from);
 }
 
-/// Triangles of a convex loop that may have points in its straight sides. A corner is cut off where that
-/// leaves some area and takes some, decided on the exact points: else a point in the side of two faces could
-/// get a sliver of a triangle in both, one upon the other.
+/// Triangles of a convex loop that may have points in its straight sides. A corner is cut off if that leaves some
+/// area and removes some, decided for the exact points. Otherwise a point in the side of two faces could give a
+/// sliver in both, one on the other.
 std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const ComplexFace& face) {
   const FlatView view(complex.plane(face.plane));
   const auto turn = [&](int i, int j, int k) {
@@ -57,7 +57,7 @@ std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const C
       return other != before && other != here && other != after && turn(before, after, other) != 0;
     });
   };
-  // Ears next to the first point make a fan around it, where all corners are strict.
+  // Ears next to the first point form a fan around it if all corners are strict.
   std::size_t place = 1;
   while (loop.size() > 3) {
     std::size_t tried = 0;
@@ -75,8 +75,7 @@ std::vector<std::array<int, 3>> triangles_of(const CellComplex& complex, const C
   return triangles;
 }
 
-/// Faces of a surface that lie in one plane on one side, and the outlines of what is connected of them, as seen from
-/// outside.
+/// Faces of a surface in one plane on one side, and the outlines of their connected parts, as seen from outside.
 struct FlatGroup {
   std::array<Integer, 4> plane;  ///< outward
   std::vector<std::pair<int, bool>> faces;
@@ -97,7 +96,7 @@ std::vector<FlatGroup> groups_of(const CellComplex& complex, const std::vector<s
   return groups;
 }
 
-/// What is left of the sides of faces where those between two of them are taken away.
+/// Sides of faces without those between two of them.
 std::vector<OutlineSide> outer_sides(const CellComplex& complex, const FlatGroup& group) {
   std::set<std::pair<int, int>> sides;
   for (const auto& [index, below] : group.faces) {
@@ -122,7 +121,7 @@ void trace_outlines(const CellComplex& complex, FlatGroup& group) {
   }
 }
 
-/// Leaves the corners: points in which three groups meet, or a group meets itself. @return false if a loop has fewer
+/// Keeps corners only: points in which three groups meet, or a group meets itself. @return false if a loop has fewer
 /// than three
 bool drop_straight_points(std::vector<FlatGroup>& groups) {
   std::map<int, int> group_counts;
@@ -147,7 +146,7 @@ bool drop_straight_points(std::vector<FlatGroup>& groups) {
   return good;
 }
 
-/// Triangles of points of a complex, as a mesh of its own.
+/// Builds a mesh from triangles of points of a complex.
 class MeshBuilder {
  public:
   explicit MeshBuilder(const CellComplex& complex) : complex_(complex) {}
@@ -177,7 +176,7 @@ Vector3 outward_normal(const CellComplex& complex, const std::pair<int, bool>& f
   return face.second ? normal : Vector3(Vector3::Zero() - normal);
 }
 
-/// Without points that merge with the one before, and without ways there and back.
+/// Removes points merged with the preceding one, and segments traversed in both directions.
 std::vector<int> merged_outline(const std::vector<int>& outline, const std::vector<int>& merged) {
   std::vector<int> loop;
   loop.reserve(outline.size());
@@ -196,7 +195,7 @@ std::vector<int> merged_outline(const std::vector<int>& outline, const std::vect
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// @return triangles of points of the complex. @param normal that the loops are counter-clockwise around
+/// @return triangles of points of the complex. @param normal about which the loops are counter-clockwise
 Triangles triangles_of_loops(const CellComplex& complex, const std::vector<std::vector<int>>& loops,
                              const Vector3& normal) {
   std::vector<Vector3> corners;
@@ -279,8 +278,8 @@ std::vector<int> merge_points(const CellComplex& complex, double resolution) {
     return std::lexicographical_compare(place(a).begin(), place(a).end(), place(b).begin(), place(b).end());
   });
   UnionFind merged(count);
-  // Runs of points whose first coordinates follow each other within the resolution, of these runs by the
-  // second, and neighbours by the third: points on grids have many equal coordinates.
+  // Runs of points whose first coordinates are consecutive within the resolution, of these runs by the second, and
+  // neighbours by the third: points on grids have many equal coordinates.
   for (std::size_t start = 0; start < count;) {
     std::size_t end = start + 1;
     while (end < count && place(order[end])[0] - place(order[end - 1])[0] <= resolution) ++end;

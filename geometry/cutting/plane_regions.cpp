@@ -39,22 +39,22 @@ class RegionTracer {
  private:
   [[nodiscard]] const ExactPoint& at(int point) const { return complex_.point(point).place; }
 
-  /// The end of a side at a vertex: another point, and whether the side leaves the vertex.
+  /// The end of a side at a vertex: its other point, and whether the side leaves the vertex.
   struct Spoke {
     int other;
     bool leaves;
     int side;
   };
 
-  /// Of a direction from a vertex, counted from another one: along it, to its left, against it, to its right.
+  /// Position of a direction from a vertex relative to another one: along it, to its left, opposite, to its right.
   [[nodiscard]] int quarter(int vertex, int first, int other) const {
     const int turn = view_.turn(at(vertex), at(first), at(other));
     if (turn != 0) return turn > 0 ? 1 : 3;
     return view_.compare(at(vertex), at(first)) == view_.compare(at(vertex), at(other)) ? 0 : 2;
   }
 
-  /// Around a vertex a region lies between a side that leaves and the next one, counter-clockwise, which comes.
-  /// Where a side goes there and back, one region ends before the next begins.
+  /// Around a vertex a region lies between an outgoing side and the next one counter-clockwise, which is incoming. At
+  /// a side in both directions, one region ends before the next begins.
   void pair_spokes(int vertex, std::vector<Spoke>& spokes) {
     const int first = spokes.front().other;
     std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
@@ -102,7 +102,7 @@ class RegionTracer {
     return sum;
   }
 
-  /// None: it is on the loop. The parity of sides that a ray towards greater first coordinates meets.
+  /// Empty: it is on the loop. By the parity of sides met by a ray towards greater first coordinates.
   [[nodiscard]] std::optional<bool> is_inside(const Loop& loop, const ExactPoint& point) const {
     bool inside = false;
     for (const OutlineSide& side : loop) {
@@ -114,7 +114,7 @@ class RegionTracer {
     return inside;
   }
 
-  /// Whether a loop lies within another, which it may touch.
+  /// True if a loop lies within another, which it may touch.
   [[nodiscard]] bool lies_within(const Loop& loop, const Loop& other) const {
     for (const OutlineSide& side : loop)
       if (const auto inside = is_inside(other, at(side.from))) return *inside;

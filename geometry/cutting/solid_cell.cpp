@@ -8,7 +8,7 @@
 namespace ashlar {
 namespace {
 
-/// A surface whose triangles know their planes and whose points are told apart by their places.
+/// A surface with the planes of its triangles, whose points are distinguished by their places.
 class FlatFaces {
  public:
   /// @param points of the surface: in the complex. @param planes of its triangles

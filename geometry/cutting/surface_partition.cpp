@@ -22,7 +22,7 @@ struct FlatPolygon {
   std::vector<ExactPoint> points;
 };
 
-/// Leaves what is on one side of a plane. @return false if no inner point is
+/// Keeps the part on one side of a plane. @return false if it has no inner point
 bool clip(FlatPolygon& polygon, const ExactPlane& by, int inner) {
   const std::size_t count = polygon.points.size();
   std::vector<int> sides;
@@ -44,13 +44,13 @@ bool clip(FlatPolygon& polygon, const ExactPlane& by, int inner) {
   return true;
 }
 
-/// A triangle of the surface with the planes through its sides, which have it above.
+/// A triangle of the surface with the planes through its sides, below which it lies.
 struct Facet {
   ExactPlane plane;
   std::array<ExactPlane, 3> sides;
   std::array<ExactPoint, 3> corners;
   Box box;
-  int index = -1;  ///< of the plane in the complex, once it is there
+  int index = -1;  ///< of the plane in the complex, once added
 };
 
 Facet make_facet(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -99,7 +99,7 @@ class SurfacePartition {
   }
 
  private:
-  /// Those that pass through inner points of a cell.
+  /// Facets that pass through inner points of a cell.
   [[nodiscard]] std::vector<int> passing(int cell, const std::vector<int>& facets) const {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (const int point : complex_.points_of(cell)) {
@@ -123,7 +123,7 @@ class SurfacePartition {
     });
   }
 
-  /// The facet, of the first few, whose plane goes through fewest others.
+  /// The facet, of the first few, whose plane crosses the fewest others.
   [[nodiscard]] int best_of(const std::vector<int>& facets) const {
     constexpr std::size_t looked_at = 12;
     int best = facets.front();
@@ -170,7 +170,7 @@ class SurfacePartition {
     });
   }
 
-  /// The mean of points whose coordinates are cut off to multiples of a power of two.
+  /// The mean of points with coordinates truncated to multiples of a power of two.
   [[nodiscard]] ExactPoint mean_of(const std::vector<int>& points, unsigned long bits) const {
     std::array<Integer, 3> sum = {0, 0, 0};
     for (const int point : points) {
@@ -187,9 +187,9 @@ class SurfacePartition {
     return mean;
   }
 
-  /// Of a cell too thin for a rounded inner point: as many bits as an inner point takes, and the parity of crossings
-  /// with a ray from it, which takes another direction until it meets no edge. The exact mean has a denominator that
-  /// is the product of those of all points.
+  /// For a cell too thin for a rounded inner point: an inner point with as many bits as needed, and the parity of
+  /// crossings with a ray from it, in a direction that meets no edge. The exact mean would have the product of all
+  /// denominators.
   [[nodiscard]] bool is_inside_exactly(int cell, const std::vector<int>& points) const {
     unsigned long bits = 128;
     ExactPoint inner = mean_of(points, bits);

@@ -1,6 +1,6 @@
-// The surface of a solid as a cut: cells divided along the planes of its triangles until none of them passes
-// through the inner points of a cell. Then each cell is inside the solid or outside. A plane divides only
-// cells that a triangle of its own passes through. Only sources of this layer include this file.
+// The surface of a solid as a cut: cells are divided along the planes of its triangles until no triangle passes
+// through the inner points of a cell. Then each cell is inside the solid or outside. A plane divides only cells
+// crossed by one of its own triangles. Only sources of this layer include this file.
 #pragma once
 
 #include <vector>
@@ -16,9 +16,9 @@ struct CellSide {
   bool inside;
 };
 
-/// @param cells of the complex, convex. @param surface bounds a solid. @param mark of the faces that come about.
-/// @param most_cells that the complex may have
-/// @return the given cells and what was parted off them, those that come from one next to each other
+/// @param cells of the complex, convex. @param surface bounds a solid. @param mark of the new faces.
+/// @param most_cells of the complex
+/// @return the given cells and the parts divided off them, those of one cell consecutively
 /// @throws CutError if there were more cells
 [[nodiscard]] std::vector<CellSide> partition_by_surface(CellComplex& complex, const std::vector<int>& cells,
                                                          const TriangleMesh& surface, int mark,

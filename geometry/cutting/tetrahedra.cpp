@@ -25,7 +25,7 @@ Kernel::Point_3 to_cgal(const Vector3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// Whether a point is below an outward triangle.
+/// True if a point is below an outward triangle.
 bool sees(const Vector3& from, const Vector3& a, const Vector3& b, const Vector3& c) {
   return CGAL::orientation(to_cgal(from), to_cgal(a), to_cgal(b), to_cgal(c)) == CGAL::POSITIVE;
 }
@@ -37,7 +37,7 @@ bool sees_all(const Vector3& from, const TriangleMesh& mesh) {
   });
 }
 
-/// Of what outward triangles bound, or the mean of their corners if that has no volume.
+/// Centroid of the body bounded by outward triangles, or the mean of their corners if it has no volume.
 Vector3 centroid_of(const std::vector<Vector3>& points, const Triangles& triangles) {
   Vector3 mean = Vector3::Zero();
   for (const auto& triangle : triangles)
@@ -54,7 +54,7 @@ Vector3 centroid_of(const std::vector<Vector3>& points, const Triangles& triangl
   return volume > 0.0 ? Vector3(mean + sum / volume) : mean;
 }
 
-/// The surface of a cell, outward, without triangles whose corners are one. @param index_of a point of the complex
+/// The surface of a cell, outward, without triangles whose corners coincide. @param index_of a point of the complex
 template <class IndexOf>
 Triangles surface_of(const CellComplex& complex, int cell, IndexOf index_of) {
   Triangles outward;
@@ -70,7 +70,7 @@ Triangles surface_of(const CellComplex& complex, int cell, IndexOf index_of) {
   return outward;
 }
 
-/// The centroid of all points that are below every triangle's plane: what is left of a box when these cut it.
+/// The centroid of all points below every triangle's plane: the remainder of a box cut by these.
 std::optional<Vector3> centroid_of_kernel(const TriangleMesh& mesh) {
   CellComplex complex;
   const int cell = add_box_around(complex, mesh);
@@ -97,7 +97,7 @@ std::optional<Vector3> point_that_sees(const Polyhedron& solid) {
   return inner && sees_all(*inner, solid.mesh()) ? inner : std::nullopt;
 }
 
-/// Leaves out cells that have no volume, or a height of less than what the coordinates are known to.
+/// Removes cells without volume, or with a height below the resolution of the coordinates.
 void keep_thick(TetrahedronMesh& mesh, double resolution) {
   std::erase_if(mesh.cells, [&](const std::array<int, 4>& cell) {
     std::array<Vector3, 4> x;
@@ -127,7 +127,7 @@ class CellStars {
  private:
   void add_star(int cell) {
     const Triangles outward = surface_of(complex_, cell, [this](int of) { return point(of); });
-    if (outward.size() < 4) return;  // its corners have become one
+    if (outward.size() < 4) return;  // its corners coincide
     const Vector3 centre = centroid_of(result_.points, outward);
     const int centre_index = static_cast<int>(result_.points.size());
     result_.points.push_back(centre);
@@ -149,7 +149,7 @@ class CellStars {
   TetrahedronMesh result_;
 };
 
-// Not inlined where the rounding mode changes.
+// Not inlined into the function that changes the rounding mode.
 [[gnu::noinline]] TetrahedronMesh make_tetrahedra(const Polyhedron& solid, double resolution) {
   const std::optional<Vector3> centre = point_that_sees(solid);
   if (!centre) return CellStars(solid, resolution).take();

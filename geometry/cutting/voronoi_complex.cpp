@@ -10,10 +10,10 @@
 namespace ashlar {
 namespace {
 
-/// More than what rounding can make of a ratio of two distances.
+/// Above the rounding error of a ratio of two distances.
 constexpr double distance_slack = 1.0 + 0x1p-40;
 
-/// The other points from the nearest on; of equally near ones the first comes first.
+/// The other points in order of distance; equally near ones by number.
 class NearestFirst {
  public:
   NearestFirst(const std::vector<Vector3>& points, int from) {
@@ -55,7 +55,7 @@ class VoronoiCells {
     return {difference(q, p), Rational((dot_product(q, q) - dot_product(p, p)) / 2)};
   }
 
-  /// Whether every corner of a cell is nearer to point i than to j for sure.
+  /// True if every corner of a cell is certainly closer to point i than to j.
   [[nodiscard]] bool is_out_of_reach(const CellComplex& cells, int cell, int i, int j) const {
     const std::vector<int> corners = cells.points_of(cell);
     return std::all_of(corners.begin(), corners.end(), [&](int corner) {
@@ -65,7 +65,7 @@ class VoronoiCells {
     });
   }
 
-  /// @return false if nothing is left
+  /// @return false if nothing remains
   bool cut_off(CellComplex& cells, int& cell, int i, int j) {
     const int plane = cells.add_plane(plane_between(i, j));
     const int inner = i < j ? -1 : 1, side = cells.side_of_cell(plane, cell);
@@ -119,9 +119,9 @@ class VoronoiCells {
   int mark_;
   CellComplex result_;
   CellSeams seams_;
-  std::map<int, int> own_planes_;             ///< of the whole: in the result
-  std::map<std::array<int, 2>, int> planes_;  ///< between two points: in the result
-  std::map<int, int> others_of_plane_;        ///< of the cell at work: the point beyond a plane
+  std::map<int, int> own_planes_;             ///< planes of the whole, as numbered in the result
+  std::map<std::array<int, 2>, int> planes_;  ///< planes between two points, as numbered in the result
+  std::map<int, int> others_of_plane_;        ///< of the present cell: the point beyond a plane
 };
 
 }  // namespace

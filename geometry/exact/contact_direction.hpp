@@ -33,7 +33,7 @@ struct Difference {
   const Vector3* minus2 = nullptr;
 };
 
-/// Everything of a direction but its points: what a shape keeps of the normals of its facets.
+/// Data of a direction without its points: stored by a shape for the normals of its facets.
 struct DirectionNumbers {
   NumberVector<TrackedNumber> tracked;
   double bound = 0.0;  ///< max e_i + 8 u max |w_i|, rounded up

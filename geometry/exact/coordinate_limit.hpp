@@ -1,4 +1,4 @@
-// The largest coordinate that is read from a file; notes/largest_coordinate.md says why there is one.
+// The largest coordinate read from a file; for the reason see notes/largest_coordinate.md.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace ashlar {
 /// double, 1.8e308.
 inline constexpr double largest_coordinate = 1e150;
 
-/// Whether a coordinate is finite and beyond the limit. What is not finite has messages of its own.
+/// True if a coordinate is finite and beyond the limit. Values that are not finite have messages of their own.
 [[nodiscard]] inline bool is_too_far(double coordinate) {
   return std::isfinite(coordinate) && std::abs(coordinate) > largest_coordinate;
 }

@@ -7,7 +7,7 @@
 
 namespace ashlar {
 
-/// The height of a difference d along w, and what is constructed with it. Refers to w and the ladder.
+/// The height of a difference d along w, and constructions with it. Refers to w and the ladder.
 class ContactHeight {
  public:
   ContactHeight(const ContactDirection& w, const Difference& d, PredicateLadder& ladder);

@@ -1,5 +1,5 @@
-// Every question that is asked along a contact direction w (contact_direction.hpp): signs of w.d, of w.(d1 x d2) and
-// of comparisons of ratios, each exact.
+// All predicates along a contact direction w (contact_direction.hpp): signs of w.d, of w.(d1 x d2) and of comparisons
+// of ratios, each exact.
 #pragma once
 
 #include <span>

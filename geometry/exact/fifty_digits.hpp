@@ -1,4 +1,4 @@
-// Numbers of 50 decimal digits, for what is computed once and then rounded. Only sources include this file.
+// Numbers of 50 decimal digits, for values computed once and then rounded. Only sources include this file.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>

@@ -1,15 +1,15 @@
-// What an exact question about coordinates asks first: which of its polynomials floating point may be asked, and a
-// count of who decided.
+// Selection of floating-point rungs for exact predicates on coordinates by the degree of their polynomials, and
+// counts of the deciding rungs.
 #pragma once
 
 #include <algorithm>
 
 namespace ashlar {
 
-/// Who decided how often. Deterministic: the same input gives the same counts.
+/// Number of decisions by rung. Deterministic: the same input gives the same counts.
 struct DecisionCounts {
   long filter = 0;  ///< signs and roundings settled by floating point with a proved bound
-  long exact = 0;   ///< those that needed multiple precision
+  long exact = 0;   ///< signs and roundings that needed multiple precision
 };
 
 /// Exponents of the coordinates of a shape: all are multiples of 2^lowest_bit and below 2^highest_bit in

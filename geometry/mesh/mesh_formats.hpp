@@ -1,7 +1,6 @@
-// Readers of the four mesh formats, from the whole file in memory to points and polygons. They are strict
-// where the readers of CGAL are not: those give no place of an error, allocate what a header claims, end a
-// face silently at a malformed index, let indices one past the end through, and take a truncated file for a
-// short one.
+// Readers of the four mesh formats, from the whole file in memory to points and polygons. They are stricter than
+// those of CGAL, which give no place of an error, allocate the sizes claimed by a header, end a face silently at a
+// malformed index, accept indices one past the end, and accept truncated files.
 #pragma once
 
 #include <filesystem>

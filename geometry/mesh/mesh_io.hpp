@@ -1,5 +1,5 @@
-// Reading surface meshes (OFF, OBJ, STL, PLY; text and binary where the format has both), and the surfaces of
-// volume meshes (MSH). See mesh_formats.hpp and volume_mesh.hpp for what is accepted of each.
+// Reads surface meshes (OFF, OBJ, STL, PLY; text and binary if the format has both), and the surfaces of volume
+// meshes (MSH). For the supported parts of the formats see mesh_formats.hpp and volume_mesh.hpp.
 #pragma once
 
 #include <filesystem>
@@ -25,10 +25,9 @@ class MeshFileError : public std::runtime_error {
   int column_;
 };
 
-/// Reads a mesh; the format is taken from the file's ending (any case). Faces with more than three corners
-/// are triangulated without new points. STL repeats its points: equal ones (bit for bit) become one. Nothing
-/// else is changed or repaired, non-finite coordinates included; see Polyhedron::find_defects for what is
-/// then refused.
+/// Reads a mesh; the format is given by the file name extension (any case). Faces with more than three corners are
+/// triangulated without new points. STL repeats its points: equal ones (bit for bit) are merged. Nothing else is
+/// changed or repaired, including non-finite coordinates; for the defects refused later see Polyhedron::find_defects.
 /// @return points in m as written.
 /// @throws MeshFileError: missing, unreadable, unknown ending, malformed, truncated, index out of range,
 /// coordinate beyond 1e150 (binary files: with the byte it begins at in the message), no faces.
@@ -40,9 +39,10 @@ struct MeshGroup {
   TriangleMesh mesh;
 };
 
-/// Reads an OBJ file whose objects and groups are bodies of their own: faces that follow an `o` or `g`
-/// statement belong to the name that it gives, faces before any to "default". Groups in the order in which
-/// their first faces stand. Of an MSH file each physical group of its volume is a body. @throws MeshFileError as read_mesh, and for other formats, which have no groups
+/// Reads an OBJ file whose objects and groups are separate bodies: faces after an `o` or `g` statement belong to the
+/// given name, faces before any to "default". Groups are in the order of their first faces. In an MSH file each
+/// physical group of its volume is a body.
+/// @throws MeshFileError as read_mesh, and for other formats, which have no groups
 [[nodiscard]] std::vector<MeshGroup> read_mesh_groups(const std::filesystem::path& path);
 
 }  // namespace ashlar

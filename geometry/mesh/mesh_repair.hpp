@@ -1,6 +1,6 @@
-// What may be asked for where a mesh file is no single clean solid: near corners made one, surfaces told
-// apart, surfaces turned. Nothing here is done unasked, and nothing is proven: Polyhedron checks the result
-// exactly, as that of any other file.
+// Optional changes to mesh files that are not a single valid solid: welding of near corners, separation of surfaces,
+// reversal of surfaces. They are made on request only, and nothing is proven: Polyhedron checks the result exactly,
+// as for any other file.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace ashlar {
 
-/// What weld_corners did.
+/// Counts of weld_corners.
 struct WeldCount {
-  std::size_t corners = 0;    ///< that were moved onto others, or were equal to them
-  std::size_t triangles = 0;  ///< left out because two of their corners became one
+  std::size_t corners = 0;    ///< moved to others, or equal to them
+  std::size_t triangles = 0;  ///< removed because two of their corners were merged
 };
 
-/// Makes points within `distance` one: each, in their order, becomes the nearest of those before it that was
-/// not moved itself, so that no point moves farther than `distance`. Points that no triangle uses any more go.
+/// Merges points within `distance`: each, in their order, is moved to the nearest earlier one that was not moved
+/// itself, so that no point moves farther than `distance`. Unused points are removed.
 /// @param distance in the unit of the points, > 0
 /// @throws std::invalid_argument "what is wrong (value), what is allowed" if it is above a tenth of the mesh's
 /// greatest extent, or so small that coordinates cannot tell it from zero

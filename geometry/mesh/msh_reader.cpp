@@ -1,6 +1,6 @@
-// MSH files of Gmsh as text, of versions 2.0 to 2.2 and 4.1. Those from 2.0 to 2.2 differ in one thing that is read: 2.0
-// names physical groups without their dimension. Of all the sections MeshFormat, PhysicalNames, Nodes and
-// Elements are read, of 4.1 also Entities, which gives the physical groups of its surfaces and volumes.
+// MSH files of Gmsh as text, of versions 2.0 to 2.2 and 4.1. Those from 2.0 to 2.2 differ in one relevant respect:
+// 2.0 names physical groups without their dimension. The sections MeshFormat, PhysicalNames, Nodes and Elements are
+// read, for 4.1 also Entities, which gives the physical groups of its surfaces and volumes.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -60,7 +60,7 @@ class MshReader {
       skip_to_end_of(section);
   }
 
-  /// Of a file without tetrahedra: bodies are what its triangles bound.
+  /// For a file without tetrahedra: bodies are bounded by its triangles.
   void take_surfaces() {
     if (surfaces_.triangles.empty())
       throw MeshFileError("file has no tetrahedra, and no triangles that bound bodies", scan_.line(), 0);
@@ -73,7 +73,7 @@ class MshReader {
     mesh_.group_of = std::move(surfaces_.group_of);
   }
 
-  /// What matters only where triangles are all there is.
+  /// Data needed only if there are triangles but no tetrahedra.
   void doubt(const char* what) {
     if (doubtful_line_ > 0) return;
     doubtful_line_ = scan_.line();

@@ -17,7 +17,7 @@ bool read_keyword(TextScanner& scan) {
   scan.fail("header", "must be OFF, NOFF, COFF, STOFF or their combinations");
 }
 
-// Every item takes a line of two bytes at least, which bounds what the header may claim.
+// Every item needs a line of at least two bytes, which limits the sizes claimed by the header.
 int read_count(TextScanner& scan, std::string_view what) {
   const long long count = scan.integer(what, 1, std::numeric_limits<int>::max());
   if (static_cast<std::size_t>(count) > scan.rest().size() / 2 + 1) {

@@ -10,14 +10,14 @@ namespace ashlar {
 
 /// Appends the #corners - 2 triangles of a polygon, with its orientation and without new points: a fan if it is
 /// strictly convex, otherwise ears cut off one after the other. Ears are decided exactly in the projection along
-/// the axis nearest to the polygon's normal; corners in straight sides give no triangle without area. A polygon
-/// that is not simple gets some triangles, for the check of the mesh to refuse.
+/// the axis nearest to the polygon's normal; corners in straight sides give no triangle without area. A polygon that
+/// is not simple gets some triangles, so that the check of the mesh refuses it.
 ///
 /// The triangles are a function of the coordinates in their cyclic order alone: wherever the polygon begins,
 /// whichever way round it goes and whatever its corners' indices are, it is divided alike. Two blocks that name
 /// the same polygon, which need not be plane, so have the same surface there.
 ///
-/// The time goes with the square of the number of corners, hence a limit.
+/// The time is quadratic in the number of corners, hence a limit.
 /// @param corners at least 3 indices into points.
 /// @param tests_left of corners in ears, lessened by those made
 /// @throws std::length_error if it comes to 0

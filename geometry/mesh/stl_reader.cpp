@@ -96,7 +96,7 @@ void read_facet(TextScanner& scan, PointWelder& welder) {
   welder.end_face();
 }
 
-// A file may hold several solids; whether they make one body is not for the reader to say.
+// A file may hold several solids; the reader does not check that they form one body.
 PolygonSoup read_text_stl(std::string_view text) {
   TextScanner scan(text, '\0');
   constexpr std::size_t bytes_of_a_facet = 100;

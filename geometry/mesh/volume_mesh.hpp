@@ -1,5 +1,5 @@
-// Meshes of tetrahedra: Gmsh's MSH files, as text of versions 2.0 to 2.2 and 4.1, and the surfaces of what they hold. Files
-// without tetrahedra are those surfaces themselves.
+// Meshes of tetrahedra: Gmsh's MSH files, as text of versions 2.0 to 2.2 and 4.1, and their surfaces. Files without
+// tetrahedra contain these surfaces.
 #pragma once
 
 #include <array>
@@ -24,22 +24,23 @@ struct VolumeMesh {
   std::vector<int> group_of;  ///< (#tetrahedra or #triangles), indices into groups
 };
 
-/// Reads the text of an MSH file. Points and lines of the mesh are passed over, so are triangles beside tetrahedra, and
-/// sections that are not of the mesh. Tetrahedra that are inside out are turned.
-/// @throws MeshFileError with line and column: another version, a binary file, malformed or truncated text, numbers of
-/// nodes or elements that do not agree, an unknown node, a surface or volume that $Entities does not list, groups after
-/// the elements, elements of the volume that are no tetrahedra with four nodes, a tetrahedron without volume or given
-/// twice, a volume in several physical groups; without tetrahedra: no triangles, other elements of surfaces, a surface in
-/// several physical groups
+/// Reads the text of an MSH file. Ignored are points and lines of the mesh, triangles beside tetrahedra, and other
+/// sections. Inverted tetrahedra are reversed.
+/// @throws MeshFileError with line and column: another version, a binary file, malformed or truncated text,
+/// inconsistent numbers of nodes or elements, an unknown node, a surface or volume missing in $Entities, groups after
+/// the elements, elements of the volume other than tetrahedra with four nodes, a tetrahedron without volume or given
+/// twice, a volume in several physical groups; without tetrahedra: no triangles, other elements of surfaces, a
+/// surface in several physical groups
 [[nodiscard]] VolumeMesh read_msh(std::string_view text);
 
-/// Whether the file's ending says so.
+/// True if the file name extension is that of a volume mesh.
 [[nodiscard]] bool is_volume_mesh(const std::filesystem::path& path);
 
 /// Reads a file. @throws MeshFileError as read_msh, for a file that cannot be read, or with another ending than .msh
 [[nodiscard]] VolumeMesh read_volume_mesh(const std::filesystem::path& path);
 
-/// The tetrahedra, or triangles, of one physical group. @throws MeshFileError that lists the groups if there is none of that name
+/// The tetrahedra, or triangles, of one physical group. @throws MeshFileError with a list of groups if there is none
+/// of that name
 [[nodiscard]] VolumeMesh only_group(const VolumeMesh& mesh, const std::string& group);
 
 /// The facets that bound one of the tetrahedra only, outward, with the points that they use in the order of the mesh.

@@ -12,8 +12,8 @@ namespace ashlar {
 /// Sum of the areas of all triangles, m^2.
 [[nodiscard]] double surface_area(const TriangleMesh& mesh);
 
-/// Axes for boxes that are to turn with a scene: what boxes leave out, and the division of faces, must not depend
-/// on how it lies. Along the largest face and its longest side, as most of a scene is likely to be.
+/// Axes for boxes that rotate with a scene: the selection by boxes, and the division of faces, must not depend on the
+/// scene's orientation. Along the largest face and its longest side, the likely directions of most of a scene.
 /// @param resolution faces and sides that are larger by no more than this share are equal: the first is taken
 /// @return right-handed, by columns; the third is the face's normal. Without solids the coordinate axes
 [[nodiscard]] Eigen::Matrix3d axes_along_largest_face(const std::vector<const Polyhedron*>& solids,

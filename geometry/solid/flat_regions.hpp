@@ -1,6 +1,6 @@
-// Which triangles are one flat face where coordinates were rounded: a turned box has corners some units in
-// the last place off the planes of its faces, and what is flat is then a question of what the coordinates are
-// known to, which is for the caller to say.
+// Coplanar triangles in spite of rounded coordinates: the corners of a rotated box are some units in the last place
+// off the planes of its faces, so that flatness depends on the resolution of the coordinates, which the caller
+// specifies.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// What is wrong with a triangle mesh that should bound a solid. Everything is decided exactly on the given
-// doubles; no tolerance exists, so a mesh is either sound or refused with the elements that spoil it.
+// Defects of a triangle mesh that should bound a solid. All decisions are exact for the given doubles, without
+// tolerance: a mesh is either valid or refused with the faulty elements.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace ashlar {
 
-/// Why a mesh does not bound a solid.
+/// Kinds of defects for which a mesh does not bound a solid.
 enum class MeshDefectKind {
   empty,                ///< no points or no triangles
   non_finite_point,     ///< a coordinate is NaN or infinite
@@ -30,7 +30,7 @@ enum class MeshDefectKind {
   volume_overflow,      ///< closed and consistent, but the volume exceeds the largest double
 };
 
-/// The field's word for a defect, as printed to users ("open edge", ...).
+/// The usual term for a defect, as printed to users ("open edge", ...).
 [[nodiscard]] std::string to_string(MeshDefectKind kind);
 
 /// One defect with the element it was found at.
@@ -49,12 +49,12 @@ class MeshError : public std::runtime_error {
   std::vector<MeshDefect> defects_;
 };
 
-/// All defects of a mesh, and what the search found out about a sound one.
+/// All defects of a mesh, and data found for a valid one.
 ///
-/// The search goes from the plain to the costly: a bad coordinate or index ends it (nothing else can be
-/// decided); zero area, connection and self-intersections are searched, whatever else was found; the volume is
-/// asked of closed and consistent surfaces only. Points with equal coordinates count as one in the search for
-/// self-intersections, so fused vertices are not reported again as touching triangles.
+/// The search proceeds from cheap to costly checks: a bad coordinate or index ends it (nothing else can be decided);
+/// zero area, connection and self-intersections are always checked; the volume is computed for closed and consistent
+/// surfaces only. Points with equal coordinates count as one in the search for self-intersections, so that fused
+/// vertices are not reported again as touching triangles.
 struct MeshCheck {
   std::vector<MeshDefect>
       defects;             ///< at most `limit` of each kind, in the order of the enumeration's checks

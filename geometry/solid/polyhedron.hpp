@@ -1,7 +1,6 @@
 // A checked solid: closed, oriented outward, free of self-intersections, one component, with its coplanar
-// triangles merged into faces and its collinear pieces into edges. Every block starts as one, and every
-// question of exact contact geometry is asked about its merged faces, edges and corners, never about the
-// triangles that carry them.
+// triangles merged into faces and its collinear pieces into edges. Every block starts as one. Exact contact geometry
+// refers to its merged faces, edges and corners, never to the triangles that carry them.
 #pragma once
 
 #include <array>
@@ -39,8 +38,8 @@ class Polyhedron {
   /// Every defect of a mesh, at most `limit` of each kind; empty when it bounds a solid.
   [[nodiscard]] static std::vector<MeshDefect> find_defects(const TriangleMesh& mesh, std::size_t limit = 10);
 
-  /// Builds a solid. @param resolution m, >= 0: what the coordinates are known to. 0: they are exact, and so
-  /// is what is flat and straight; else pieces that are flat to it are one face (flat_regions()).
+  /// Builds a solid. @param resolution of the coordinates, m, >= 0. 0: they are exact, and so are flat and straight
+  /// parts; otherwise parts that are flat within it are one face (flat_regions()).
   /// @throws MeshError carrying all defects, which are always decided exactly, if there are any.
   explicit Polyhedron(TriangleMesh mesh, double resolution = 0.0);
 

@@ -1,4 +1,4 @@
-// Whether a solid is convex but for the rounding of its coordinates, as a rotated copy of a convex solid is.
+// Convexity of a solid within the rounding error of its coordinates, as for a rotated copy of a convex solid.
 #pragma once
 
 #include "geometry/solid/polyhedron.hpp"

@@ -15,7 +15,7 @@
 
 namespace ashlar {
 
-/// What all patches of one order share. Constant after construction.
+/// Data shared by all patches of one order. Constant after construction.
 class BernsteinForm {
  public:
   static constexpr int max_order = 12;
@@ -33,7 +33,7 @@ class BernsteinForm {
   [[nodiscard]] int corner(int which) const {
     return which == 0 ? 0 : which == 1 ? index(order_, 0) : index(0, order_);
   }
-  /// Where the values of a patch are to be given: barycentric coordinates (i, j, k) / n.
+  /// Barycentric coordinates (i, j, k) / n at which the values of a patch are to be given.
   [[nodiscard]] std::vector<Vector3> domain_points() const;
   /// Control points from values at the domain points, each entry correctly rounded. @return (m, m)
   [[nodiscard]] const Eigen::MatrixXd& interpolation() const { return interpolation_; }
@@ -71,14 +71,14 @@ class BernsteinTriangle {
   [[nodiscard]] Box box() const;
   /// The same with sides along other axes, in their coordinates. @param axes (3, 3), orthonormal columns
   [[nodiscard]] Box box(const Eigen::Matrix3d& axes) const;
-  /// Chord error of the flat triangle through the corners, from above, m: how far the patch leaves its plane,
-  /// and how far those sides that are marked as rim leave the straight segments between their ends. (Sides
-  /// inside a face may run differently in its plane: the flat triangles still cover the same surface.) A
-  /// triangle without area counts as the point of its first corner.
+  /// Upper bound of the chord error of the flat triangle through the corners, m: distance of the patch from its
+  /// plane, and of the sides marked as rim from the straight segments between their ends. (Sides inside a face may
+  /// differ within its plane: the flat triangles still cover the same surface.) A triangle without area counts as the
+  /// point of its first corner.
   /// @param rim (3) by side
   [[nodiscard]] double chord_bound(const std::array<bool, 3>& rim) const;
-  /// How far any point of the patch is from the same point (in the parameter) of another one of the same
-  /// form, from above, m.
+  /// Upper bound of the distance of points of the patch from those of another one of the same form at the same
+  /// parameters, m.
   [[nodiscard]] double distance_bound(const BernsteinTriangle& other) const;
 
  private:

@@ -1,4 +1,4 @@
-// The current shape of a block's surface: what a contact search needs more than once.
+// The current shape of a block's surface: data used several times by a contact search.
 #pragma once
 
 #include <span>
@@ -17,8 +17,7 @@ class PlacedSurface {
   /// Coordinates are rounded to multiples of 2^-70 of the largest one: far below its last place, it keeps
   /// numbers that are nearly zero from needing multiple precision in every predicate.
   /// @param surface must outlive this. @param points (#surface.points), current positions, m
-  /// @param shapes (#surface.cells) true shapes of cells that curve; empty: the cells are what their corners
-  /// span
+  /// @param shapes (#surface.cells) true shapes of cells that curve; empty: the cells are flat
   PlacedSurface(const SubFaceSurface& surface, std::vector<Vector3> points,
                 std::span<const CellShape> shapes = {});
 
@@ -29,7 +28,7 @@ class PlacedSurface {
   [[nodiscard]] const Vector3& normal(int cell) const { return normals_[static_cast<std::size_t>(cell)]; }
   /// Contains the true cell.
   [[nodiscard]] const Box& cell_box(int cell) const { return cell_boxes_[static_cast<std::size_t>(cell)]; }
-  /// How far the true cell may be off the flat one, m.
+  /// Upper bound of the distance of the true cell from the flat one, m.
   [[nodiscard]] double chord_bound(int cell) const {
     return chord_bounds_.empty() ? 0.0 : chord_bounds_[static_cast<std::size_t>(cell)];
   }
@@ -39,7 +38,7 @@ class PlacedSurface {
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] std::vector<Vector3> corners(int cell) const;
   [[nodiscard]] std::array<Vector3, 2> edge(int index) const;
-  /// Largest distance of a point from the first one, m: the same wherever and however the block lies.
+  /// Largest distance of a point from the first one, m: invariant under translation and rotation of the block.
   [[nodiscard]] double size() const { return size_; }
   /// Of the coordinates of all points.
   [[nodiscard]] const NumericRange& range() const { return range_; }

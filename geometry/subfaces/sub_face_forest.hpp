@@ -1,5 +1,5 @@
-// Triangles of a surface that are cut in halves where asked, at their longest side and together with the neighbour
-// beyond it, so that the surface stays closed. What is cut, and where, is sub_face_refinement's to decide.
+// Triangles of a surface that are bisected on request, at their longest side and together with the neighbour beyond
+// it, so that the surface stays closed. The choice of triangles is made by sub_face_refinement.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ class SubFaceForest {
   }  ///< roots first, parents before children
   /// Notes that a node is cut for its own sake.
   void want(int node) { nodes_[static_cast<std::size_t>(node)].wanted = true; }
-  [[nodiscard]] const std::vector<Vector3>& points() const { return points_; }  ///< those of the roots first
+  [[nodiscard]] const std::vector<Vector3>& points() const { return points_; }  ///< points of the roots first
   [[nodiscard]] const BernsteinTriangle& patch(int node) const {
     return patches_[static_cast<std::size_t>(node)];
   }

@@ -35,7 +35,7 @@ std::vector<BernsteinTriangle> AdaptiveSurface::root_patches(
 
 void AdaptiveSurface::move(const Eigen::Ref<const Eigen::Matrix3Xd>& values) {
   root_patches_ = root_patches(values);
-  cell_shapes_.clear();  // those of the shape before would be in the wrong place
+  cell_shapes_.clear();  // those of the earlier shape are outdated
   box_ = Box{};
   for (const BernsteinTriangle& patch : root_patches_) box_.include(patch.box(axes_));
 }

@@ -1,5 +1,5 @@
-// Sub-faces of a block that curves: triangles of its faces, divided where and as long as the certified chord
-// error asks for it (theory.md section 6.2).
+// Sub-faces of a curved block: triangles of its faces, divided as the certified chord error requires (theory.md
+// section 6.2).
 //
 // Triangles of the mesh are bisected at their longest side in reference coordinates, neighbours along with
 // them, so that the division stays conforming and its angles bounded. A triangle is divided while the bound
@@ -19,16 +19,16 @@
 
 namespace ashlar {
 
-/// Where the faces of a block are to be divided, and how finely.
+/// Demand for the division of the faces of a block.
 struct DivisionDemand {
   double chord_tolerance;           ///< m, > 0; infinity: no division
   std::span<const Box> neighbours;  ///< along AdaptiveSurface's axes: only cells that meet one are divided
 };
 
-/// A division as it was made: all that the next one depends on beside the shape and the demand.
+/// A division: all data that the next one depends on besides the shape and the demand.
 struct SurfaceDivision {
   std::vector<std::uint64_t> cuts;    ///< names of the triangles that are cut, in order (SubFaceForest::cuts)
-  std::vector<std::uint64_t> wanted;  ///< of them those that are cut for their own sake
+  std::vector<std::uint64_t> wanted;  ///< of them those divided by their own chord error
 };
 
 /// A cell's true, curved shape.
@@ -40,21 +40,21 @@ struct CellShape {
 /// Changes with every update.
 class AdaptiveSurface {
  public:
-  /// More cells than this, or more bisections of one triangle than SubFaceForest::max_bisections, are not made;
-  /// chord_bound() then tells what was reached.
+  /// Limits of the division: at most so many cells, and SubFaceForest::max_bisections of one triangle; chord_bound()
+  /// then gives the error reached.
   static constexpr int max_cells = 1 << 15;
 
   /// @param solid must outlive this. @param order of the block's motion, 1 to BernsteinForm::max_order
   /// @param levels uniform levels (0 to 8) the adaptive division starts from
-  /// @param axes (3, 3), orthonormal columns, of the boxes that decide what is in reach: a scene that is
-  /// turned along with its axes is divided as before
+  /// @param axes (3, 3), orthonormal columns, of the boxes used for reach: the division of a scene rotated together
+  /// with its axes is unchanged
   AdaptiveSurface(const Polyhedron& solid, int order, int levels,
                   const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 
   /// Reference coordinates of the points whose current positions an update needs, m.
   [[nodiscard]] const std::vector<Vector3>& domain_points() const { return domain_points_; }
 
-  /// Takes the block's present shape. @param values (3, #domain_points), current positions, m
+  /// Updates the surface to the block's present shape. @param values (3, #domain_points), current positions, m
   void move(const Eigen::Ref<const Eigen::Matrix3Xd>& values);
   /// Contains the curved surface, as moved last; along the axes.
   [[nodiscard]] const Box& box() const { return box_; }
@@ -70,11 +70,10 @@ class AdaptiveSurface {
   /// Largest of all cells, m, as of the last division.
   [[nodiscard]] double chord_bound() const;
 
-  /// What chord_bound() would be of the present cells in another shape. @param values as for move()
+  /// chord_bound() of the present cells in another shape. @param values as for move()
   [[nodiscard]] double chord_bound_in(const Eigen::Ref<const Eigen::Matrix3Xd>& values) const;
 
-  /// How far any surface point can have gone between two shapes, m, from above. @param before, after as for
-  /// move()
+  /// Upper bound of the displacement of any surface point between two shapes, m. @param before, after as for move()
   [[nodiscard]] double motion_bound(const Eigen::Ref<const Eigen::Matrix3Xd>& before,
                                     const Eigen::Ref<const Eigen::Matrix3Xd>& after) const;
 
@@ -82,11 +81,11 @@ class AdaptiveSurface {
   /// @param values (#domain_points, k) of k polynomials. @return (k)
   [[nodiscard]] Eigen::RowVectorXd largest_values(const Eigen::MatrixXd& values) const;
 
-  /// The triangles that are divided for their own sake, in the order of their names.
+  /// The triangles divided by their own chord error, in the order of their names.
   [[nodiscard]] std::vector<std::uint64_t> wanted() const;
   [[nodiscard]] SurfaceDivision division() const { return {forest_.cuts(), wanted()}; }
-  /// Takes over the division of another surface of the same solid, order and levels: cells and points have the same
-  /// numbers then. To be called before move(). @throws std::invalid_argument if it is of no such surface
+  /// Restores the division of another surface of the same solid, order and levels, with the same numbers of cells and
+  /// points. To be called before move(). @throws std::invalid_argument if it does not belong to such a surface
   void restore(const SurfaceDivision& division);
 
  private:

@@ -1,8 +1,8 @@
-// The surface of a block as contact sees it: flat cells in reference coordinates. A block that stays affine
-// has whole convex faces as cells; the faces of a block that may curve are divided into triangles. Cells
-// carry the polyhedron's face they are part of, their sides the polyhedron's edge: a side between two cells
-// of one face is an inner side by that attribute and is never a contact feature. The topology is constant;
-// only the positions of its points move.
+// The surface of a block for contact detection: flat cells in reference coordinates. An affine block has whole convex
+// faces as cells; the faces of a block that may curve are divided into triangles. Cells refer to the polyhedron's
+// face of which they are part, their sides to the polyhedron's edge: a side between two cells of one face is thereby
+// marked as an inner side and is never a contact feature. The topology is constant; only the positions of its points
+// change.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct SurfaceCell {
   /// inner side.
   std::vector<int> rim;
   std::vector<int> across = {};  ///< (#corners) the face on the other side of side k, -1: an inner side
-  /// (#corners) whether side k is a reflex edge: there the solid goes on beyond the side, below both faces
+  /// (#corners) true if side k is a reflex edge: there the solid continues beyond the side, below both faces
   std::vector<bool> reflex = {};
 };
 
@@ -37,7 +37,7 @@ struct SurfaceVertex {
   int point;
   std::vector<int> neighbours;  ///< points at the other ends of all cell sides that end here
   std::vector<int> cells;       ///< cells around it, increasing
-  bool reflex = false;          ///< whether a reflex edge ends here
+  bool reflex = false;          ///< true if a reflex edge ends here
 };
 
 /// Constant after construction.

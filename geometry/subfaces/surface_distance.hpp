@@ -1,4 +1,4 @@
-// How far apart two curved surfaces are at least.
+// Lower bound of the distance of two curved surfaces.
 #pragma once
 
 #include "geometry/subfaces/placed_surface.hpp"

@@ -1,4 +1,4 @@
-// A plane across a direction of sight.
+// A plane normal to a direction of projection.
 #pragma once
 
 #include "geometry/triangle_mesh.hpp"
