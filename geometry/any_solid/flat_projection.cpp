@@ -50,8 +50,8 @@ bool PlaneSigns::is_between(const PlanePoint& p, const PlanePoint& q, const Plan
   return compare(p.v, x.v) == along_v && compare(x.v, q.v) == along_v;
 }
 
-// Numbers of the projection are quotients, which NumericRange does not keep from underflow: what could be
-// that is left to the exact answer. Underflow of an operation loses less than 2^-1074.
+// Numbers of the projection are quotients, which NumericRange does not protect from underflow: cases where it could
+// matter are left to the exact rung. Underflow of an operation loses less than 2^-1074.
 int PlaneSigns::certain_sign(const TrackedNumber& value) const {
   constexpr double underflow = 0x1p-1000;
   if (std::abs(value.value) <= value.error * (1.0 + 0x1p-29) + underflow) return unknown_sign;

@@ -13,7 +13,7 @@
 namespace ashlar {
 namespace {
 
-/// Faces, and whether the cell is below each.
+/// Faces, with true if the cell is below each.
 using Surface = std::vector<std::pair<int, bool>>;
 
 class CellParting {

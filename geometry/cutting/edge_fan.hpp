@@ -18,7 +18,8 @@ struct FanSide {
   bool ahead;  ///< the cell is on the side to which angles increase, which is around the edge's direction
 };
 
-/// Of all faces, edge by edge. @param faces and whether the cell is below each; FanSide::face is an index into them
+/// Fan sides of all faces, edge by edge. @param faces and true if the cell is below each; FanSide::face is an index
+/// into them
 [[nodiscard]] std::vector<FanSide> fan_sides(const CellComplex& complex,
                                              const std::vector<std::pair<int, bool>>& faces);
 
@@ -33,7 +34,7 @@ void for_each_edge(const std::vector<FanSide>& sides, Visit visit) {
   }
 }
 
-/// The faces of a cell and whether it is below each.
+/// The faces of a cell, with true if the cell is below each.
 [[nodiscard]] std::vector<std::pair<int, bool>> surface_of(const CellComplex& complex, int cell);
 
 class EdgeFan {

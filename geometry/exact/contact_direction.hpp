@@ -9,7 +9,7 @@
 // is scaled by a positive number. w is never rounded before a decision: each rung of the ladder evaluates the whole
 // polynomial anew in its own numbers:
 //   filter   TrackedNumber, then DoubleDouble (double_double.hpp): floating point with proved error bounds
-//   exact    multiple precision, only when both are in doubt
+//   exact    multiple precision, only if both are undecided
 #pragma once
 
 #include <Eigen/Core>

@@ -22,7 +22,7 @@ constexpr double largest_weld = 0.1;
 // Of the largest coordinate: below it there is nothing between equal and apart.
 constexpr double smallest_weld = 0x1p-50;
 
-// Of an edge that stones share: more are a defect, and would take time with their square.
+// Of an edge shared by several bodies: more are a defect, and would need quadratic time.
 constexpr std::size_t most_sides = 1000;
 
 /// Points in cubes of the side `distance`. Kept points are apart by more than that, so that a cube has few.

@@ -140,8 +140,8 @@ bool AdaptiveSurface::needs_division(const SubFaceForest::Node& node, const Bern
                      [&](const Box& neighbour) { return neighbour.meets(box); });
 }
 
-/// Whether the division may stay. Triangles that were cut for a neighbour and now would be for their own sake
-/// are noted as such, so that what is wanted follows from the shape alone.
+/// True if the division may stay. Triangles divided for a neighbour that would now be divided by their own chord
+/// error are marked, so that the set of wanted triangles depends on the shape alone.
 bool AdaptiveSurface::division_fits(const DivisionDemand& demand) {
   bool fits = true;
   for (std::size_t n = 0; n < forest_.nodes().size(); ++n) {

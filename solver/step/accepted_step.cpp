@@ -153,7 +153,7 @@ bool is_live(const RunContext& run, int a, int b) {
 
 /// Books the change of spring energy due to re-detected contacts since the end of the last step.
 void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) {
-  // Springs of one pair may take over what those of another one held.
+  // Springs of one pair may replace those of another one.
   double change = 0.0;
   std::set<PairKey> going_on;  // their springs, like ties, are the same as before
   for (const ContactPair& pair : pairs) {
