@@ -63,7 +63,7 @@ void take_step(Simulation& simulation, double end_time);
 /// Takes steps up to a time. @throws std::runtime_error if one cannot be taken
 void run_until(Simulation& simulation, double time);
 
-/// Iterations of a static analysis under the loads at a time until it ends.
+/// Iterates a static analysis under the loads at a time until it ends.
 [[nodiscard]] StaticStatus find_equilibrium(Simulation& simulation, double time = 1.0);
 
 /// 1 if a static analysis ends with this status, else 0, to be compared with 1.

@@ -2,10 +2,10 @@
 // in every coordinate. Let R bound |a|, |b|, |c|. A floating nearest point p = a + s (b - a) + t (c - a),
 // whatever s, t in the triangle, is within 16 u R of a true point of the triangle, so
 //   distance <= |p| + 16 u R.
-// Every point of the triangle is at least as far along g = p as its lowest corner, whatever g is:
+// Every point of the triangle is at least as far along g = p as its lowest corner, for any g:
 //   distance >= min(g.a, g.b, g.c) / |g| - 16 u R.
-// Rounding of the two right sides themselves is below 8 u R, for which the factor is doubled. Where |p|^2 is
-// not a normal number, |p| errs by less than 2^-510, far below u R, and the second bound is not used.
+// The rounding error of the two right sides is below 8 u R, for which the factor is doubled. If |p|^2 is not a normal
+// number, the error of |p| is less than 2^-510, far below u R, and the second bound is not used.
 #include "geometry/any_solid/closest_point.hpp"
 
 #include <Eigen/Geometry>
@@ -28,8 +28,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The bounds are made of polynomials of degree 4, and of quotients that are watched where they could
-// underflow.
+// The bounds consist of polynomials of degree 4, and of quotients that are checked for underflow.
 constexpr int bounds_degree = 4;
 
 // Parts of a triangle: corners 0 to 2, sides 3 to 5 (side k from corner k - 3 to the next one), inner part 6.
@@ -87,7 +86,7 @@ class ClosestPointFinder::Surface {
   [[nodiscard]] const Polyhedron& solid() const { return solid_; }
   [[nodiscard]] const BoxTree& tree() const { return tree_; }
 
-  // Apart from find() so that no arithmetic moves across the change of the rounding mode.
+  // Separate from find() so that no arithmetic is moved across the change of the rounding mode.
   [[gnu::noinline]] [[nodiscard]] ClosestPoint find_to_nearest(const Vector3& x, bool any) const {
     NumericRange range = range_;
     for (int i = 0; i < 3; ++i) range.include(x[i]);
@@ -135,8 +134,7 @@ class ClosestPointFinder::Surface {
     std::erase_if(candidates, [&](const Candidate& c) { return c.lower > best; });
     return candidates;
   }
-  // The square root of the lower bound is taken only where its square does not show that the triangle is too
-  // far away.
+  // The square root of the lower bound is computed only if its square does not exclude the triangle.
   void add_candidate(int k, const std::array<Vector3, 3>& corners, double error, double& best,
                      std::vector<Candidate>& candidates) const {
     const auto& [a, b, c] = corners;
@@ -191,7 +189,7 @@ class ClosestPointFinder::Surface {
     throw std::logic_error("a triangle has a nearest point");
   }
 
-  // A part by the points of the mesh it joins, which other triangles may share.
+  // Identifies a part by its points of the mesh, which other triangles may share.
   [[nodiscard]] std::array<int, 3> element(const Candidate& c) const {
     const auto& v = solid_.mesh().triangles[c.triangle];
     if (c.part == inner_part) return {v[0], v[1], v[2]};
@@ -263,7 +261,7 @@ class ClosestPointFinder::Surface {
       result.point = height.below(x);
       result.squared_distance = height.squared();
     }
-    // A distance that is not zero rounds to zero only where products underflow.
+    // A nonzero distance rounds to zero only if products underflow.
     const bool on_surface = result.squared_distance == 0.0 && sgn(squared_distance(x, c)) == 0;
     result.place = on_surface ? PointPlace::on_surface : place(x, c, ladder);
     return result;

@@ -69,8 +69,8 @@ RationalVector times_sign(const RationalVector& v, int sign) {
 // along which it projects. A product of two differences is below 2^804.
 constexpr int highest_bit_of_overlaps = 400;
 
-// Every question about one pair of features; pairs of different kinds are asked in the order lower feature,
-// higher feature, whichever solid has them.
+// Predicates on one pair of features; for pairs of different kinds the order is lower feature, higher feature,
+// regardless of their solids.
 class MinimumFinder {
  public:
   MinimumFinder(const SolidFeatures& a, const SolidFeatures& b, const MinimumBound& bound)
@@ -86,7 +86,7 @@ class MinimumFinder {
 
   std::vector<DistanceMinimum> find(DecisionCounts& counts) {
     const NearFeatures pairs = near_features(a_.features, b_.features, squared_limit());
-    // Higher pairs first: they say which lower ones are in their closure.
+    // Higher pairs first: they determine the lower ones in their closure.
     for (int total = 4; total >= 0; --total)
       for (const auto& [f, g] : pairs[total])
         if (!closed_.contains(key_of(f, g))) decide(f, g);
@@ -99,7 +99,7 @@ class MinimumFinder {
   }
 
  private:
-  // An upper bound of the squared distances that are wanted.
+  // An upper bound of the requested squared distances.
   [[nodiscard]] double squared_limit() const {
     constexpr double up = std::numeric_limits<double>::infinity();
     if (bound_.distance) return std::nextafter(*bound_.distance * *bound_.distance, up);
@@ -126,7 +126,7 @@ class MinimumFinder {
     }
   }
 
-  // The height of d along w is within the bound.
+  // True if the height of d along w is within the bound.
   bool is_near(const ContactDirection& w, const Difference& d) {
     if (bound_.distance) return is_within(w, d, *bound_.distance, false, ladder_);
     if (bound_.touching) return sign_along(w, d, ladder_) == 0;
@@ -197,8 +197,8 @@ class MinimumFinder {
       add_point({2, f}, {0, v}, w, n, sum(to_rational(p), w));
   }
 
-  // True if a point is over inner points of a face, seen along its normal: by the parity of the sides that a
-  // half-line in its plane crosses.
+  // True if a point projects along a face's normal to its inner points: by the parity of the sides crossed by a
+  // half-line in its plane.
   bool is_inside(const Vector3& p, const Body& of_face, int f) {
     const ContactDirection& normal = of_face.normals[f];
     const Vector3 axis = Vector3::Unit(coordinate_plane(normal, ladder_).dropped == 0 ? 1 : 0);

@@ -17,7 +17,7 @@ void bound(const Coordinate& x, const Coordinate& y, double& low, double& high) 
   high = std::max(greatest_value(x.tracked), greatest_value(y.tracked));
 }
 
-// Where a side meets a feature of the other piece in an inner point of the side.
+// Intersection of a side with a feature of the other piece in an inner point of the side.
 struct Cut {
   Rational t;            // from 0 to 1 along the side
   ContactFeature other;  // corner or edge
@@ -83,7 +83,7 @@ struct Outline {
   }
 };
 
-// The signs of four turns say how two sides meet.
+// The signs of four turns determine how two sides meet.
 void meet(Outline& a, int i, Outline& b, int k, const PlaneSigns& signs) {
   Side &s = a.sides[i], &t = b.sides[k];
   if (s.high_u < t.low_u || t.high_u < s.low_u || s.high_v < t.low_v || t.high_v < s.low_v) return;
@@ -152,7 +152,7 @@ bool is_inside(const Outline& face, const PlanePoint& x, const PlaneSigns& signs
   return inside;
 }
 
-// A part of a side between two neighbouring cuts, by points of the rim.
+// A part of a side between two neighbouring cuts, with its points of the outline.
 struct Piece {
   int start, end;
 };
@@ -215,7 +215,7 @@ class Overlay {
  private:
   struct RimPoint {
     ContactFeature a, b;
-    int a_side, b_side;  // sides the features of dimension 1 were met on
+    int a_side, b_side;  // sides where the features of dimension 1 were met
     PlanePoint place;
   };
 
@@ -224,7 +224,7 @@ class Overlay {
     return signs_.turn(before, at, after) == 0 && signs_.is_between(before, after, at);
   }
 
-  // Of the pieces on both rims those of A are taken.
+  // Of pieces on both outlines those of A are used.
   void add_pieces(Outline& own, Side& side, const Outline& other, bool own_is_b) {
     std::sort(side.cuts.begin(), side.cuts.end(), [](const Cut& x, const Cut& y) { return x.t < y.t; });
     side.cuts.erase(std::unique(side.cuts.begin(), side.cuts.end(),

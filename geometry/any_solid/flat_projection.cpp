@@ -6,7 +6,7 @@
 
 namespace ashlar {
 
-// Conversion cuts off, which loses less than a unit in the last place, and less than the smallest number.
+// Conversion truncates, with an error of less than a unit in the last place, or less than the smallest number.
 Coordinate coordinate(Rational exact, bool is_double) {
   const double value = exact.get_d();
   const double error = is_double || sgn(exact) == 0 ? 0.0

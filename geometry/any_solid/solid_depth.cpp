@@ -20,7 +20,7 @@ std::array<Vector3, 3> triangle_of(const Polyhedron& solid, int triangle) {
   return {points[at(i)], points[at(j)], points[at(k)]};
 }
 
-/// A face that has a feature of the solid.
+/// A face that contains a feature of the solid.
 int face_with(const Polyhedron& solid, const ContactFeature& feature) {
   if (feature.dimension == 2) return feature.index;
   if (feature.dimension == 1) return solid.edges()[at(feature.index)].faces[0];
@@ -29,7 +29,7 @@ int face_with(const Polyhedron& solid, const ContactFeature& feature) {
   return -1;
 }
 
-/// What is known of a place inside. The nearest point is rounded: where it is the place itself, the way out is the
+/// Depth of an inner point. The nearest point is rounded: if it coincides with the point, the direction out is the
 /// normal of its face.
 SolidDepth depth_of(const Polyhedron& solid, const Vector3& x, double depth, const ClosestPoint& nearest) {
   const Vector3 way = nearest.point - x;
@@ -40,7 +40,7 @@ SolidDepth depth_of(const Polyhedron& solid, const Vector3& x, double depth, con
 /// Shares of a segment.
 using Stretch = std::array<double, 2>;
 
-/// The stretch of a segment with all points that are within a reach of a triangle, and maybe others.
+/// Part of a segment that contains all points within a reach of a triangle, and possibly others.
 class NearStretch {
  public:
   NearStretch(const Vector3& start, const Vector3& end, double reach)
@@ -74,7 +74,7 @@ class NearStretch {
   double reach_;
 };
 
-/// Calls visit(item) for all boxes of a tree that a segment may come within a reach of.
+/// Calls visit(item) for all boxes of a tree that may be within a reach of a segment.
 template <class Visit>
 void for_each_along(const BoxTree& tree, const Vector3& start, const Vector3& end, double reach,
                     Visit visit) {
@@ -93,7 +93,7 @@ void for_each_along(const BoxTree& tree, const Vector3& start, const Vector3& en
 
 }  // namespace
 
-/// A part of a segment that may have deeper points than are known.
+/// A part of a segment that may have deeper points than known.
 struct SolidDepthFinder::Part {
   Vector3 start;
   Vector3 end;
@@ -127,9 +127,9 @@ std::optional<SolidDepth> SolidDepthFinder::of_point_in_convex(const Vector3& x)
   return below(face, least, x);
 }
 
-/// The depth below plane k is linear along the segment, d_k + s r_k; the least of them is concave. From a
-/// bracket whose ends are bounded by a rising and a falling plane, the place where these two meet is either
-/// the answer or is bounded by another plane that takes the place of one of them.
+/// The depth below plane k is linear along the segment, d_k + s r_k; their minimum is concave. In a bracket whose
+/// ends are bounded by an increasing and a decreasing plane, the intersection of these two is either the answer or
+/// bounded by another plane, which replaces one of them.
 std::optional<SolidDepth> SolidDepthFinder::of_segment_in_convex(const Vector3& start,
                                                                  const Vector3& end) const {
   struct Least {
@@ -197,7 +197,7 @@ double SolidDepthFinder::bound(const Part& part, const Vector3& middle, const Cl
   if (nearest.feature.dimension == 0)
     return std::max((part.start - nearest.point).norm(), (part.end - nearest.point).norm());
   if (nearest.feature.dimension == 1) {
-    // Blocks that were cut apart have edges along each other.
+    // Blocks made by cuts have collinear edges.
     const auto& [from, to] = solid.edges()[at(nearest.feature.index)].vertices;
     const Vector3& last = solid.mesh().points[at(to)];
     return farther_end({solid.mesh().points[at(from)], last, last});
@@ -273,7 +273,7 @@ std::optional<SolidDepth> SolidDepthFinder::of_segment(const Vector3& start, con
     }
     if (part.shallow) continue;
     const double deeper = (deepest ? deepest->depth : known) + resolution;
-    // Outside, a part goes in only beyond its nearest surface; inside, its ends are at most `half` deeper.
+    // Outside, a part enters only beyond its nearest surface; inside, its ends are at most `half` deeper.
     const double most = std::min(inside ? half + distance : half - distance, bound(part, middle, nearest));
     if (most <= deeper) continue;
     parts.push_back({middle, part.end, part.one_sided, false});

@@ -55,13 +55,13 @@ int SolidFeatures::next_sharp(int previous, int v) const {
   return -1;
 }
 
-// Notes the pieces of the edge that begins at a corner with a given sharp side.
+// Records the pieces of the edge that begins at a corner with a given sharp side.
 void SolidFeatures::follow(int from, int first, const std::unordered_map<std::uint64_t, int>& edge_between) {
   std::vector<int> path{from, first};
   while (!std::binary_search(solid_.corners().begin(), solid_.corners().end(), path.back()))
     path.push_back(next_sharp(path[path.size() - 2], path.back()));
   const auto found = edge_between.find(key(path.front(), path.back()));
-  if (found == edge_between.end()) return;  // it will be met from its other end
+  if (found == edge_between.end()) return;  // it is found from its other end
   SolidEdge& edge = edges_[found->second];
   edge.left_apex = apex(path[0], path[1]);
   edge.right_apex = apex(path[1], path[0]);

@@ -69,7 +69,7 @@ class TrianglePairs {
   }
 
  private:
-  // False ends the search: the solids cross.
+  // @return false to end the search: the solids cross
   bool visit(int i, int k) {
     const ConvexContact contact = classify(a_.triangles[i], b_.triangles[k], std::nullopt, {false, false});
     ladder_.counts.filter += contact.decided_by.filter;
@@ -82,7 +82,7 @@ class TrianglePairs {
     if (!known_.insert({f.dimension, f.index, g.dimension, g.index}).second) return true;
     return !cross_at(a_.features, f, b_.features, g, ladder_);
   }
-  // Without common points of the boundaries a point of one tells about all of it.
+  // Without common points of the boundaries one point of a solid decides for all of it.
   [[nodiscard]] bool one_contains_the_other() const {
     const auto any_point = [](const TriangleMesh& mesh) { return mesh.points[mesh.triangles[0][0]]; };
     return is_inside(a_.mesh, any_point(b_.mesh)) || is_inside(b_.mesh, any_point(a_.mesh));
@@ -92,10 +92,10 @@ class TrianglePairs {
   PredicateLadder ladder_;
   double least_ = std::numeric_limits<double>::infinity();
   bool touching_ = false;
-  std::set<std::array<int, 4>> known_;  // pairs of features that were asked
+  std::set<std::array<int, 4>> known_;  // pairs of features already checked
 };
 
-// Apart from relate_solids() so that no arithmetic moves across the change of the rounding mode.
+// Separate from relate_solids() so that no arithmetic is moved across the change of the rounding mode.
 [[gnu::noinline]] SolidRelation relate_to_nearest(const SolidFeatures& a, const SolidFeatures& b) {
   return TrianglePairs(a, b).relate();
 }

@@ -54,8 +54,8 @@ struct Wedge {
   RationalVector axis, begin, end;
 };
 
-// Seen from outside with the edge upwards the left face is at the left: turning from it counter-clockwise
-// leads out of the solid.
+// Seen from outside with the edge upwards the left face is at the left: rotation from it counter-clockwise leads out
+// of the solid.
 Wedge wedge_at(const SolidFeatures& solid, int e) {
   const SolidEdge& edge = solid.edges()[e];
   return {between(solid, edge.from, edge.to), between(solid, edge.from, edge.right_apex),
@@ -102,9 +102,9 @@ bool are_opposite(const RationalVector& x, const RationalVector& y) {
   return sgn(dot_product(x, y)) < 0 && is_zero(cross_product(x, y));
 }
 
-// Do the arcs p q and r s on the sphere cross in inner points? Neither r nor s is on p q. Where the plane of
-// p q has r or s in it, or p or q is opposite to r, the arc r s meets that plane outside p q. None if p or q
-// is in the plane of r s, which other places of s avoid.
+// True if the arcs p q and r s on the sphere cross in inner points. Neither r nor s is on p q. If the plane of p q
+// contains r or s, or p or q is opposite to r, the arc r s meets that plane outside p q. Empty if p or q is in the
+// plane of r s, which other places of s avoid.
 std::optional<bool> arcs_cross(const RationalVector& p, const RationalVector& q, const RationalVector& r,
                                const RationalVector& s) {
   const int r_side = -sgn(determinant(p, q, r)), s_side = sgn(determinant(p, q, s));
@@ -114,8 +114,8 @@ std::optional<bool> arcs_cross(const RationalVector& p, const RationalVector& q,
   return r_side == s_side && r_side == q_side && r_side == p_side;
 }
 
-// Along the arc from a ray to one in the inner of a sector of the fan: it arrives there from outside or from
-// inside, and each sector in between changes sides.
+// Follows the arc from a ray to one inside a sector of the fan: it arrives there from outside or from inside, and
+// each sector in between changes sides.
 std::optional<bool> is_inside_towards(const Fan& fan, std::size_t goal, const RationalVector& target,
                                       const RationalVector& ray) {
   const int arrival = sgn(determinant(fan[goal][0], fan[goal][1], ray));
@@ -174,8 +174,8 @@ bool corner_meets_face(const SolidFeatures& of_corner, int v, const SolidFeature
          !of_corner.lies_on_side_of(v, exact_normal_of(of_face, f));
 }
 
-// Edges that cross have convex wedges on different sides of the plane of both: a wedge of more than half a
-// turn leaves no room for a line across it.
+// Edges that cross have convex wedges on different sides of their common plane: a wedge of more than 180 degrees
+// leaves no space for a line across it.
 bool edges_meet(const SolidFeatures& a, int e, const SolidFeatures& b, int g, PredicateLadder& ladder) {
   const SolidEdge &of_a = a.edges()[e], &of_b = b.edges()[g];
   const ContactDirection w = ContactDirection::cross({&a.point(of_a.to), &a.point(of_a.from)},

@@ -58,7 +58,7 @@ std::string read_mesh_bytes(const fs::path& path) {
 }
 
 TriangleMesh triangulated(PolygonSoup soup) {
-  // About a second of work: enough for a face of 10,000 corners whose ears are found at the first try.
+  // About a second of work: enough for a face of 10,000 corners whose ears are found at the first attempt.
   constexpr std::size_t most_tests = 50'000'000;
   std::size_t tests_left = most_tests;
   TriangleMesh mesh;
@@ -79,7 +79,7 @@ TriangleMesh triangulated(PolygonSoup soup) {
 
 namespace {
 
-// The faces of one group with the points that they use, in the order of the file.
+// The faces of one group with their points, in the order of the file.
 std::vector<PolygonSoup> divided(const PolygonSoup& soup) {
   std::vector<PolygonSoup> parts(soup.groups.size());
   std::vector<std::vector<std::size_t>> faces(soup.groups.size());

@@ -17,9 +17,9 @@
 namespace ashlar {
 namespace {
 
-// Of the greatest extent: beyond it welding would not leave the shape.
+// Of the greatest extent: beyond it welding would change the shape.
 constexpr double largest_weld = 0.1;
-// Of the largest coordinate: below it there is nothing between equal and apart.
+// Of the largest coordinate: below it there are no distances between zero and this.
 constexpr double smallest_weld = 0x1p-50;
 
 // Of an edge shared by several bodies: more are a defect, and would need quadratic time.
@@ -89,7 +89,7 @@ void check_distance(const TriangleMesh& mesh, double distance) {
   throw std::invalid_argument(text.str());
 }
 
-/// The triangles with the points that they use, in the order of the mesh.
+/// The triangles with their points, in the order of the mesh.
 TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<int>& triangles) {
   TriangleMesh part;
   std::vector<int> used;
@@ -108,7 +108,7 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<int>& triangles
   return part;
 }
 
-/// One side of an edge: its triangle, whether it runs from the smaller point to the larger, and the third
+/// One side of an edge: its triangle, its direction (true: from the smaller point to the larger), and the third
 /// corner.
 struct EdgeSide {
   int triangle;
@@ -129,10 +129,10 @@ EdgeSides sides_of_edges(const TriangleMesh& mesh) {
   return edges;
 }
 
-/// Unites the triangles around an edge that more than two share. Seen along the edge, a triangle that runs
-/// forward has the inside on one turning side, one that runs backward on the other; neighbours are a forward
-/// one and the first backward one that is met while turning through the inside.
-/// @param coincident rad: between faces of touching bodies, which lie on each other to this, is no inside
+/// Unites the triangles around an edge shared by more than two. Seen along the edge, the inside is on one rotational
+/// side of a forward triangle, on the other one of a backward triangle. Neighbours are a forward one and the first
+/// backward one met by rotation through the inside.
+/// @param coincident rad: there is no inside between faces of touching bodies that coincide within this angle
 void unite_around(const TriangleMesh& mesh, const std::pair<int, int>& edge,
                   const std::vector<EdgeSide>& sides, double coincident, UnionFind& sets) {
   const Vector3 from = mesh.points[static_cast<std::size_t>(edge.first)];

@@ -23,9 +23,9 @@ constexpr long long volume_dimension = 3;
 constexpr long long triangle_of_3_nodes = 2;
 constexpr long long tetrahedron_of_4_nodes = 4;
 
-// Types of elements of 2 dimensions that Gmsh documents, beside the triangle of 3 nodes.
+// Gmsh's types of elements of 2 dimensions, except the triangle of 3 nodes.
 constexpr std::array<long long, 10> other_surfaces = {3, 9, 10, 16, 20, 21, 22, 23, 24, 25};
-// Types of elements of 3 dimensions that Gmsh documents, beside the tetrahedron of 4 nodes.
+// Gmsh's types of elements of 3 dimensions, except the tetrahedron of 4 nodes.
 constexpr std::array<long long, 18> other_volumes = {5,  6,  7,  11, 12, 13, 14, 17, 18,
                                                      19, 29, 30, 31, 71, 79, 92, 90, 118};
 
@@ -95,7 +95,7 @@ class MshReader {
     end_section("$MeshFormat");
   }
 
-  // Numbers that follow on the line are the format's business.
+  // Further numbers on the line are not checked.
   void end_section(const std::string& section) {
     const std::string end = "$End" + section.substr(1);
     scan_.require_line(end);
@@ -179,7 +179,7 @@ class MshReader {
     end_section("$Nodes");
   }
 
-  /// Of all blocks together, as the first line of a section says it.
+  /// Checks the total count stated in the first line of a section.
   static void check_count(const std::string& section, int line, int said, std::size_t found) {
     if (static_cast<std::size_t>(said) != found)
       throw MeshFileError(section + " says that it has " + std::to_string(said) + ", its blocks have " +
@@ -330,7 +330,7 @@ class MshReader {
   }
 
   struct Entity {
-    int groups = 0;       ///< how many physical groups it is in
+    int groups = 0;       ///< number of its physical groups
     long long group = 0;  ///< the first
   };
   using Tag = std::pair<long long, long long>;  ///< dimension and number
@@ -347,7 +347,7 @@ class MshReader {
   std::map<Tag, int> index_of_group_;
   std::unordered_map<long long, int> index_of_;  ///< of nodes
   std::map<std::array<int, 4>, int> line_of_;    ///< of tetrahedra, by their nodes
-  int doubtful_line_ = 0;                        ///< where triangles do not bound bodies clearly, 0: nowhere
+  int doubtful_line_ = 0;                        ///< where triangles do not clearly bound bodies, 0: nowhere
   std::string doubt_;
 };
 

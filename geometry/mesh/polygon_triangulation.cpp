@@ -11,8 +11,8 @@ namespace {
 
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
 
-// The corners that are left make a ring; those of them that are not strictly convex, which are all that can
-// lie in an ear, make a second list.
+// The remaining corners form a ring; those of them that are not strictly convex, the only ones that can lie in an
+// ear, form a second list.
 class EarClipper {
  public:
   EarClipper(const std::vector<Vector3>& points, std::span<const int> corners, std::size_t& tests_left)
@@ -146,8 +146,8 @@ class Reading {
     const std::size_t place = (start_ + k) % ring_.size();
     return ring_[backwards_ ? ring_.size() - 1 - place : place];
   }
-  /// Starts where the sequence of places is least, in time linear in the corners: of two candidates with k places
-  /// in common, the one that is greater there excludes itself and the next k.
+  /// Starts where the sequence of places is smallest, in time linear in the corners: of two candidates with k common
+  /// places, the one that is greater there is excluded together with the next k.
   void start_at_least() {
     const std::size_t count = ring_.size();
     std::size_t best = 0, other = 1, common = 0;

@@ -23,7 +23,7 @@ std::array<int, 3> sorted(std::array<int, 3> facet) {
   return facet;
 }
 
-/// Triangles with the points that they use, in the order of the mesh.
+/// Triangles with their points, in the order of the mesh.
 TriangleMesh with_own_points(const std::vector<Vector3>& points, std::vector<std::array<int, 3>> triangles) {
   std::vector<int> used;
   for (const auto& triangle : triangles) used.insert(used.end(), triangle.begin(), triangle.end());

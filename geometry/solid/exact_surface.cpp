@@ -20,7 +20,7 @@ namespace {
 using Exact = CGAL::Mpzf;
 using ExactVector = std::array<Exact, 3>;
 
-// The same with the constructors the number types of the filters have.
+// The same with the constructors of the filters' number types.
 // NOLINTNEXTLINE(bugprone-exception-escape): CGAL declares its moves noexcept although they may allocate
 struct DyadicNumber : Exact {
   explicit DyadicNumber(double a) : Exact(a) {}
@@ -28,7 +28,7 @@ struct DyadicNumber : Exact {
   static DyadicNumber difference(double a, double b) { return Exact(a) - Exact(b); }
 };
 
-// The analyser takes the limbs behind an offset pointer for lost.
+// The analyser considers the limbs behind an offset pointer as leaked.
 // NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
 ExactVector exact(const Vector3& p) {
   return {Exact(p.x()), Exact(p.y()), Exact(p.z())};
@@ -80,7 +80,7 @@ N six_volumes(const TriangleMesh& mesh) {
   return sum;
 }
 
-// Apart from signed_volume() so that no arithmetic moves across the change of the rounding mode.
+// Separate from signed_volume() so that no arithmetic is moved across the change of the rounding mode.
 [[gnu::noinline]] std::optional<double> quick_volume(const TriangleMesh& mesh) {
   NumericRange range;
   for (const Vector3& p : mesh.points)

@@ -34,7 +34,7 @@ std::vector<int> flat_regions(const TriangleMesh& mesh, const std::vector<int>& 
     const Vector3 origin = mesh.points[mesh.triangles[seed][0]];
     const auto belongs = [&](int t) {
       const auto& corners = mesh.triangles[t];
-      // A sliver may be tilted by any angle; others face the way of the region.
+      // A sliver may have any inclination; others face the same way as the region.
       double longest = 0.0;
       for (int k = 0; k < 3; ++k)
         longest = std::max(longest, (mesh.points[corners[k]] - mesh.points[corners[(k + 1) % 3]]).norm());

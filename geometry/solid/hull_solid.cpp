@@ -9,7 +9,7 @@
 namespace ashlar {
 namespace {
 
-/// Without triangles of faces that have no outline, as those of next to nothing may.
+/// Omits triangles of faces without an outline, which very small ones may lack.
 TriangleMesh fans_of_faces(const Polyhedron& solid) {
   TriangleMesh fans;
   std::vector<int> place(solid.mesh().points.size(), -1);
@@ -34,7 +34,7 @@ Polyhedron make_hull_solid(std::span<const Vector3> points, double resolution) {
   Polyhedron solid(hull, resolution);
   TriangleMesh fans = fans_of_faces(solid);
   if (fans.triangles == hull.triangles && fans.points.size() == hull.points.size()) return solid;
-  // Of a body hardly thicker than the resolution other triangles may bound no solid.
+  // For a body hardly thicker than the resolution other triangles may not bound a solid.
   if (!Polyhedron::find_defects(fans, 1).empty()) return solid;
   return Polyhedron(std::move(fans), resolution);
 }

@@ -78,7 +78,7 @@ std::vector<HullSurface::Edge> HullSurface::sorted_edges() const {
   return edges;
 }
 
-// True if there were any. Every flip adds the volume of a tetrahedron, so none is undone and this ends.
+// @return true if there were any. Every flip adds the volume of a tetrahedron, so that none is undone and this ends.
 bool HullSurface::flip_concave_edges(const std::vector<Edge>& edges) {
   bool flipped = false;
   for (Edge e : edges) {

@@ -149,7 +149,7 @@ class DefectSearch {
   }
 
   void check_embedding() {
-    // Of a mesh that is refused already, see notes/overlapping_triangles.md.
+    // For a mesh that is refused already, see notes/overlapping_triangles.md.
     constexpr std::size_t per_triangle = 100;
     const std::size_t candidates = result_.defects.empty() ? std::numeric_limits<std::size_t>::max()
                                                            : per_triangle * mesh_.triangles.size();

@@ -27,8 +27,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // edges lie in two planes whose common line carries both edges: such a point is inside a straight side. One
 // sharp edge alone cannot end at a point, so corners are the points with three or more.
 //
-// At a resolution, where that makes any difference, flat_regions() says which edges are flat, bends are those
-// between the faces' planes, and points off a straight side are corners too.
+// At a resolution, if relevant, flat_regions() determines the flat edges, bends are those between the faces' planes,
+// and points off a straight side are corners too.
 class FaceBuilder {
  public:
   FaceBuilder(const TriangleMesh& mesh, const std::vector<int>& twins, double resolution)
@@ -87,7 +87,7 @@ class FaceBuilder {
     return (x[v] - x[from]).cross((x[to] - x[from]).stableNormalized()).norm();
   }
 
-  /// Edges within a region are flat, and those that are flat to the last bit unite regions.
+  /// Edges within a region are flat, and edges that are flat to the last bit unite regions.
   void flatten_regions() {
     const std::vector<int> regions = flat_regions(mesh_, twins_, resolution_);
     UnionFind united(mesh_.triangles.size());
@@ -101,7 +101,7 @@ class FaceBuilder {
     }
   }
 
-  /// Of sharp edges, by the planes of their faces.
+  /// Determines bends of sharp edges by the planes of their faces.
   void find_bends_of_faces() {
     for (int h = 0; h < static_cast<int>(twins_.size()); ++h) {
       if (twins_[h] < h || !is_sharp(h)) continue;
@@ -113,7 +113,7 @@ class FaceBuilder {
     }
   }
 
-  // Not inlined, so that no arithmetic moves across the change of the rounding mode.
+  // Not inlined, so that no arithmetic is moved across the change of the rounding mode.
   [[gnu::noinline]] void find_bends() {
     NumericRange range;
     for (const Vector3& p : mesh_.points)
@@ -207,8 +207,8 @@ class FaceBuilder {
     loops.push_back(std::move(open));
   }
 
-  // The outer loop reaches both extreme points of the face. A hole may touch it in one of them, not in both:
-  // that would cut the face in two.
+  // The outer loop reaches both extreme points of the face. A hole may touch it in one of them, not in both, which
+  // would divide the face.
   void move_outer_loop_to_front(std::vector<std::vector<int>>& loops) const {
     const auto less = [this](int u, int v) {
       const Vector3& p = mesh_.points[u];
@@ -252,7 +252,7 @@ class FaceBuilder {
   const TriangleMesh& mesh_;
   const std::vector<int>& twins_;
   double resolution_;             // m
-  bool rounded_ = false;          // the resolution makes a difference
+  bool rounded_ = false;          // true: the resolution is relevant
   std::vector<CGAL::Sign> bend_;  // by half-edge
   std::vector<bool> is_corner_;   // by point
   std::vector<char> visited_;     // by half-edge

@@ -22,7 +22,7 @@ Point to_point(const Vector3& p) {
 
 enum class Cone { outside, boundary, inside };
 
-// Where the ray from o through p runs in the cone of a triangle; sign is the orientation of (o, a, b, c).
+// Location of the ray from o through p in the cone of a triangle; sign is the orientation of (o, a, b, c).
 Cone locate_in_cone(const Point& o, const std::array<Point, 3>& t, const Point& p, CGAL::Orientation sign) {
   bool boundary = false;
   for (int k = 0; k < 3; ++k) {
@@ -85,7 +85,7 @@ class PairTest {
   const std::vector<Triangle>& triangles_;
 };
 
-// Stops the box search, which knows no other way to end early.
+// Ends the box search, which has no other way to stop early.
 struct EnoughPairs {};
 
 }  // namespace

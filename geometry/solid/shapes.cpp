@@ -64,7 +64,7 @@ TriangleMesh make_icosahedron() {
   return mesh;
 }
 
-// Splits every triangle into four and pushes the new points out to the unit sphere.
+// Splits every triangle into four and projects the new points to the unit sphere.
 TriangleMesh split_on_unit_sphere(TriangleMesh coarse) {
   TriangleMesh fine;
   fine.points = std::move(coarse.points);
@@ -88,9 +88,8 @@ TriangleMesh split_on_unit_sphere(TriangleMesh coarse) {
   return fine;
 }
 
-/// The facets of a hull as fans from their first corner, with corners in the order of the points it was made
-/// of: which edges divide a facet, and the numbers of points and triangles, depend in the library on
-/// addresses in memory.
+/// The facets of a hull as fans from their first corner, with corners in the order of the input points: in the
+/// library, the edges that divide a facet and the numbers of points and triangles depend on memory addresses.
 TriangleMesh fans_of_facets(std::span<const Vector3> input, const TriangleMesh& hull) {
   std::map<std::array<double, 3>, std::size_t> place_in_input;
   for (std::size_t k = 0; k < input.size(); ++k)

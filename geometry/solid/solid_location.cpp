@@ -9,7 +9,7 @@ namespace ashlar {
 
 namespace {
 
-// By the parity of the crossings of the ray from p; none if the ray meets an edge.
+// By the parity of the crossings of the ray from p; empty if the ray meets an edge.
 std::optional<bool> is_inside_along(const TriangleMesh& solid, const Vector3& p, const Vector3& direction,
                                     PredicateLadder& ladder) {
   const ContactDirection ray = ContactDirection::along({&direction});
@@ -42,7 +42,7 @@ bool is_inside(const TriangleMesh& solid, const Vector3& p) {
   for (int i = 0; i < 3; ++i) range.include(p[i]);
   PredicateLadder ladder;
   ladder.open(range);
-  // Directions (1, m, m^2) lie in few planes with any one edge, so one that meets none comes soon.
+  // Directions (1, m, m^2) lie in few planes with any one edge, so that one that meets none is found soon.
   for (double m = 3.0;; ++m)
     if (const auto inside = is_inside_along(solid, p, {1.0, m, m * m}, ladder)) return *inside;
 }

@@ -1,5 +1,5 @@
-// Rounding: u = 2^-53. A sum of m products, in any order and any rounding mode, is off by at most
-// (m + 1) 2u sum |a_i b_i|; the mean of two numbers by u times the larger one.
+// Rounding: u = 2^-53. The error of a sum of m products, in any order and any rounding mode, is at most (m + 1) 2u
+// sum |a_i b_i|; that of the mean of two numbers u times the larger one.
 #include "geometry/subfaces/bernstein_triangle.hpp"
 
 #include <Eigen/Geometry>
@@ -109,7 +109,7 @@ std::vector<Vector3> BernsteinForm::domain_points() const {
 BernsteinTriangle::BernsteinTriangle(const BernsteinForm& form,
                                      const Eigen::Ref<const Eigen::Matrix3Xd>& values)
     : form_(&form) {
-  // Differences from one point keep the error in proportion to the patch, not to its place.
+  // Differences relative to one point keep the error proportional to the patch, independent of its place.
   const Vector3 origin = values.col(0);
   const Eigen::Matrix3Xd differences = values.colwise() - origin;
   control_.noalias() = differences * form.interpolation().transpose();
@@ -140,7 +140,7 @@ std::array<BernsteinTriangle, 2> BernsteinTriangle::halves(int side) const {
     for (int second = 0; second <= degree; ++second)
       row.emplace_back(control_.col(place(degree - second, second, third)));
     for (int step = 0; step <= degree; ++step) {
-      // row[0] is the point with `step` steps taken: a control point of both halves.
+      // row[0] is the point after `step` steps: a control point of both halves.
       towards_start.control_.col(form_->index(step, third)) = row[0];
       towards_end.control_.col(form_->index(degree - step, third)) =
           row[static_cast<std::size_t>(degree - step)];

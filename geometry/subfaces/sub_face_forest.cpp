@@ -30,9 +30,9 @@ SubFaceForest::SubFaceForest(const SubFaceSurface& surface)
   leaf_count_ = root_count_;
 }
 
-/// The longest side is compared as (length, ends), the same from both sides of it: a total order, so that
-/// cutting longer sides of neighbours first comes to an end. In single precision lengths that are equal but
-/// for rounding, as half the diagonals of a rectangle in a turned scene, are equal.
+/// The longest side is compared as (length, ends), the same from both sides of it: a total order, so that cutting
+/// longer sides of neighbours first terminates. In single precision lengths that are equal but for rounding, such as
+/// half the diagonals of a rectangle in a rotated scene, are equal.
 SubFaceForest::Node SubFaceForest::make_node(int face, const std::array<int, 3>& corners,
                                              const std::array<int, 3>& rim, std::uint64_t path,
                                              int bisections) const {
@@ -77,7 +77,7 @@ void SubFaceForest::join(const std::vector<BernsteinTriangle>& of_roots) {
 
 std::vector<std::uint64_t> SubFaceForest::cuts() const {
   std::vector<std::uint64_t> cuts((nodes_.size() - at(root_count_)) / 2);
-  // Halves are made together, and one cut after the other.
+  // Halves are made together, one cut after the other.
   for (const Node& node : nodes_)
     if (node.children[0] >= 0) cuts[at((node.children[0] - root_count_) / 2)] = node.path;
   return cuts;
@@ -98,7 +98,7 @@ void SubFaceForest::cut_again(const std::vector<std::uint64_t>& cuts) {
   }
 }
 
-/// A side can only be cut where it is the longest one on both its sides: longer ones beyond it go first.
+/// A side can only be cut if it is the longest one on both its sides: longer ones beyond it are cut first.
 void SubFaceForest::cut_with_neighbours(int node) {
   std::vector<int> path = {node};
   while (!path.empty()) {

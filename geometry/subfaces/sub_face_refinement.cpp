@@ -59,7 +59,7 @@ Eigen::RowVectorXd AdaptiveSurface::largest_values(const Eigen::MatrixXd& values
         form_->interpolation() * values.middleRows(root * form_->size(), form_->size());
     largest = largest.cwiseMax(control.cwiseAbs().colwise().maxCoeff());
   }
-  // Far more than the rounding of the control points.
+  // Far above the rounding error of the control points.
   return 1.001 * largest;
 }
 
@@ -161,7 +161,7 @@ void AdaptiveSurface::divide_anew(const DivisionDemand& demand) {
     if (node.wanted) remembered_.insert(node.path);
   }
   forest_.join(root_patches_);
-  // Coarse tolerances first, so that a division that is ended by its limit is even.
+  // Coarse tolerances first, so that a division ended by its limit is even.
   double coarse = demand.chord_tolerance;
   for (int root = 0; root < forest_.root_count(); ++root) {
     while (needs_division(forest_.nodes()[at(root)], forest_.patch(root), 8.0 * coarse, demand))
@@ -176,7 +176,7 @@ void AdaptiveSurface::divide_anew(const DivisionDemand& demand) {
 }
 
 void AdaptiveSurface::divide_to(double tolerance, const DivisionDemand& demand) {
-  // Cutting appends nodes, so that every node is looked at once, when all before it are done.
+  // Cutting appends nodes, so that every node is visited once, after all earlier ones.
   for (int node = 0; node < static_cast<int>(forest_.nodes().size()) && forest_.leaf_count() < max_cells;
        ++node) {
     const bool before = remembered_.count(forest_.nodes()[at(node)].path) > 0;

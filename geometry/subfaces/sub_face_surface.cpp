@@ -100,9 +100,8 @@ std::vector<int> twins_of_closed(const std::vector<std::array<int, 3>>& triangle
   return twins;
 }
 
-/// (3 #triangles) The edge of the polyhedron that each half-edge of its mesh is a piece of; -1: none. An edge
-/// may be a chain of half-edges over points that are no corners; from such a point a chain has one way to go
-/// on.
+/// (3 #triangles) The edge of the polyhedron that contains each half-edge of its mesh; -1: none. An edge may be a
+/// chain of half-edges over points that are no corners; from such a point a chain has one continuation.
 std::vector<int> edges_of_half_edges(const Polyhedron& solid) {
   const auto& triangles = solid.mesh().triangles;
   const std::vector<int> twins = twins_of_closed(triangles, solid.mesh().points.size());

@@ -6,8 +6,8 @@
 namespace ashlar {
 namespace {
 
-/// Width of the slab across a direction between two surfaces: no two points of them are nearer, however they
-/// curve. Negative if the direction does not separate them.
+/// Width of the slab across a direction between two surfaces: a lower bound of their distance for any curvature.
+/// Negative if the direction does not separate them.
 double slab_between(const PlacedSurface& a, const PlacedSurface& b, const Vector3& direction) {
   const auto extreme = [&](const PlacedSurface& surface, double sign) {
     double most = -std::numeric_limits<double>::infinity();

@@ -19,7 +19,7 @@ constexpr double near_enough = 0.1;
 
 /// Points of a pair, (3, #points) along normals and tangents.
 struct SplitPair {
-  Eigen::Matrix3Xd first;    ///< places at the first guess, m
+  Eigen::Matrix3Xd first;    ///< places at the initial guess, m
   Eigen::Matrix3Xd places;   ///< of the blocks, m
   Eigen::Matrix3Xd copies;   ///< of the laws, m
   Eigen::Matrix3Xd forces;   ///< of the laws, N
