@@ -143,7 +143,7 @@ class Simulation:
         while self.status == "running" and (until is None or self.time < until * (1 - 1e-12)):
             self._core.step()
             goes_on = callback(self) if callback is not None else None
-            # numpy's False is another object than Python's.
+            # numpy's False is not the same object as Python's.
             if goes_on is not None and not goes_on:
                 break
         return self.status

@@ -62,7 +62,7 @@ def _table(value, path):
 def _value(value, path):
     if isinstance(value, numpy.ma.MaskedArray) and numpy.ma.is_masked(value):
         raise TypeError(f"{path}: masked values have no place in a scene")
-    # Arrays and numbers of numpy, and of all who have learned from it.
+    # Arrays and numbers of numpy and compatible libraries.
     if hasattr(value, "tolist") and not isinstance(value, memoryview):
         value = value.tolist()
     if isinstance(value, bool):

@@ -16,7 +16,7 @@ const ADDRESS_KEYS = [
   ["x1", "x1", "text"], ["y1", "y1", "text"], ["x2", "x2", "text"], ["y2", "y2", "text"],
 ];
 
-/// What is shown if nobody asks for anything else.
+/// Default state.
 function usualState() {
   const few = !isCrowded();
   return {frame: data.isStatic ? data.frames.length - 1 : 0, field: "displacement", range: "run", low: null, high: null,
@@ -58,14 +58,14 @@ function readHidden(wishes) {
   current.hidden = new Set(data.blocks.map((_, k) => k).filter((k) => !only.has(k)));
 }
 
-/// What displacements are relative to: a block by name or number, or "none".
+/// Reference of displacements: a block by name or number, or "none".
 function readRelative(text) {
   if (text === null) return;
   const block = blockCalled(text);
   if (block >= 0 || text === "none") current.relative = block >= 0 ? block : null;
 }
 
-/// Brings `current` in line with the address. @return its keys
+/// Updates `current` from the address. @return its keys
 function readAddress() {
   const wishes = new URLSearchParams(location.hash.slice(1));
   const frame = data.frames.findIndex((candidate) => String(candidate.index) === wishes.get("frame"));
@@ -75,7 +75,7 @@ function readAddress() {
     const value = readKey(wishes.get(key), kind);
     if (value !== undefined) current[member] = kind === YES || key === "arrows" ? value === "yes" : value;
   }
-  // No points, or points without forces, mean no bars either unless these are asked for.
+  // No points, or points without forces, imply no bars unless these are requested.
   if (!wishes.has("chain") && (wishes.get("arrows") === "none" || wishes.get("contacts") === "none")) current.chain = false;
   const from = wishes.get("from") in VIEWS ? new THREE.Vector3(...VIEWS[wishes.get("from")]) : vectorOf(wishes.get("from"));
   if (from && from.lengthSq() > 0) current.from = from;
@@ -90,7 +90,7 @@ function readAddress() {
 
 const rounded = (vector) => vector.toArray().map((x) => Number(x.toPrecision(5))).join(",");
 
-/// The address of what is shown: what differs from the usual.
+/// The address of the present state: its differences from the default.
 function addressOf() {
   const usual = {...usualState(), ...choosePlots.usual};
   const address = new URLSearchParams();
@@ -116,7 +116,7 @@ function addressOf() {
   return address.toString().replaceAll("%2C", ",");
 }
 
-/// Writes the address soon: not with each pixel that a slider moves.
+/// Writes the address with a delay: not for each pixel of a slider's motion.
 function noteAddress() {
   clearTimeout(noteAddress.timer);
   noteAddress.timer = setTimeout(() => {
@@ -125,7 +125,7 @@ function noteAddress() {
   }, 250);
 }
 
-/// A link that was put into the address of the open page.
+/// A link entered into the address of the open page.
 function followAddress() {
   if (location.hash.slice(1) === noteAddress.written) return;
   resetState();

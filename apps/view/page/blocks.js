@@ -2,7 +2,7 @@
 
 const MOST_LISTED = 200;
 
-/// Numbers of the blocks whose name or material has the text that was searched for.
+/// Numbers of the blocks whose name or material contains the search text.
 function foundBlocks() {
   const text = element("search").value.trim().toLowerCase();
   return data.blocks.map((_, k) => k).filter((k) => !data.blocks[k].absent

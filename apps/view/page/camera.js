@@ -1,4 +1,4 @@
-// Where one looks from: fitting the scene into the picture, named views, light and dark.
+// Camera: fits the scene into the picture, named views, light and dark.
 
 const THEMES = {
   light: {background: "#ffffff", text: "#1f2328", edge: "#222222", faintEdge: "#8a8a8a", vector: "#5b2a86"},
@@ -18,8 +18,8 @@ const VIEWS = {
 /// Views in which parallel lines stay parallel, so that lengths can be measured; the others are perspectives.
 const PARALLEL_VIEWS = ["front", "back", "left", "right", "top"];
 
-/// Points around all that is to be seen: those of fixed blocks, the corners of a box around the way of each other one
-/// that does not fly off to more than half the scene's own size.
+/// Points around the visible scene: those of fixed blocks, and the corners of a box around the path of each other
+/// block that does not fly off by more than half the scene's own size.
 function outlineOfScene() {
   const boxes = data.blocks.map(() => new THREE.Box3());
   const place = new THREE.Vector3();
@@ -57,7 +57,7 @@ function freePixels() {
   return [Math.max(width - left - 12, 40), Math.max(height - top - bottom, 40)];
 }
 
-/// The same of a parallel view. @return half of the height of the picture, m, in place of the distance
+/// The same for a parallel view. @return half of the height of the picture, m, in place of the distance
 function fittedParallel(right, up) {
   const [horizontal, vertical] = freePixels();
   const extent = (axis) => outline.reduce(([low, high], point) => {
@@ -81,7 +81,8 @@ function fitted(toEye, right, up) {
   const [horizontal, vertical] = freePixels().map((pixels) => tangent * pixels / height);
   const target = sceneBox.getCenter(new THREE.Vector3());
   let distance = 0;
-  // What is near looks larger: its middle in the picture is not that of the box. Each round moves the target there.
+  // Near parts appear larger: the centre of the box is not the centre in the picture. Each iteration corrects the
+  // target.
   for (let round = 0; round < 4; ++round) {
     const seen = outline.map((point) => {
       const offset = point.clone().sub(target);
@@ -101,13 +102,13 @@ function fitted(toEye, right, up) {
   return {target, distance};
 }
 
-/// How all is seen from the present direction: {target, distance}, in a parallel view {target, half}.
+/// View of the whole scene from the present direction: {target, distance}, for a parallel view {target, half}.
 function wholeView(toEye) {
   const [right, up] = [0, 1].map((k) => new THREE.Vector3().setFromMatrixColumn(camera.matrixWorld, k));
   return camera.isOrthographicCamera ? fittedParallel(right, up) : fitted(toEye, right, up);
 }
 
-/// Takes the camera of the kind that `current` asks for.
+/// Selects the kind of camera requested by `current`.
 function chooseCamera() {
   const wanted = current.parallel ? cameras.parallel : cameras.perspective;
   wanted.add(cameras.lamp);
@@ -139,7 +140,7 @@ function lookFrom(direction) {
   controls.update();
 }
 
-/// Puts into `current` what the user has turned, moved and zoomed to.
+/// Stores the user's rotation, translation and zoom in `current`.
 function noteView() {
   const toEye = camera.position.clone().sub(controls.target);
   const distance = toEye.length();
@@ -151,7 +152,7 @@ function noteView() {
 }
 
 /// The scene is drawn in the middle of what is left free.
-/// @param size width and height of the canvas, and what of it is taken: left, top, bottom; pixels
+/// @param size width and height of the canvas, and its margins: left, top, bottom; pixels
 function setFrame(size) {
   Object.assign(frameSize, size);
   const {width, height, left, top, bottom} = frameSize;
@@ -162,7 +163,7 @@ function setFrame(size) {
   camera.setViewOffset(width, height, -0.5 * left, 0.5 * (bottom - top), width, height);
 }
 
-/// What legend, heading and player take of a picture: in a narrow one the legend lies above the scene.
+/// Margins for legend, heading and player: in a narrow picture the legend lies above the scene.
 function framing(width, height, {heading, player}) {
   const flat = width < 560;
   const flatHeight = Math.min(88, 0.25 * height);
@@ -223,8 +224,8 @@ function render() {
 
 // ---- turning ----------------------------------------------------------------------------------------------
 
-/// Where a picture takes longer than a thirtieth of a second, as without a graphics card, fewer pixels and no edges are
-/// drawn while one turns, and all of them as soon as one stops.
+/// If a picture takes longer than a thirtieth of a second, as without a graphics card, fewer pixels and no edges are
+/// drawn during rotation, and all of them when it ends.
 const SLOW = 1000 / 30;
 
 function renderTurning() {

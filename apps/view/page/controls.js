@@ -89,7 +89,7 @@ function syncControls() {
   syncSection();
 }
 
-/// The way of the slider is that of the axis.
+/// The range of the slider is that of the axis.
 function syncSection() {
   const [low, high] = sectionWay();
   const slider = element("section-at");
@@ -100,7 +100,7 @@ function syncSection() {
 }
 
 function afterChange(member) {
-  // Limits are those of what was coloured when they were typed.
+  // Limits apply to the quantity coloured when they were entered.
   if (["field", "joints", "relative"].includes(member)) Object.assign(current, {low: null, high: null});
   if (member === "section") {
     const [low, high] = sectionWay();

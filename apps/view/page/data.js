@@ -1,10 +1,10 @@
-// What the page holds, as view_file.cpp and view_frames.cpp wrote it.
+// The data of the page, as written by view_file.cpp and view_frames.cpp.
 
 const CONTACT_TYPES = ["face-face", "vertex-face", "edge-edge"];
 const STATES = ["open", "locked", "sliding"];
 const STRESS_NAMES = ["xx", "yy", "zz", "xy", "yz", "xz"];
 
-/// One frame. Its parts are read when they are first asked for: a page of a hundred frames opens at once.
+/// One frame. Its parts are decoded at the first access: a page of a hundred frames opens at once.
 class Frame {
   constructor(head, bytes) {
     Object.assign(this, {index: head.index, step: head.step, time: head.time, head, bytes, parts: {}});
@@ -66,7 +66,7 @@ class Frame {
     });
   }
 
-  /// Contact points; none where there were too many for the page (head.contacts says how many there are)
+  /// Contact points; none if there were too many for the page (head.contacts is their number)
   get contacts() {
     return this.part("contacts", (reader) => {
       const count = this.head.points;
@@ -99,7 +99,7 @@ function decodeHistory({columns, rows}, bytes) {
   return {columns, rows, values};
 }
 
-/// Runs of points of one block, as PackedNumbers::add_displacements takes them.
+/// Runs of points of one block, for PackedNumbers::add_displacements.
 function spansOf(blockOfPoint) {
   const spans = [];
   blockOfPoint.forEach((block, i) => {
@@ -109,7 +109,7 @@ function spansOf(blockOfPoint) {
   return spans;
 }
 
-/// @param fixed numbers of the blocks that never move; others of order 0 are rigid
+/// @param fixed numbers of the fixed blocks; others of order 0 are rigid
 function blocksOf(cells, given, fixed) {
   const blocks = [];
   const still = new Set(fixed);

@@ -1,4 +1,4 @@
-// What blocks and joints are coloured by: values, their ranges, colours.
+// Colours of blocks and joints: values, their ranges, colours.
 
 // Both begin and end with colours that neither unlit stone nor a support has.
 const SEQUENTIAL = ["#bfe6a8", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#2b2f8f", "#3a1a6e"];
@@ -58,7 +58,7 @@ function fieldsOf(data) {
   return fields;
 }
 
-/// What the faces of joints are coloured by: values by face.
+/// Colours of the faces of joints: values by face.
 const JOINT_FIELDS = {
   opening: {label: "opening", unit: "m", of: (joints) => joints.opening, fromZero: true},
   slip: {label: "slip", unit: "m", of: (joints) => joints.slip},
@@ -116,7 +116,7 @@ function percentileRange(field, frame) {
   return roundedOff(field, low, high);
 }
 
-/// The range that colours stand for, as the user has chosen.
+/// The range of the colours, as chosen by the user.
 function rangeOf(field, frame) {
   if (field.kinds || isWhole(field)) return null;
   const run = () => {

@@ -1,4 +1,4 @@
-// What blocks exert on each other: contact points with the force at each; one bar a joint; the line of thrust.
+// Forces between blocks: contact points with the force at each; one bar a joint; the line of thrust.
 
 const FORCE_COLOUR = "#c00018";
 const TENSION_COLOUR = "#1f5fd8";
@@ -129,13 +129,14 @@ function arrowOf(force, place) {
 
 // ---- joints -----------------------------------------------------------------------------------------------
 
-/// Links with their places and whether they press, of blocks that are not hidden.
+/// Links with their places and the sign of their force, for blocks that are not hidden.
 function visibleLinks(frame) {
   const enlarge = enlargement(frame);
   const centres = blockCentres(frame);
   return frame.links.filter((link) => !jointIsHidden(link) && isKept(link.place)).map((link) => {
     const place = enlarge ? enlarge(link.place, link.a, link.b) : link.place;
-    // What presses pushes a block away from the joint. A support may be larger than all: the other block tells.
+    // Compression pushes a block away from the joint. A support may be larger than all others: the other block
+    // decides.
     const from = data.blocks[link.a].fixed ? link.b : link.a;
     const sign = from === link.a ? 1 : -1;
     const presses = !centres[from] || sign * link.force.dot(centres[from].clone().sub(place)) >= 0;
@@ -143,7 +144,7 @@ function visibleLinks(frame) {
   });
 }
 
-/// A bar a joint, along the force, equally long to both sides: what one block exerts the other bears.
+/// A bar a joint, along the force, equally long to both sides: the force acts on both blocks.
 function placeChain(links) {
   const usual = usualForce("links");
   const bars = links.map((link) => {
@@ -192,7 +193,7 @@ function placeForces(frame) {
 
 // ---- in words ---------------------------------------------------------------------------------------------
 
-/// {name, colour} of what points, bars and lines stand for in a frame.
+/// {name, colour} of points, bars and lines in a frame.
 function forceKinds(frame) {
   const kinds = [];
   if (current.points !== "none") {
@@ -216,7 +217,7 @@ function forceKinds(frame) {
   return kinds;
 }
 
-/// What points and forces are shown, in words.
+/// Description of the points and forces shown.
 function forceNote(frame) {
   const largest = (list) => list.reduce((most, {force}) => Math.max(most, force.length()), 0);
   const notes = [];

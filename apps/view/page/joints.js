@@ -1,4 +1,4 @@
-// The faces in which blocks touch, coloured by what they bear. Seen edge-on a face is a line: its rim is drawn with
+// The contact faces of blocks, coloured by their forces. Seen edge-on a face is a line: its rim is drawn with
 // some pixels' width, so that an arch seen from the front shows its joints too.
 
 function buildJoints() {
@@ -76,5 +76,5 @@ function placeJoints(frame) {
   setWideLines(joints.rims, rims, rimColours);
 }
 
-/// Whether any frame has joints: not so of versions before 0.2.
+/// True if any frame has joints: false for versions before 0.2.
 const hasJoints = () => data.frames.some((frame) => frame.head.joints > 0);

@@ -1,8 +1,8 @@
-// What colours stand for, drawn on the picture: a scale with round ticks, or a list of kinds.
+// Legend of the colours, drawn on the picture: a scale with round ticks, or a list of kinds.
 
 const LEGEND_FONT = "13px system-ui, sans-serif";
 
-/// Text that is legible on whatever is behind it.
+/// Text that is legible on any background.
 function drawText(context, text, x, y, colour = theme().text) {
   context.lineJoin = "round";
   context.lineWidth = 3;
@@ -79,7 +79,7 @@ function drawFlatScale(context, field, range, {x, y, width}) {
   context.textAlign = "left";
 }
 
-/// A bar of a colour and what its length stands for, below it. @return where the next thing may be
+/// A bar of a colour and the quantity of its length, below it. @return place of the next item
 function drawLengthKind(context, {name, colour, bar}, {x, y}) {
   context.fillStyle = colour;
   context.fillRect(x, y + 4, bar, 4);
@@ -131,7 +131,7 @@ function categoryKinds(field, most) {
   return shown;
 }
 
-/// What the picture's colours stand for: a scale {field, range} if there is one, and kinds {name, colour}.
+/// Legend of the picture: a scale {field, range} if there is one, and kinds {name, colour}.
 function legendParts(frame, most) {
   const scales = [], kinds = [];
   const field = mainField();

@@ -1,4 +1,4 @@
-// What is drawn over the scene: legend, axes, scale bar.
+// Items drawn over the scene: legend, axes, scale bar.
 
 /// The three axes as one sees them, in the lower right corner.
 function drawAxes(context, {width, height}) {

@@ -1,9 +1,9 @@
 // The page of `ashlar view`, first part: numbers as packed_numbers.cpp packs them.
 //
-// The parts of the page are one script. In reading order: numbers, data (what the page holds), units, fields and their
-// colours, surface (blocks), relative (displacements relative to one), legend, joints, forces, vectors, section, camera, marks (axes and scale bar), blocks (their
-// list), pick, plots, summary, address, controls, picture, start. `current` (address.js) is all that the user can change;
-// show() (controls.js) brings the picture in line with it.
+// The parts of the page are one script. In reading order: numbers, data (data of the page), units, fields and their
+// colours, surface (blocks), relative (displacements relative to one), legend, joints, forces, vectors, section,
+// camera, marks (axes and scale bar), blocks (their list), pick, plots, summary, address, controls, picture, start.
+// `current` (address.js) is the state that the user can change; show() (controls.js) updates the picture for it.
 "use strict";
 
 const element = (id) => document.getElementById(id);
@@ -21,7 +21,7 @@ async function inflated(base64) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/// Reads what PackedNumbers has written, in the same order.
+/// Decodes data written by PackedNumbers, in the same order.
 class NumberReader {
   constructor(bytes, at = 0) {
     this.bytes = bytes;
@@ -87,6 +87,6 @@ class NumberReader {
   }
 }
 
-/// Bytes that displacements(spans, count) and reals(count, components) take.
+/// Bytes used by displacements(spans, count) and reals(count, components).
 const bytesOfDisplacements = (spans, count) => 14 * spans.length + 6 * count;
 const bytesOfReals = (count, components = 1) => 4 + 2 * count * components;

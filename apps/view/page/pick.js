@@ -1,4 +1,4 @@
-// What the user has clicked: a block, a joint, a contact point.
+// The user's selection: a block, a joint, a contact point.
 
 /// @param x, y pixels from the upper left corner of the canvas. A contact within its dot comes before all, and what is
 /// nearer before what is behind it; a joint before the blocks that hide it.
@@ -83,7 +83,7 @@ function fillTable(table, rows) {
   }));
 }
 
-/// Brings table and marked edges in line with what is picked; the picture is drawn later.
+/// Updates table and marked edges for the selection; the picture is drawn later.
 function updatePicked() {
   const {block, contact, joint} = current.picked;
   const rows = contact ? rowsOfContact(contact) : joint !== undefined ? rowsOfJoint(joint)

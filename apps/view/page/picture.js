@@ -1,6 +1,6 @@
 // Pictures for `ashlar picture` and `ashlar movie`: #picture&size=800x600&frame=3, or &frames=0:7.
 
-/// Leaves nothing in the page but a text for the program that reads it: pictures, or why there are none.
+/// Leaves only a text in the page for the program that reads it: pictures, or the reason for their absence.
 function leaveText(id, content) {
   const text = document.createElement("pre");
   text.id = id;
@@ -8,7 +8,7 @@ function leaveText(id, content) {
   document.documentElement.replaceChildren(text);
 }
 
-/// What is asked for and cannot be drawn; empty: nothing.
+/// Requested items that cannot be drawn; empty: none.
 function faultOf(wishes) {
   if (!renderer) return "the browser has no WebGL";
   if (wishes.get("color") && !(wishes.get("color") in fields))
@@ -44,7 +44,7 @@ function makePicture(wishes) {
   leaveText("pictures", pictures.join("\n"));
 }
 
-/// @return what is shown now as a PNG in base64
+/// @return the present view as a PNG in base64
 function drawnPicture(width, height) {
   show();
   const picture = document.createElement("canvas");

@@ -13,7 +13,7 @@ function unitOfColumn(name) {
   return known ? known[1] : "";
 }
 
-/// name of a group: {unit, columns, change: whether differences from the first row are shown}; measures first.
+/// name of a group: {unit, columns, change: true if differences from the first row are shown}; measures first.
 function plotGroups(columns) {
   const groups = {};
   const add = (name, list, more = {}) => {
@@ -32,7 +32,7 @@ function plotGroups(columns) {
     add(measure + ": opening and slip", parts(["opening", "slip"]));
   }
   const starting = (start) => columns.filter((name) => name.startsWith(start));
-  // Most runs have no damping, many no loads: what does not change only crowds the plot.
+  // Most runs have no damping, many no loads: constant columns only crowd the plot.
   const changes = (name) => data.history.values[name].some((value, _, all) => value !== all[0]);
   add("energies", starting("energy.").filter(changes), {change: true});
   add("contacts", starting("contacts."), {unit: "points"});
@@ -84,7 +84,7 @@ function axis(title) {
     ticks: {maxTicksLimit: 6, includeBounds: false, callback: (value) => short(Number(value.toPrecision(12)))}};
 }
 
-/// What a plot shows: [{label, x, y}] with units. @return {curves, xValues, xTitle, yTitle}
+/// Content of a plot: [{label, x, y}] with units. @return {curves, xValues, xTitle, yTitle}
 function curvesOf(group, xColumn) {
   const {values} = data.history;
   const scaled = (list, unit) => {

@@ -73,14 +73,14 @@ function shownDisplacement(frame) {
   return frame.relative.values;
 }
 
-/// " relative to base", or nothing; of a frame without the block it says so.
+/// " relative to base", or nothing; for a frame without the block a note.
 function relativeWords(frame) {
   if (current.relative === null) return "";
   const {name} = data.blocks[current.relative];
   return shownDisplacement(frame) === frame.displacement ? " (" + name + " is not there)" : " relative to " + name;
 }
 
-/// What a field is called in a frame.
+/// Name of a field in a frame.
 const labelOf = (field, frame) => field.label + (field.isDisplacement ? relativeWords(frame) : "");
 
 /// {value, block, place} of the largest displacement shown in a frame, of blocks that are not fixed; null: none.

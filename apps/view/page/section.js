@@ -25,7 +25,7 @@ function sectionPlane() {
   return {normal, at: sign * current.sectionAt};
 }
 
-/// Whether something at a place is shown.
+/// True if something at a place is shown.
 function isKept(place) {
   const cut = sectionPlane();
   return !cut || place.dot(cut.normal) <= cut.at;
@@ -34,7 +34,7 @@ function isKept(place) {
 /// Things that the plane cuts.
 function clipAll() {
   const cut = sectionPlane();
-  // three.js keeps what is on the side of the normal.
+  // three.js keeps the side of the normal.
   if (cut) section.plane.set(cut.normal.clone().negate(), cut.at);
   const planes = cut ? [section.plane] : [];
   for (const item of [meshes.mesh, meshes.edges, meshes.innerEdges, meshes.selection, joints.faces])

@@ -1,4 +1,4 @@
-// The summary: first what a person asks, then what there is to count.
+// The summary: first the main results, then counts.
 
 const words = (key) => key.replaceAll("_", " ");
 const valueText = (value) => (typeof value === "number" ? short(value) : String(value));
@@ -30,10 +30,11 @@ function factorText({lower, upper}) {
 const countedNames = (names) => (names.length === 0 ? ""
   : names.length + (names.length === 1 ? " block: " : " blocks: ") + namesText(names));
 
-/// Whether the status is the answer, or only says that there is one in the summary: its message then repeats it.
+/// True if the status is the result; false if it only indicates a result in the summary, which its message then
+/// repeats.
 const isAnswered = ({status}) => ["completed", "equilibrium", "moving"].includes(status);
 
-/// Rows of what is asked first: the factor of a search, else whether the model stands.
+/// Rows of the main results: the factor of a search, otherwise the stability of the model.
 function answerRows(summary) {
   if (!summary) return [["status", "not finished: no summary.json"]];
   const rows = [];

@@ -128,7 +128,7 @@ function colourSurface(field, frame, range) {
   meshes.mesh.material.needsUpdate = true;
 }
 
-/// Blocks are shown as glass where they would hide what is between or in them.
+/// Blocks are shown as glass if they would hide items between or in them.
 function styleSurface() {
   const glass = current.seeThrough || current.joints !== "none";
   Object.assign(meshes.mesh.material, {transparent: glass, opacity: current.joints !== "none" ? 0.12 : glass ? 0.35 : 1,
@@ -174,8 +174,9 @@ function centreOf(block) {
   return volume === 0 ? origin : origin.addScaledVector(sum, 1 / volume);
 }
 
-/// How joints and forces, which are where blocks truly are, move with enlarged displacements: by (scale - 1) times the
-/// displacement there, which is taken for affine in each block (least squares over its points) and halved between the two.
+/// Displacement of joints and forces, which are at the true places of blocks, for enlarged displacements: (scale - 1)
+/// times the displacement there, approximated as affine in each block (least squares over its points) and averaged
+/// between the two.
 function enlargement(frame) {
   if (current.scale === 1) return null;
   const maps = data.blocks.map(() => undefined);

@@ -44,7 +44,7 @@ function roundTicks(low, high, about = 5) {
   return ticks;
 }
 
-/// A tick with as many digits as tell it from the next one.
+/// A tick with enough digits to distinguish it from the next one.
 function tickText(tick, ticks) {
   if (tick === 0 || ticks.length < 2) return short(tick);
   const largest = Math.max(...ticks.map(Math.abs));
