@@ -198,8 +198,8 @@ struct SimulationSettings {
   /// Relative motion of two blocks up to which cached contacts are valid, m.
   [[nodiscard]] double lasting_motion() const { return search.lasting_share * contact_distance; }
   /// Largest error of the gap at the end of a step due to rows at its start, m; beyond it the rows are updated
-  /// (notes/contact_at_the_end_of_a_step.md). For springs their deformation exceeds the allowed undetected
-  /// penetration.
+  /// (notes/contact_at_the_end_of_a_step.md). With springs it is the allowed undetected penetration, which is less
+  /// than their deformation.
   [[nodiscard]] double followed_gap() const {
     return augmented ? multipliers.accuracy * multipliers.penetration_tolerance
                      : search.passing_share * contact_distance;

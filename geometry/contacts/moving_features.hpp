@@ -18,7 +18,7 @@ struct MovingSurface {
 /// A side of cells between two points: a convex edge, or, where faces are divided, an inner side.
 struct SurfaceSide {
   std::array<int, 2> ends;
-  std::array<int, 2> cells;  ///< beside it; of an inner side the same twice
+  std::array<int, 2> cells;  ///< adjacent cells; for an inner side the same twice
 };
 
 /// Features of one kind, each with the box of its path, m.

@@ -25,8 +25,8 @@ struct PressureEnd {
 struct PressureCut {
   int cell_a;
   int cell_b;
-  bool of_a;      ///< true: in the material of a, which has not the reference face: its points are carried
-                  ///< along
+  bool of_a;      ///< true: in the material of a, the block without the reference face; its points are
+                  ///< carried along
   Vector3 start;  ///< two places on the line, the open side to the left, m
   Vector3 end;
 };
