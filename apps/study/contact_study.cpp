@@ -8,9 +8,9 @@
 #include <functional>
 #include <limits>
 
-#include "apps/verify/patch_test.hpp"
 #include "apps/verify/falling_block.hpp"
 #include "apps/verify/hertz_sphere.hpp"
+#include "apps/verify/patch_test.hpp"
 #include "apps/verify/verification_contacts.hpp"
 
 namespace ashlar {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "apps/verify/patch_test.hpp"
 #include "apps/verify/hertz_sphere.hpp"
+#include "apps/verify/patch_test.hpp"
 
 namespace ashlar {
 namespace {
