@@ -61,9 +61,13 @@ void MeanDeformation::lever(const Eigen::VectorXd& change, const Eigen::Matrix3d
   const Eigen::MatrixX3d& gradients = parts->mean_gradients;
   const Eigen::Map<const Eigen::MatrixX3d> motion(change.data(), gradients.rows(), 3);
   const Eigen::Matrix3d middle = start + 0.5 * motion.transpose().lazyProduct(gradients);
-  const Eigen::Matrix3d product = middle.inverse() * m;
+  const Eigen::Matrix3d inverse = middle.inverse();
   result.resize(gradients.size());
-  Eigen::Map<Eigen::MatrixX3d>(result.data(), gradients.rows(), 3) = gradients.lazyProduct(product);
+  Eigen::Map<Eigen::MatrixX3d> product(result.data(), gradients.rows(), 3);
+  for (Eigen::Index row = 0; row < gradients.rows(); ++row) {
+    const Eigen::RowVector3d lever = gradients.row(row) * inverse;
+    product.row(row) = lever * m;
+  }
 }
 
 std::shared_ptr<const PairRows::Values> PairRows::values_of(const BlockModel& a, const BlockModel& b,
