@@ -23,6 +23,8 @@ DOCS = pathlib.Path(__file__).resolve().parent
 PROJECT = DOCS.parents[1]
 LISTS = ("joint", "material", "block", "masonry", "cut", "measure", "assign", "stage")
 MASONRY_KINDS = 4
+# Stands where a key of the program is to be described by hand.
+UNSAID = "TO BE SAID"
 
 
 def output_of(program, *arguments, **more):
@@ -106,7 +108,7 @@ def with_values(program, text):
                 home = max((name for name in last if path.startswith(name + ".")), key=len, default="")
                 key = path.removeprefix(home + ".") if home else path
                 new.setdefault(last[home], []).append(
-                    f"| `{key}` | {accepted_value(program, scene, path)} | TO BE SAID | TO BE SAID |")
+                    f"| `{key}` | {accepted_value(program, scene, path)} | {UNSAID} | {UNSAID} |")
         for number in sorted(new, reverse=True):
             lines[number + 1:number + 1] = new[number]
     return "\n".join(lines) + "\n"
@@ -196,6 +198,7 @@ def main(arguments):
         if options.check:
             new = write(program, old)
             faults += [f"{name} differs from the program: generate.py rewrites it"] if new != old else []
+            faults += [f"{name} has keys without a default and a meaning ({UNSAID})"] if UNSAID in old else []
             if write is with_verification:
                 faults += changed_tolerances(program, old)
             continue

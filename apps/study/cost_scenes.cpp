@@ -167,33 +167,4 @@ box = { min = [-1, -1, -0.1], max = [2, 1, 0] }
   return text;
 }
 
-std::string falling_block_text(int order) {
-  return fmt::format(R"([analysis]
-end_time = 1.35
-time_step = 1e-3
-initial_state = "equilibrium"
-[contact]
-normal_stiffness = 5e10
-shear_stiffness = 5e10
-friction_angle = 30
-[[material]]
-name = "rock"
-density = 3600
-young_modulus = 5e8
-poisson_ratio = 0.2
-[[block]]
-name = "A"
-material = "rock"
-box = {{ min = [6.5, -0.75, 1.5], max = [8.0, 0.75, 3.0] }}
-[[block]]
-name = "B"
-material = "rock"
-order = {}
-box = {{ min = [0, -1.5, -0.5], max = [8, 1.5, 0.5] }}
-[[block.fix]]
-plane = {{ point = [0, 0, 0], normal = [-1, 0, 0] }}
-)",
-                     order);
-}
-
 }  // namespace ashlar

@@ -48,7 +48,5 @@ class SceneText {
 [[nodiscard]] SceneText hulls_of(int n, int order);
 /// 16 dominoes of 48 x 24 x 7.5 mm, 24 mm apart, of 2e11 Pa, the first with 4 rad/s; steps of 2.5e-4 s.
 [[nodiscard]] std::string dominoes_text();
-/// A cube that falls on a cantilever (data/scenes/falling_block.toml) of some order.
-[[nodiscard]] std::string falling_block_text(int order);
 
 }  // namespace ashlar

@@ -5,47 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include "apps/scene/build_simulation.hpp"
+#include "apps/study/cost_run.hpp"
 #include "apps/study/cost_scenes.hpp"
 #include "apps/study/cost_targets.hpp"
-#include "apps/study/own_process.hpp"
-#include "apps/study/processor_time.hpp"
 
 namespace ashlar {
 namespace {
-
-/// Cost of a run.
-struct Cost {
-  double unknowns = 0.0;
-  double points = 0.0;     ///< contact points a step
-  double building = 0.0;   ///< s
-  double step = 0.0;       ///< s
-  double mebibytes = 0.0;  ///< growth of the process
-};
-
-std::optional<Cost> cost_of(const SceneText& scene, int steps) {
-  const double memory = most_memory_kib();
-  const double start = processor_time();
-  Diagnostics diagnostics;
-  const auto loaded = load_scene_text(scene.text(), "study.toml", {}, diagnostics);
-  if (!loaded) return std::nullopt;
-  auto built = build_simulation(*loaded, 1, diagnostics);
-  if (!built) return std::nullopt;
-  Simulation& simulation = built->simulation;
-  const double built_at = processor_time();
-  for (int k = 0; k < steps; ++k)
-    if (simulation.step(loaded->scene.analysis.end_time) != StepStatus::accepted) return std::nullopt;
-  const double end = processor_time();
-  Cost cost;
-  for (const BlockModel& block : simulation.blocks())
-    if (!block.fixed()) cost.unknowns += block.unknowns();
-  cost.points = static_cast<double>(simulation.counts().contact_points) / steps;
-  cost.building = built_at - start;
-  cost.step = (end - built_at) / steps;
-  constexpr double kibibytes = 1024.0;
-  cost.mebibytes = (most_memory_kib() - memory) / kibibytes;
-  return cost;
-}
 
 /// Sizes of a scene and its construction.
 struct Family {
@@ -88,7 +53,7 @@ StudyResult study_cost(const CostStudySize& size) {
     for (const int n : family.sizes) {
       const SceneText scene = family.make(n);
       if (scene.blocks() > size.most_blocks) break;
-      const std::optional<Cost> cost = in_own_process<Cost>([&] { return cost_of(scene, size.steps); });
+      const std::optional<RunCost> cost = cost_of_run(scene_of_text(scene.text()), 0, size.steps);
       if (!cost) {
         result.findings.push_back(fmt::format("{} of size {} did not run to its end.", family.name, n));
         result.holds = false;
@@ -96,9 +61,9 @@ StudyResult study_cost(const CostStudySize& size) {
       }
       result.rows.push_back({static_cast<double>(number), static_cast<double>(n),
                              static_cast<double>(scene.blocks()), cost->unknowns, cost->points,
-                             cost->building, cost->step, cost->mebibytes});
+                             cost->building, cost->seconds / size.steps, cost->mebibytes});
       time.x.push_back(cost->unknowns);
-      time.y.push_back(cost->step);
+      time.y.push_back(cost->seconds / size.steps);
       memory.x.push_back(cost->unknowns);
       memory.y.push_back(cost->mebibytes);
       per_block = kibibytes_in_mebibyte * cost->mebibytes / scene.blocks();

@@ -4,65 +4,24 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
-#include "apps/scene/build_simulation.hpp"
+#include "apps/study/cost_run.hpp"
 #include "apps/study/cost_scenes.hpp"
-#include "apps/study/own_process.hpp"
 #include "apps/study/processor_time.hpp"
+#include "apps/verify/falling_block.hpp"
 
 namespace ashlar {
 namespace {
 
-/// On the machine of reference, s: the amount of machine_factor(), and 240 steps of Bullet's hulls.
+/// On the machine of reference, s: the amount of machine_factor(), and 240 steps of Bullet's hulls, least of several runs.
 constexpr double reference_seconds = 0.208;
-constexpr double bullet_wall_20 = 1.38;
+constexpr double bullet_wall_20 = 1.24;
 constexpr double bullet_pyramid_14 = 6.7;
 constexpr double bullet_pile_10 = 2.6;
-
-/// Cost of the steps of a scene.
-struct Steps {
-  double building = 0.0;   ///< processor seconds, from the text to the first step
-  double seconds = 0.0;    ///< processor seconds of the measured steps
-  double worst = 0.0;      ///< of one of them
-  double wall = 0.0;       ///< wall seconds of them
-  double mebibytes = 0.0;  ///< growth of the process
-};
-
-/// @param skipped steps before the measured ones. @return empty if a step was not accepted
-std::optional<Steps> run(const std::string& text, int skipped, int steps, int threads) {
-  const double memory = most_memory_kib();
-  const double start = processor_time();
-  Diagnostics diagnostics;
-  const auto loaded = load_scene_text(text, "study.toml", {}, diagnostics);
-  if (!loaded) return std::nullopt;
-  auto built = build_simulation(*loaded, threads, diagnostics);
-  if (!built) return std::nullopt;
-  Steps result;
-  result.building = processor_time() - start;
-  const auto step = [&] {
-    const double before = processor_time();
-    const StepStatus status = built->simulation.step(loaded->scene.analysis.end_time);
-    result.worst = std::max(result.worst, processor_time() - before);
-    return status == StepStatus::accepted;
-  };
-  for (int k = 0; k < skipped; ++k)
-    if (!step()) return std::nullopt;
-  result.worst = 0.0;
-  const double begin = processor_time();
-  const auto wall = std::chrono::steady_clock::now();
-  for (int k = 0; k < steps; ++k)
-    if (!step()) return std::nullopt;
-  result.seconds = processor_time() - begin;
-  result.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  constexpr double kibibytes = 1024.0;
-  result.mebibytes = (most_memory_kib() - memory) / kibibytes;
-  return result;
-}
 
 /// Measures one scene after the other.
 class Figures {
@@ -86,10 +45,13 @@ class Figures {
   [[nodiscard]] int at_least_one(int whole) const {
     return std::max(1, static_cast<int>(std::lround(share_ * whole)));
   }
-  static Steps steps_of(const std::string& text, int skipped, int steps, int threads = 1) {
+  /// Not a number where the scene does not run to its end.
+  static RunCost cost_of(const MakeSimulation& make, int skipped, int steps) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    return in_own_process<Steps>([&] { return run(text, skipped, steps, threads); })
-        .value_or(Steps{nan, nan, nan, nan, nan});
+    return cost_of_run(make, skipped, steps).value_or(RunCost{nan, nan, nan, nan, nan, nan, nan});
+  }
+  static RunCost cost_of(const SceneText& scene, int skipped, int steps, int threads = 1) {
+    return cost_of(scene_of_text(scene.text(), threads), skipped, steps);
   }
   void add(const std::string& what, double measured, double target, const std::string& unit,
            bool speedup = false) {
@@ -100,21 +62,21 @@ class Figures {
   void add_wall() {
     const SceneText wall = wall_of(at_least_one(20));
     const int steps = at_least_one(240);
-    const Steps cost = steps_of(wall.text(), 0, steps);
+    const RunCost cost = cost_of(wall, 0, steps);
     add("wall of 410 bricks, 240 steps, over Bullet's hulls", cost.seconds / here(bullet_wall_20), 4.0, "");
-    const Steps later = steps_of(wall.text(), steps, steps);
+    const RunCost later = cost_of(wall, steps, steps);
     add("the next 240 steps, in which it sleeps", later.seconds / here(bullet_wall_20), 0.05, "");
     constexpr double kibibytes = 1024.0;
     add("its memory, a brick", kibibytes * cost.mebibytes / wall.blocks(), 60.0, "KiB");
   }
   void add_pyramid_and_pile() {
-    const Steps pyramid = steps_of(pyramid_of(at_least_one(14)).text(), 0, at_least_one(240));
+    const RunCost pyramid = cost_of(pyramid_of(at_least_one(14)), 0, at_least_one(240));
     add("pyramid of 1015 cubes, over Bullet's hulls", pyramid.seconds / here(bullet_pyramid_14), 3.0, "");
-    const Steps pile = steps_of(pile_of(at_least_one(10), 0.02).text(), 0, at_least_one(240));
+    const RunCost pile = cost_of(pile_of(at_least_one(10), 0.02), 0, at_least_one(240));
     add("pile of 1000 cubes, over Bullet's hulls", pile.seconds / here(bullet_pile_10), 2.0, "");
   }
   void add_large_wall() {
-    const Steps cost = steps_of(wall_of(at_least_one(40)).text(), 0, at_least_one(240));
+    const RunCost cost = cost_of(wall_of(at_least_one(40)), 0, at_least_one(240));
     add("wall of 1620 bricks, 240 steps", cost.seconds / machine_, 50.0, "s");
     add("its worst step", cost.worst / machine_, 2.0, "s");
   }
@@ -123,7 +85,7 @@ class Figures {
     std::vector<double> seconds, blocks;
     for (const int n : {at_least_one(10), 2 * at_least_one(10), 4 * at_least_one(10)}) {
       const SceneText wall = waking_wall_of(n);
-      seconds.push_back(steps_of(wall.text(), skipped, at_least_one(16)).seconds);
+      seconds.push_back(cost_of(wall, skipped, at_least_one(16)).seconds);
       blocks.push_back(wall.blocks());
     }
     add("exponent of a step's time, walls of 105 to 1620 bricks " + when,
@@ -132,28 +94,31 @@ class Figures {
   void add_loose_wall() {
     const int n = at_least_one(20);
     const int steps = at_least_one(60);
-    const double loose = steps_of(loose_wall_of(n).text(), 0, steps).seconds;
+    const double loose = cost_of(loose_wall_of(n), 0, steps).seconds;
     add("wall in which one brick topples, 60 steps, over one at rest",
-        loose / steps_of(wall_of(n).text(), 0, steps).seconds, 1.2, "");
+        loose / cost_of(wall_of(n), 0, steps).seconds, 1.2, "");
   }
   void add_many() {
     const int side = at_least_one(64);
     add("4096 cubes apart on one slab, 10 steps",
-        steps_of(floor_of(side).text(), 0, at_least_one(10)).seconds / machine_, 2.0, "s");
+        cost_of(floor_of(side), 0, at_least_one(10)).seconds / machine_, 2.0, "s");
     add("1000 hulls of order 3, to the first step",
-        steps_of(hulls_of(at_least_one(1000), 3).text(), 0, 1).building / machine_, 0.8, "s");
+        cost_of(hulls_of(at_least_one(1000), 3), 0, 1).building / machine_, 0.8, "s");
   }
   void add_few() {
-    add("16 stiff dominoes, 0.9 s", steps_of(dominoes_text(), 0, at_least_one(3600)).seconds / machine_, 20.0,
-        "s");
+    add("16 stiff dominoes, 0.9 s",
+        cost_of(scene_of_text(dominoes_text()), 0, at_least_one(3600)).seconds / machine_, 20.0, "s");
     for (const auto& [order, target] : {std::pair(3, 0.2), std::pair(6, 1.2), std::pair(8, 5.0)})
       add(fmt::format("falling block of order {}, 1350 steps", order),
-          steps_of(falling_block_text(order), 0, at_least_one(1350)).seconds / machine_, target, "s");
+          cost_of([order] { return std::optional(falling_block({.order = order})); }, 0, at_least_one(1350))
+                  .seconds /
+              machine_,
+          target, "s");
   }
   void add_threads() {
     const auto speedup = [&](const SceneText& scene) {
       const int steps = at_least_one(16);
-      return steps_of(scene.text(), 0, steps, 1).wall / steps_of(scene.text(), 0, steps, 2).wall;
+      return cost_of(scene, 0, steps, 1).wall / cost_of(scene, 0, steps, 2).wall;
     };
     add("two threads, wall of 1620 bricks", speedup(wall_of(at_least_one(40))), 1.7, "", true);
     add("two threads, pyramid of 1015 cubes", speedup(pyramid_of(at_least_one(14))), 1.7, "", true);

@@ -38,7 +38,7 @@ struct PatchStart {
   bool freezes_failure = false;
 };
 
-/// What acts on a pair in one step beside its contact.
+/// Actions on a pair in one step beside its contact.
 struct StepActions {
   const Eigen::MatrixX3d& prescribed_a;  ///< change of the position of a by supports, (p, 3), m; empty: none
   const Eigen::MatrixX3d& prescribed_b;

@@ -8,6 +8,7 @@
 #include "geometry/index.hpp"
 #include "mechanics/contact/overlap_outline.hpp"
 #include "solver/step/step_contacts.hpp"
+#include "solver/step/step_problem.hpp"
 
 namespace ashlar {
 namespace {
@@ -161,12 +162,14 @@ ContactExplanation explain_contacts(const BlockSystem& system, const RunState& s
   finder.restore(start);
   const double step = awake.settings().time_step;
   result.search = PairSearch::far_apart;
-  for (const NearPair& near :
-       finder.near_pairs(copy.states, finder.expected_motion(copy.states, step), copy.pairs))
-    if (near.blocks == pair) {
-      result.search = PairSearch::searched;
-      result.reach = near.reach;
-    }
+  // Supports that move take part in the expected motion, as in detect().
+  const std::vector<BlockState> driven = driven_states(awake, copy, step);
+  const ExpectedMotion motion = finder.expected_motion(driven.empty() ? copy.states : driven, step);
+  for (const NearPair& near : finder.near_pairs(copy.states, motion, copy.pairs)) {
+    if (near.blocks != pair) continue;
+    result.search = PairSearch::searched;
+    result.reach = near.reach;
+  }
   (void)contacts.detect(awake, copy, step);
   if (stages.empty()) return result;
   StageComparison comparison(finder.placed(pair[0]), finder.placed(pair[1]));

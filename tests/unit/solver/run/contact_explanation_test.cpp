@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/simulation.hpp"
+#include "support/sample_solids.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar {
@@ -87,15 +89,17 @@ TEST(ContactExplanation, TheSideOfTheNextSlabIsAnInternalEdge) {
   EXPECT_GT(count(simulation.explain_contacts(0, 2), std::nullopt), 0U);
 }
 
-TEST(ContactExplanation, FacesThatOnlyShareAnEdgeHaveNoArea) {
-  // The cube stands on the second slab, its side flush with the first one's: their tops share a line.
-  const Simulation simulation = boxes({{{-1, 0, -1}, {0, 1, 0}}, {{0, 0, 0}, {1, 1, 1}}}, {true, false}, 0.0);
+TEST(ContactExplanation, AnOverlapAsThinAsRoundingHasNoArea) {
+  // The cube stands beside the slab, but for 4e-16 m by which their faces are over each other.
+  const Simulation simulation =
+      boxes({{{-1, 0, -1}, {4e-16, 1, 0}}, {{0, 0, 0}, {1, 1, 1}}}, {true, false}, 0.0);
   const ContactExplanation explanation = simulation.explain_contacts(0, 1);
-  EXPECT_EQ(std::count_if(explanation.contacts.begin(), explanation.contacts.end(),
-                          [](const ExplainedContact& one) {
-                            return !one.removed && one.features == ContactFeatures::faces;
-                          }),
-            0);
+  EXPECT_GT(count(explanation, ContactStage::area), 0U);
+  for (const ExplainedContact& contact : explanation.contacts) {
+    if (contact.removed != ContactStage::area) continue;
+    EXPECT_EQ(contact.features, ContactFeatures::faces);
+    EXPECT_NEAR(contact.area, 0.0, 1e-15);
+  }
 }
 
 TEST(ContactExplanation, SaysWhyAPairIsNotSearched) {
@@ -112,17 +116,61 @@ TEST(ContactExplanation, SaysWhyAPairIsNotSearched) {
   EXPECT_THROW((void)simulation.explain_contacts(-1, 0), std::invalid_argument);
 }
 
-TEST(ContactExplanation, OfBlocksInReachOfTheirBoxesTellsADistance) {
-  // Boxes that meet, surfaces that do not: a cube over the inner corner of an L would need a mesh; here 1.5 mm of gap with
-  // 1 mm of reach and boxes that grow by both blocks' motion.
+TEST(ContactExplanation, ReachGrowsWithTheMotionOfBothBlocks) {
   const Simulation simulation =
       boxes({{{0, 0, 0}, {1, 1, 1}}, {{0, 0, 1.002}, {1, 1, 2.002}}}, {false, false}, 1.0);
   const ContactExplanation explanation = simulation.explain_contacts(0, 1);
   EXPECT_EQ(explanation.search, PairSearch::searched);
   // Both may move 1 mm in the step, towards each other for all that is known.
   EXPECT_NEAR(explanation.reach, 1e-3 + 2.0 * (1e-3 + 0.5 * 9.81e-6), 1e-8);
-  ASSERT_EQ(explanation.contacts.size(), count(explanation, std::nullopt));
+  ASSERT_FALSE(explanation.contacts.empty());
   for (const ExplainedContact& contact : explanation.contacts) EXPECT_NEAR(contact.gap, 2e-3, 1e-12);
+}
+
+TEST(ContactExplanation, SupportsThatMoveTakePartInTheReach) {
+  // The floor is driven up by 5 m/s, 5 mm in the step, to a cube 4 mm above it.
+  BlockDefinition floor = block_of("floor", Polyhedron(make_box({-1, -1, -1}, {2, 2, 0})), rock, 1);
+  const SupportHistory history{{0.0, 10.0}, {Vector3::Zero(), {0, 0, 50}}};
+  for (const double z : {-1.0, 0.0})
+    floor.supports.push_back(
+        {Plane{{0, 0, z}, z < 0.0 ? Vector3(-Vector3::UnitZ()) : Vector3(Vector3::UnitZ())},
+         {true, true, true},
+         history});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(floor));
+  blocks.emplace_back(block_of("cube", Polyhedron(make_box({0, 0, 4e-3}, {1, 1, 1})), rock, 1));
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  const Simulation simulation(std::move(blocks), {{}, {}}, same_law({1e9, 1e9, 0.0, 0.0, 0.0, true}),
+                              settings);
+  const ContactExplanation explanation = simulation.explain_contacts(0, 1);
+  EXPECT_EQ(explanation.search, PairSearch::searched);
+  EXPECT_GE(explanation.reach, 1e-3 + 5e-3);
+  EXPECT_GT(count(explanation, std::nullopt), 0U);
+}
+
+TEST(ContactExplanation, BlocksWhoseBoxesMeetMayBeApart) {
+  // A plate at 45 degrees, and a cube in the corner below it; boxes lie along the ground, the largest face.
+  std::vector<BlockModel> blocks;
+  const std::vector<Polyhedron> solids = {Polyhedron(make_box({-50, -50, -60}, {50, 50, -50})),
+                                          test_support::tilted_box({0, 0, 0}, {4, 1, 0.1}, 45.0),
+                                          Polyhedron(make_box({2.2, 0, 0}, {2.7, 1, 0.5}))};
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    BlockDefinition block = block_of("block", solids[k], rock, 1);
+    block.fixed = k == 0;
+    blocks.emplace_back(std::move(block));
+  }
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  const Simulation simulation(std::move(blocks), {{}, {}, {}}, same_law({1e9, 1e9, 0.0, 0.0, 0.0, true}),
+                              settings);
+  const ContactExplanation explanation = simulation.explain_contacts(1, 2);
+  EXPECT_EQ(explanation.search, PairSearch::searched);
+  EXPECT_TRUE(explanation.contacts.empty());
+  // From the upper edge of the cube at (2.2, 0.5) to the plane x = z.
+  ASSERT_TRUE(explanation.clearance);
+  EXPECT_GT(*explanation.clearance, explanation.reach);
+  EXPECT_LE(*explanation.clearance, (2.2 - 0.5) / std::sqrt(2.0) + 1e-12);
 }
 
 TEST(ContactExplanation, ChangesNothingOfTheRun) {
