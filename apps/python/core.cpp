@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "apps/blocks/block_text.hpp"
-#include "apps/contacts/contacts_command.hpp"
-#include "apps/contacts/integrate_command.hpp"
+#include "apps/program/blocks/block_text.hpp"
+#include "apps/program/contacts/contacts_command.hpp"
+#include "apps/program/contacts/integrate_command.hpp"
+#include "apps/program/run/run_command.hpp"
 #include "apps/python/core_scene.hpp"
 #include "apps/python/core_simulation.hpp"
-#include "apps/results/json_text.hpp"
-#include "apps/results/program_version.hpp"
-#include "apps/run/run_command.hpp"
-#include "apps/scene/scene_json.hpp"
-#include "apps/scene/scene_loading.hpp"
-#include "apps/scene/scene_schema.hpp"
+#include "apps/results/folder/program_version.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/read/scene_json.hpp"
 
 namespace py = pybind11;
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "apps/python/core_scene.hpp"
-#include "apps/results/scene_run.hpp"
+#include "apps/results/folder/scene_run.hpp"
 #include "geometry/index.hpp"
 
 namespace py = pybind11;

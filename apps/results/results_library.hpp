@@ -2,13 +2,13 @@
 // tables read back. Headers not included from here are internal and not installed.
 #pragma once
 
-#include "apps/results/folder_claim.hpp"
-#include "apps/results/history_table.hpp"
-#include "apps/results/history_writer.hpp"
-#include "apps/results/largest_values.hpp"
-#include "apps/results/measure.hpp"
-#include "apps/results/program_version.hpp"
-#include "apps/results/result_folder.hpp"
-#include "apps/results/run_status.hpp"
-#include "apps/results/scene_run.hpp"
+#include "apps/results/folder/folder_claim.hpp"
+#include "apps/results/folder/program_version.hpp"
+#include "apps/results/folder/result_folder.hpp"
+#include "apps/results/folder/run_status.hpp"
+#include "apps/results/folder/scene_run.hpp"
+#include "apps/results/frames/largest_values.hpp"
+#include "apps/results/tables/history_table.hpp"
+#include "apps/results/tables/history_writer.hpp"
+#include "apps/results/tables/measure.hpp"
 #include "apps/scene/scene_library.hpp"

@@ -6,10 +6,10 @@
 #include <array>
 #include <set>
 
-#include "apps/results/atomic_file.hpp"
-#include "apps/results/json_text.hpp"
-#include "apps/results/run_summary.hpp"
-#include "apps/scene/input_file.hpp"
+#include "apps/results/folder/run_summary.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/scene/toml/input_file.hpp"
 
 namespace ashlar {
 namespace {

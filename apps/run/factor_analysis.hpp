@@ -10,7 +10,7 @@
 #include <string>
 
 #include "apps/run/factor_search.hpp"
-#include "apps/scene/build_simulation.hpp"
+#include "apps/scene/build/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene.hpp"
+#include "apps/scene/model/scene.hpp"
 
 namespace ashlar {
 

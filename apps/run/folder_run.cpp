@@ -7,13 +7,13 @@
 #include <ostream>
 #include <system_error>
 
-#include "apps/results/contact_changes.hpp"
+#include "apps/results/folder/contact_changes.hpp"
 #include "apps/run/factor_analysis.hpp"
 #include "apps/run/interrupt_guard.hpp"
 #include "apps/run/movement_run.hpp"
-#include "apps/scene/added_blocks.hpp"
-#include "apps/scene/fault_text.hpp"
-#include "apps/scene/scene_stages.hpp"
+#include "apps/scene/check/added_blocks.hpp"
+#include "apps/scene/expand/scene_stages.hpp"
+#include "apps/scene/toml/fault_text.hpp"
 
 namespace ashlar {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <ostream>
 
-#include "apps/results/contact_changes.hpp"
-#include "apps/results/run_checkpoint.hpp"
-#include "apps/results/run_clock.hpp"
+#include "apps/results/folder/contact_changes.hpp"
+#include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/results/folder/run_clock.hpp"
 #include "apps/run/factor_analysis.hpp"
-#include "apps/scene/build_simulation.hpp"
+#include "apps/scene/build/build_simulation.hpp"
 
 namespace ashlar {
 namespace {

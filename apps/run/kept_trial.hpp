@@ -11,7 +11,7 @@
 
 #include "apps/run/checkpoint_schedule.hpp"
 #include "apps/run/factor_search.hpp"
-#include "apps/scene/scene_loading.hpp"
+#include "apps/scene/build/scene_loading.hpp"
 
 namespace ashlar {
 

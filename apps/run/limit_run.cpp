@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/run/factor_analysis.hpp"
-#include "apps/scene/limit_choices.hpp"
+#include "apps/scene/build/limit_choices.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/scene_loading.hpp"
+#include "apps/scene/build/scene_loading.hpp"
 #include "solver/run/simulation.hpp"
 #include "solver/statics/limit_analysis.hpp"
 

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "apps/results/atomic_file.hpp"
+#include "apps/results/text/atomic_file.hpp"
 #include "apps/run/drawing_view.hpp"
-#include "apps/scene/name_pattern.hpp"
+#include "apps/scene/model/name_pattern.hpp"
 #include "geometry/index.hpp"
 #include "solver/statics/yielding_support.hpp"
 

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/results/atomic_file.hpp"
-#include "apps/results/json_text.hpp"
-#include "apps/scene/scene_json.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/scene/read/scene_json.hpp"
 
 namespace ashlar {
 namespace {

@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/results/folder_claim.hpp"
-#include "apps/results/result_folder.hpp"
-#include "apps/results/run_checkpoint.hpp"
-#include "apps/results/run_summary.hpp"
+#include "apps/results/folder/folder_claim.hpp"
+#include "apps/results/folder/result_folder.hpp"
+#include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/results/folder/run_summary.hpp"
 #include "apps/run/space_reserve.hpp"
-#include "apps/scene/scene_loading.hpp"
+#include "apps/scene/build/scene_loading.hpp"
 
 namespace ashlar {
 

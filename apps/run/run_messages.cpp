@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "apps/results/identity_json.hpp"
-#include "apps/results/json_text.hpp"
+#include "apps/results/folder/identity_json.hpp"
+#include "apps/results/text/json_text.hpp"
 #include "apps/run/scene_difference.hpp"
-#include "apps/scene/initial_state.hpp"
-#include "apps/scene/input_file.hpp"
-#include "apps/scene/scene_json.hpp"
+#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/toml/input_file.hpp"
 
 namespace ashlar {
 

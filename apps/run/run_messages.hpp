@@ -5,8 +5,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "apps/results/run_summary.hpp"
-#include "apps/scene/build_simulation.hpp"
+#include "apps/results/folder/run_summary.hpp"
+#include "apps/scene/build/build_simulation.hpp"
 
 namespace ashlar {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/results/atomic_file.hpp"
+#include "apps/results/text/atomic_file.hpp"
 #include "apps/run/drawing_view.hpp"
 #include "apps/run/limit_run.hpp"
 #include "apps/run/movement_run.hpp"

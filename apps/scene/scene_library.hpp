@@ -2,11 +2,11 @@
 // simulations built from them. Headers not included from here are internal and not installed.
 #pragma once
 
-#include "apps/scene/build_simulation.hpp"
-#include "apps/scene/diagnostics.hpp"
-#include "apps/scene/initial_state.hpp"
-#include "apps/scene/loose_blocks.hpp"
-#include "apps/scene/scene.hpp"
-#include "apps/scene/scene_loading.hpp"
-#include "apps/scene/scene_stages.hpp"
+#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/check/loose_blocks.hpp"
+#include "apps/scene/expand/scene_stages.hpp"
+#include "apps/scene/model/diagnostics.hpp"
+#include "apps/scene/model/scene.hpp"
 #include "solver/solver.hpp"

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "apps/run/factor_analysis.hpp"
-#include "apps/scene/build_simulation.hpp"
-#include "apps/scene/initial_state.hpp"
-#include "apps/scene/scene_stages.hpp"
+#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/expand/scene_stages.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 
-#include "apps/scene/dxf_reader.hpp"
-#include "apps/scene/gltf_reader.hpp"
-#include "apps/scene/threemf_reader.hpp"
+#include "apps/scene/meshes/dxf_reader.hpp"
+#include "apps/scene/meshes/gltf_reader.hpp"
+#include "apps/scene/meshes/threemf_reader.hpp"
 #include "fuzz/targets.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
 

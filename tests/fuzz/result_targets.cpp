@@ -1,9 +1,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/results/json_text.hpp"
-#include "apps/results/vtu_reader.hpp"
-#include "apps/view/curved_cells.hpp"
+#include "apps/program/view/curved_cells.hpp"
+#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/text/json_text.hpp"
 #include "fuzz/targets.hpp"
 
 namespace ashlar::fuzz {

@@ -3,12 +3,12 @@
 #include <limits>
 #include <sstream>
 
-#include "apps/results/json_text.hpp"
-#include "apps/results/scratch_folder.hpp"
-#include "apps/scene/formulas.hpp"
-#include "apps/scene/record_file.hpp"
-#include "apps/scene/scene_json.hpp"
-#include "apps/scene/scene_reader.hpp"
+#include "apps/results/folder/scratch_folder.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/read/record_file.hpp"
+#include "apps/scene/read/scene_json.hpp"
+#include "apps/scene/toml/formulas.hpp"
 #include "fuzz/targets.hpp"
 
 namespace ashlar::fuzz {

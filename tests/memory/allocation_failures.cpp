@@ -29,8 +29,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/command_line.hpp"
-#include "apps/program_memory.hpp"
+#include "apps/program/command_line.hpp"
+#include "apps/program/program_memory.hpp"
 
 // The C library's own, behind the names that this program defines anew.
 extern "C" void* __libc_malloc(std::size_t bytes);

@@ -31,7 +31,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = ["geometry", "mechanics", "solver", "apps"]
 # No part of the libraries that a layer's test program has: what is tested from outside only.
-OUTSIDE = ["apps/main.cpp", "apps/python/*"]
+OUTSIDE = ["apps/program/main.cpp", "apps/python/*"]
 MEMORY = 8 << 30  # bytes that a test program may take
 # Binary operators stand between spaces, which those of templates, references and pointers do not.
 OPERATORS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ",
@@ -264,11 +264,11 @@ def self_test():
         assert (pathlib.Path(folder) / "sample.cpp").read_text() == SAMPLE
     assert other_number("0.0") == "1.0" and other_number("1e-3") == "0.002" and other_number("7") == "8"
     assert test_filter(ROOT, "geometry", "geometry/exact/double_double.cpp").startswith("DoubleDouble.*:")
-    assert test_filter(ROOT, "apps", "apps/sweep/variants.cpp").startswith("Variants")
+    assert test_filter(ROOT, "apps", "apps/program/sweep/variants.cpp").startswith("Variants")
     for folder in ("scene", "results", "sweep", "run"):
         files = {mutant.file for mutant in choose("apps", f"apps/{folder}/*", 1, 10 ** 6)}
         assert files and all(test_filter(ROOT, "apps", file) for file in files), folder
-    assert not choose("apps", "apps/python/*", 1, 1) and not choose("apps", "apps/main.cpp", 1, 1)
+    assert not choose("apps", "apps/python/*", 1, 1) and not choose("apps", "apps/program/main.cpp", 1, 1)
     print("as expected")
     return 0
 

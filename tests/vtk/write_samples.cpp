@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/pvd_writer.hpp"
-#include "apps/results/result_folder.hpp"
-#include "apps/results/vtu_writer.hpp"
+#include "apps/results/folder/result_folder.hpp"
+#include "apps/results/frames/pvd_writer.hpp"
+#include "apps/results/frames/vtu_writer.hpp"
 #include "geometry/solid/shapes.hpp"
 #include "support/sample_meshes.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/build_simulation.hpp"
-#include "apps/scene/scene_loading.hpp"
+#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/build/scene_loading.hpp"
 #include "support/simulations.hpp"
 
 namespace ashlar {

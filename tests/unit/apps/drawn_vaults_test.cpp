@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "apps/results/json_text.hpp"
+#include "apps/results/text/json_text.hpp"
 #include "support/drawn_vaults.hpp"
 #include "unit/apps/run_fixture.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/results/scene_identity.hpp"
+#include "apps/results/folder/scene_identity.hpp"
 #include "apps/run/kept_trial.hpp"
 #include "unit/apps/run_fixture.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/command_line.hpp"
+#include "apps/program/command_line.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene/diagnostics.hpp"
-#include "apps/scene/scene_reader.hpp"
+#include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/model/diagnostics.hpp"
 
 namespace ashlar::test {
 

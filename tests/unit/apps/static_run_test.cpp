@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "apps/run/run_command.hpp"
+#include "apps/program/run/run_command.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/results/grid_arrays.hpp"
-#include "apps/results/vtu_reader.hpp"
+#include "apps/results/frames/grid_arrays.hpp"
+#include "apps/results/frames/vtu_reader.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "apps/results/contact_changes.hpp"
-#include "apps/scene/build_simulation.hpp"
+#include "apps/results/folder/contact_changes.hpp"
+#include "apps/scene/build/build_simulation.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar {

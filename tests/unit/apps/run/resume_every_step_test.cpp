@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "apps/scene/build_simulation.hpp"
+#include "apps/scene/build/build_simulation.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {

@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "apps/scene/scene_json.hpp"
-#include "apps/scene/scene_schema.hpp"
+#include "apps/scene/build/scene_schema.hpp"
+#include "apps/scene/read/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
 

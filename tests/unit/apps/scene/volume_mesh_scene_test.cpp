@@ -5,8 +5,8 @@
 #include <array>
 #include <string>
 
-#include "apps/results/scene_run.hpp"
-#include "apps/scene/scene_loading.hpp"
+#include "apps/results/folder/scene_run.hpp"
+#include "apps/scene/build/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace ashlar {

@@ -1,0 +1,103 @@
+#include "apps/program/blocks/block_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "apps/program/blocks/block_histogram.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<double> volumes_of(const BlockReport& report) {
+  std::vector<double> volumes;
+  for (const BlockEntry& entry : report.blocks()) volumes.push_back(entry.volume);
+  return volumes;
+}
+
+std::string sizes_text(const BlockReport& report) {
+  std::vector<double> volumes = volumes_of(report);
+  std::string text = "volume, m^3             blocks   share of volume\n";
+  const double all = report.volume();
+  for (const SizeClass& of : size_classes(volumes))
+    text += fmt::format("{:>9g} to {:<9g} {:>8}   {:.4f}\n", of.from, of.to, of.blocks, of.volume / all);
+  return text;
+}
+
+std::string removable_text(const Scene& scene, const std::vector<RemovableBlock>& removable) {
+  const auto movable = std::count_if(removable.begin(), removable.end(),
+                                     [](const RemovableBlock& of) { return of.key.removable; });
+  std::string text =
+      fmt::format("{} blocks with a free face, {} of them removable\n", removable.size(), movable);
+  for (const RemovableBlock& of : removable) {
+    if (!of.key.removable || of.key.mode == BlockMode::stable) continue;
+    text += fmt::format("  {}: {}, factor of safety by friction {:.4g}\n", scene.block[of.block].name,
+                        to_string(of.key.mode), of.factor_of_safety);
+  }
+  return text;
+}
+
+Json key_json(const RemovableBlock& of) {
+  const Vector3& way = of.key.direction;
+  return {{"finite", of.key.finite},
+          {"removable", of.key.removable},
+          {"mode", to_string(of.key.mode)},
+          {"direction", way.isZero(0.0) ? Json() : Json{way.x(), way.y(), way.z()}},
+          {"factor_of_safety", of.factor_of_safety}};
+}
+
+Json neighbours_json(const Scene& scene, const BlockEntry& entry) {
+  std::map<std::pair<std::size_t, std::optional<std::size_t>>, double> areas;
+  for (const BlockBorder& border : entry.borders) areas[{border.block, border.cut}] += border.area;
+  Json neighbours = Json::array();
+  for (const auto& [key, area] : areas) {
+    const auto& [block, cut] = key;
+    neighbours.push_back({{"block", scene.block[block].name},
+                          {"area", area},
+                          {"cut", cut ? Json(scene.cut[*cut].name) : Json()}});
+  }
+  return neighbours;
+}
+
+}  // namespace
+
+std::string report_text(const BlockReport& report, const std::vector<RemovableBlock>* removable) {
+  const Scene& scene = report.loaded().scene;
+  std::vector<double> volumes = volumes_of(report);
+  std::sort(volumes.begin(), volumes.end());
+  std::string text = fmt::format("{} block{}, {:.10g} m^3; least {:.4g}, median {:.4g}, largest {:.4g} m^3\n",
+                                 volumes.size(), volumes.size() == 1 ? "" : "s", report.volume(),
+                                 volumes.front(), volumes[volumes.size() / 2], volumes.back());
+  text += sizes_text(report);
+  const std::vector<double> areas = report.areas_by_cut();
+  for (std::size_t k = 0; k < areas.size(); ++k) {
+    text += fmt::format("cut {}: {:.10g} m^2 between blocks", scene.cut[k].name, areas[k]);
+    if (scene.cut[k].min_volume > 0.0)
+      text += fmt::format(", {} pieces below {:g} m^3 glued", scene.rock->glued[k], scene.cut[k].min_volume);
+    text += '\n';
+  }
+  if (removable != nullptr) text += removable_text(scene, *removable);
+  return text;
+}
+
+Json report_json(const BlockReport& report, const std::vector<RemovableBlock>* removable) {
+  const LoadedScene& loaded = report.loaded();
+  Json blocks = Json::array();
+  for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    const SceneBlock& block = loaded.scene.block[k];
+    blocks.push_back({{"name", block.name},
+                      {"volume", report.blocks()[k].volume},
+                      {"faces", loaded.solids[k].faces().size()},
+                      {"material", block.material.empty() ? Json() : Json(block.material)},
+                      {"neighbours", neighbours_json(loaded.scene, report.blocks()[k])}});
+  }
+  if (removable != nullptr)
+    for (const RemovableBlock& of : *removable) blocks[of.block]["key"] = key_json(of);
+  return {{"count", loaded.solids.size()}, {"volume", report.volume()}, {"blocks", std::move(blocks)}};
+}
+
+}  // namespace ashlar

@@ -1,0 +1,22 @@
+// The blocks of a scene as text and as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/program/blocks/removable_blocks.hpp"
+
+namespace ashlar {
+
+/// Summary for a user: numbers and volumes, areas by cut, and the removable blocks.
+[[nodiscard]] std::string report_text(const BlockReport& report,
+                                      const std::vector<RemovableBlock>* removable);
+
+/// { count, volume, blocks: [{ name, volume, faces, material, neighbours: [{ block, area, cut }], key }] };
+/// cut is null if no cut divided the two, material if a fixed block has none. `key` is present for examined blocks: {
+/// finite, removable, mode, direction, factor_of_safety }, the factor null if infinite.
+[[nodiscard]] nlohmann::ordered_json report_json(const BlockReport& report,
+                                                 const std::vector<RemovableBlock>* removable);
+
+}  // namespace ashlar

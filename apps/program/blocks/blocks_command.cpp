@@ -1,0 +1,130 @@
+#include "apps/program/blocks/blocks_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <sstream>
+
+#include "apps/program/blocks/block_files.hpp"
+#include "apps/program/blocks/block_histogram.hpp"
+#include "apps/program/blocks/block_text.hpp"
+#include "apps/program/run/override_option.hpp"
+#include "apps/program/view/svg_picture.hpp"
+#include "apps/results/folder/folder_claim.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/scene/build/scene_loading.hpp"
+
+namespace ashlar {
+namespace {
+
+/// Three numbers with commas between, not all zero.
+std::optional<Vector3> read_force(const std::string& text) {
+  std::istringstream stream(text);
+  Vector3 force;
+  char first = 0, second = 0;
+  if (!(stream >> force.x() >> first >> force.y() >> second >> force.z())) return std::nullopt;
+  stream >> std::ws;
+  const bool good = first == ',' && second == ',' && stream.eof() && force.allFinite() && !force.isZero(0.0);
+  return good ? std::optional(force) : std::nullopt;
+}
+
+std::filesystem::path folder_of(const BlocksOptions& options) {
+  if (options.folder) return *options.folder;
+  if (options.scene == "-") return "scene.blocks";
+  return options.scene.stem().string() + ".blocks";
+}
+
+/// @return message to the user
+std::string write_files(const std::filesystem::path& folder, const BlockReport& report,
+                        const std::vector<RemovableBlock>& removable) {
+  const LoadedScene& loaded = report.loaded();
+  std::vector<double> volumes;
+  for (const BlockEntry& entry : report.blocks()) volumes.push_back(entry.volume);
+  const std::string svg = histogram_svg(
+      fmt::format("{}: {} blocks, {:.6g} m\u00b3", loaded.scene.title, volumes.size(), report.volume()),
+      size_classes(volumes));
+  write_vtu(folder / "blocks.vtu", block_grid(report, removable));
+  write_file_atomically(folder / "blocks.obj", block_obj(loaded), Durability::process);
+  write_file_atomically(folder / "blocks.stl", block_stl(loaded), Durability::process);
+  write_file_atomically(folder / "blocks.msh", block_msh(loaded), Durability::process);
+  write_file_atomically(folder / "sizes.svg", svg, Durability::process);
+  return fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\npicture: {}\n{}\n",
+                     (folder / "blocks.vtu").string(), (folder / "blocks.obj").string(),
+                     (folder / "sizes.svg").string(),
+                     write_png(svg, folder / "sizes.png", histogram_width, histogram_height));
+}
+
+}  // namespace
+
+int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream& err) {
+  std::optional<Vector3> force;
+  if (options.force) {
+    force = read_force(*options.force);
+    if (!force) {
+      err << fmt::format(
+          "ashlar: error: --removable is no direction ({}), three numbers x,y,z, not all zero, "
+          "are needed\n",
+          *options.force);
+      return exit_status::bad_input;
+    }
+  }
+  Diagnostics diagnostics;
+  std::optional<LoadedScene> loaded;
+  {
+    Preparation preparation(false, err);
+    loaded = load_scene(options.scene, options.overrides, diagnostics, &preparation, LoadPurpose::blocks);
+  }
+  diagnostics.print(err);
+  if (!loaded) return exit_status::bad_input;
+  std::optional<FolderClaim> claim;
+  if (options.folder || !options.json) {
+    try {
+      claim.emplace(folder_of(options), ClaimPurpose::addition);
+    } catch (const ClaimRefused& refused) {
+      err << "ashlar: error: " << refused.what() << '\n';
+      return exit_status::bad_input;
+    }
+  }
+  const BlockReport report(*loaded);
+  std::vector<RemovableBlock> removable;
+  if (force) removable = find_removable_blocks(report, *force);
+  const std::vector<RemovableBlock>* looked_at = force ? &removable : nullptr;
+  if (options.json)
+    out << json_text(report_json(report, looked_at)) << '\n';
+  else
+    out << report_text(report, looked_at);
+  if (!claim) return exit_status::done;
+  const std::string written = write_files(claim->folder(), report, removable);
+  (options.json ? err : out) << written;
+  return exit_status::done;
+}
+
+void declare_blocks_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("blocks", "The blocks of a scene: sizes, neighbours, key blocks; as files too");
+  // Shared with the callback that reads it.
+  const auto options = std::make_shared<BlocksOptions>();
+  command->add_option("SCENE", options->scene, "Scene file (TOML); - is standard input")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option(
+          "-o,--out", options->folder,
+          "Folder of blocks.vtu, .obj, .stl, .msh and the histogram (default: scene name + .blocks; with "
+          "--json: none)")
+      ->type_name("DIR");
+  command->add_flag("--json", options->json, "Print JSON");
+  command
+      ->add_option("--removable", options->force,
+                   "Key-block analysis of blocks with a free face, under a force of this direction")
+      ->type_name("X,Y,Z");
+  declare_overrides(*command, options->overrides);
+  command->callback(
+      [options, &context] { context.status = blocks_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

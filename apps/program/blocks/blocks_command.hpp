@@ -1,0 +1,28 @@
+// `ashlar blocks`: the blocks of a scene, before it runs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/program/command_line.hpp"
+
+namespace ashlar {
+
+struct BlocksOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;           ///< "key.path=value" each, in order
+  std::optional<std::filesystem::path> folder;  ///< default: scene name + ".blocks"; with json: none
+  bool json = false;
+  std::optional<std::string> force;  ///< "x,y,z" of --removable
+};
+
+/// Declares `ashlar blocks`.
+void declare_blocks_command(CLI::App& program, CommandContext& context);
+
+/// Prints a table or JSON on out and writes blocks.vtu, .obj, .stl, .msh and sizes.svg (and .png, with a browser).
+/// @return exit_status::done or exit_status::bad_input.
+[[nodiscard]] int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace ashlar

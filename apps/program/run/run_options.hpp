@@ -1,0 +1,32 @@
+// Options of `ashlar run` on its command line.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/program/command_line.hpp"
+
+namespace ashlar {
+
+struct RunOptions {
+  std::filesystem::path scene;  ///< "-": standard input
+  /// Text of the scene in place of the file's content; paths in it are still relative to the file's folder
+  std::optional<std::string> text = {};
+  std::optional<std::filesystem::path>
+      out;                             ///< result folder; empty: the scene's name + ".out" ("stdin.out")
+  std::vector<std::string> overrides;  ///< "key.path=value" each, in order
+  bool resume = false;                 ///< continue from the checkpoint in the result folder
+  bool force = false;                  ///< replace existing results; not with resume
+  std::optional<double> checkpoint;    ///< s between checkpoints, >= 0; empty: growing to a minute
+  int threads = 0;                     ///< >= 1; 0: not given
+  bool quiet = false;                  ///< no progress output on stderr
+  bool view = false;                   ///< write view.html at the end
+  std::string explained_pair;          ///< "a,b": blocks whose contacts are explained at the end; empty: none
+};
+
+/// Declares `ashlar run`; it calls run_command (run_command.hpp).
+void declare_run_command(CLI::App& program, CommandContext& context);
+
+}  // namespace ashlar

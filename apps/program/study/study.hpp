@@ -1,0 +1,37 @@
+// Common parts of studies: a table that is printed and written as CSV, a picture, and findings.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/program/study/log_log_plot.hpp"
+
+namespace ashlar {
+
+/// Result of a study.
+struct StudyResult {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;  ///< (#rows, #columns)
+  LogLogPlot plot;
+  std::vector<std::string> findings;  ///< sentences
+  bool holds = true;                  ///< false if a finding violates a requirement
+};
+
+/// Receives a line for each measured value of a long study, as soon as it is known.
+using StudyProgress = std::function<void(const std::string& line)>;
+
+/// A study of the program; each is one file, x_study.{hpp,cpp}, and one line in study_command.cpp.
+struct Study {
+  const char* name;
+  const char* description;
+  StudyResult (*run)(const StudyProgress& progress);
+};
+
+/// The table as CSV.
+[[nodiscard]] std::string table_csv(const StudyResult& result);
+/// The table as text, columns aligned, numbers with four digits.
+[[nodiscard]] std::string table_text(const StudyResult& result);
+
+}  // namespace ashlar

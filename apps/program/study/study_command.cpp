@@ -1,0 +1,100 @@
+#include "apps/program/study/study_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "apps/program/study/conditioning_study.hpp"
+#include "apps/program/study/contact_study.hpp"
+#include "apps/program/study/cost_study.hpp"
+#include "apps/program/study/error_time_study.hpp"
+#include "apps/program/study/orders_study.hpp"
+#include "apps/program/study/stability_study.hpp"
+#include "apps/program/study/sub_face_study.hpp"
+#include "apps/program/view/svg_picture.hpp"
+#include "apps/results/folder/folder_claim.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/scene/model/nearest_name.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A study that ends soon and shows no progress.
+template <StudyResult (*Run)()>
+StudyResult without_progress(const StudyProgress&) {
+  return Run();
+}
+
+// In the order of --help.
+const std::array<Study, 7> studies = {
+    {{"subfaces", "chord error of sub-faces and its certified bound, by order and tolerance",
+      without_progress<study_sub_faces>},
+     {"orders", "error, unknowns and time of one block against its order", without_progress<study_orders>},
+     {"conditioning", "condition and lost digits of monomial and orthonormal bases",
+      without_progress<study_conditioning>},
+     {"contact", "error of contact against time: sub-faces, springs, surface, kn, steps",
+      without_progress<study_contact>},
+     {"cost", "time and memory of a step against blocks and order, with exponents", study_cost},
+     {"error-time", "error of motion against run time: order, integrator, step, formulation",
+      without_progress<study_error_time>},
+     {"stability", "error far from ordinary orders, places, shapes, masses, stiffness, sizes and steps",
+      without_progress<study_stability>}}};
+
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  list.reserve(studies.size());
+  for (const Study& study : studies) list.emplace_back(study.name);
+  return list;
+}
+
+}  // namespace
+
+int study_command(const StudyOptions& options, std::ostream& out, std::ostream& err) {
+  const auto* study = std::find_if(studies.begin(), studies.end(),
+                                   [&](const Study& candidate) { return candidate.name == options.name; });
+  if (study == studies.end()) {
+    err << fmt::format("ashlar: error: unknown study ({}), {}one of {} is needed\n", options.name,
+                       guess(options.name, names()), fmt::join(names(), ", "));
+    return exit_status::bad_input;
+  }
+  const std::filesystem::path folder = options.folder.value_or(options.name + ".study");
+  std::optional<FolderClaim> claim;
+  try {
+    claim.emplace(folder, ClaimPurpose::addition);
+  } catch (const ClaimRefused& refused) {
+    err << "ashlar: error: " << refused.what() << '\n';
+    return exit_status::bad_input;
+  }
+  const StudyResult result = study->run([&err](const std::string& line) { err << line << std::endl; });
+  const std::filesystem::path table = folder / (options.name + ".csv");
+  const std::filesystem::path picture = folder / (options.name + ".svg");
+  write_file_atomically(table, table_csv(result), Durability::process);
+  const std::string svg = to_svg(result.plot);
+  write_file_atomically(picture, svg, Durability::process);
+  out << table_text(result);
+  for (const std::string& finding : result.findings) out << finding << '\n';
+  out << fmt::format("table: {}\npicture: {}\n", table.string(), picture.string());
+  out << write_png(svg, folder / (options.name + ".png"), plot_width, plot_height) << '\n';
+  return result.holds ? exit_status::done : exit_status::failed;
+}
+
+void declare_study_command(CLI::App& program, CommandContext& context) {
+  CLI::App* command =
+      program.add_subcommand("study", "Measure error against cost; writes a table and a picture");
+  // Shared with the callback that reads it.
+  const auto options = std::make_shared<StudyOptions>();
+  std::string list = "Study:";
+  for (const Study& study : studies) list += fmt::format("\n  {}: {}", study.name, study.description);
+  command->add_option("NAME", options->name, list)->required()->type_name("");
+  command->add_option("--out", options->folder, "Result folder (default: NAME.study)")->type_name("DIR");
+  command->callback(
+      [options, &context] { context.status = study_command(*options, context.out, context.err); });
+}
+
+}  // namespace ashlar

@@ -1,0 +1,26 @@
+#include "apps/program/verify/verification.hpp"
+
+#include <cmath>
+
+namespace ashlar {
+
+VerificationCheck check_relative(std::string what, double measured, double reference, double tolerance) {
+  return {std::move(what), measured, reference, std::abs(measured - reference) / std::abs(reference),
+          tolerance};
+}
+
+VerificationCheck check_absolute(std::string what, double measured, double reference, double tolerance) {
+  return {std::move(what), measured, reference, std::abs(measured - reference), tolerance};
+}
+
+std::vector<VerificationCase> all_verification_cases() {
+  std::vector<VerificationCase> cases;
+  for (const auto& group :
+       {kinematics_cases(), one_block_cases(), contact_spring_cases(), slope_cases(), joint_cases(),
+        safety_cases(), limit_cases(), stack_cases(), non_convex_cases(), hertz_cases(), impact_cases(),
+        support_cases(), cutting_cases(), falling_block_cases()})
+    cases.insert(cases.end(), group.begin(), group.end());
+  return cases;
+}
+
+}  // namespace ashlar

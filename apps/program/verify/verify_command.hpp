@@ -1,0 +1,26 @@
+// `ashlar verify`: the built-in verification cases.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/program/command_line.hpp"
+
+namespace ashlar {
+
+struct VerifyOptions {
+  std::vector<std::string> cases;  ///< names; empty: all
+  bool list = false;
+  bool json = false;
+};
+
+/// Declares `ashlar verify`.
+void declare_verify_command(CLI::App& program, CommandContext& context);
+
+/// Runs cases and prints, for each check, the measured value, its reference, error, tolerance and verdict, and the
+/// seconds of each case. With json one object: {"passed": B, "cases": [{"name", "passed", "seconds", "checks":
+/// [{"what", "measured", "reference", "error", "tolerance", "passed"}]}]}.
+/// @return exit_status::done; failed if a check fails; bad_input for an unknown case
+[[nodiscard]] int verify_command(const VerifyOptions& options, std::ostream& out, std::ostream& err);
+
+}  // namespace ashlar

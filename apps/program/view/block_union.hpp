@@ -1,0 +1,28 @@
+// Converts frames of a staged analysis to frames with the same cells: absent blocks get no place.
+#pragma once
+
+#include <map>
+
+#include "apps/results/frames/vtu_writer.hpp"
+
+namespace ashlar {
+
+/// The blocks of some frames.
+class BlockUnion {
+ public:
+  /// Adds blocks that were in no earlier frame. @param frame with cells by block (the cell array "block") and no
+  /// Adds blocks that were in no earlier frame. @param frame with cells by block (the cell array "block") and no
+  /// point shared by blocks
+  void add(const UnstructuredGrid& frame);
+
+  /// All blocks, each as in its first frame.
+  [[nodiscard]] UnstructuredGrid whole() const;
+  /// Adds missing blocks to a frame: their points and point data are nan. @param frame one of those added; if none
+  /// was, it is returned unchanged
+  [[nodiscard]] UnstructuredGrid completed(UnstructuredGrid frame) const;
+
+ private:
+  std::map<int, UnstructuredGrid> parts_;  ///< by block
+};
+
+}  // namespace ashlar

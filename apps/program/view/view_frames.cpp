@@ -1,0 +1,269 @@
+#include "apps/program/view/view_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/program/view/joint_resultants.hpp"
+#include "apps/program/view/packed_numbers.hpp"
+#include "apps/results/frames/grid_arrays.hpp"
+#include "apps/results/frames/vtu_reader.hpp"
+#include "apps/results/tables/history_table.hpp"
+#include "apps/scene/toml/input_file.hpp"
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+ViewSurface surface_of(const UnstructuredGrid& grid) {
+  ViewSurface surface;
+  surface.reference = grid.points;
+  if (const auto* values = find_values<double>(grid.point_data, "displacement", 3)) {
+    for (std::size_t i = 0; i < grid.points.size(); ++i)
+      surface.reference[i] -= Vector3((*values)[3 * i], (*values)[3 * i + 1], (*values)[3 * i + 2]);
+  }
+  surface.block_of_point.assign(grid.points.size(), -1);
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
+  const auto& order = required_values<std::int32_t>(grid.cell_data, "order", 1);
+  const auto& face = required_values<std::int32_t>(grid.cell_data, "face", 1);
+  int start = 0;
+  for (std::size_t c = 0; c < grid.offsets.size(); ++c) {
+    const int end = grid.offsets[c];
+    surface.cells.insert(surface.cells.end(), {block[c], order[c], face[c], end - start});
+    for (int k = start; k < end; ++k) {
+      const int point = grid.connectivity[at(k)];
+      surface.cells.push_back(point);
+      surface.block_of_point[at(point)] = block[c];
+    }
+    start = end;
+  }
+  constexpr std::int32_t most_blocks = 65536;  // numbers of blocks are packed as 16 bits
+  if (!block.empty() && *std::max_element(block.begin(), block.end()) >= most_blocks)
+    throw std::runtime_error(fmt::format("more than {} blocks, which no page shows", most_blocks));
+  surface.velocity = find_values<double>(grid.point_data, "velocity", 3) != nullptr;
+  surface.stress = find_values<double>(grid.point_data, "stress", 6) != nullptr;
+  return surface;
+}
+
+/// Numbers of fixed blocks; empty: the frame is from a version without array "fixed".
+std::optional<std::vector<std::int32_t>> fixed_blocks_in(const UnstructuredGrid& grid) {
+  const auto* fixed = find_values<std::int32_t>(grid.cell_data, "fixed", 1);
+  if (fixed == nullptr) return std::nullopt;
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
+  std::set<std::int32_t> numbers;
+  for (std::size_t c = 0; c < block.size(); ++c)
+    if ((*fixed)[c] != 0) numbers.insert(block[c]);
+  return std::vector(numbers.begin(), numbers.end());
+}
+
+/// Places of the points of each block of order 0.
+std::map<std::int32_t, std::vector<Vector3>> places_of_order_zero(const UnstructuredGrid& grid) {
+  const auto& block = required_values<std::int32_t>(grid.cell_data, "block", 1);
+  const auto& order = required_values<std::int32_t>(grid.cell_data, "order", 1);
+  std::map<std::int32_t, std::vector<Vector3>> places;
+  int start = 0;
+  for (std::size_t c = 0; c < grid.offsets.size(); ++c) {
+    const int end = grid.offsets[c];
+    for (int k = start; order[c] == 0 && k < end; ++k)
+      places[block[c]].push_back(grid.points[at(grid.connectivity[at(k)])]);
+    start = end;
+  }
+  return places;
+}
+
+void pack_blocks(PackedNumbers& numbers, const UnstructuredGrid& grid, const ViewSurface& surface) {
+  if (grid.points.size() != surface.reference.size())
+    throw std::runtime_error("the frames have different numbers of points");
+  std::vector<Vector3> displacements = grid.points;
+  for (std::size_t i = 0; i < displacements.size(); ++i) displacements[i] -= surface.reference[i];
+  numbers.add_displacements(displacements, surface.block_of_point);
+  if (surface.velocity) numbers.add_reals(required_values<double>(grid.point_data, "velocity", 3), 3);
+  if (surface.stress) numbers.add_reals(required_values<double>(grid.point_data, "stress", 6), 6);
+}
+
+void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, Json& head) {
+  const auto& data = grid.cell_data;
+  std::vector<std::int32_t> corners;
+  for (std::size_t c = 0; c < grid.offsets.size(); ++c)
+    corners.push_back(grid.offsets[c] - (c == 0 ? 0 : grid.offsets[c - 1]));
+  std::vector<std::int32_t> state = required_values<std::int32_t>(data, "state", 1);
+  const auto& broken = required_values<std::int32_t>(data, "broken", 1);
+  head["joints"] = corners.size();
+  head["corners"] = grid.connectivity.size();
+  if (corners.empty()) return;
+  for (std::size_t c = 0; c < state.size(); ++c) state[c] += broken[c] != 0 ? 3 : 0;
+  const auto& slip = required_values<double>(data, "slip", 3);
+  std::vector<double> lengths;
+  for (std::size_t c = 0; c < slip.size(); c += 3)
+    lengths.push_back(std::hypot(slip[c], slip[c + 1], slip[c + 2]));
+  numbers.add_integers(corners);
+  numbers.add_integers(state);
+  for (const char* name : {"block_a", "block_b"})
+    numbers.add_integers(required_values<std::int32_t>(data, name, 1));
+  numbers.add_reals(required_values<double>(data, "opening", 1), 1);
+  numbers.add_reals(lengths, 1);
+  for (const char* name : {"normal_traction", "shear_traction", "area"})
+    numbers.add_reals(required_values<double>(data, name, 1), 1);
+  std::vector<Vector3> places;
+  for (const int point : grid.connectivity) places.push_back(grid.points[at(point)]);
+  numbers.add_points(places);
+}
+
+void pack_links(PackedNumbers& numbers, const UnstructuredGrid& contacts, Json& head) {
+  const std::vector<JointResultant> resultants = joint_resultants(contacts);
+  std::vector<std::int32_t> a, b, state;
+  std::vector<double> forces;
+  std::vector<Vector3> places;
+  for (const JointResultant& joint : resultants) {
+    a.push_back(joint.a);
+    b.push_back(joint.b);
+    state.push_back(joint.state);
+    forces.insert(forces.end(), {joint.force.x(), joint.force.y(), joint.force.z()});
+    places.push_back(joint.place);
+  }
+  head["links"] = resultants.size();
+  if (resultants.empty()) return;
+  for (const auto* values : {&a, &b, &state}) numbers.add_integers(*values);
+  numbers.add_reals(forces, 3);
+  numbers.add_points(places);
+}
+
+void pack_points(PackedNumbers& numbers, const UnstructuredGrid& contacts) {
+  const auto& data = contacts.point_data;
+  const auto& force = required_values<double>(data, "force", 3);
+  const auto& normal = required_values<double>(data, "normal", 3);
+  const auto& gap = required_values<double>(data, "gap", 1);
+  const auto& area = required_values<double>(data, "area", 1);
+  if (contacts.points.empty()) return;
+  for (const char* name : {"type", "state", "block_a", "block_b"})
+    numbers.add_integers(required_values<std::int32_t>(data, name, 1));
+  for (const auto* values : {&force, &normal}) numbers.add_reals(*values, 3);
+  for (const auto* values : {&gap, &area}) numbers.add_reals(*values, 1);
+  numbers.add_points(contacts.points);
+}
+
+/// "frames/blocks_0000950.vtu" is step 950.
+int step_of(const std::string& file) {
+  const std::size_t start = file.find_last_of('_');
+  int step = 0;
+  if (start != std::string::npos) std::from_chars(file.data() + start + 1, file.data() + file.size(), step);
+  return step;
+}
+
+/// The folder, if it has results.
+const std::filesystem::path& checked_folder(const std::filesystem::path& folder) {
+  constexpr const char* needed =
+      "the folder that `ashlar run SCENE` wrote is needed (SCENE.out, or that of --out)";
+  if (!std::filesystem::is_directory(folder)) {
+    throw std::runtime_error(fmt::format("no result folder ({} {}), {}", folder.string(),
+                                         std::filesystem::exists(folder) ? "is a file" : "does not exist",
+                                         needed));
+  }
+  if (!std::filesystem::exists(folder / "blocks.pvd"))
+    throw std::runtime_error(
+        fmt::format("no results in {} (blocks.pvd does not exist), {}", folder.string(), needed));
+  return folder;
+}
+
+/// Frames of a run with output.solid have volumes, and separate surfaces of blocks.
+const char* surface_series(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "surfaces.pvd") ? "surfaces.pvd" : "blocks.pvd";
+}
+
+/// True if blocks may be added or removed.
+bool has_stages(const std::filesystem::path& folder) {
+  const std::vector<std::string> columns = read_history(folder / "history.csv", 1).columns;
+  return std::find(columns.begin(), columns.end(), "stage") != columns.end();
+}
+
+std::vector<PvdFrame> joint_frames(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "joints.pvd";
+  return std::filesystem::exists(path) ? read_pvd(path) : std::vector<PvdFrame>{};
+}
+
+}  // namespace
+
+ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
+    : folder_(checked_folder(folder)),
+      points_(points),
+      blocks_(read_pvd(folder / surface_series(folder))),
+      contacts_(read_pvd(folder / "contacts.pvd")),
+      joints_(joint_frames(folder)) {
+  // A run in progress has written some of them first.
+  count_ = std::min(blocks_.size(), contacts_.size());
+  if (!joints_.empty()) count_ = std::min(count_, joints_.size());
+  if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
+  const std::filesystem::path path = folder_ / blocks_.front().file;
+  UnstructuredGrid first = read_vtu(path);
+  block_names_ = first.block_names;
+  std::optional<std::vector<std::int32_t>> fixed;
+  if (has_stages(folder)) {
+    for (std::size_t k = 0; k < count_; ++k) {
+      const std::filesystem::path frame = folder_ / blocks_[k].file;
+      const UnstructuredGrid grid = read_vtu(frame);
+      naming_the_file(frame, [&] { all_blocks_.add(grid); });
+    }
+    first = all_blocks_.whole();
+  }
+  naming_the_file(path, [&] {
+    fixed = fixed_blocks_in(first);
+    curved_ = std::make_unique<CurvedCells>(first);
+    surface_ = surface_of(curved_->divided(std::move(first)));
+  });
+  surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
+}
+
+std::vector<std::int32_t> ViewFrames::blocks_that_never_move() const {
+  std::map<std::int32_t, std::vector<Vector3>> first;
+  std::set<std::int32_t> moved;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const std::filesystem::path path = folder_ / blocks_[k].file;
+    const UnstructuredGrid grid = read_vtu(path);
+    naming_the_file(path, [&] {
+      for (auto& [block, places] : places_of_order_zero(grid)) {
+        const auto [known, is_new] = first.try_emplace(block, std::move(places));
+        if (!is_new && known->second != places) moved.insert(block);
+      }
+    });
+  }
+  std::vector<std::int32_t> still;
+  for (const auto& [block, places] : first)
+    if (!moved.contains(block)) still.push_back(block);
+  return still;
+}
+
+ViewFrameData ViewFrames::read(std::size_t index) const {
+  PackedNumbers numbers;
+  Json head = {{"index", index}, {"step", step_of(blocks_[index].file)}, {"time", blocks_[index].time}};
+  const std::filesystem::path of_blocks = folder_ / blocks_[index].file;
+  UnstructuredGrid blocks = read_vtu(of_blocks);
+  naming_the_file(of_blocks, [&] {
+    pack_blocks(numbers, curved_->divided(all_blocks_.completed(std::move(blocks))), surface_);
+  });
+  head["joints"] = head["corners"] = 0;
+  if (!joints_.empty()) {
+    const std::filesystem::path of_joints = folder_ / joints_[index].file;
+    const UnstructuredGrid joints = read_vtu(of_joints);
+    naming_the_file(of_joints, [&] { pack_joints(numbers, joints, head); });
+  }
+  const std::filesystem::path of_contacts = folder_ / contacts_[index].file;
+  const UnstructuredGrid contacts = read_vtu(of_contacts);
+  const bool kept = points_ == ViewPoints::all || contacts.points.size() <= most_few_points;
+  naming_the_file(of_contacts, [&] {
+    pack_links(numbers, contacts, head);
+    if (kept) pack_points(numbers, contacts);
+  });
+  head["points"] = kept ? contacts.points.size() : 0;
+  head["contacts"] = contacts.points.size();
+  return {std::move(head), numbers.base64()};
+}
+
+}  // namespace ashlar

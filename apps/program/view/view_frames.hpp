@@ -1,0 +1,78 @@
+// The frames of a result folder in the format of the page of `ashlar view`: constant data once, varying data frame by
+// frame, packed.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/program/view/block_union.hpp"
+#include "apps/program/view/curved_cells.hpp"
+#include "apps/results/frames/pvd_writer.hpp"
+
+namespace ashlar {
+
+/// Data that are the same in all frames.
+struct ViewSurface {
+  std::vector<Vector3> reference;   ///< present places minus displacements, m
+  std::vector<int> block_of_point;  ///< -1: unused
+  std::vector<std::int32_t> cells;  ///< block, order, face, number of corners, corners; cell after cell
+  std::vector<std::int32_t> fixed;  ///< numbers of fixed blocks, increasing
+  bool velocity = false;
+  bool stress = false;
+};
+
+struct ViewFrameData {
+  nlohmann::ordered_json head;  ///< index, step, time (s) and the counts of ViewFrames::read
+  std::string data;             ///< base64 of a zlib stream of PackedNumbers
+};
+
+/// Contact points contained in a page.
+enum class ViewPoints {
+  few,  ///< those of frames with at most most_few_points: more would hide the blocks, and dominate the size
+        ///< of the page
+  all,
+};
+inline constexpr std::size_t most_few_points = 500;
+
+/// The frames of a result folder. Functions throw std::runtime_error with path and reason if a file cannot be read or
+/// is not from a run.
+class ViewFrames {
+ public:
+  explicit ViewFrames(const std::filesystem::path& folder, ViewPoints points = ViewPoints::few);
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] const ViewSurface& surface() const { return surface_; }
+  /// Names by number, of all blocks of any frame; empty: from a version without names.
+  [[nodiscard]] const std::vector<std::string>& block_names() const { return block_names_; }
+
+  /// Packed one after the other, #p points of the surface:
+  ///   displacements; velocities and stresses (xx, yy, zz, xy, yz, xz) if the run has them
+  ///   joints, faces of joints.pvd: numbers of corners, states (3 more: broken), blocks a, blocks b; opening, slip (its
+  ///   length), normal_traction, shear_traction, area; places of the corners, face after face
+  ///   links, joint_resultants: blocks a, b, states; forces; places
+  ///   points, contact points: types, states, blocks a, blocks b; forces, normals, gaps, areas; places
+  /// An empty part (joints, links or points) needs no bytes.
+  /// head: joints (faces), corners (of all of them), links, points (in the data), contacts (all points)
+  [[nodiscard]] ViewFrameData read(std::size_t index) const;
+
+ private:
+  /// For versions without array "fixed": blocks of order 0, fixed or rigid, with the same places in all frames.
+  [[nodiscard]] std::vector<std::int32_t> blocks_that_never_move() const;
+
+  std::filesystem::path folder_;
+  ViewPoints points_;
+  std::vector<PvdFrame> blocks_;
+  std::vector<PvdFrame> contacts_;
+  std::vector<PvdFrame> joints_;  ///< none: of a version that wrote no joints.pvd
+  std::size_t count_ = 0;
+  BlockUnion all_blocks_;  ///< empty unless blocks are added or removed
+  std::unique_ptr<const CurvedCells> curved_;
+  ViewSurface surface_;
+  std::vector<std::string> block_names_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,222 @@
+#include "apps/results/folder/folder_claim.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace ashlar {
+namespace {
+
+constexpr const char* marker_name = ".ashlar";
+constexpr std::string_view marker_text = "This folder was made by ashlar; it keeps other runs out.\n";
+
+/// Files of a run besides the folder `frames`.
+constexpr std::array run_files = {"history.csv",
+                                  "contacts.csv",
+                                  "blocks.pvd",
+                                  "contacts.pvd",
+                                  "summary.json",
+                                  "checkpoint",
+                                  "view.html",
+                                  "summary.json.tmp",
+                                  "checkpoint.tmp",
+                                  "factor_trials.json",
+                                  "factor_trials.json.tmp",
+                                  "joints.pvd",
+                                  "surfaces.pvd",
+                                  "factor_trial.checkpoint",
+                                  "factor_trial.checkpoint.tmp"};
+
+std::string reason(int code) {
+  return std::generic_category().message(code);
+}
+
+std::filesystem::file_status status_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::symlink_status(path, ignored);
+}
+
+/// The first bytes of a regular file; empty for anything else.
+std::string start_of(const std::filesystem::path& path, std::size_t bytes) {
+  if (!std::filesystem::is_regular_file(status_of(path))) return "";
+  std::string text(bytes, '\0');
+  std::ifstream input(path, std::ios::binary);
+  input.read(text.data(), static_cast<std::streamsize>(bytes));
+  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(input.gcount(), 0)));
+  return text;
+}
+
+/// True if a folder without marker has the files of a run, as written by earlier versions.
+bool looks_like_results(const std::filesystem::path& folder) {
+  constexpr std::string_view checkpoint = "ashlar checkpoint\n";
+  constexpr std::string_view history = "step,time,dt,";
+  if (start_of(folder / "checkpoint", checkpoint.size()) == checkpoint) return true;
+  return start_of(folder / "history.csv", history.size()) == history &&
+         std::filesystem::exists(status_of(folder / "blocks.pvd")) &&
+         std::filesystem::exists(status_of(folder / "contacts.csv"));
+}
+
+void refuse_other_kinds(const std::filesystem::path& folder) {
+  const auto refuse = [](const std::filesystem::path& path, const char* needed) {
+    throw ClaimRefused(fmt::format("{} is in the way: it is a link, a pipe or the like, {} is written there",
+                                   path.string(), needed));
+  };
+  for (const char* name : run_files) {
+    const std::filesystem::file_status status = status_of(folder / name);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+      refuse(folder / name, "a plain file");
+  }
+  const std::filesystem::file_status frames = status_of(folder / "frames");
+  if (std::filesystem::exists(frames) && !std::filesystem::is_directory(frames))
+    refuse(folder / "frames", "a folder");
+}
+
+void refuse_results(const std::filesystem::path& folder) {
+  if (!holds_results(folder)) return;
+  const bool ended = std::filesystem::exists(status_of(folder / "summary.json"));
+  throw ClaimRefused(fmt::format(
+      "result folder {} holds {}: --resume goes on with it, --force replaces it, or choose another by --out",
+      folder.string(), ended ? "the results of a run" : "the checkpoint of a run that did not end"));
+}
+
+/// Refuses a folder without marker unless it may be used.
+void refuse_strange_folder(const std::filesystem::path& folder, ClaimPurpose purpose) {
+  if (std::filesystem::is_empty(folder)) return;
+  if (!looks_like_results(folder)) {
+    throw ClaimRefused(fmt::format(
+        "folder {} is not empty and was not made by ashlar: choose another by --out", folder.string()));
+  }
+  if (purpose == ClaimPurpose::replacement || purpose == ClaimPurpose::resume) return;
+  throw ClaimRefused(
+      fmt::format("folder {} holds results of an earlier version of ashlar, or a copy: --force replaces "
+                  "them, or choose another by --out",
+                  folder.string()));
+}
+
+/// "process 1234 on host here" as signed by the holder of the lock.
+std::string holder_of(int descriptor) {
+  std::array<char, 512> text{};
+  const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
+  std::string_view signature(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+  if (!signature.starts_with(marker_text)) return "another process";
+  signature.remove_prefix(marker_text.size());
+  signature = signature.substr(0, signature.find('\n'));
+  return signature.starts_with("process ") ? std::string(signature) : "another process";
+}
+
+}  // namespace
+
+bool holds_results(const std::filesystem::path& folder) {
+  return std::filesystem::exists(status_of(folder / "summary.json")) ||
+         std::filesystem::exists(status_of(folder / "checkpoint"));
+}
+
+FolderClaim::FolderClaim(std::filesystem::path folder, ClaimPurpose purpose)
+    : folder_(std::move(folder)), marker_(folder_ / marker_name) {
+  if (folder_.empty()) throw ClaimRefused("a result folder without a name (\"\"), a name is needed");
+  std::error_code error;
+  if (purpose != ClaimPurpose::resume) std::filesystem::create_directories(folder_, error);
+  if (!error && !std::filesystem::is_directory(folder_, error) && !error)
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) {
+    throw ClaimRefused(
+        fmt::format("cannot create the result folder {}: {}", folder_.string(), error.message()));
+  }
+  try {
+    do {
+      close();
+      open_marker(purpose);
+      lock();
+    } while (!in_place());
+    if (purpose == ClaimPurpose::new_run) refuse_results(folder_);
+    refuse_other_kinds(folder_);
+    sign();
+  } catch (const std::filesystem::filesystem_error& fault) {
+    close();
+    throw ClaimRefused(
+        fmt::format("cannot use the result folder {}: {}", folder_.string(), fault.code().message()));
+  } catch (...) {
+    close();
+    throw;
+  }
+}
+
+FolderClaim::~FolderClaim() {
+  close();
+}
+
+void FolderClaim::close() {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+}
+
+void FolderClaim::open_marker(ClaimPurpose purpose) {
+  const auto fail = [&](int code) {
+    throw ClaimRefused(fmt::format("cannot open {}: {}", marker_.string(), reason(code)));
+  };
+  while (descriptor_ < 0) {
+    // A pipe must not block the program.
+    descriptor_ = ::open(marker_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor_ >= 0) break;
+    if (errno != ENOENT) fail(errno);
+    refuse_strange_folder(folder_, purpose);
+    descriptor_ = ::open(marker_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) return;
+    if (errno != EEXIST) fail(errno);
+  }
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0) fail(errno);
+  const std::string start = start_of(marker_, marker_text.size());
+  // An empty marker was just created, or the program was killed then.
+  if (!S_ISREG(status.st_mode) || (status.st_size > 0 && start != marker_text))
+    throw ClaimRefused(fmt::format("{} is in the way: it was not made by ashlar", marker_.string()));
+}
+
+void FolderClaim::lock() {
+  unlocked_.clear();
+  while (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno == EWOULDBLOCK) {
+      throw ClaimRefused(fmt::format(
+          "result folder {} is in use by {}: wait until it ends, or choose another folder by --out",
+          folder_.string(), holder_of(descriptor_)));
+    }
+    unlocked_ = reason(errno);
+    return;
+  }
+}
+
+bool FolderClaim::in_place() const {
+  struct stat named {};
+  struct stat held {};
+  return ::lstat(marker_.c_str(), &named) == 0 && ::fstat(descriptor_, &held) == 0 &&
+         named.st_dev == held.st_dev && named.st_ino == held.st_ino;
+}
+
+void FolderClaim::sign() const {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+  const std::string text = fmt::format("{}process {} on host {}\n", marker_text, ::getpid(), host.data());
+  if (::pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()) ||
+      ::ftruncate(descriptor_, static_cast<off_t>(text.size())) != 0) {
+    throw ClaimRefused(fmt::format("cannot write {}: {}", marker_.string(), reason(errno)));
+  }
+}
+
+void FolderClaim::check() const {
+  if (!in_place()) {
+    throw std::runtime_error(
+        fmt::format("{} was removed or replaced while the run was writing there", marker_.string()));
+  }
+}
+
+}  // namespace ashlar

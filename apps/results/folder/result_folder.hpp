@@ -1,0 +1,128 @@
+// The result folder of a run: history.csv, contacts.csv, frames for ParaView and summary.json.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/results/folder/folder_watch.hpp"
+#include "apps/results/frames/block_frames.hpp"
+#include "apps/results/frames/joint_faces.hpp"
+#include "apps/results/frames/largest_values.hpp"
+#include "apps/results/frames/pvd_writer.hpp"
+#include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/tables/history_writer.hpp"
+#include "apps/results/tables/measure.hpp"
+#include "apps/scene/model/scene.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+/// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy, syz,
+/// sxz; Pa, tension positive); for a run in stages `stage` last.
+[[nodiscard]] std::vector<std::string> history_columns(const std::vector<Measure>& measures,
+                                                       bool in_stages = false);
+
+/// The values after the step, in the order of history_columns. Points of absent blocks have nan.
+/// @param stage 1-based number; 0: the run has none
+[[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
+                                              const std::vector<Measure>& measures,
+                                              const DisplacementOrigin& origin = {}, int stage = 0);
+
+/// All contact points of the last step: gap, force and normal on the first block, area, type, state and both blocks.
+[[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
+
+/// Start of the results in a staged analysis.
+struct StagePlace {
+  int stage = 1;         ///< 1-based; unused if the scene has no stages
+  double elapsed = 0.0;  ///< s, of all stages before
+  /// Subtracted from displacements unless empty; otherwise as the first stage specifies.
+  DisplacementOrigin origin;
+};
+
+/// The present displacements of the points of measures and of drawn points.
+[[nodiscard]] DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
+                                           const DrawnBlocks& drawn);
+
+/// Progress of the files.
+struct ResultProgress {
+  int last_row_step = -1;  ///< in history.csv
+  int last_frame_step = -1;
+  int intervals_written = 0;  ///< output.interval: frames due by time
+  int stage = 0;              ///< 1-based; 0: the run has none
+  double elapsed = 0.0;       ///< s, of all stages before
+  DisplacementOrigin origin;
+};
+
+/// State of the files, stored in a checkpoint.
+struct ResultFolderState {
+  std::vector<PvdFrame> block_frames;
+  std::vector<PvdFrame> surface_frames;  ///< empty unless output.solid
+  std::vector<PvdFrame> contact_frames;
+  std::vector<PvdFrame> joint_frames;
+  std::uint64_t contact_bytes = 0;  ///< in contacts.csv
+  ResultProgress progress;
+};
+
+/// Writes all results except the summary and the checkpoint; files of frames are in `frames/`. Errors are
+/// std::runtime_error with path and reason.
+class ResultFolder {
+ public:
+  /// Removes the results of an earlier run in the folder except for its checkpoint, which the first one of this run
+  /// replaces, and adds the simulation's present step.
+  /// @param folder claimed by the program (folder_claim.hpp). @param scene the whole one, of all stages
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+               const StagePlace& place = {});
+
+  /// Continues in the folder of an earlier run: removes data written after `state`, and writes data of its step that
+  /// could not be written then.
+  /// @param simulation at that time
+  ResultFolder(std::filesystem::path folder, const Scene& scene, const Simulation& simulation,
+               const ResultFolderState& state);
+
+  /// To be called after every accepted step. Data that cannot be written are not in state() either.
+  /// @throws std::runtime_error also if a table or the folder of frames no longer exists, or was changed by others
+  void add_step(const Simulation& simulation);
+  /// Starts another stage of a staged analysis. To be called after add_end() for the last one.
+  /// @param simulation at the start of the stage. @param elapsed s, of all stages before
+  void begin_stage(const Simulation& simulation, double elapsed, bool reset_displacement);
+  /// Adds row and frame of the end of a run or stage, whether they are due or not. A run continued from an earlier
+  /// checkpoint removes them.
+  void add_end(const Simulation& simulation);
+
+  /// Largest values, with displacements relative to the last reset by a stage.
+  [[nodiscard]] LargestValues largest(const Simulation& simulation) const {
+    return largest_values(simulation, drawn_.surfaces, progress_.origin.surfaces);
+  }
+
+  /// Waits until the tables are on the disk, as a checkpoint relies on them.
+  [[nodiscard]] ResultFolderState synced_state();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
+  [[nodiscard]] int frames() const { return static_cast<int>(blocks_.frames().size()); }
+
+ private:
+  [[nodiscard]] bool frame_is_due(const Simulation& simulation) const;
+  void check_in_place() const;
+  void add_row(const Simulation& simulation);
+  void add_frame(const Simulation& simulation);
+  void add_contact_rows(const Simulation& simulation);
+
+  std::filesystem::path folder_;
+  FolderWatch frames_;
+  SceneOutput output_;
+  std::vector<Measure> measures_;
+  DrawnBlocks drawn_;
+  std::vector<SubFaceSurface> joint_surfaces_;
+  HistoryWriter history_;
+  PvdWriter blocks_;
+  std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page
+  PvdWriter contacts_;
+  PvdWriter joints_;
+  OutputFile contact_rows_;
+  ResultProgress progress_;
+};
+
+}  // namespace ashlar

@@ -1,0 +1,49 @@
+// The file `checkpoint` of a result folder, from which `ashlar run --resume` continues.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/results/folder/contact_changes.hpp"
+#include "apps/results/folder/result_folder.hpp"
+#include "apps/results/folder/run_summary.hpp"
+#include "solver/run/checkpoint.hpp"
+
+namespace ashlar {
+
+/// A run between two steps.
+struct RunCheckpoint {
+  SimulationSnapshot simulation;      ///< of the present stage
+  std::vector<FinishedStage> stages;  ///< earlier stages
+  ResultFolderState folder;
+  RunSeconds seconds;
+  ContactChanges changes;  ///< of static iterations of the present stage
+};
+
+/// Reason why a run cannot be continued: no checkpoint, a damaged one, or one of another scene. what() is a message
+/// to the user.
+struct CheckpointError : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+/// Checkpoint of another scene.
+struct OtherSceneError : CheckpointError {
+  using CheckpointError::CheckpointError;
+};
+
+/// Number of the present layout of the file; others are refused.
+[[nodiscard]] std::uint32_t checkpoint_layout();
+
+/// Replaces the file as a whole; it survives a power failure. @param hash of the scene (scene_identity.hpp).
+/// @return its bytes
+/// @throws std::runtime_error with path and reason
+std::uintmax_t write_checkpoint(const std::filesystem::path& path, std::uint64_t hash,
+                                const RunCheckpoint& checkpoint);
+
+/// @param hash of the scene to be continued. @throws CheckpointError
+[[nodiscard]] RunCheckpoint read_checkpoint(const std::filesystem::path& path, std::uint64_t hash);
+
+}  // namespace ashlar

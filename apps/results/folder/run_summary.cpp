@@ -1,0 +1,226 @@
+#include "apps/results/folder/run_summary.hpp"
+
+#include <sys/resource.h>
+
+#include <map>
+
+#include "apps/results/folder/identity_json.hpp"
+#include "apps/results/folder/program_version.hpp"
+#include "apps/scene/check/base_motion.hpp"
+#include "apps/scene/read/scene_json.hpp"
+
+#include "solver/state/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
+}
+
+nlohmann::ordered_json counts_of(const BuiltSimulation& built) {
+  const Simulation& simulation = built.simulation;
+  const SimulationCounts counts = simulation.counts();
+  const FinderCounts& finder = counts.finder;
+  const auto predicates = static_cast<double>(finder.predicates.filter + finder.predicates.exact);
+  return {{"different_blocks", built.different_blocks},
+          {"block_pairs_tested", finder.block_pairs_tested},
+          {"convex_pairs", finder.convex_pairs},
+          {"block_pairs_skipped", finder.block_pairs_skipped},
+          {"block_pairs_whose_contacts_lasted", finder.block_pairs_kept},
+          {"block_pairs_known_apart", finder.block_pairs_far},
+          {"block_pairs_followed_through_a_step", finder.motions_checked},
+          {"contacts_added_for_passing", counts.passing_contacts},
+          {"islands_put_to_sleep", counts.islands_put_to_sleep},
+          {"steps_of_sleeping_blocks", counts.sleeping_block_steps},
+          {"changes_of_sub_faces", finder.divisions},
+          {"searches_at_the_limit_of_sub_faces", finder.divisions_at_limit},
+          {"contact_points", counts.contact_points},
+          {"open_close_iterations", counts.open_close_iterations},
+          {"open_close_fallbacks", counts.open_close_fallbacks},
+          {"predicates_by_filter", finder.predicates.filter},
+          {"predicates_exact", finder.predicates.exact},
+          {"share_of_exact_predicates",
+           predicates > 0.0 ? static_cast<double>(finder.predicates.exact) / predicates : 0.0},
+          {"symbolic_factorizations", counts.factors.analyses},
+          {"numeric_factorizations", counts.factors.factorizations},
+          {"numeric_factorizations_reused", counts.factors.factorizations_reused},
+          {"linear_solves", counts.factors.solves},
+          {"conjugate_gradient_iterations", counts.factors.gradient_iterations}};
+}
+
+nlohmann::ordered_json rejections_of(const Simulation& simulation) {
+  std::map<std::string, int> reasons;
+  for (const Rejection& rejection : simulation.rejections()) ++reasons[to_string(rejection.reason)];
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  constexpr std::size_t most = 1000;
+  for (std::size_t k = 0; k < simulation.rejections().size() && k < most; ++k) {
+    const Rejection& rejection = simulation.rejections()[k];
+    list.push_back(
+        {{"time", rejection.time}, {"step", rejection.step}, {"reason", to_string(rejection.reason)}});
+  }
+  return {{"count", simulation.rejections().size()}, {"reasons", reasons}, {"first", list}};
+}
+
+nlohmann::ordered_json moving_blocks_of(const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto array = [](const Vector3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
+  for (const MovingBlock& moving : simulation.moving_blocks()) {
+    list.push_back({{"block", simulation.blocks()[static_cast<std::size_t>(moving.block)].name()},
+                    {"acceleration", array(moving.acceleration)},
+                    {"angular_acceleration", array(moving.angular_acceleration)}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json fixed_blocks_of(const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const BlockModel& block : simulation.blocks())
+    if (block.fixed()) list.push_back(block.name());
+  return list;
+}
+
+/// Motion of the base; null if no base is moved.
+nlohmann::ordered_json base_of(const Scene& scene) {
+  const std::optional<std::size_t> base = moved_base(scene);
+  if (!base) return nullptr;
+  return scene.block[*base].name;
+}
+
+nlohmann::ordered_json json_of(const std::vector<DisplacedBlock>& displaced, const Simulation& simulation) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [block, distance] : displaced) {
+    list.push_back(
+        {{"block", simulation.blocks()[static_cast<std::size_t>(block)].name()}, {"distance", distance}});
+  }
+  return list;
+}
+
+nlohmann::ordered_json json_of(const DeepestPoint& deepest, const Simulation& simulation) {
+  const auto name = [&](int block) { return simulation.blocks()[static_cast<std::size_t>(block)].name(); };
+  const Vector3& place = deepest.place;
+  return {{"value", deepest.depth},
+          {"of_smaller_block", deepest.share},
+          {"blocks", nlohmann::ordered_json{name(deepest.blocks[0]), name(deepest.blocks[1])}},
+          {"time", deepest.time},
+          {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
+}
+
+/// Pairs of blocks with an initial overlap beyond rounding error.
+nlohmann::ordered_json known_overlaps_of(const BuiltSimulation& built) {
+  const auto name = [&](int block) {
+    return built.simulation.blocks()[static_cast<std::size_t>(block)].name();
+  };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const KnownOverlap& known : built.overlaps) {
+    if (known.rounding) continue;
+    list.push_back({{"blocks", nlohmann::ordered_json{name(known.blocks[0]), name(known.blocks[1])}},
+                    {"depth", known.overlap.depth},
+                    {"exact", known.overlap.exact}});
+  }
+  return list;
+}
+
+/// Null if there is none.
+nlohmann::ordered_json json_of(const std::optional<PlacedValue>& largest, const Simulation& simulation) {
+  if (!largest) return nullptr;
+  const Vector3& place = largest->place;
+  return {{"value", largest->value},
+          {"block", simulation.blocks()[static_cast<std::size_t>(largest->block)].name()},
+          {"place", nlohmann::ordered_json{place.x(), place.y(), place.z()}}};
+}
+
+nlohmann::ordered_json json_of(const std::vector<FinishedStage>& stages, const Scene& scene) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const auto& [status, message, steps, time] = stages[k];
+    nlohmann::ordered_json stage = {{"name", scene.stage[k].name}, {"status", status}};
+    if (!message.empty()) stage["message"] = message;
+    stage["steps"] = steps;
+    stage["time"] = time;
+    list.push_back(std::move(stage));
+  }
+  return list;
+}
+
+}  // namespace
+
+BrokenJoints broken_joints(const Simulation& simulation) {
+  BrokenJoints broken;
+  for (const auto& [blocks, pair] : simulation.histories()) {
+    if (pair.broken > 0.0) ++broken.pairs;
+    broken.area += pair.broken;
+    broken.of_area += pair.bonded;
+  }
+  return broken;
+}
+
+nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& identity,
+                                   const BuiltSimulation& built, const RunOutcome& outcome) {
+  const auto& [status, message, seconds, frames, largest, stages] = outcome;
+  const Simulation& simulation = built.simulation;
+  nlohmann::ordered_json summary = nlohmann::ordered_json::object();
+  summary["status"] = to_string(status);
+  if (!message.empty()) summary["message"] = message;
+  summary["title"] = scene.title;
+  if (status == RunStatus::moving) summary["moving"] = moving_blocks_of(simulation);
+  if (status == RunStatus::equilibrium)
+    summary["displaced"] = json_of(displaced_blocks(simulation), simulation);
+  summary["steps"] = simulation.steps();
+  summary["time"] = simulation.time();
+  summary["rejected_steps"] = rejections_of(simulation);
+  summary["unknowns"] = simulation.unknowns();
+  summary["blocks"] = simulation.blocks().size();
+  summary["fixed"] = fixed_blocks_of(simulation);
+  summary["base"] = base_of(scene);
+  summary["frames"] = frames;
+  const PhaseSeconds& phases = simulation.seconds();
+  summary["wall_seconds"] = {{"total", seconds.total},
+                             {"setup", seconds.setup},
+                             {"contact_search", phases.contact_search},
+                             {"contact_points", phases.contact_points},
+                             {"solve", phases.solve},
+                             {"motion_check", phases.motion_check},
+                             {"depth_audit", phases.depth_audit},
+                             {"output", seconds.output}};
+  summary["peak_memory_bytes"] = peak_memory_bytes();
+  summary["penetration_max"] = simulation.deepest().depth;
+  summary["contact_depth_max"] = simulation.largest_penetration();
+  if (const DeepestPoint& deepest = simulation.deepest(); deepest.depth > 0.0)
+    summary["deepest"] = json_of(deepest, simulation);
+  if (!built.overlaps.empty()) summary["known_overlaps"] = known_overlaps_of(built);
+  summary["largest_displacement"] = json_of(largest.displacement, simulation);
+  summary["largest_compression"] = json_of(largest.compression, simulation);
+  summary["largest_tension"] = json_of(largest.tension, simulation);
+  const BrokenJoints broken = broken_joints(simulation);
+  summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
+  if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
+    summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
+  if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
+    summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
+  summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},
+                               {"lost", simulation.ledger().refound_lost}};
+  summary["energy_residual"] = simulation.ledger().residual;
+  summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
+  summary["energy_max"] = simulation.largest_energy();
+  summary["counts"] = counts_of(built);
+  nlohmann::ordered_json automatic = nlohmann::ordered_json::array();
+  for (const AutomaticChoice& choice : built.choices) {
+    nlohmann::ordered_json value;
+    std::visit([&](const auto& chosen) { value = chosen; }, choice.value);
+    automatic.push_back({{"key", choice.key}, {"value", value}, {"unit", choice.unit}});
+  }
+  summary["automatic"] = automatic;
+  nlohmann::ordered_json versions = nlohmann::ordered_json::object();
+  versions["ashlar"] = program_version();
+  for (const auto& [name, version] : tool_versions()) versions[name] = version;
+  summary["versions"] = versions;
+  summary["identity"] = to_json(identity);
+  summary["scene"] = to_json(scene);
+  if (!stages.empty()) summary["stages"] = json_of(stages, scene);
+  return summary;
+}
+
+}  // namespace ashlar

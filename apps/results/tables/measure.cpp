@@ -1,0 +1,107 @@
+#include "apps/results/tables/measure.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "geometry/index.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+int index_of(const Scene& scene, const std::string& name) {
+  const auto block = std::find_if(scene.block.begin(), scene.block.end(),
+                                  [&](const SceneBlock& candidate) { return candidate.name == name; });
+  return static_cast<int>(block - scene.block.begin());
+}
+
+/// Gradient of the motion at a point, for a block of the total formulation.
+Eigen::Matrix3d gradient_at(const BlockModel& block, const BlockState& state, const Vector3& point) {
+  return state.position.transpose() * block.basis().gradients(point);
+}
+
+Vector3 place_of(const BlockModel& block, const BlockState& state, const Vector3& point) {
+  return state.position.transpose() * block.basis().values(point);
+}
+
+}  // namespace
+
+std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks) {
+  std::vector<Measure> measures;
+  for (const SceneMeasure& given : scene.measure) {
+    if (given.block.empty()) {
+      measures.push_back({given.name, Measure::Kind::pair, index_of(scene, given.pair[0]), Vector3::Zero(),
+                          index_of(scene, given.pair[1])});
+      continue;
+    }
+    const int block = index_of(scene, given.block);
+    if (given.point)
+      measures.push_back({given.name, Measure::Kind::point, block, *given.point, -1});
+    else
+      measures.push_back({given.name, Measure::Kind::block, block, blocks[at(block)].basis().centroid(), -1});
+  }
+  return measures;
+}
+
+PointMotion measured_motion(const Simulation& simulation, const Measure& measure) {
+  if (simulation.system().present(measure.block))
+    return simulation.blocks()[at(measure.block)].motion_of(simulation.states()[at(measure.block)],
+                                                            measure.point);
+  const Vector3 nowhere = Vector3::Constant(none);
+  return {nowhere, nowhere, nowhere, Eigen::Matrix3d::Constant(none)};
+}
+
+Vector3 measured_turn(const Simulation& simulation, const Measure& measure) {
+  if (!simulation.system().present(measure.block)) return Vector3::Constant(none);
+  const Eigen::Matrix3d gradient = gradient_at(simulation.blocks()[at(measure.block)],
+                                               simulation.states()[at(measure.block)], measure.point);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(gradient, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(parts.matrixU() * parts.matrixV().transpose()));
+  return turn.angle() * 180.0 / std::numbers::pi * turn.axis();
+}
+
+Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_t index) {
+  const ContactPoint& point = pair.points[index];
+  const BlockModel& a = simulation.blocks()[at(pair.a)];
+  const BlockModel& b = simulation.blocks()[at(pair.b)];
+  if (a.incremental() != nullptr || b.incremental() != nullptr) return Vector3::Zero();
+  const BlockState& state = simulation.states()[at(pair.a)];
+  // The two points coincided at the start of the step: distance between them at the initial placement, and their
+  // displacements since then.
+  const Vector3 way = gradient_at(a, state, point.material_a) * (point.material_b - point.material_a) +
+                      place_of(a, state, point.material_a) -
+                      place_of(b, simulation.states()[at(pair.b)], point.material_b);
+  return way - point.normal.dot(way) * point.normal;
+}
+
+PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) {
+  const auto [low, high] = std::minmax(measure.block, measure.other);
+  const auto record =
+      std::find_if(simulation.contacts().begin(), simulation.contacts().end(),
+                   [&, a = low, b = high](const PairRecord& pair) { return pair.a == a && pair.b == b; });
+  PairMeasure result{0.0, 0.0, none, none, 0.0};
+  if (record == simulation.contacts().end() || record->points.empty()) return result;
+  Vector3 shear = Vector3::Zero();
+  double area = 0.0, gap = 0.0, slip = 0.0;
+  for (std::size_t k = 0; k < record->points.size(); ++k) {
+    const ContactPoint& point = record->points[k];
+    const PointResponse& response = record->responses[k];
+    result.normal_force += response.force[0];
+    shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
+    area += point.area;
+    gap += point.area * record->gaps[k];
+    if (response.state != ContactState::open) result.area += point.area;
+    slip += point.area * slip_of(simulation, *record, k).norm();
+  }
+  result.shear_force = shear.norm();
+  if (!(area > 0.0)) return result;
+  result.opening = gap / area;
+  const auto total = [&](int k) { return simulation.blocks()[at(k)].incremental() == nullptr; };
+  if (total(record->a) && total(record->b)) result.slip = slip / area;
+  return result;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,51 @@
+// History values of a [[measure]] of a scene: the motion and stress of a material point, the motion and rotation of a
+// block, or the contacts of two blocks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/scene/model/scene.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+struct Measure {
+  enum class Kind {
+    point,  ///< a material point
+    block,  ///< a block: its centroid and its rotation
+    pair,   ///< the contacts of two blocks
+  };
+  std::string name;
+  Kind kind = Kind::point;
+  int block = 0;
+  Vector3 point = Vector3::Zero();  ///< reference coordinates, m; for a block its centroid
+  int other = -1;                   ///< for a pair: the second block
+};
+
+/// Measures of a scene, in its order. @param blocks of the scene
+[[nodiscard]] std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks);
+
+/// Motion of the measured point; nan if its block is absent. @param measure of a point or block
+[[nodiscard]] PointMotion measured_motion(const Simulation& simulation, const Measure& measure);
+
+/// Rotation of a block since it was placed: axis times angle, degrees, 0 to 180, of the rotation in the polar
+/// decomposition of the deformation gradient at its centroid; nan if the block is absent.
+[[nodiscard]] Vector3 measured_turn(const Simulation& simulation, const Measure& measure);
+
+/// Slip of block a of a pair along block b at a contact point since both were placed, m, perpendicular to the normal;
+/// zero if one of them is incremental.
+[[nodiscard]] Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_t index);
+
+/// The contacts of two blocks after the last step.
+struct PairMeasure {
+  double normal_force = 0.0;  ///< N, sum over the points, compression positive
+  double shear_force = 0.0;   ///< N, length of the sum of the shear forces
+  double opening;             ///< m, mean gap over the area of the points, negative: depth; nan: no points
+  double slip;        ///< m, slip of the blocks along each other since they were placed, mean over the area;
+                      ///< nan: no points, or an incremental block
+  double area = 0.0;  ///< m^2, of closed points
+};
+[[nodiscard]] PairMeasure measured_pair(const Simulation& simulation, const Measure& measure);
+
+}  // namespace ashlar

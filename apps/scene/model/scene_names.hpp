@@ -1,0 +1,80 @@
+// Words of the scene format for each choice, in their order in lists for users.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "apps/scene/model/scene.hpp"
+
+namespace ashlar {
+
+template <typename Choice, std::size_t count>
+using ChoiceNames = std::array<std::pair<const char*, Choice>, count>;
+
+inline constexpr ChoiceNames<SceneAnalysis::Type, 5> analysis_type_names = {
+    {{"dynamic", SceneAnalysis::Type::dynamic},
+     {"static", SceneAnalysis::Type::statics},
+     {"factor-of-safety", SceneAnalysis::Type::safety},
+     {"capacity", SceneAnalysis::Type::capacity},
+     {"thrust", SceneAnalysis::Type::thrust}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Method, 3> method_names = {
+    {{"auto", SceneAnalysis::Method::automatic},
+     {"limit", SceneAnalysis::Method::limit},
+     {"elastic", SceneAnalysis::Method::elastic}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Integrator, 3> integrator_names = {
+    {{"dda", SceneAnalysis::Integrator::dda},
+     {"average-acceleration", SceneAnalysis::Integrator::average_acceleration},
+     {"generalized-alpha", SceneAnalysis::Integrator::generalized_alpha}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Formulation, 2> formulation_names = {
+    {{"total", SceneAnalysis::Formulation::total}, {"incremental", SceneAnalysis::Formulation::incremental}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::InitialState, 3> initial_state_names = {
+    {{"as-placed", SceneAnalysis::InitialState::as_placed},
+     {"equilibrium", SceneAnalysis::InitialState::equilibrium},
+     {"static", SceneAnalysis::InitialState::statics}}};
+
+inline constexpr ChoiceNames<SceneAnalysis::Solver, 3> solver_names = {
+    {{"auto", SceneAnalysis::Solver::automatic},
+     {"cholmod", SceneAnalysis::Solver::cholmod},
+     {"cg", SceneAnalysis::Solver::cg}}};
+
+inline constexpr ChoiceNames<SceneContact::Springs, 2> springs_names = {
+    {{"area", SceneContact::Springs::area}, {"point", SceneContact::Springs::point}}};
+
+inline constexpr ChoiceNames<SceneContact::Surface, 2> surface_names = {
+    {{"curved", SceneContact::Surface::curved}, {"flat", SceneContact::Surface::flat}}};
+
+inline constexpr ChoiceNames<SceneCut::Spacing, 4> spacing_names = {
+    {{"normal", SceneCut::Spacing::normal},
+     {"lognormal", SceneCut::Spacing::lognormal},
+     {"uniform", SceneCut::Spacing::uniform},
+     {"exponential", SceneCut::Spacing::exponential}}};
+
+inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
+    {{"linear", SceneMaterial::Elasticity::linear},
+     {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};
+
+inline constexpr ChoiceNames<SceneMesh::Split, 4> split_names = {
+    {{"none", SceneMesh::Split::none},
+     {"components", SceneMesh::Split::components},
+     {"groups", SceneMesh::Split::groups},
+     {"tetrahedra", SceneMesh::Split::tetrahedra}}};
+
+inline constexpr ChoiceNames<bool SceneOutput::Fields::*, 4> field_names = {
+    {{"displacement", &SceneOutput::Fields::displacement},
+     {"velocity", &SceneOutput::Fields::velocity},
+     {"stress", &SceneOutput::Fields::stress},
+     {"principal_stress", &SceneOutput::Fields::principal_stress}}};
+
+/// The word of a choice.
+template <typename Choice, std::size_t count>
+[[nodiscard]] constexpr const char* name_of(const ChoiceNames<Choice, count>& names, Choice choice) {
+  for (const auto& [name, value] : names)
+    if (value == choice) return name;
+  return "";
+}
+
+}  // namespace ashlar

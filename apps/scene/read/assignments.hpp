@@ -1,0 +1,29 @@
+// [[assign]]: properties of blocks assigned by patterns of their names, after the blocks.
+#pragma once
+
+#include <vector>
+
+#include "apps/scene/model/diagnostics.hpp"
+#include "apps/scene/model/scene.hpp"
+#include "apps/scene/toml/toml_table_reader.hpp"
+
+namespace ashlar {
+
+[[nodiscard]] SceneAssign read_assignment(TomlTableReader& table);
+
+/// Applies the scene's assignments to blocks: the last matching one has priority, key by key. Supports and loads are
+/// added to those of a block. An arch's fill does not load a fixed voussoir. Places of assigned values are those of
+/// the assignment.
+/// @param diagnostics reports a pattern that matches no block, unless there are cuts, whose pieces it may match;
+/// entries that need more than about a second or most_laid_memory for their blocks; supports, loads and velocities of
+/// a block that becomes fixed.
+void apply_assignments(Scene& scene, Diagnostics& diagnostics);
+
+/// To be called after the cuts: applies assignments to the pieces that patterns match, except those of a block
+/// matched by the same pattern, which have inherited everything from it.
+void apply_assignments_to_pieces(Scene& scene, Diagnostics& diagnostics);
+
+/// The pieces changed by apply_assignments_to_pieces, by assignment, as indices of blocks.
+[[nodiscard]] std::vector<std::vector<std::size_t>> assigned_pieces(const Scene& scene);
+
+}  // namespace ashlar

@@ -1,0 +1,25 @@
+// Reads one [[block]] of a scene: its shape, placement, supports and loads.
+#pragma once
+
+#include <string>
+
+#include "apps/scene/model/scene.hpp"
+#include "apps/scene/toml/toml_table_reader.hpp"
+
+namespace ashlar {
+
+/// Faults go to the table's diagnostics. A shape that is missing, given twice, faulty or badly placed is empty;
+/// faulty points and planes are not finite.
+[[nodiscard]] SceneBlock read_block(TomlTableReader& table);
+
+/// Reads [[block.fix]] and [[block.load]], which other tables have too.
+[[nodiscard]] SceneFix read_fix(TomlTableReader& table);
+[[nodiscard]] SceneLoad read_load(TomlTableReader& table);
+/// Reports supports, loads and velocities of a fixed block.
+void refuse_motion_if_fixed(TomlTableReader& table, const SceneBlock& block);
+/// Keys of a mesh: `file` and `scale` only, or also those that divide and repair the file's content.
+enum class MeshKeys { as_it_is, mending };
+/// Reads the one of box, mesh, hull and sphere given by a table. @param what name of the table for messages
+[[nodiscard]] SceneShape read_shape(TomlTableReader& table, const std::string& what, MeshKeys mesh);
+
+}  // namespace ashlar

@@ -1,0 +1,120 @@
+#include "apps/scene/read/cut_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "apps/scene/model/scene_names.hpp"
+#include "apps/scene/read/block_reader.hpp"
+
+namespace ashlar {
+namespace {
+
+constexpr int largest_integer = std::numeric_limits<int>::max();
+
+void read_radius(TomlTableReader& table, SceneCut& cut) {
+  constexpr NumberRange words = {0.0, largest_coordinate, false, true, "a number > 0 and <= 1e150, or inf"};
+  if (!table.holds_infinity("radius")) table.read_number("radius", cut.radius, words);
+}
+
+void read_number_of_planes(TomlTableReader& table, SceneCut& cut) {
+  if (!table.holds_infinity("number")) table.read_integer("number", cut.number, 0, largest_integer);
+}
+
+/// Standard deviation of a spacing relative to its mean: beyond it nearly all planes coincide within rounding error.
+constexpr double most_deviation = 100.0;
+
+void read_spacing_law(TomlTableReader table, SceneCut& cut) {
+  table.require("mean");
+  table.read_number("mean", cut.spacing, range::positive_length);
+  const bool given = table.read_number("deviation", cut.deviation, range::not_negative);
+  table.read_choice("distribution", cut.law, spacing_names);
+  if (!cut.spacing) return;
+  const double mean = *cut.spacing;
+  if (cut.law == SceneCut::Spacing::exponential) {
+    if (given && cut.deviation != mean)
+      table.error_at_value(
+          "deviation", fmt::format("deviation of exponential spacings is not their mean ({}), {} is needed; "
+                                   "it may be left out",
+                                   cut.deviation, mean));
+    cut.deviation = mean;
+    return;
+  }
+  if (cut.deviation > most_deviation * mean)
+    table.error_at_value("deviation", fmt::format("deviation is out of range ({}), at most {} times the mean "
+                                                  "({}) is needed",
+                                                  cut.deviation, most_deviation, most_deviation * mean));
+  const double most = mean / std::sqrt(3.0);
+  if (cut.law == SceneCut::Spacing::uniform && cut.deviation >= most)
+    table.error_at_value(
+        "deviation", fmt::format("deviation lets spacings be zero or less ({}), less than mean / sqrt(3) = "
+                                 "{:.6g} is needed",
+                                 cut.deviation, most));
+}
+
+void read_planes(TomlTableReader& table, SceneCut& cut, bool needed) {
+  if (needed) {
+    table.require("dip");
+    table.require("dip_direction");
+  }
+  table.read_number("dip", cut.dip, range::zero_to_90);
+  table.read_number("dip_direction", cut.dip_direction, range::any_number);
+  table.read_place("point", cut.point);
+  if (table.table_at("spacing") != nullptr)
+    read_spacing_law(table.table_or_empty("spacing"), cut);
+  else
+    table.read_number("spacing", cut.spacing, range::positive_length);
+  table.read_number("fisher", cut.fisher, range::not_negative);
+  table.read_number("persistence", cut.persistence, range::zero_to_one);
+  read_radius(table, cut);
+  read_number_of_planes(table, cut);
+  if (needed && !table.given("spacing") && cut.number.value_or(0) != 0)
+    table.error_at_value(
+        "number",
+        fmt::format("number of planes without their spacing ({}), a spacing is needed", *cut.number));
+}
+
+/// Refuses keys that apply to planes only.
+void refuse_plane_keys(TomlTableReader& table, const char* kind) {
+  for (const char* key :
+       {"dip", "dip_direction", "point", "spacing", "fisher", "persistence", "radius", "number"})
+    if (table.given(key))
+      table.error_at_key(key,
+                         fmt::format("{} beside {} (both given), only one of both is allowed", key, kind));
+}
+
+}  // namespace
+
+SceneCut read_cut(TomlTableReader& table) {
+  SceneCut cut;
+  table.require("name");
+  table.require("blocks");
+  table.read_name("name", cut.name);
+  if (table.read_texts("blocks", cut.blocks) && cut.blocks.empty())
+    table.error_at_value("blocks", "blocks is empty ([]), at least one name or glob is needed");
+  const bool solid = table.given("solid"), voronoi = table.given("voronoi");
+  read_planes(table, cut, !solid && !voronoi);
+  if (solid) {
+    cut.kind = SceneCut::Kind::solid;
+    if (auto shape = table.table("solid")) cut.solid = read_shape(*shape, "solid", MeshKeys::as_it_is);
+    refuse_plane_keys(table, "solid");
+  }
+  table.read_integer("seed", cut.seed, 0, largest_integer);
+  if (voronoi) {
+    cut.kind = SceneCut::Kind::voronoi;
+    TomlTableReader cells = table.table_or_empty("voronoi");
+    cells.require("count");
+    cells.read_integer("count", cut.count, 1, largest_integer);
+    cells.read_integer("seed", cut.seed, 0, largest_integer);
+    refuse_plane_keys(table, "voronoi");
+    if (solid)
+      table.error_at_key("voronoi", "voronoi beside solid (both given), only one of both is allowed");
+  }
+  table.read_number("min_volume", cut.min_volume, range::not_negative);
+  table.read_bool("glued", cut.glued);
+  table.read_integer("most_blocks", cut.most_blocks, 1, largest_integer);
+  return cut;
+}
+
+}  // namespace ashlar

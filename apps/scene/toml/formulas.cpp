@@ -1,0 +1,263 @@
+#include "apps/scene/toml/formulas.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <array>
+#include <cfenv>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "apps/scene/model/nearest_name.hpp"
+
+namespace ashlar {
+namespace {
+
+struct UnaryFunction {
+  const char* name;
+  double (*call)(double);
+};
+
+constexpr std::array<UnaryFunction, 18> unary_functions = {{{"sin", std::sin},
+                                                            {"cos", std::cos},
+                                                            {"tan", std::tan},
+                                                            {"asin", std::asin},
+                                                            {"acos", std::acos},
+                                                            {"atan", std::atan},
+                                                            {"sinh", std::sinh},
+                                                            {"cosh", std::cosh},
+                                                            {"tanh", std::tanh},
+                                                            {"exp", std::exp},
+                                                            {"ln", std::log},
+                                                            {"log10", std::log10},
+                                                            {"sqrt", std::sqrt},
+                                                            {"cbrt", std::cbrt},
+                                                            {"abs", std::fabs},
+                                                            {"floor", std::floor},
+                                                            {"ceil", std::ceil},
+                                                            {"round", std::round}}};
+
+// The parser ensures that there is at least one.
+double smallest(const double* values, int count) {
+  return *std::min_element(values, values + count);
+}
+
+double largest(const double* values, int count) {
+  return *std::max_element(values, values + count);
+}
+
+double quadrant_angle(double y, double x) {
+  return std::atan2(y, x);
+}
+
+constexpr std::array<const char*, 3> other_functions = {"atan2", "min", "max"};
+constexpr std::array<std::pair<const char*, double>, 2> constants = {
+    {{"pi", std::numbers::pi}, {"deg", std::numbers::pi / 180.0}}};
+
+bool is_function(std::string_view name) {
+  return std::any_of(unary_functions.begin(), unary_functions.end(),
+                     [&](const UnaryFunction& function) { return name == function.name; }) ||
+         std::find(other_functions.begin(), other_functions.end(), name) != other_functions.end();
+}
+
+bool is_constant(std::string_view name) {
+  return std::any_of(constants.begin(), constants.end(),
+                     [&](const auto& constant) { return name == constant.first; });
+}
+
+// Letters of the parser, in any locale.
+bool is_letter(char letter) {
+  return letter == '_' || (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
+}
+
+bool is_digit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
+
+// End of the number that begins at `at`: digits with a point and an exponent.
+std::size_t end_of_number(const std::string& text, std::size_t at) {
+  const auto digits = [&] {
+    while (at < text.size() && (is_digit(text[at]) || text[at] == '.')) ++at;
+  };
+  digits();
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    std::size_t exponent = at + 1;
+    if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+    if (exponent < text.size() && is_digit(text[exponent])) {
+      at = exponent;
+      digits();
+    }
+  }
+  return at;
+}
+
+std::vector<Formulas::Name> names_in(const std::string& text) {
+  std::vector<Formulas::Name> names;
+  for (std::size_t at = 0; at < text.size();) {
+    if (is_digit(text[at]) || text[at] == '.') {
+      at = end_of_number(text, at);
+    } else if (is_letter(text[at])) {
+      const std::size_t start = at;
+      while (at < text.size() && (is_letter(text[at]) || is_digit(text[at]))) ++at;
+      names.push_back({text.substr(start, at - start), start});
+    } else {
+      ++at;
+    }
+  }
+  return names;
+}
+
+// The parser would read `a = 2` as an assignment.
+void refuse_assignment(const std::string& text) {
+  for (std::size_t at = 1; at < text.size(); ++at) {
+    if (text[at] != '=') continue;
+    const bool compares = std::string_view("=<>!").find(text[at - 1]) != std::string_view::npos && at > 1;
+    if (compares) continue;
+    if (at + 1 < text.size() && text[at + 1] == '=') {
+      ++at;
+      continue;
+    }
+    throw FormulaError("= within a formula, == compares", at);
+  }
+}
+
+std::string words_of(const mu::Parser::exception_type& error) {
+  switch (error.GetCode()) {
+    case mu::ecUNEXPECTED_EOF:
+      return "it ends too early";
+    case mu::ecMISSING_PARENS:
+      return "a parenthesis is not closed";
+    case mu::ecUNEXPECTED_PARENS:
+      return "a parenthesis is out of place";
+    case mu::ecUNEXPECTED_OPERATOR:
+      return "an operator is out of place";
+    case mu::ecUNEXPECTED_VAL:
+      return "a number is out of place";
+    case mu::ecUNEXPECTED_VAR:
+    case mu::ecUNEXPECTED_FUN:
+      return "a name is out of place";
+    case mu::ecUNEXPECTED_ARG_SEP:
+      return "a comma is out of place";
+    case mu::ecTOO_MANY_PARAMS:
+      return "a function has too many arguments";
+    case mu::ecTOO_FEW_PARAMS:
+      return "a function has too few arguments";
+    default:
+      return "it is no formula from here on";
+  }
+}
+
+constexpr const char* allowed_words =
+    "numbers, parameters, + - * / ^ ( ) and functions as sin(30*deg), sqrt(2), max(a, b) are allowed";
+
+}  // namespace
+
+struct Formulas::Parser {
+  mu::Parser parser;
+  // Variables, not constants: the branch of a ? b : c that is not taken is not evaluated.
+  std::map<std::string, double> values;
+  std::set<std::string> left_out;
+
+  Parser() {
+    // Only documented names: the parser's own log, for example, has changed its base between versions.
+    parser.ClearFun();
+    parser.ClearConst();
+    for (const UnaryFunction& function : unary_functions) parser.DefineFun(function.name, function.call);
+    parser.DefineFun("atan2", quadrant_angle);
+    parser.DefineFun("min", smallest);
+    parser.DefineFun("max", largest);
+    for (const auto& [name, value] : constants) add(name, value);
+  }
+
+  void add(const std::string& name, double value) {
+    double& kept = values[name];
+    kept = value;
+    parser.DefineVar(name, &kept);
+  }
+};
+
+Formulas::Formulas() : parser_(std::make_unique<Parser>()) {}
+Formulas::~Formulas() = default;
+Formulas::Formulas(Formulas&&) noexcept = default;
+Formulas& Formulas::operator=(Formulas&&) noexcept = default;
+
+void Formulas::define(const std::string& name, double value) {
+  parser_->left_out.erase(name);
+  parser_->add(name, value);
+}
+
+void Formulas::leave_out(const std::string& name) {
+  parser_->left_out.insert(name);
+}
+
+std::string Formulas::fault_of_name(const std::string& name) {
+  if (name.size() > longest_parameter)
+    return fmt::format("parameter has too long a name ({} characters), at most {} are allowed", name.size(),
+                       longest_parameter);
+  const bool good = !name.empty() && is_letter(name.front()) &&
+                    std::all_of(name.begin(), name.end(),
+                                [](char letter) { return is_letter(letter) || is_digit(letter); });
+  if (!good)
+    return fmt::format(
+        "parameter cannot be used in formulas ({}), a letter, then letters, digits and _ are "
+        "allowed",
+        name);
+  if (is_function(name) || is_constant(name))
+    return fmt::format("parameter has a name that is taken ({}), formulas know it as a {}", name,
+                       is_function(name) ? "function" : "constant");
+  return {};
+}
+
+std::vector<Formulas::Name> Formulas::parameters_in(const std::string& text) {
+  std::vector<Name> names = names_in(text);
+  std::erase_if(names, [](const Name& name) { return is_function(name.text) || is_constant(name.text); });
+  return names;
+}
+
+double Formulas::value(const std::string& text) const {
+  if (text.size() > longest_formula)
+    throw FormulaError(fmt::format("formula is too long ({} characters), at most {} are allowed", text.size(),
+                                   longest_formula),
+                       0);
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (static_cast<unsigned char>(text[at]) >= 0x80 || static_cast<unsigned char>(text[at]) < ' ')
+      throw FormulaError(fmt::format("formula has a character that it cannot have, {}", allowed_words), at);
+  for (const Name& name : parameters_in(text)) {
+    if (parser_->values.contains(name.text)) continue;
+    if (parser_->left_out.contains(name.text)) throw FormulaError("", name.offset);
+    std::vector<std::string> known;
+    for (const auto& [other, value] : parser_->values) known.push_back(other);
+    for (const UnaryFunction& function : unary_functions) known.emplace_back(function.name);
+    known.insert(known.end(), other_functions.begin(), other_functions.end());
+    throw FormulaError(fmt::format("unknown name in a formula ({}), {}a key of [parameters] or a function is "
+                                   "needed",
+                                   name.text, guess(name.text, known)),
+                       name.offset);
+  }
+  refuse_assignment(text);
+  try {
+    std::feclearexcept(FE_ALL_EXCEPT);
+    parser_->parser.SetExpr(text.substr(1));
+    const double result = parser_->parser.Eval();
+    const int raised = std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+    if (parser_->parser.GetNumResults() != 1)
+      throw FormulaError("formula has several values (a comma), one is needed", 0);
+    if ((raised & FE_DIVBYZERO) != 0)
+      throw FormulaError("formula divides by zero, another divisor is needed", 0);
+    if (raised != 0 || !std::isfinite(result))
+      throw FormulaError(fmt::format("formula has no finite value ({}), a number is needed",
+                                     (raised & FE_INVALID) != 0 ? "not a number" : "too large"),
+                         0);
+    return result;
+  } catch (const mu::Parser::exception_type& error) {
+    // Positions are relative to the text after "=".
+    const std::size_t offset =
+        std::min(static_cast<std::size_t>(std::max(error.GetPos(), 0)) + 1, text.size());
+    throw FormulaError(fmt::format("formula cannot be read ({}), {}", words_of(error), allowed_words),
+                       offset);
+  }
+}
+
+}  // namespace ashlar

@@ -1,0 +1,273 @@
+#include "apps/program/verify/placement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "apps/program/verify/falling_block.hpp"
+#include "apps/program/verify/verification.hpp"
+#include "apps/program/verify/verification_blocks.hpp"
+#include "apps/program/verify/verification_contacts.hpp"
+#include "geometry/solid/hull_solid.hpp"
+#include "geometry/solid/shapes.hpp"
+
+namespace ashlar {
+namespace {
+
+/// A quarter turn about z and (1, 2, 3): (x, y, z) -> (1 - y, 2 + x, 3 + z).
+Placement quarter_turn() {
+  Placement placement;
+  placement.turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  placement.shift = {1, 2, 3};
+  return placement;
+}
+
+TEST(Placement, PlacesAndReadsBack) {
+  const Placement placement = quarter_turn();
+  EXPECT_EQ(placement.point({4, 5, 6}), Vector3(-4, 6, 9));
+  EXPECT_EQ(placement.direction({4, 5, 6}), Vector3(-5, 4, 6));
+  EXPECT_EQ(placement.point_back({-4, 6, 9}), Vector3(4, 5, 6));
+  EXPECT_EQ(placement.direction_back({-5, 4, 6}), Vector3(4, 5, 6));
+  EXPECT_NEAR(
+      (some_placement().turn.transpose() * some_placement().turn - Eigen::Matrix3d::Identity()).norm(), 0.0,
+      1e-15);
+}
+
+TEST(Placement, ABlockTakesSupportsLoadsAndPointsAlong) {
+  BlockDefinition block = define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2000, 1e9, 0.2}, 1);
+  block.supports.push_back(
+      {Plane{{0, 0, 0}, Vector3::UnitX()}, {true, true, true}, {{0, 1}, {{0, 0, 0}, {1, 0, 0}}}});
+  block.loads.push_back({Vector3(1, 0, 0), false, {0, 7, 0}, {}});
+  block.followed.emplace_back(0, 1, 0);
+  const BlockDefinition turned = placed(block, quarter_turn());
+  EXPECT_EQ(turned.solid->mesh().points[0], quarter_turn().point(block.solid->mesh().points[0]));
+  EXPECT_EQ(turned.solid->faces().size(), 6U);
+  EXPECT_EQ(std::get<Plane>(turned.supports[0].where).point, Vector3(1, 2, 3));
+  EXPECT_EQ(std::get<Plane>(turned.supports[0].where).normal, Vector3::UnitY());
+  EXPECT_EQ(turned.supports[0].history.values[1], Vector3::UnitY());
+  EXPECT_EQ(std::get<Vector3>(turned.loads[0].where), Vector3(1, 3, 3));
+  EXPECT_EQ(turned.loads[0].vector, Vector3(-7, 0, 0));
+  EXPECT_EQ(turned.followed[0], Vector3(0, 2, 3));
+}
+
+TEST(Placement, SupportsOfSingleComponentsCanBeMovedButNotTurned) {
+  BlockDefinition block = define_block(Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), {2000, 1e9, 0.2}, 1);
+  block.supports.push_back({Plane{{0, 0, 0}, Vector3::UnitX()}, {true, false, false}});
+  EXPECT_THROW((void)placed(block, quarter_turn()), std::invalid_argument);
+  Placement moved;
+  moved.shift = {0, 0, 2};
+  EXPECT_EQ(std::get<Plane>(placed(block, moved).supports[0].where).point, Vector3(0, 0, 2));
+}
+
+/// What a case measures in its own place and in another. Checks whose reference is zero measure errors, which
+/// are rounding: they only have to pass.
+class TurnedCase : public testing::TestWithParam<const char*> {};
+
+TEST_P(TurnedCase, MeasuresTheSame) {
+  for (const VerificationCase& candidate : all_verification_cases()) {
+    if (std::string(candidate.name) != GetParam()) continue;
+    ASSERT_TRUE(candidate.can_be_placed());
+    const auto here = candidate.run();
+    const auto there = candidate.run_placed(some_placement());
+    ASSERT_EQ(here.size(), there.size());
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      EXPECT_TRUE(there[k].passed()) << here[k].what << ", error " << there[k].error;
+      if (here[k].reference != 0.0) {
+        EXPECT_NEAR(there[k].measured, here[k].measured, 1e-6 * std::abs(here[k].measured)) << here[k].what;
+      }
+    }
+    return;
+  }
+  FAIL() << "no such case";
+}
+
+INSTANTIATE_TEST_SUITE_P(Contact, TurnedCase,
+                         testing::Values("incline-stick", "incline-slide", "block-slide-or-topple",
+                                         "goodman-bray", "book-stack", "bounce", "rocking-block", "wedge",
+                                         "arch"));
+
+/// Four cubes let go a millimetre over the ground, each over the next: 100 steps of the tower settling.
+TEST(Tower, TurnsWithItsScene) {
+  const auto places = [](const Placement& placement) {
+    ContactScene scene(placement);
+    scene.settings.time_step = 1e-3;
+    scene.settings.search.subdivisions = 0;
+    *scene.law = {1e10, 5e9, tangent_of(35), 0.0, 0.0, true};
+    scene.add_fixed(Polyhedron(make_box({-3, -3, -1}, {3, 3, 0})));
+    for (int k = 0; k < 4; ++k) {
+      const double low = k + 1e-3 * (k + 1), off = 0.05 * k;
+      scene.add(
+          define_block(Polyhedron(make_box({off, 0, low}, {off + 1, 1, low + 1})), {2500, 1e9, 0.2}, 2));
+    }
+    Simulation simulation = scene.build();
+    for (int step = 0; step < 100; ++step) take_step(simulation, 1.0);
+    EXPECT_EQ(simulation.contacts().size(), 4U);
+    std::vector<Vector3> result;
+    for (int k = 1; k <= 4; ++k) result.push_back(placement.point_back(centroid(simulation, k)));
+    return result;
+  };
+  const std::vector<Vector3> here = places({});
+  const std::vector<Vector3> there = places(some_placement());
+  // The highest has come down by some 4 mm: a millionth of that.
+  EXPECT_LT(here[3].z(), 3.504 - 3e-3);
+  for (std::size_t k = 0; k < here.size(); ++k) EXPECT_LE((here[k] - there[k]).norm(), 4e-9) << k;
+}
+
+/// Displacements of all corners of the blocks, in the scene's own axes.
+std::vector<Vector3> corner_displacements(const Simulation& simulation, const Placement& placement) {
+  std::vector<Vector3> result;
+  for (std::size_t block = 0; block < simulation.blocks().size(); ++block) {
+    for (const Vector3& corner : simulation.blocks()[block].solid().mesh().points)
+      result.push_back(placement.direction_back(
+          simulation.blocks()[block].motion_of(simulation.states()[block], corner).displacement));
+  }
+  return result;
+}
+
+/// Two boxes of order 3 that spin and collide off-centre, their faces divided where the other is in reach: 60
+/// steps. @return places of their corners, in the scene's own axes
+std::vector<Vector3> collided(bool area_springs, const Placement& placement) {
+  ContactScene scene(placement);
+  scene.settings.gravity.setZero();
+  scene.settings.time_step = 2e-4;
+  scene.settings.area_springs = area_springs;
+  scene.settings.search.chord_tolerance = 2.7e-3;
+  scene.settings.search.subdivisions = 0;
+  const double share = area_springs ? 1.0 : 0.25;
+  *scene.law = {share * 5e9, share * 2e9, tangent_of(30), 0.0, 0.0, area_springs};
+  const Material soft{2500, 1e8, 0.2};
+  scene.add(define_block(Polyhedron(make_box({0, 0, 0}, {1, 0.8, 0.6})), soft, 3), {{5, 0, 0}, {0, 3, 1}});
+  scene.add(define_block(Polyhedron(make_box({1.02, 0.35, 0.2}, {1.6, 1.2, 1.3})), soft, 3),
+            {{-2, 0, 0.5}, {1, 0, -2}});
+  Simulation simulation = scene.build();
+  for (int step = 0; step < 60; ++step) take_step(simulation, 1.0);
+  EXPECT_GT(simulation.counts().finder.divisions, 2U);
+  EXPECT_EQ(simulation.contacts().size(), 1U);
+  return corner_displacements(simulation, placement);
+}
+
+TEST(Collision, TurnsWithItsScene) {
+  for (const bool area_springs : {true, false}) {
+    const std::vector<Vector3> here = collided(area_springs, {});
+    Placement turned;
+    turned.turn = Eigen::AngleAxisd(2.222, Vector3(3, -1, 2).normalized()).toRotationMatrix();
+    const std::vector<Vector3> there = collided(area_springs, turned);
+    // They have moved by some 5 cm: a millionth of that.
+    for (std::size_t k = 0; k < here.size(); ++k)
+      EXPECT_LE((here[k] - there[k]).norm(), 5e-8) << area_springs << ' ' << k;
+  }
+}
+
+/// An arch of nine voussoirs of order 2 that is let go: 50 steps. Their faces lie on each other but for what
+/// the springs give way. @return displacements of all corners, in the scene's own axes
+std::vector<Vector3> settled_arch(bool area_springs, const Placement& placement) {
+  ContactScene scene(placement);
+  scene.settings.time_step = 1e-3;
+  scene.settings.search.subdivisions = 0;
+  scene.settings.area_springs = area_springs;
+  const double share = area_springs ? 1.0 : 0.01;
+  *scene.law = {share * 1e10, share * 1e10, tangent_of(60), 0.0, 0.0, area_springs};
+  scene.add_fixed(Polyhedron(make_box({-2, -1, -0.5}, {2, 1, 0})));
+  constexpr int voussoirs = 9;
+  for (int k = 0; k < voussoirs; ++k) {
+    std::vector<Vector3> corners;
+    for (const int side : {k, k + 1}) {
+      const double angle = side * std::numbers::pi / voussoirs;
+      const double height = side % voussoirs == 0 ? 0.0 : std::sin(angle);
+      for (const double radius : {0.85, 1.15})
+        for (const double y : {0.0, 0.2}) corners.emplace_back(radius * std::cos(angle), y, radius * height);
+    }
+    scene.add(define_block(Polyhedron(make_convex_hull(corners)), {2500, 1e11, 0.2}, 2));
+  }
+  Simulation simulation = scene.build();
+  for (int step = 0; step < 50; ++step) take_step(simulation, 1.0);
+  EXPECT_EQ(simulation.contacts().size(), voussoirs + 1U);
+  return corner_displacements(simulation, placement);
+}
+
+TEST(Arch, TurnsWithItsScene) {
+  for (const bool area_springs : {true, false}) {
+    const std::vector<Vector3> here = settled_arch(area_springs, {});
+    const std::vector<Vector3> there = settled_arch(area_springs, some_placement());
+    double farthest = 0.0;
+    for (const Vector3& displacement : here) farthest = std::max(farthest, displacement.norm());
+    EXPECT_GT(farthest, 1e-6);
+    for (std::size_t k = 0; k < here.size(); ++k)
+      EXPECT_LE((here[k] - there[k]).norm(), 1e-6 * farthest) << area_springs << ' ' << k;
+  }
+}
+
+/// Four dominoes on a floor, the first pushed over, 40 steps; corners are turned before blocks are made of
+/// them.
+/// @return displacements of all corners, in the scene's own axes
+std::vector<Vector3> fallen_dominoes(bool augmented, const Placement& placement) {
+  const auto turned_box = [&](const Vector3& low, const Vector3& high) {
+    std::vector<Vector3> corners = make_box(low, high).points;
+    for (Vector3& corner : corners) corner = placement.point(corner);
+    return make_hull_solid(corners, 1e-12);
+  };
+  ContactScene scene;
+  scene.settings.gravity = placement.direction({0, 0, -9.81});
+  scene.settings.time_step = 5e-3;
+  scene.settings.augmented = augmented;
+  // Cohesion counts where pressure ends, too.
+  *scene.law = {1e10, 1e10, tangent_of(10), 2e5, 0.0, true};
+  scene.add_fixed(turned_box({-1.6, -1.6, -0.5}, {5.1, 1.6, 0}));
+  for (int k = 0; k < 4; ++k) {
+    const double x = 0.9 * k;
+    InitialMotion pushed;
+    if (k == 0) pushed = {placement.direction({0.9, 0, 0.2}), placement.direction({0, 1.2, 0})};
+    scene.add(define_block(turned_box({x, -0.55, 0}, {x + 0.33, 0.55, 1.6}), {2900, 1.4e9, 0.2}, 1), pushed);
+  }
+  Simulation simulation = scene.build();
+  for (int step = 0; step < 40; ++step) take_step(simulation, 1.0);
+  EXPECT_LE(simulation.ledger().refound_gained, 1e-8 * simulation.largest_energy()) << augmented;
+  return corner_displacements(simulation, placement);
+}
+
+TEST(Dominoes, TurnWithTheirScene) {
+  for (const bool augmented : {false, true}) {
+    const std::vector<Vector3> here = fallen_dominoes(augmented, {});
+    const std::vector<Vector3> there = fallen_dominoes(augmented, some_placement());
+    ASSERT_EQ(here.size(), there.size());
+    // The first has moved by some 0.2 m.
+    for (std::size_t k = 0; k < here.size(); ++k)
+      EXPECT_LE((here[k] - there[k]).norm(), 2e-7) << augmented << ' ' << k;
+  }
+}
+
+/// 100 steps through the impact of the paper's example.
+TEST(FallingBlock, TurnsWithItsScene) {
+  FallingBlock example;
+  example.drop = 0.01;
+  example.speed = 4.4;
+  const auto places = [&](const Placement& placement) {
+    Simulation simulation = falling_block(example, placement);
+    int pressed = 0;
+    for (int k = 0; k < 100; ++k) {
+      take_step(simulation, 1.0);
+      if (simulation.report().locked + simulation.report().sliding > 0) ++pressed;
+    }
+    EXPECT_GT(pressed, 10);
+    std::vector<Vector3> result;
+    for (std::size_t block = 0; block < 2; ++block) {
+      for (const Vector3& corner : simulation.blocks()[block].solid().mesh().points) {
+        const PointMotion motion = simulation.blocks()[block].motion_of(simulation.states()[block], corner);
+        result.push_back(placement.direction_back(motion.displacement));
+        result.push_back(placement.direction_back(motion.velocity));
+      }
+    }
+    return result;
+  };
+  const std::vector<Vector3> here = places({});
+  const std::vector<Vector3> there = places(some_placement());
+  // Points have moved by 0.1 to 1 m, at some m/s.
+  for (std::size_t k = 0; k < here.size(); ++k) EXPECT_LE((here[k] - there[k]).norm(), 1e-6) << k;
+}
+
+}  // namespace
+}  // namespace ashlar

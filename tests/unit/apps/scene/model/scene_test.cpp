@@ -1,0 +1,49 @@
+#include "apps/scene/model/scene.hpp"
+
+#include <gtest/gtest.h>
+
+namespace ashlar::test {
+namespace {
+
+Scene scene_with_joints() {
+  Scene scene;
+  scene.contact.law.friction_angle = 30.0;
+  scene.contact.law.normal_stiffness = 1e9;
+  scene.contact.law.cohesion = 7.0;
+  SceneJoint all, special;
+  all.blocks = {"*", "*"};
+  all.friction_angle = 20.0;
+  special.blocks = {"A", "B*"};
+  special.friction_angle = 10.0;
+  special.normal_stiffness.emplace(std::nullopt);
+  special.tied = true;
+  scene.joint = {all, special};
+  return scene;
+}
+
+TEST(Scene, LastMatchingJointWinsKeyByKey) {
+  const SceneJointLaw law = joint_law_between(scene_with_joints(), "B1", "A");
+  EXPECT_EQ(law.friction_angle, 10.0);
+  EXPECT_FALSE(law.normal_stiffness.has_value());  // given as "auto"
+  EXPECT_EQ(law.cohesion, 7.0);                    // from [contact]
+  EXPECT_TRUE(law.tied);
+}
+
+TEST(Scene, OtherPairsKeepWhatMatchesThem) {
+  const SceneJointLaw law = joint_law_between(scene_with_joints(), "B1", "B2");
+  EXPECT_EQ(law.friction_angle, 20.0);
+  EXPECT_EQ(law.normal_stiffness, 1e9);
+  EXPECT_FALSE(law.tied);
+}
+
+TEST(Scene, FindsMaterialsByName) {
+  Scene scene;
+  scene.material.resize(2);
+  scene.material[0].name = "rock";
+  scene.material[1].name = "soil";
+  EXPECT_EQ(find_material(scene, "soil"), &scene.material[1]);
+  EXPECT_EQ(find_material(scene, "Soil"), nullptr);
+}
+
+}  // namespace
+}  // namespace ashlar::test
