@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "../run_fixture.hpp"
+#include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/apps/view/packed_reader.hpp"
+#include "unit/apps/program/view/packed_reader.hpp"
 
 namespace ashlar {
 namespace {

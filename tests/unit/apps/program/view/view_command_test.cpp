@@ -15,7 +15,7 @@
 #include "apps/program/view/view_file.hpp"
 #include "apps/results/frames/vtu_reader.hpp"
 #include "support/temporary_folder.hpp"
-#include "unit/apps/view/packed_reader.hpp"
+#include "unit/apps/program/view/packed_reader.hpp"
 
 namespace ashlar {
 namespace {
