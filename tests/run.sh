@@ -37,6 +37,12 @@ say() { printf '\n=== %s\n' "$*"; }
 
 sources() { find geometry mechanics solver apps tests \( -name '*.cpp' -o -name '*.hpp' \) -print0 | sort -z; }
 
+# Skipped without a history, as in an archive of the sources.
+check_subjects() {
+  say 'subjects of commits'
+  /usr/bin/python3 tests/docs/commit_subjects.py . || (($? == 77))
+}
+
 check_format() {
   say 'format'
   sources | xargs -0 clang-format --dry-run -Werror
@@ -73,6 +79,7 @@ if command -v ccache >/dev/null; then
   export CCACHE_SLOPPINESS=pch_defines,time_macros # without it ccache keeps nothing that uses precompiled headers
 fi
 
+check_subjects
 [[ $format == no ]] || check_format
 for preset in "${presets[@]}"; do
   build_and_test "$preset"
