@@ -216,11 +216,11 @@ void bind_block(py::module_& module) {
   const py::arg points("points");
   const py::arg_v extrapolate = py::arg("extrapolate") = false;
   py::class_<CoreBlock>(module, "Block", made_here(),
-                        R"(A block of a simulation, at the simulation's present time.
+                        R"(A block of a simulation at its present time.
 
-Points are those of the placed, undeformed block. A point that is farther from it than a millionth of the diagonal of its
-box raises ValueError, which tells the distance; extrapolate=True evaluates the block's polynomial there all the same. Where the
-block is not present, what it does raises RuntimeError; its shape, volume and mass can be asked for.)")
+Points are material points of the placed, undeformed block. A point outside it by more than a millionth of the diagonal of its
+box raises ValueError with the distance; extrapolate=True evaluates the block's polynomial there. If the block is not present,
+its motion and stress raise RuntimeError; its shape, volume and mass stay available.)")
       .def_property_readonly("name", of_block([](const BlockModel& b) { return b.name(); }))
       .def_property_readonly("order", of_block([](const BlockModel& b) { return b.rigid() ? 0 : b.order(); }))
       .def_property_readonly("fixed", of_block([](const BlockModel& b) { return b.fixed(); }))
@@ -229,20 +229,20 @@ block is not present, what it does raises RuntimeError; its shape, volume and ma
           [](const CoreBlock& b) {
             return b.of->with_run([&](const SceneRun& run) { return run.present(b.index); });
           },
-          "Whether it is there in the present stage: stages remove blocks, and add others later.")
+          "True if the block exists in the present stage; stages remove and add blocks.")
       .def_property_readonly("volume", of_block([](const BlockModel& b) { return b.basis().volume(); }),
-                             "Undeformed, m^3.")
+                             "Volume of the undeformed block, m^3.")
       .def_property_readonly("mass", of_block([](const BlockModel& b) { return b.mass(); }),
                              "kg; 0 if fixed.")
       .def_property_readonly("coefficients", &CoreBlock::coefficients,
                              "Coefficients of the position, (p, 3), m^5/2.")
-      .def_property_readonly("vertices", &CoreBlock::vertices, "Of the placed, undeformed block, (n, 3), m.")
+      .def_property_readonly("vertices", &CoreBlock::vertices, "Corners of the placed, undeformed block, (n, 3), m.")
       .def_property_readonly("triangles", &CoreBlock::triangles,
-                             "Of its surface, (m, 3), indices of vertices.")
+                             "Triangles of the surface, (m, 3), indices of vertices.")
       .def("positions", vectors_of(&PointMotion::place), points, extrapolate,
-           "Where points of the placed, undeformed block are now: (n, 3) -> (n, 3), m.")
+           "Present positions of points of the placed, undeformed block: (n, 3) -> (n, 3), m.")
       .def("displacements", vectors_of(&PointMotion::displacement), points, extrapolate,
-           "How far such points have gone since they were placed: (n, 3) -> (n, 3), m.")
+           "Displacements of such points since placement: (n, 3) -> (n, 3), m.")
       .def("velocities", vectors_of(&PointMotion::velocity), points, extrapolate,
            "Velocities of such points: (n, 3) -> (n, 3), m/s.")
       .def("stress", &CoreBlock::stress, points, extrapolate,

@@ -40,7 +40,7 @@ class SceneError(ValueError):
 
 
 class Scene:
-    """A checked scene. Made by Scene.load or Scene.from_dict; can be pickled."""
+    """A checked scene, created by Scene.load or Scene.from_dict; can be pickled."""
 
     def __init__(self, text, file, overrides=()):
         if isinstance(overrides, str):
@@ -57,11 +57,11 @@ class Scene:
 
     @classmethod
     def from_dict(cls, values, folder="."):
-        """A scene from a dictionary with the keys of a scene file. Numpy's arrays and tuples may stand for lists, its
-        numbers for Python's, paths for texts.
+        """A scene from a dictionary with the keys of a scene file. Numpy arrays and tuples are accepted as lists, numpy
+        numbers as numbers, paths as texts.
 
-        folder: that relative paths of the scene start from. Raises SceneError, whose lines are those of `text`; TypeError
-        or ValueError, with the key ("block.0.box.min"), for what is no value of a scene file, as None.
+        folder: base of relative paths of the scene. Raises SceneError, whose lines are those of `text`; TypeError or
+        ValueError, with the key ("block.0.box.min"), for values that a scene file cannot have, such as None.
         """
         return cls(_to_toml(values), _os.path.join(str(folder), "scene.toml"))
 
@@ -72,7 +72,7 @@ class Scene:
 
     @property
     def warnings(self):
-        """What is hardly meant, as the faults of SceneError."""
+        """Warnings of implausible values, in the form of SceneError.faults."""
         return self._core.faults()
 
     def to_dict(self):
@@ -80,9 +80,9 @@ class Scene:
         return _json.loads(self._core.json())
 
     def simulation(self, threads=1):
-        """A simulation at its start. Of a scene in stages it goes through them one after the other.
+        """A simulation at its start. It passes through all stages of a staged analysis.
 
-        Raises ValueError for a search for a factor (analysis.type), which is many analyses: `run` does that.
+        Raises ValueError for a search for a factor (analysis.type), which needs many analyses: use `run`.
         """
         return Simulation(self, threads)
 
@@ -120,22 +120,22 @@ class _Blocks:
 
 
 class Simulation:
-    """A run, step by step. Made by Scene.simulation."""
+    """A run, step by step, created by Scene.simulation."""
 
     def __init__(self, scene, threads=1):
         self._core = _core.simulation(scene._core, threads)
 
     def step(self):
-        """Takes one step, or one iteration of a static analysis. Returns whether there is more to do.
+        """Takes one step, or one iteration of a static analysis. Returns False at the end of the run.
 
-        Raises RuntimeError if the step cannot be taken: the state is then that before it and can be read and written, the
+        Raises RuntimeError if the step fails: the state is then that before the step and can be read and written, the
         status is failed, and each further call raises the same again.
         """
         return self._core.step()
 
     def run(self, until=None, callback=None):
-        """Steps until a time (s), or to the end. callback(simulation) is called after each step; if it returns False
-        the run stops there. Returns the status. Raises RuntimeError as step does."""
+        """Steps until a time (s), or to the end. callback(simulation) is called after each step; the run stops if it
+        returns False. Returns the status. Raises RuntimeError like step."""
         if until is not None and until != until:
             raise ValueError(f"until is no time ({until}), s are needed")
         if self.status == "failed":
@@ -155,32 +155,32 @@ class Simulation:
 
     @property
     def time(self):
-        """s, of the present stage"""
+        """Time in the present stage, s."""
         return self._core.time
 
     @property
     def steps(self):
-        """Accepted steps so far."""
+        """Number of accepted steps."""
         return self._core.steps
 
     @property
     def history(self):
-        """The columns of history.csv, a numpy array each with a value for the start and each step."""
+        """The columns of history.csv by name: numpy arrays with a value for the start and each step."""
         return self._core.history()
 
     @property
     def blocks(self):
-        """Blocks by name: simulation.blocks["name"]; of a scene in stages those of all stages (Block.present)."""
+        """Blocks by name: simulation.blocks["name"]; those of all stages (see Block.present)."""
         return _Blocks(self._core)
 
     @property
     def message(self):
-        """What moves, or why a run failed; empty: nothing to tell."""
+        """The motion found, or the reason of a failure; may be empty."""
         return self._core.message
 
     @property
     def stage(self):
-        """1-based number of the present stage; 0: the scene has none."""
+        """Number of the present stage, from 1; 0 for a scene without stages."""
         return self._core.stage
 
     def set_load_factor(self, block, load, factor):
@@ -191,23 +191,23 @@ class Simulation:
         self._core.set_load_factor(block, load, factor)
 
     def contacts(self):
-        """The contact points of the last step, a structured array: a, b (numbers of the blocks), place, normal, force on a
-        (3 each; m, 1, N), gap (m), area (m^2), type, state (0 open, 1 locked, 2 sliding)."""
+        """The contact points of the last step as a structured array: a, b (numbers of the blocks), place, normal, force on
+        a (3 each; m, 1, N), gap (m), area (m^2), type, state (0 open, 1 locked, 2 sliding)."""
         return self._core.contacts()
 
     def record(self, folder):
-        """Writes each step from now on into a new result folder, frames where they are due, and at the end the summary."""
+        """Writes each further step into a new result folder, with frames as output asks, and the summary at the end."""
         self._core.record(str(folder))
 
     def write(self, folder):
-        """Writes the history, the present state and a summary as a result folder, in place of one that is there."""
+        """Writes the history, the present state and a summary as a result folder; replaces an existing one."""
         self._core.write(str(folder))
 
 
 def run(scene, out, overrides=(), threads=1, resume=False, force=False):
-    """Runs a scene (a path or a Scene) as `ashlar run` does. Returns the summary, a dictionary.
+    """Runs a scene (a path or a Scene) like `ashlar run`. Returns the summary, a dictionary.
 
-    Raises ValueError for bad input, RuntimeError for a run that failed (its summary is in the folder), KeyboardInterrupt.
+    Raises ValueError for bad input, RuntimeError for a failed run (its summary is in the folder), KeyboardInterrupt.
     """
     if threads < 1:
         raise ValueError(f"threads are too few ({threads}), 1 or more are needed")
@@ -227,7 +227,7 @@ def run(scene, out, overrides=(), threads=1, resume=False, force=False):
 
 
 def _mesh_file(mesh, folder, name):
-    """The path of a mesh: as it is, or of a pair (points (n, 3), triangles (m, 3)) written as OFF."""
+    """The path of a mesh: the given path, or that of a pair (points (n, 3), triangles (m, 3)) written as OFF."""
     if isinstance(mesh, (str, _os.PathLike)):
         return str(mesh)
     points, triangles = (_numpy.asarray(part) for part in mesh)
@@ -241,7 +241,7 @@ def _mesh_file(mesh, folder, name):
 
 
 def contacts(a, b):
-    """The exact contact report of two meshes, as of `ashlar contacts --json`. a, b: paths, or (points, triangles)."""
+    """The exact contact report of two meshes, as by `ashlar contacts --json`. a, b: paths, or (points, triangles)."""
     with _tempfile.TemporaryDirectory() as folder:
         return _json.loads(_core.contacts(_mesh_file(a, folder, "a.off"), _mesh_file(b, folder, "b.off")))
 
@@ -255,7 +255,7 @@ def integrate(mesh, degree):
 
 
 def blocks(scene):
-    """The blocks of a scene (a path or a Scene): volumes, neighbours, areas, as of `ashlar blocks --json`."""
+    """The blocks of a scene (a path or a Scene): volumes, neighbours, areas, as by `ashlar blocks --json`."""
     if not isinstance(scene, Scene):
         scene = Scene.load(scene)
     return _json.loads(scene._core.blocks_json())

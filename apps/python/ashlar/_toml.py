@@ -1,4 +1,4 @@
-"""Python values as TOML, for scenes that are made by programs."""
+"""Conversion of Python values to TOML, for scenes from dictionaries."""
 
 import collections.abc
 import decimal
@@ -11,10 +11,10 @@ import numpy
 
 
 def to_toml(values):
-    """A dictionary as the text of a TOML file: every key of the top on a line of its own.
+    """Converts a dictionary to the text of a TOML file, with each top-level key on a line of its own.
 
-    Texts, paths, booleans, numbers, sequences and mappings are taken, and numpy's numbers and arrays for Python's.
-    Raises TypeError or ValueError, which name the key, for anything else.
+    Accepts texts, paths, booleans, numbers, sequences and mappings, and numbers and arrays of numpy.
+    Raises TypeError or ValueError, with the key, for anything else.
     """
     if not isinstance(values, collections.abc.Mapping):
         raise TypeError(f"a scene is a dictionary, not {_kind(values)}")
@@ -27,7 +27,7 @@ def _kind(value):
 
 
 def _text(text, path):
-    """JSON's escapes are TOML's, but that TOML has no surrogate pairs."""
+    """JSON's escapes are valid in TOML, except for surrogate pairs."""
     try:
         text.encode("utf-8")
     except UnicodeEncodeError as fault:
