@@ -7,7 +7,7 @@ namespace ashlar {
 
 namespace {
 
-// The corner with the least w . x as far as rounding shows; any answer is allowed.
+// The corner with the least w . x up to rounding error; any answer is allowed.
 int lowest(std::span<const Vector3> points, const Vector3& w) {
   int best = 0;
   double value = w.dot(points[0]);
@@ -41,7 +41,7 @@ class ExactSimplexSearch {
 
  private:
   [[nodiscard]] Difference corner(const CornerPair& p) const { return {&a_[p.a], &b_[p.b]}; }
-  // q - p as corners of D, without the half that cancels.
+  // q - p as corners of D, without the cancelling half.
   [[nodiscard]] Difference between(const CornerPair& p, const CornerPair& q) const {
     if (p.b == q.b) return {&a_[q.a], &a_[p.a]};
     if (p.a == q.a) return {&b_[p.b], &b_[q.b]};

@@ -27,7 +27,7 @@ class ContactReport {
 
   ConvexContact run(const std::optional<Entrance>& history, const CrossingDetail& detail) {
     const CornerSimplex guess = guess_closest_simplex(a_.corners(), b_.corners());
-    // A guess that found the origin inside is worth asking for a separating direction first.
+    // If the initial simplex contains the origin, a separating direction is searched first.
     if (guess.size < 4 || !intersecting(history, detail)) {
       ClosestSimplex closest = find_closest_simplex(a_, b_, guess, ladder_);
       if (!closest.contains_origin)

@@ -2,8 +2,8 @@
 // each facet plane each corner lies, and on which side of each edge of a facet a piercing edge passes.
 //
 // An edge enters a solid through the plane it goes through last on its way in, and leaves through the first
-// one on its way out. The floating heights of its ends bound where it goes through each plane, and that
-// settles almost all; where planes are too near to each other (those of a face that rounding has bent), the
+// one on its way out. The floating heights of its ends bound its parameter at each plane, and that
+// decides almost all cases; where planes are too near to each other (those of a face that rounding has bent), the
 // sides of the facets' edges decide.
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ void for_each_bit(Word bits, int first, Visit visit) {
   for (; bits != 0; bits &= bits - 1) visit(first + std::countr_zero(bits));
 }
 
-// All that one shape's corners and edges do with the facets of the other.
+// Relations of the corners and edges of one shape to the facets of the other.
 class CrossingVertices {
  public:
   CrossingVertices(const PlaneHeights& heights, PredicateLadder& ladder)
@@ -86,7 +86,7 @@ class CrossingVertices {
   }
 
   // The same where the edge goes through the solid's boundary in f or in `partner` and in no other facet:
-  // only the edge between the two has to be looked at.
+  // only the edge between the two has to be tested.
   [[nodiscard]] ContactFeature locate_piercing(int e, int f, int partner) {
     const std::span<const int> loop = other_.facet(f), sides = other_.edges_of_facet(f);
     for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -147,7 +147,7 @@ class CrossingVertices {
     const std::size_t i = index(v, f / word_bits);
     return static_cast<int>(outside_[i] >> shift & 1U) - static_cast<int>(inside_[i] >> shift & 1U);
   }
-  // No branch predictor knows the sides of random corners, so there is no branch but for doubts.
+  // The sides of random corners are unpredictable, so only undecided signs cause a branch.
   void find_sides(int v, int word) {
     const int first = word * word_bits;
     Word outside = 0, inside = 0;

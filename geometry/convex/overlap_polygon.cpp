@@ -93,8 +93,8 @@ bool on_side(const PlaneLocation& location, int s, int n) {
   return location.dimension == 0 && (location.index == s || location.index == (s + 1) % n);
 }
 
-// 1 if the side of one polygon enters the other one where it meets it at `location`, -1 if it leaves: the end
-// it comes from, or goes to, is beyond a side of the other that the location is on.
+// 1 if the side of one polygon enters the other one at `location`, -1 if it leaves: its start, or its end, is
+// beyond a side of the other that contains the location.
 int enters(const PlaneLocation& location, int side, const SideSigns& other_side, int other_size) {
   for (int s = 0; s < other_size; ++s) {
     if (!on_side(location, s, other_size)) continue;
@@ -104,8 +104,8 @@ int enters(const PlaneLocation& location, int side, const SideSigns& other_side,
   return 0;
 }
 
-// Which of the two overlap vertices on one side of a polygon comes first along it. `own` and `other` pick the
-// location in the polygon itself and in the other one.
+// The first of the two overlap vertices along one side of a polygon. `own` and `other` select the location in
+// the polygon itself and in the other one.
 template <class Own, class Other>
 bool comes_first(const std::array<const OverlapVertex*, 2>& vertices, int side, const SideSigns& other_side,
                  int other_size, Own own, Other other) {

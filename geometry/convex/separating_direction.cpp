@@ -19,8 +19,8 @@ Difference edge_vector(const ConvexShape& s, int e) {
   return {&s.corners()[c[1]], &s.corners()[c[0]]};
 }
 
-// Signs of the edge vectors of one shape along the facet normals of the other: all that decides which pairs
-// of edges make a facet of D. A row of bits for each facet, a bit for each edge.
+// Signs of the edge vectors of one shape along the facet normals of the other, which decide the pairs of edges
+// that form a facet of D. A row of bits for each facet, a bit for each edge.
 class EdgeSides {
  public:
   using Word = std::uint64_t;
@@ -40,7 +40,7 @@ class EdgeSides {
     for (int f = 0; ladder.floating && f < facets_.facet_count(); ++f) fill(f, heights);
   }
   [[nodiscard]] int word_count() const { return word_count_; }
-  /// Edges whose sign along a facet's normal is `sign`, or not settled or zero.
+  /// Edges whose sign along a facet's normal is `sign`, or undecided or zero.
   [[nodiscard]] Word perhaps(int sign, int facet, int word) const {
     const int last = edge_count_ - word * word_bits;
     const Word valid = last < word_bits ? ~(all << static_cast<unsigned>(last)) : all;
@@ -60,7 +60,7 @@ class EdgeSides {
   [[nodiscard]] std::size_t index(int facet, int word) const {
     return static_cast<std::size_t>(facet) * word_count_ + word;
   }
-  // An edge vector's height is the difference of those of its ends. Signs of random edges are not predicted
+  // The height of an edge vector is the difference of those of its ends. Signs of random edges are not predicted
   // by any branch predictor, so there is no branch.
   void fill(int f, const PlaneHeights& heights) {
     const double* const height = heights.row(f);
@@ -196,7 +196,7 @@ class EntranceSearch {
     const double* const height = heights.row(facet);
     return height[edge.corners[1]] - height[edge.corners[0]];
   }
-  // Of an edge of A along the normal of a facet of B.
+  // Sign of an edge of A along the normal of a facet of B.
   [[nodiscard]] int sign_of_edge(int edge, int facet) {
     if (ladder_.floating) {
       const double height = edge_height(heights_.above_b, facet, a_.edges()[edge]);
@@ -207,8 +207,8 @@ class EntranceSearch {
     }
     return sign_along(b_.facet_normal(facet), edge_vector(a_, edge), ladder_);
   }
-  // Collects the pairs that the floating signs do not rule out, with as few branches as bits allow: nothing
-  // about them can be predicted.
+  // Collects the pairs that the floating signs do not rule out, by bits instead of branches, because the signs
+  // are unpredictable.
   void find_edge_pairs(const EdgeSides& edges_of_b, int a_back, int b_back) {
     using Word = EdgeSides::Word;
     constexpr int word_bits = EdgeSides::word_bits;
@@ -265,7 +265,7 @@ class EntranceSearch {
     settle(support_of(entrance));
   }
 
-  // Exact support along an entrance; that of its own features is known.
+  // Exact support along an entrance; the support of its own features is known.
   [[nodiscard]] Support support_of(const Entrance& entrance) {
     Support s;
     s.entrance = entrance;

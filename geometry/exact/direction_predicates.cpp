@@ -1,5 +1,5 @@
-// Longer than other sources, and that of three headers: CGAL's numbers, in which directions, predicates and
-// constructions are all evaluated, stay in one source.
+// One source for three headers: directions, predicates and constructions share CGAL's number types, which no
+// header exposes.
 #include "geometry/exact/direction_predicates.hpp"
 
 #include <CGAL/Gmpq.h>

@@ -6,7 +6,7 @@ namespace ashlar {
 
 namespace {
 
-// Several numbers at a time: both heights, or the coordinates.
+// Several numbers in one vector: both heights, or the coordinates.
 template <int n>
 using Lanes = Eigen::Array<double, n, 1>;
 
@@ -29,7 +29,7 @@ template <class L>
   rest = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
 }
 
-// high + low is off by at most error.
+// The error of high + low is at most `error`.
 struct Heights {
   Lanes<2> high, low, size, error;
 };
