@@ -1,7 +1,7 @@
-// All that the user can change, and the part of the address behind # that says it: what one sees can be sent as a link,
-// and is what `ashlar picture` asks for. apps/docs/reference/page.md lists the keys.
+// State that the user can change, and its text in the address behind #: a view can be sent as a link, and
+// `ashlar picture` requests views in this form. apps/docs/reference/page.md lists the keys.
 
-/// Members of `current` that the address has as words or numbers: key of the address, member, and the values that it may
+/// Members of `current` that the address contains as words or numbers: key of the address, member, and the values that it may
 /// have (a list of words, "number", "positive" or "text").
 const YES = ["yes", "no"];
 const ADDRESS_KEYS = [
@@ -44,7 +44,7 @@ function readSection(text) {
   if (side && Number.isFinite(Number(at))) Object.assign(current, {section: side, sectionAt: Number(at)});
 }
 
-/// Number of a block that the address calls by it or by its name; -1: there is none.
+/// Number of a block given by number or name in the address; -1: there is none.
 function blockCalled(text) {
   const named = data.blocks.findIndex((block) => block.name === text);
   return named < 0 && /^\d+$/.test(text) && Number(text) in data.blocks ? Number(text) : named;

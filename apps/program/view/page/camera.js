@@ -73,7 +73,7 @@ function fittedParallel(right, up) {
   return {target, half: 0.5 * metresOfPixel * frameSize.height};
 }
 
-/// Where to look and from how far so that the scene fills what legend, heading and player leave free.
+/// Target and distance at which the scene fills the area left free by legend, heading and player.
 /// @param toEye unit vector; right, up those of the picture
 function fitted(toEye, right, up) {
   const {height} = frameSize;
@@ -121,7 +121,7 @@ function chooseCamera() {
 /// Radii of the scene to the eye of a parallel view, where the distance has no influence on sizes.
 const PARALLEL_DISTANCE = 20;
 
-/// Looks at the middle of the scene, or at `current.at`, `current.zoom` times as near as to see all.
+/// Looks at the centre of the scene, or at `current.at`, magnified by `current.zoom`.
 function lookFrom(direction) {
   const toEye = direction.clone().normalize();
   chooseCamera();
@@ -151,7 +151,7 @@ function noteView() {
   current.zoom = whole.half ? whole.half * camera.zoom / camera.half : whole.distance / distance;
 }
 
-/// The scene is drawn in the middle of what is left free.
+/// The scene is drawn in the centre of the free area.
 /// @param size width and height of the canvas, and its margins: left, top, bottom; pixels
 function setFrame(size) {
   Object.assign(frameSize, size);
@@ -232,7 +232,7 @@ function renderTurning() {
   if (!renderer || !sharpness.isTurning) return render();
   const start = performance.now();
   render();
-  // Drawing is done when a pixel can be read.
+  // Reading a pixel waits for the end of drawing.
   const context = renderer.getContext();
   context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
   const took = performance.now() - start;

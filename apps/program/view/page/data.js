@@ -53,7 +53,7 @@ class Frame {
     });
   }
 
-  /// One force a pair of blocks, on the first one: {a, b, state, force, place}
+  /// One force for each pair of blocks, on the first one: {a, b, state, force, place}
   get links() {
     return this.part("links", (reader) => {
       const count = this.head.links;
@@ -118,7 +118,7 @@ function blocksOf(cells, given, fixed) {
     const {name, material = ""} = given[block] || {};
     blocks[block] = {name: name || "block " + block, material, order, fixed: still.has(block)};
   }
-  // Blocks that no frame has, of a run in stages.
+  // Blocks without a frame, of a staged analysis.
   for (let k = 0; k < blocks.length; ++k)
     blocks[k] = blocks[k] || {name: (given[k] || {}).name || "block " + k, material: "", order: 0, fixed: true, absent: true};
   return blocks;

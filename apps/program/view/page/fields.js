@@ -1,6 +1,6 @@
 // Colours of blocks and joints: values, their ranges, colours.
 
-// Both begin and end with colours that neither unlit stone nor a support has.
+// Both begin and end with colours different from those of unlit blocks and supports.
 const SEQUENTIAL = ["#bfe6a8", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#2b2f8f", "#3a1a6e"];
 const DIVERGING = ["#3b4cc0", "#7b9ff9", "#c0d4f5", "#f6f2e4", "#f5c4ac", "#ee8468", "#b40426"];
 const STATE_COLOURS = ["#8a8f98", "#1a9641", "#e8590c", "#b5179e"];
@@ -68,7 +68,7 @@ const JOINT_FIELDS = {
     of: (joints) => joints.state.map((state, k) => (joints.broken[k] ? 3 : state))},
 };
 
-/// Blocks are glass of one colour where joints are shown, which are coloured instead.
+/// Blocks are transparent, in one colour, where coloured joints are shown.
 const blockField = () => fields[current.joints === "none" ? current.field : "stone"];
 const mainField = () => JOINT_FIELDS[current.joints] || fields[current.field];
 
@@ -76,8 +76,8 @@ const isWhole = (field) => field.category !== undefined;
 
 // ---- ranges -----------------------------------------------------------------------------------------------
 
-/// Least and largest of some values; of signed ones even about zero, of those that count from zero on from there (an
-/// opening below zero is the depth of a closed joint); never empty.
+/// Range of some values: symmetric about zero for signed ones, from zero for those that count from zero (an opening
+/// below zero is the depth of a closed joint); never empty.
 function roundedOff(field, low, high) {
   if (!(low <= high)) return [0, 1];
   if (field.fromZero) [low, high] = [0, Math.max(0, high)];

@@ -1,11 +1,11 @@
-// Forces between blocks: contact points with the force at each; one bar a joint; the line of thrust.
+// Forces between blocks: contact points with their forces; one bar for each joint; the line of thrust.
 
 const FORCE_COLOUR = "#c00018";
 const TENSION_COLOUR = "#1f5fd8";
 const THRUST_COLOUR = "#c00018";
 
-/// More contact points than these, or not all of them in the page: they would hide the blocks. The user can still
-/// switch on what there is.
+/// Above this number, or if the page lacks some, contact points are off, because they would hide the blocks. The user
+/// can switch them on.
 const isCrowded = () => data.frames.some((frame) => frame.head.contacts > data.few_points);
 
 function discTexture() {
@@ -112,7 +112,7 @@ function forceLength(force, usual) {
   return Math.min(sceneRadius / 3 * current.forceScale * force.length() / usual, 2 / 3 * sceneRadius);
 }
 
-/// A round force and the pixels that its bar or arrow is long at the middle of the scene: what lengths mean.
+/// A round force and the length of its bar or arrow in pixels at the centre of the scene, for the legend.
 /// @param most pixels
 function forceScaleBar(usual, most) {
   const pixelsOfNewton = sceneRadius / 3 * current.forceScale / usual / lengthOfPixel();
@@ -144,7 +144,7 @@ function visibleLinks(frame) {
   });
 }
 
-/// A bar a joint, along the force, equally long to both sides: the force acts on both blocks.
+/// A bar for each joint, along the force, equally long to both sides: the force acts on both blocks.
 function placeChain(links) {
   const usual = usualForce("links");
   const bars = links.map((link) => {
@@ -156,8 +156,8 @@ function placeChain(links) {
   placeCopies(forces.ties, current.chain ? bars.filter((bar) => !bar.presses) : []);
 }
 
-/// Through each block that moves from joint to joint: straight where there are two, by the mean of their places, weighed
-/// with the forces, where there are more.
+/// Lines from joint to joint through each moving block: straight for two joints, through the mean of their places
+/// weighted with the forces for more.
 function thrustLines(links) {
   const ofBlock = new Map();
   for (const link of links) {
@@ -191,7 +191,7 @@ function placeForces(frame) {
   setWideLines(forces.thrust, current.thrust ? thrustLines(links) : []);
 }
 
-// ---- in words ---------------------------------------------------------------------------------------------
+// ---- descriptions ---------------------------------------------------------------------------------------------
 
 /// {name, colour} of points, bars and lines in a frame.
 function forceKinds(frame) {

@@ -16,7 +16,7 @@ function buildJoints() {
   return {faces, rims};
 }
 
-/// Lines of some pixels' width, which WebGL's own have not. @see setWideLines
+/// Lines of some pixels' width, which WebGL does not draw. @see setWideLines
 function wideLines(width, colour = "#ffffff", inFront = false) {
   const material = new THREE.LineMaterial({linewidth: width, color: colour,
     vertexColors: colour === "#ffffff" ? THREE.VertexColors : THREE.NoColors, depthTest: !inFront, transparent: inFront});
@@ -26,7 +26,7 @@ function wideLines(width, colour = "#ffffff", inFront = false) {
   return lines;
 }
 
-/// @param places, colours flat lists, two ends a line
+/// @param places, colours flat lists, two ends for each line
 function setWideLines(lines, places, colours) {
   lines.visible = places.length > 0;
   if (!lines.visible) return;

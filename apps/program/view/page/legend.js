@@ -12,7 +12,7 @@ function drawText(context, text, x, y, colour = theme().text) {
   context.fillText(text, x, y);
 }
 
-/// Text in lines that are no wider than some pixels, if its words are not. @return where the next line may be
+/// Text wrapped to a width in pixels, unless a word is wider. @return position of the next line
 function drawWrapped(context, text, x, y, width) {
   let line = "";
   for (const word of text.split(" ")) {
@@ -87,7 +87,7 @@ function drawLengthKind(context, {name, colour, bar}, {x, y}) {
   return y + 32;
 }
 
-/// Names with a mark of their colour, one below the other. @return where the next thing may be
+/// Names with a mark of their colour, one below the other. @return position of the next item
 function drawKinds(context, kinds, {x, y, width}) {
   for (const {name, colour, bar} of kinds) {
     if (bar) {
@@ -120,7 +120,7 @@ function drawKindsInLines(context, kinds, {x, y, width}) {
   }
 }
 
-/// Kinds of blocks, of as many as there is room for.
+/// Kinds of blocks, as many as fit.
 function categoryKinds(field, most) {
   if (field.plain) return [];
   const kinds = [...new Set(data.blocks.filter((block) => !block.absent).map((block) =>

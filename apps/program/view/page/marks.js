@@ -1,6 +1,6 @@
 // Items drawn over the scene: legend, axes, scale bar.
 
-/// The three axes as one sees them, in the lower right corner.
+/// The three axes in the present view, in the lower right corner.
 function drawAxes(context, {width, height}) {
   const size = 26;
   const [x, y] = [width - 44, height - frameSize.bottom - 18];
@@ -24,14 +24,14 @@ function drawAxes(context, {width, height}) {
   context.textAlign = "left";
 }
 
-/// Metres that a pixel is wide, in a perspective at the middle of the scene.
+/// Width of a pixel, m, in a perspective at the centre of the scene.
 function lengthOfPixel() {
   if (camera.isOrthographicCamera) return 2 * camera.half / camera.zoom / frameSize.height;
   const distance = camera.position.distanceTo(controls.target);
   return 2 * distance * Math.tan(0.5 * THREE.Math.degToRad(camera.fov)) / frameSize.height;
 }
 
-/// A round length, as long as it looks at the middle of the scene: nearer things look larger.
+/// A round length at its scale at the centre of the scene; nearer objects appear larger.
 function drawScaleBar(context, {width, height}) {
   const metresOfPixel = lengthOfPixel();
   const length = roundBelow(metresOfPixel * Math.min(140, 0.3 * width));

@@ -1,7 +1,7 @@
 // The user's selection: a block, a joint, a contact point.
 
-/// @param x, y pixels from the upper left corner of the canvas. A contact within its dot comes before all, and what is
-/// nearer before what is behind it; a joint before the blocks that hide it.
+/// @param x, y pixels from the upper left corner of the canvas. A contact within its dot has priority, then the
+/// nearest item, and a joint before the blocks that hide it.
 function pick(x, y) {
   const {clientWidth: width, clientHeight: height} = element("canvas");
   const contact = contactAt(x, y, width, height);

@@ -1,6 +1,6 @@
-// The history: columns of history.csv against time, iteration or any other one; as a picture or a table to take away.
+// The history: columns of history.csv against time, iteration or any other one; export as a picture or a table.
 
-// Okabe and Ito's colours, which tell apart without colour vision, then darker ones.
+// Okabe and Ito's colours, distinct also without colour vision, then darker ones.
 const CURVE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f", "#7f3c8d",
   "#8a8a00", "#a02c2c", "#5c5c5c"];
 
@@ -179,7 +179,7 @@ function frameAtX(chart, x) {
   return nearest;
 }
 
-// ---- to take away -----------------------------------------------------------------------------------------
+// ---- export -----------------------------------------------------------------------------------------
 
 function save(name, address) {
   const link = document.createElement("a");
@@ -189,7 +189,7 @@ function save(name, address) {
 
 const fileName = (chart, suffix) => (data.name + "_" + chart.ashlar.name).replace(/[^\w.-]+/g, "_") + suffix;
 
-/// The plot on its background, which the canvas itself has not.
+/// The plot on its background, which the canvas itself does not contain.
 function plotPicture(chart) {
   const picture = document.createElement("canvas");
   Object.assign(picture, {width: chart.canvas.width, height: chart.canvas.height});

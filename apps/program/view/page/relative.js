@@ -1,8 +1,8 @@
 // Displacements relative to a block: those of a frame less the rigid motion, translation and rotation, of that block.
 //
 // With X the points of the block and x = X + u their places, c and c' the means of both, the rigid motion nearest to
-// them (least squares) takes Y to c' + R (Y - c); R is the orthogonal factor of H = sum (x - c') (X - c)^T. What is
-// shown at a point Y with displacement u is u - (c' + R (Y - c) - Y), in the axes of the scene. `current.relative` is the
+// them (least squares) maps Y to c' + R (Y - c); R is the orthogonal factor of H = sum (x - c') (X - c)^T. A point Y
+// with displacement u is shown with u - (c' + R (Y - c) - Y), in the axes of the scene. `current.relative` is the
 // number of the block; null: displacements are shown as they are.
 
 /// The orthogonal factor of a matrix of positive determinant: Newton's iteration R <- (g R + (g R)^-T) / 2, with the
@@ -65,7 +65,7 @@ function relativeDisplacements(frame, block) {
   return values;
 }
 
-/// The displacements that a frame is coloured by and that enlarged pictures enlarge.
+/// The displacements used for colours and for enlarged pictures of a frame.
 function shownDisplacement(frame) {
   if (current.relative === null) return frame.displacement;
   if (!frame.relative || frame.relative.block !== current.relative)

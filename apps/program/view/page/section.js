@@ -1,9 +1,9 @@
-// A plane that cuts the blocks open: three.js clips what is before it, the cut faces are filled here. A fill by
+// A plane that cuts the blocks open: three.js clips the part before it, the cut faces are filled here. A fill by
 // stencil would have one colour for all blocks; these have that of each block's field.
 //
 // Each triangle of a surface that the plane crosses gives a segment between two of its sides. A side has one neighbour
 // triangle, so that the segments chain to closed loops by the numbers of their sides alone; corners on the plane count as
-// before it. Loops that turn the other way round are holes.
+// before it. Loops of opposite orientation are holes.
 
 const SECTION_AXES = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]};
 const INSIDE_COLOUR = "#b9b2a6";
@@ -17,7 +17,7 @@ function buildSection() {
   return {caps, outlines, plane: new THREE.Plane()};
 }
 
-/// The plane n . x = at, n out of what is kept; null: there is none.
+/// The plane n . x = at, n out of the visible part; null: there is none.
 function sectionPlane() {
   if (current.section === "none") return null;
   const [axis, sign] = [current.section.slice(-1), current.section.startsWith("-") ? -1 : 1];
@@ -25,13 +25,13 @@ function sectionPlane() {
   return {normal, at: sign * current.sectionAt};
 }
 
-/// True if something at a place is shown.
+/// True if a place is in the visible part.
 function isKept(place) {
   const cut = sectionPlane();
   return !cut || place.dot(cut.normal) <= cut.at;
 }
 
-/// Things that the plane cuts.
+/// Items that the plane cuts.
 function clipAll() {
   const cut = sectionPlane();
   // three.js keeps the side of the normal.
@@ -41,7 +41,7 @@ function clipAll() {
     item.material.clippingPlanes = planes;
 }
 
-/// Loops of a block's surface in the plane: lists of what `crossing` makes of the two ends of a side.
+/// Loops of a block's surface in the plane: lists of the results of `crossing` for the two ends of a side.
 /// @param heights of a point over the plane
 function loopsOf(triangles, heights, crossing) {
   const next = new Map();
@@ -89,13 +89,13 @@ function isInside(point, loop) {
 /// @param loops of 2-D points that also have a place and a colour. @return triangles of such points
 function filled(loops) {
   const total = loops.map(signedArea);
-  // Which way round is outward is that of the largest loop.
+  // The largest loop has the outward orientation.
   const largest = total.reduce((most, area) => (Math.abs(area) > Math.abs(most) ? area : most), 0);
   const outer = loops.filter((_, k) => total[k] * largest > 0);
   const holes = loops.filter((_, k) => total[k] * largest < 0);
   return outer.flatMap((loop) => {
     const own = holes.filter((hole) => isInside(hole[0], loop));
-    // It takes away a last point that is the first one again.
+    // It removes a last point equal to the first one.
     const triangles = THREE.ShapeUtils.triangulateShape(loop, own);
     const all = [...loop, ...own.flat()];
     return triangles.map((triangle) => triangle.map((k) => all[k]));
@@ -169,7 +169,7 @@ function placeSection(field, range) {
   section.outlines.material.color.set(theme().edge);
 }
 
-/// Ends of the way of the plane.
+/// Ends of the range of the plane.
 function sectionWay() {
   const axis = current.section.slice(-1);
   return current.section === "none" ? [0, 1] : [sceneBox.min[axis], sceneBox.max[axis]];

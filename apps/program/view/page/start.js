@@ -76,8 +76,8 @@ async function start() {
   showFrame(current.frame);
 }
 
-/// The page counts as loading until all is shown: a browser without a window, which prints the page once it is loaded,
-/// waits for it. A frame within the page that is being written keeps the page loading; no timer would know how long.
+/// The page counts as loading until all is shown: a headless browser, which prints the page once it is loaded,
+/// waits for it. A frame within the page that is being written keeps the page loading; a timer would have to guess the time.
 async function startWhileLoading() {
   const wait = document.createElement("iframe");
   wait.hidden = true;

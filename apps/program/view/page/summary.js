@@ -8,7 +8,7 @@ const STATUS_WORDS = {
   "not converged": "not converged: no answer", failed: "failed", interrupted: "interrupted",
 };
 
-/// A coordinate to a hundred-thousandth of the scene: 1e-9 m beside metres is rounding.
+/// A coordinate rounded to a hundred-thousandth of the scene.
 const roundedPlace = (x) => Math.round(x / (1e-5 * sceneRadius)) * 1e-5 * sceneRadius;
 
 const placedText = ({value, block, place}, unit) =>

@@ -1,7 +1,7 @@
 // The blocks as three.js draws them: their surfaces and edges.
 
-/// Edges between faces that meet at less than this are not drawn: of a face that is flat but for its rounding, or of a
-/// curved one, all triangles would be.
+/// Edges between faces at smaller angles are not drawn: they would show all triangles of a curved face, or of a face
+/// that is flat up to rounding.
 const FEATURE_ANGLE = 20;
 
 /// Normal of a cell in its undeformed place, of unit length: the mean one of its triangles.
@@ -16,9 +16,9 @@ function normalOf(cell) {
   return normal.normalize();
 }
 
-/// Points are split where faces meet, so that shading is smooth inside a curved face and breaks at its rim.
-/// source: point of each render point; triangles, their blocks; edges between faces, those between faces that hardly
-/// bend there, and those inside faces.
+/// Points are split where faces meet, so that shading is smooth inside a curved face and breaks at its edges.
+/// source: point of each render point; triangles, their blocks; edges between faces, those at small angles,
+/// and those inside faces.
 function buildSurface(cells) {
   const surface = {source: [], block: [], triangles: [], triangleBlock: [], edges: [], smoothEdges: [], innerEdges: []};
   const smooth = Math.cos(THREE.Math.degToRad(FEATURE_ANGLE));
@@ -86,8 +86,8 @@ function buildMeshes(surface) {
     selection: edgeLines([], places, "#ff00aa")};
 }
 
-/// @return place of a point of a frame; displacements as they are shown are enlarged, so that what they are relative to
-/// stays in its place
+/// @return place of a point of a frame; the displayed displacements are enlarged, so that their reference stays in
+/// place
 function placeOf(frame, point, scale, into) {
   const i = 3 * point;
   const {reference} = data;
@@ -108,7 +108,7 @@ function moveSurface(frame) {
   const shown = shownDisplacement(frame);
   for (let k = 0; k < surface.source.length; ++k) {
     const i = 3 * surface.source[k];
-    // All points of a block that is hidden or not there are one: nothing is drawn of it.
+    // All points of a hidden or absent block coincide, so that it is not drawn.
     const gone = current.hidden.has(surface.block[k]) || Number.isNaN(by[i]);
     for (let c = 0; c < 3; ++c) to[3 * k + c] = gone ? from[c] : from[i + c] + by[i + c] + more * shown[i + c];
   }
@@ -128,7 +128,7 @@ function colourSurface(field, frame, range) {
   meshes.mesh.material.needsUpdate = true;
 }
 
-/// Blocks are shown as glass if they would hide items between or in them.
+/// Blocks are transparent if they would hide items between or in them.
 function styleSurface() {
   const glass = current.seeThrough || current.joints !== "none";
   Object.assign(meshes.mesh.material, {transparent: glass, opacity: current.joints !== "none" ? 0.12 : glass ? 0.35 : 1,
@@ -141,7 +141,7 @@ function styleSurface() {
 
 // ---- blocks as wholes -------------------------------------------------------------------------------------
 
-/// Mean place of the points of each block in a frame, with displacements enlarged; null of blocks that are not there.
+/// Mean place of the points of each block in a frame, with displacements enlarged; null for absent blocks.
 function blockCentres(frame) {
   const centres = data.blocks.map(() => null);
   const counts = new Float64Array(data.blocks.length);

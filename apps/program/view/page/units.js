@@ -1,4 +1,4 @@
-// Numbers for people: units of a handy size, ticks at 1, 2, 5, few digits.
+// Numbers for readers: units of a suitable size, ticks at 1, 2, 5, few digits.
 
 /// Engineers' units by SI unit, with the size from which each is used.
 const ENGINEERING = {

@@ -1,7 +1,7 @@
 // Vectors of displacement and velocity, and crosses of principal stresses.
 //
 // In a block of order 1 (or rigid) there is one of each, at its middle: motion is affine there and stress is constant.
-// In others there are some over the surface, about as far apart as a twenty-fifth of the scene.
+// Others have several over the surface, about a twenty-fifth of the scene apart.
 
 // Compression is black: the colours of stresses are blue there.
 const PRESSED_COLOUR = "#111111";
