@@ -17,7 +17,7 @@
 // not have ended the first time. Multipliers have converged too.
 // 2. Moving: a block has travelled settings.statics.travel of its size without halving its residual, or a tenth of
 // that when no iterations or cuts are left. An early stop applies to a block with constant residual that would meet
-// nothing on its way so far (straight_way.hpp). All blocks that have gone a thousandth of settings.statics.travel are
+// nothing on its way so far (certain_motion.hpp). All blocks that have gone a thousandth of settings.statics.travel are
 // listed as moving.
 // 3. Accelerations: m D is the acceleration of the blocks from rest for any m, except for the compliance of contacts
 // and blocks, which is removed unless the stiffness of a joint was given (rigid_onset.cpp). Reported is the iteration

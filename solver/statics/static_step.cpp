@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/statics/certain_motion.hpp"
 #include "solver/statics/static_verdict.hpp"
-#include "solver/statics/straight_way.hpp"
 #include "solver/step/accepted_step.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/step_problem.hpp"
@@ -143,7 +143,7 @@ class StaticIteration {
       raise = std::clamp(1.1 * motion / run_.settings().statics.motion, 2.0, 1e4);
       return std::nullopt;
     }
-    way_on_ = straight_way(run_, scheme, problem_, found_, far_);
+    certain_motion_ = certain_motion(run_, scheme, problem_, found_, far_);
     const std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
     if (const auto passing = run_.contacts.check_motion(run_.system, run_.state, after, found_);
         !passing.empty()) {
@@ -179,14 +179,14 @@ class StaticIteration {
     StaticState& statics = run_.state.statics;
     const std::array<int, 3> before = contact_states(run_.state.report);
     const bool balanced = note_balance(run_, scheme, problem_);
-    if (is_settled(problem_)) note_way_on(run_, way_on_);
+    if (is_settled(problem_)) note_certain_motion(run_, certain_motion_);
     if (balanced) {
       forget_accelerations(run_);
     } else {
       note_accelerations(run_, scheme, problem_);
     }
     const bool repeat = multipliers_repeat(run_, problem_);
-    note_lacking(run_, scheme, problem_);
+    note_residuals(run_, scheme, problem_);
     accept(run_, scheme, problem_);
     run_.state.report.step = step_of(scheme);
     if (statics.freezes_failure && (balanced || has_set_off(run_))) let_bonds_go(run_);
@@ -228,7 +228,7 @@ class StaticIteration {
   double least_;  ///< inertia, 1/s^2
   std::vector<FoundContacts> found_;
   StepProblem problem_;
-  StraightWay way_on_;
+  CertainMotion certain_motion_;
   bool cut_ = false;
   bool cut_to_touch_ = false;
 };

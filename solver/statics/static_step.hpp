@@ -9,7 +9,7 @@
 namespace ashlar {
 
 /// Takes one iteration towards equilibrium under the loads of `end_time`, or starts a load level.
-/// @param far in block sizes, > 0: blocks that are certain to go so far are moving (straight_way.hpp)
+/// @param far in block sizes, > 0: blocks that are certain to go so far are moving (certain_motion.hpp)
 /// @throws std::logic_error if a block is incremental
 [[nodiscard]] StaticStatus static_step(const RunContext& run, double end_time, double far);
 

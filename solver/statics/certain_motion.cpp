@@ -1,4 +1,4 @@
-#include "solver/statics/straight_way.hpp"
+#include "solver/statics/certain_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,78 +20,83 @@ Eigen::MatrixX3d residual_of(const TimeScheme& scheme, const BodyStep& body) {
   return body.model->material().density * scheme.inertia * body.model->space().expand(body.change);
 }
 
-class WayOn {
+class MotionExtrapolation {
  public:
-  WayOn(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem, double far)
-      : run_(run), problem_(problem), far_(far), goes_(run.blocks().size(), false), ways_(goes_.size(), 0.0) {
+  MotionExtrapolation(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem, double far)
+      : run_(run),
+        problem_(problem),
+        far_(far),
+        goes_(run.blocks().size(), false),
+        displacements_(goes_.size(), 0.0) {
     const std::vector<bool> held = run.system.held_without_contacts();
     for (std::size_t k = 0; k < goes_.size(); ++k) {
       if (!run.system.moving()[k]) continue;
       const BodyStep& body = problem.bodies[k];
-      ways_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
-      goes_[k] = !held[k] && lacks_the_same(scheme, k);
+      displacements_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
+      goes_[k] = !held[k] && residual_is_constant(scheme, k);
     }
   }
 
   [[nodiscard]] bool any() const { return std::find(goes_.begin(), goes_.end(), true) != goes_.end(); }
 
   /// Excludes blocks that others would stop, and then those stopped by the excluded ones.
-  void leave_out_stopped() {
+  void exclude_stopped() {
     for (bool all = false; !all && any();) {
       all = true;
-      const double share = times();
+      const double share = path_factor();
       for (const ContactPair& pair : problem_.pairs) {
         if (pair.tied() || !(goes(pair.a()) || goes(pair.b())) || !meet(pair, share)) continue;
         all = false;
-        leave_out({pair.a(), pair.b()});
+        exclude({pair.a(), pair.b()});
       }
     }
   }
 
   /// Excludes blocks whose features would pass each other on the extrapolated path without a known contact.
   /// @return true if there are any
-  [[nodiscard]] bool leave_out_passing(const std::vector<FoundContacts>& found) {
+  [[nodiscard]] bool exclude_passing(const std::vector<FoundContacts>& found) {
     std::vector<BlockState> after = states_after(run_.system, run_.state, problem_);
     for (std::size_t k = 0; k < goes_.size(); ++k)
-      if (goes_[k]) after[k].position += times() * problem_.bodies[k].motion();
+      if (goes_[k]) after[k].position += path_factor() * problem_.bodies[k].motion();
     bool any = false;
     for (const PassingBlocks& passing : run_.contacts.check_motion(run_.system, run_.state, after, found)) {
       any = any || goes(passing.blocks[0]) || goes(passing.blocks[1]);
-      leave_out(passing.blocks);
+      exclude(passing.blocks);
     }
     return any;
   }
 
   /// Includes the motion of blocks that move along with the certain ones, or yield to them.
-  [[nodiscard]] StraightWay result() const {
-    StraightWay way;
-    if (!any()) return way;
-    for (const double of_iteration : ways_) way.travels.push_back(times() * of_iteration);
-    return way;
+  [[nodiscard]] CertainMotion result() const {
+    CertainMotion motion;
+    if (!any()) return motion;
+    for (const double of_iteration : displacements_)
+      motion.displacements.push_back(path_factor() * of_iteration);
+    return motion;
   }
 
  private:
   [[nodiscard]] bool goes(int block) const { return goes_[at(block)]; }
-  void leave_out(const PairKey& pair) {
+  void exclude(const PairKey& pair) {
     for (const int block : pair) goes_[at(block)] = false;
   }
 
   /// True if the residual changes so little in the iteration that it would not vanish on the way to `far`.
-  [[nodiscard]] bool lacks_the_same(const TimeScheme& scheme, std::size_t k) const {
+  [[nodiscard]] bool residual_is_constant(const TimeScheme& scheme, std::size_t k) const {
     const StaticProgress& progress = run_.state.statics.progress;
     const BodyStep& body = problem_.bodies[k];
     if (progress.residuals.empty() || body.prescribed.size() > 0) return false;
-    const Eigen::MatrixX3d lacking = residual_of(scheme, body);
-    const double norm = lacking.norm();
+    const Eigen::MatrixX3d residual = residual_of(scheme, body);
+    const double norm = residual.norm();
     if (!(norm > run_.settings().statics.tolerance * body.largest_force + body.roundoff_force)) return false;
-    return (lacking - progress.residuals[k]).norm() * far_ <= ways_[k] * norm;
+    return (residual - progress.residuals[k]).norm() * far_ <= displacements_[k] * norm;
   }
 
   /// Factor that extrapolates the displacements of the iteration until the fastest block has gone `far`.
-  [[nodiscard]] double times() const {
+  [[nodiscard]] double path_factor() const {
     double longest = 0.0;
     for (std::size_t k = 0; k < goes_.size(); ++k)
-      if (goes_[k]) longest = std::max(longest, ways_[k]);
+      if (goes_[k]) longest = std::max(longest, displacements_[k]);
     return far_ / longest;
   }
 
@@ -105,7 +110,7 @@ class WayOn {
   [[nodiscard]] bool meet(const ContactPair& pair, double share) const {
     double way = std::numeric_limits<double>::infinity();
     for (const int block : {pair.a(), pair.b()})
-      if (goes(block)) way = std::min(way, ways_[at(block)] * block_size(run_.blocks()[at(block)]));
+      if (goes(block)) way = std::min(way, displacements_[at(block)] * block_size(run_.blocks()[at(block)]));
     const std::vector<double> gaps =
         pair.gaps(problem_.bodies[at(pair.a())].change, problem_.bodies[at(pair.b())].change);
     const Eigen::Matrix3Xd moved = pair.motion(change(pair.a()), change(pair.b()));
@@ -120,33 +125,33 @@ class WayOn {
   const StepProblem& problem_;
   double far_;
   std::vector<bool> goes_;
-  std::vector<double> ways_;  ///< displacements in the iteration, in block sizes
+  std::vector<double> displacements_;  ///< displacements in the iteration, in block sizes
 };
 
 }  // namespace
 
-StraightWay straight_way(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
-                         const std::vector<FoundContacts>& found, double far) {
-  WayOn way(run, scheme, problem, far);
+CertainMotion certain_motion(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
+                             const std::vector<FoundContacts>& found, double far) {
+  MotionExtrapolation path(run, scheme, problem, far);
   do {
-    way.leave_out_stopped();
-  } while (way.any() && way.leave_out_passing(found));
-  return way.result();
+    path.exclude_stopped();
+  } while (path.any() && path.exclude_passing(found));
+  return path.result();
 }
 
-void note_way_on(const RunContext& run, const StraightWay& way) {
+void note_certain_motion(const RunContext& run, const CertainMotion& motion) {
   StaticState& statics = run.state.statics;
-  if (way.travels.empty()) return;
+  if (motion.displacements.empty()) return;
   statics.moving = true;
-  for (std::size_t k = 0; k < way.travels.size(); ++k)
-    statics.progress.travels[k] = std::max(statics.progress.travels[k], way.travels[k]);
+  for (std::size_t k = 0; k < motion.displacements.size(); ++k)
+    statics.progress.travels[k] = std::max(statics.progress.travels[k], motion.displacements[k]);
 }
 
-void note_lacking(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
-  std::vector<Eigen::MatrixX3d>& lacking = run.state.statics.progress.residuals;
-  lacking.resize(run.blocks().size());
-  for (std::size_t k = 0; k < lacking.size(); ++k)
-    if (run.system.moving()[k]) lacking[k] = residual_of(scheme, problem.bodies[k]);
+void note_residuals(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
+  std::vector<Eigen::MatrixX3d>& residuals = run.state.statics.progress.residuals;
+  residuals.resize(run.blocks().size());
+  for (std::size_t k = 0; k < residuals.size(); ++k)
+    if (run.system.moving()[k]) residuals[k] = residual_of(scheme, problem.bodies[k]);
 }
 
 }  // namespace ashlar

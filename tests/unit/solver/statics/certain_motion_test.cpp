@@ -1,5 +1,5 @@
-// Motion that a static analysis need not follow, and motion that it must.
-#include "solver/statics/straight_way.hpp"
+// Early stop of a static analysis for certain motion, and motion that it must compute.
+#include "solver/statics/certain_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,8 +28,8 @@ BlockDefinition fixed_block(Polyhedron solid) {
   return block;
 }
 
-/// A cube of 1 m without friction on a slope down to -x, and a fixed block that it meets when it has gone a way. The
-/// springs of 1e10 N/m give way by micrometres. @param ways of the stop, m; none: there is none
+/// A cube of 1 m without friction on a slope down to -x, and fixed blocks at some distances ahead. The compression of
+/// springs of 1e10 N/m is micrometres. @param ways distances of the stops, m
 /// @param cube_last the cube comes after all others, not before them
 Simulation on_slope(const std::vector<double>& ways, bool cube_last = false) {
   std::vector<BlockModel> blocks;
@@ -52,8 +52,8 @@ double way_of(const Simulation& simulation) {
   return (simulation.states()[0].position - simulation.blocks()[0].initial_state().position).norm();
 }
 
-TEST(StraightWay, WhatNothingStopsIsNotFollowed) {
-  // An iteration goes 0.05 of the block's size at most, so that 20 would be needed to follow it by all of it.
+TEST(CertainMotion, MotionWithoutObstacleStopsEarly) {
+  // An iteration moves a block by 0.05 of its size at most, so that a full size would need 20.
   Simulation simulation = on_slope({});
   ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::moving);
   EXPECT_LT(simulation.steps(), 12);
@@ -62,8 +62,8 @@ TEST(StraightWay, WhatNothingStopsIsNotFollowed) {
   EXPECT_NEAR(simulation.moving_blocks()[0].acceleration.norm(), 9.81 * std::sin(incline * degree), 1e-3);
 }
 
-TEST(StraightWay, AStopAheadIsSeen) {
-  // 0.3 m: no contact is known of it. 5e-4 m: half the contact distance, there is one, that does not touch.
+TEST(CertainMotion, AnObstacleAheadIsDetected) {
+  // 0.3 m: no contact is detected. 5e-4 m: half the contact distance, with an open contact.
   for (const double way : {0.3, 5e-4}) {
     for (const bool cube_last : {false, true}) {
       Simulation simulation = on_slope({way}, cube_last);
@@ -75,13 +75,13 @@ TEST(StraightWay, AStopAheadIsSeen) {
   }
 }
 
-TEST(StraightWay, AStopFartherAheadThanAskedForIsNot) {
+TEST(CertainMotion, AnObstacleBeyondTheRequestedDistanceIsNot) {
   Simulation simulation = on_slope({0.3});
   EXPECT_EQ(run_static(simulation, 0.1), StaticStatus::moving);
   EXPECT_LT(way_of(simulation), 0.1);
 }
 
-TEST(StraightWay, WhatIsBehindABlockThatIsStoppedIsStoppedToo) {
+TEST(CertainMotion, ABlockBehindAStoppedOneIsStopped) {
   // Two cubes, one after the other, both without friction: the lower one has 5e-4 m to go.
   std::vector<BlockModel> blocks;
   blocks.emplace_back(block_of("A", tilted_box({-0.5, -0.5, 0}, {0.5, 0.5, 1}, incline), rock, 1));
@@ -92,8 +92,8 @@ TEST(StraightWay, WhatIsBehindABlockThatIsStoppedIsStoppedToo) {
   EXPECT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
 }
 
-TEST(StraightWay, WhatGivesWayIsNoMotion) {
-  // Springs of 1e6 N/m carry the weight of 26.5 kN with 26 mm: far from where it was placed, and yet balance.
+TEST(CertainMotion, ComplianceIsNoMotion) {
+  // Springs of 1e6 N/m support the weight of 26.5 kN by a compression of 26 mm: far from its place, and in equilibrium.
   std::vector<BlockModel> blocks;
   blocks.emplace_back(block_of("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1));
   blocks.emplace_back(fixed_block(Polyhedron(make_box({-1, -1, -1}, {2, 2, 0}))));
