@@ -104,7 +104,7 @@ void declare_check_command(CLI::App& program, CommandContext& context) {
       ->required()
       ->type_name("");
   declare_overrides(*command, options->overrides);
-  command->add_flag("--json", options->json, "Print all that is said as JSON, faults with their places too");
+  command->add_flag("--json", options->json, "Print all output as JSON, faults with their places too");
   command->callback(
       [options, &context] { context.status = check_command(*options, context.out, context.err); });
 }

@@ -83,8 +83,7 @@ BlockDefinition IncrementalForm::definition_at(const CarriedShape& shape) const 
 
 const Vector3& IncrementalForm::place(const CarriedShape& shape, const Vector3& reference) const {
   const auto found = index_.find(key_of(reference));
-  if (found == index_.end())
-    throw std::invalid_argument("an incremental block knows only the points it was told to follow");
+  if (found == index_.end()) throw std::invalid_argument("an incremental block has no such tracked point");
   const auto index = static_cast<std::size_t>(found->second);
   return index < shape.points.size() ? shape.points[index] : shape.followed[index - shape.points.size()];
 }

@@ -206,7 +206,7 @@ std::vector<PointMemory> ContactMemory::recall(const std::vector<ContactPoint>& 
 }
 
 std::vector<PointMemory> ContactMemory::of_same(const std::vector<ContactPoint>& points) const {
-  if (points.size() != entries_.size()) throw std::logic_error("memory is of other points");
+  if (points.size() != entries_.size()) throw std::logic_error("memory belongs to other points");
   std::vector<PointMemory> result;
   result.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {

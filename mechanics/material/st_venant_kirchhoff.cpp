@@ -46,7 +46,8 @@ StVenantKirchhoff::StVenantKirchhoff(const Polyhedron& solid, const PolynomialBa
                                      const Material& material)
     : lambda_(material.lame_lambda()), mu_(material.lame_mu()) {
   if (basis.order() > max_order)
-    throw std::invalid_argument("st-venant-kirchhoff is there for orders up to " + std::to_string(max_order));
+    throw std::invalid_argument("st-venant-kirchhoff is available for orders up to " +
+                                std::to_string(max_order));
   const PolynomialBasis wide(solid, std::max(0, 2 * (basis.order() - 1)));
   const std::vector<Vector3> points = unisolvent_points(solid, wide);
   const Eigen::MatrixXd phi = basis.values(points);

@@ -149,7 +149,7 @@ std::shared_ptr<const LastingContacts> with_rows(const LastingContacts& lasting,
   const bool divided = surface_a.curves() || surface_b.curves();
   if (!sizes_fit || (!divided && !fits(lasting.contacts, surface_a.surface(), surface_b.surface())) ||
       !fits(lasting.found.points, a, b) || !fits(lasting.found))
-    throw std::invalid_argument("contacts that last are of other blocks");
+    throw std::invalid_argument("cached contacts belong to other blocks");
   LastingContacts completed = lasting;
   if (!completed.found.points.empty()) completed.rows = PairRows::values_of(a, b, completed.found.points);
   return std::make_shared<const LastingContacts>(std::move(completed));

@@ -33,10 +33,11 @@ void validate(const PairHistories& histories, int blocks) {
     demand(is_size(pair.taken), "work of multipliers is negative or not finite");
     demand(is_size(pair.bonded) && is_size(pair.broken), "an area of bonds is negative or not finite");
     demand(is_size(pair.depth) && is_size(pair.overlap), "depth is negative or not finite");
-    demand(is_size(pair.memory.deepest()) && is_size(pair.memory.bulge()), "depth of contacts is none");
+    demand(is_size(pair.memory.deepest()) && is_size(pair.memory.bulge()),
+           "depth of contacts is negative or not finite");
     demand(!pair.lasting || pair.lasting->found.points.empty() ||
                pair.lasting->found.points.size() == pair.memory.entries().size(),
-           "points that last are not those of the memory");
+           "cached points are not those of the memory");
     demand(!pair.clearance || !std::isnan(pair.clearance->distance + pair.clearance->path),
            "clearance is not a number");
     for (const ContactMemory::Entry& entry : pair.memory.entries()) {

@@ -68,7 +68,7 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   for (const auto& [blocks, depth] : depths) {
     if (system_.blocks().at(at(blocks[0])).incremental() != nullptr ||
         system_.blocks().at(at(blocks[1])).incremental() != nullptr)
-      throw std::invalid_argument("incremental blocks do not tell where they were placed");
+      throw std::invalid_argument("incremental blocks have no initial positions");
     state_.pairs[blocks].overlap = depth;
   }
   if (depths.empty()) return;

@@ -21,7 +21,7 @@ bool fits(const RunContext& run, const SimulationSnapshot& end, const std::vecto
 }  // namespace
 
 void start_stage(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
-  if (!fits(run, end, was_absent)) throw std::invalid_argument("the stage before is one of other blocks");
+  if (!fits(run, end, was_absent)) throw std::invalid_argument("the stage before has other blocks");
   RunState& state = run.state;
   const auto stays = [&](int block) { return run.system.present(block) && !was_absent[at(block)]; };
   for (int k = 0; k < run.system.count(); ++k) {

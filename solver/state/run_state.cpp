@@ -5,7 +5,7 @@ namespace ashlar {
 std::string to_string(RejectionReason reason) {
   switch (reason) {
     case RejectionReason::open_close_not_settled:
-      return "open-close iteration did not settle";
+      return "open-close iteration did not converge";
     case RejectionReason::not_positive_definite:
       return "system not positive definite";
     case RejectionReason::passing:
@@ -17,7 +17,7 @@ std::string to_string(RejectionReason reason) {
     case RejectionReason::inside_out:
       return "a block would have turned inside out";
     case RejectionReason::too_deep:
-      return "blocks would have been deeper in each other than is allowed";
+      return "penetration would have exceeded the allowed depth";
   }
   return "unknown";
 }

@@ -28,7 +28,7 @@ std::map<int, int> changed_orders(const RunContext& run, const SimulationSnapsho
   }
   for (const auto& [place, factor] : snapshot.load_factors)
     fits = fits && at(place[0]) < states.size() && at(place[1]) < run.blocks()[at(place[0])].loads().size();
-  if (!fits) throw std::invalid_argument("the snapshot is one of other blocks");
+  if (!fits) throw std::invalid_argument("the snapshot has other blocks");
   return orders;
 }
 

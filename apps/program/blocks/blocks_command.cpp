@@ -66,7 +66,7 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
     force = read_force(*options.force);
     if (!force) {
       err << fmt::format(
-          "ashlar: error: --removable is no direction ({}), three numbers x,y,z, not all zero, "
+          "ashlar: error: --removable is not a direction ({}), three numbers x,y,z, not all zero, "
           "are needed\n",
           *options.force);
       return exit_status::bad_input;

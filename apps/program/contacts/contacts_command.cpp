@@ -27,7 +27,7 @@ constexpr const char* help_text =
     "The contact of two closed meshes (.off, .obj, .stl, .ply, .msh), decided exactly on the given doubles: "
     "relation, type, region, distance, contact points, and the depth where they cross.\n"
     "LIST has one pair a line: two file names, in double quotes if they hold blanks; empty lines and lines "
-    "that begin with # are passed over. Names are relative to the current folder, or, where there is no such "
+    "that begin with # are ignored. Names are relative to the current folder, or, where there is no such "
     "file, to the folder of LIST. With --json one object a line is printed for each pair, in order; a pair "
     "that cannot be answered gives {\"error\": [\"...\"]} and exit status 2 when all others are done.";
 

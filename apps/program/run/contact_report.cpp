@@ -80,7 +80,7 @@ std::string without_contacts(const ContactExplanation& explanation) {
     case PairSearch::both_held:
       return "none are searched: neither block moves";
     case PairSearch::absent:
-      return "none are searched: one of the blocks is not there in this stage";
+      return "none are searched: one of the blocks is absent in this stage";
     case PairSearch::tied:
       return "none are searched: the blocks are tied";
     case PairSearch::far_apart:

@@ -101,9 +101,8 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
     return static_cast<int>(exit_status::bad_input);
   };
   if (options.picture && options.picture->extension() != ".svg" && options.picture->extension() != ".png")
-    return refuse(
-        fmt::format("{} is no picture that is made, .svg or .png is needed", options.picture->string()));
-  if (options.scene == "-") return refuse("a sweep reads its scene many times (-), a file is needed");
+    return refuse(fmt::format("{} is not a supported picture; use .svg or .png", options.picture->string()));
+  if (options.scene == "-") return refuse("a sweep cannot read standard input (-); give a file");
   std::vector<VariedKey> keys;
   std::vector<Variant> variants;
   try {
@@ -119,10 +118,10 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   std::filesystem::path folder = file;
   folder.replace_extension(".runs");
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-    return refuse(fmt::format("{} is no folder, another table is needed", folder.string()));
+    return refuse(fmt::format("{} is not a folder; give another table", folder.string()));
   if (!options.force && !may_be_replaced(file, sweep_table(keys, {}, {}, {})))
     return refuse(
-        fmt::format("{} is no table of these keys, another name or --force is needed", file.string()));
+        fmt::format("{} is not a table of these keys; give another name or --force", file.string()));
   std::filesystem::create_directories(folder);
 
   std::vector<std::filesystem::path> folders;
@@ -169,7 +168,7 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
   command
       ->add_option(
           "--samples", options->samples.count,
-          "Samples of the values that are drawn: their statistics are told at the end, and --picture is a "
+          "Number of samples of random values: their statistics are printed at the end, and --picture is a "
           "histogram")
       ->check(CLI::PositiveNumber)
       ->type_name("N");

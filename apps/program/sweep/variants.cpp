@@ -67,30 +67,29 @@ std::size_t combinations(const std::vector<VariedKey>& keys, const Samples& samp
   const std::size_t most = most_variants / std::max<std::size_t>(samples.count, 1);
   const auto refuse_more = [&](std::size_t factor) {
     if (factor > most / count)
-      throw std::invalid_argument(
-          fmt::format("too many variants (more than {}), at most that many are allowed", most_variants));
+      throw std::invalid_argument(fmt::format("too many variants; at most {} are allowed", most_variants));
   };
   refuse_more(1);
   bool draws = false;
   for (const VariedKey& key : keys) {
     if (!known.insert(key.key).second)
       throw std::invalid_argument(
-          fmt::format("--vary names a key twice ({}), all its values in one are needed", key.key));
+          fmt::format("--vary names a key twice ({}); give all its values in one", key.key));
     draws = draws || key.drawn;
     if (key.drawn && samples.count == 0)
       throw std::invalid_argument(
-          fmt::format("--vary draws values of {} and nothing says how many, --samples is needed", key.key));
+          fmt::format("--vary draws values of {} without their number; give --samples", key.key));
     if (key.drawn) continue;
     std::set<std::string> values;
     for (const std::string& value : key.values)
       if (!values.insert(value).second)
         throw std::invalid_argument(
-            fmt::format("--vary gives {} a value twice ({}), each once is needed", key.key, value));
+            fmt::format("--vary gives {} a value twice ({}); give each once", key.key, value));
     refuse_more(key.values.size());
     count *= key.values.size();
   }
   if (samples.count > 0 && !draws)
-    throw std::invalid_argument("--samples without a value that is drawn, --vary key=normal(...) is needed");
+    throw std::invalid_argument("--samples without a random value; give --vary key=normal(...)");
   return count;
 }
 

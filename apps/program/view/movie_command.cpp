@@ -76,12 +76,13 @@ int movie_command(const MovieOptions& options, std::ostream& out, std::ostream& 
   if (const std::string fault = fault_of_look(options.look); !fault.empty())
     return refuse(fault, exit_status::bad_input);
   if (!(options.rate > 0.0) || !std::isfinite(options.rate))
-    return refuse(fmt::format("rate ({}), more than 0 is needed", options.rate), exit_status::bad_input);
+    return refuse(fmt::format("rate is not positive ({}); give more than 0", options.rate),
+                  exit_status::bad_input);
   const std::string suffix = CLI::detail::to_lower(options.movie.extension().string());
   const std::vector<std::string> codec = codec_of(suffix);
   if (codec.empty())
     return refuse(
-        fmt::format("movies are .mp4, .webp or .gif ({}), such a name is needed", options.movie.string()),
+        fmt::format("unsupported format of a movie ({}); use .mp4, .webp or .gif", options.movie.string()),
         exit_status::bad_input);
   const auto ffmpeg = find_program("ffmpeg");
   if (!ffmpeg)

@@ -49,7 +49,7 @@ std::string check_size(const std::string& text) {
   const std::vector<int> size = numbers_of<int>(text, 'x');
   const auto fits = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
   if (size.size() == 2 && fits(size[0]) && fits(size[1])) return "";
-  return fmt::format("size ({}), WIDTHxHEIGHT with 16 to 8192 pixels each is needed", text);
+  return fmt::format("malformed size ({}); give WIDTHxHEIGHT with 16 to 8192 pixels each", text);
 }
 
 bool is_vector(const std::vector<double>& numbers) {
@@ -65,13 +65,13 @@ std::string check_direction(const std::string& text) {
   const std::vector<double> direction = numbers_of<double>(text, ',');
   const bool good = is_vector(direction) && direction != std::vector(3, 0.0);
   return good ? ""
-              : fmt::format("direction ({}), x,y,z, not all zero, or {} is needed", text,
+              : fmt::format("malformed direction ({}); give x,y,z, not all zero, or {}", text,
                             fmt::join(view_names, ", "));
 }
 
 std::string check_point(const std::optional<std::string>& text) {
   if (!text || is_vector(numbers_of<double>(*text, ','))) return "";
-  return fmt::format("point ({}), x,y,z is needed", *text);
+  return fmt::format("malformed point ({}); give x,y,z", *text);
 }
 
 /// "x,0.5" or "-x,0.5"
@@ -84,7 +84,7 @@ std::string check_section(const std::optional<std::string>& text) {
   const std::vector<double> place =
       good ? numbers_of<double>(std::string_view(*text).substr(comma + 1), ',') : std::vector<double>{};
   if (place.size() == 1 && std::isfinite(place.front())) return "";
-  return fmt::format("section ({}), an axis and a place such as x,0.5 or -x,0.5 is needed", *text);
+  return fmt::format("malformed section ({}); give an axis and a place such as x,0.5 or -x,0.5", *text);
 }
 
 /// Names become part of an address.
@@ -93,7 +93,9 @@ std::string check_hidden(const std::string& names) {
     return std::isalnum(c) != 0 || c == ',' || c == '.' || c == '-' || c == '_';
   });
   return plain ? ""
-               : fmt::format("blocks ({}), names of letters, digits, . - and _ or numbers are needed", names);
+               : fmt::format(
+                     "malformed names of blocks ({}); give names of letters, digits, . - and _, or numbers",
+                     names);
 }
 
 std::string check_range(const PictureOptions& options) {
@@ -101,13 +103,14 @@ std::string check_range(const PictureOptions& options) {
   if (!text) return "";
   const std::vector<double> range = numbers_of<double>(*text, ',');
   if (range.size() != 2 || !std::isfinite(range[0]) || !std::isfinite(range[1]) || !(range[0] < range[1]))
-    return fmt::format("range ({}), LOW,HIGH in SI units with LOW < HIGH is needed", *text);
+    return fmt::format("malformed range ({}); give LOW,HIGH in SI units with LOW < HIGH", *text);
   return "";
 }
 
 std::string check_positive(std::string_view name, double value) {
-  return value > 0.0 && std::isfinite(value) ? ""
-                                             : fmt::format("{} ({}), more than 0 is needed", name, value);
+  return value > 0.0 && std::isfinite(value)
+             ? ""
+             : fmt::format("{} is not positive ({}); give more than 0", name, value);
 }
 
 /// Fragment of the page's address, read by page/address.js. @param frames "frame=3" or "frames=0:7"
@@ -231,7 +234,7 @@ std::vector<DrawnFrame> draw_frames(const PictureOptions& options, const std::op
   if (frames) range = numbers_of<std::size_t>(*frames, ':');
   if (range.size() != 2 || range[0] > range[1] || range[1] > last)
     throw std::invalid_argument(
-        fmt::format("frames ({}), A:B with 0 <= A <= B <= {} is needed", frames.value_or(""), last));
+        fmt::format("malformed frames ({}); give A:B with 0 <= A <= B <= {}", frames.value_or(""), last));
   const std::string page = loaded_page(*browser, scratch.path(), view,
                                        wishes(options, fmt::format("frames={}:{}", range[0], range[1])),
                                        std::chrono::duration<double>(options.time_limit));
@@ -251,12 +254,12 @@ int picture_command(const PictureOptions& options, std::ostream& out, std::ostre
     return exit_status::bad_input;
   }
   if (options.picture.empty()) {
-    err << "ashlar: error: a picture without a name (\"\"), a name is needed\n";
+    err << "ashlar: error: the picture has no name (\"\"); give a name\n";
     return exit_status::bad_input;
   }
   if (const std::string suffix = CLI::detail::to_lower(options.picture.extension().string());
       !suffix.empty() && suffix != ".png") {
-    err << fmt::format("ashlar: error: pictures are PNG files ({}), a name that ends with .png is needed\n",
+    err << fmt::format("ashlar: error: pictures are PNG files ({}); give a name that ends with .png\n",
                        options.picture.string());
     return exit_status::bad_input;
   }
@@ -313,9 +316,10 @@ void declare_look(CLI::App& command, PictureOptions& options) {
   declare_relative_to(command, options.relative_to);
   command.add_flag("--frame-range", options.frame_range,
                    "Colours over the values of this frame (default: of the whole run)");
-  command.add_option("--at", options.at, "Point looked at (default: the middle of all blocks)")
+  command.add_option("--at", options.at, "Centre of the view (default: the centre of all blocks)")
       ->type_name("X,Y,Z");
-  command.add_option("--zoom", options.zoom, "How much nearer than to see all (default: 1)")->type_name("F");
+  command.add_option("--zoom", options.zoom, "Magnification over the whole view (default: 1)")
+      ->type_name("F");
   command.add_option("--scale", options.scale, "Displacements times (default: 1)")->type_name("F");
   declare_parts(command, options.parts);
   command

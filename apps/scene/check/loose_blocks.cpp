@@ -16,11 +16,10 @@ void refuse_loose_blocks(const Scene& scene, Simulation& simulation, Diagnostics
         blocks.size() == 1
             ? fmt::format("block {} has no contact and its supports leave a rigid motion ({})", first.name(),
                           describe(admissible_rigid_motions(first), first))
-            : fmt::format(
-                  "block {} and {} more touch each other, but nothing that holds them (any rigid motion)",
-                  first.name(), blocks.size() - 1);
+            : fmt::format("block {} and {} more touch each other without a support (any rigid motion)",
+                          first.name(), blocks.size() - 1);
     diagnostics.error(scene.places.key(fmt::format("block.{}", blocks.front())),
-                      what + ", a static analysis needs a support or a contact with something that is held");
+                      what + ", a static analysis needs a support or a contact with a supported block");
   }
 }
 

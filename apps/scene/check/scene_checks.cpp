@@ -180,8 +180,7 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
     refuse("contact.surface", "the surface of an incremental block is its flat sub-faces (\"curved\")");
   if (scene.output.curved)
     refuse("output.curved", "the surface of an incremental block is its flat sub-faces (true)");
-  if (scene.output.solid)
-    refuse("output.solid", "the points inside an incremental block are not followed (true)");
+  if (scene.output.solid) refuse("output.solid", "points inside an incremental block are not tracked (true)");
   if (scene.contact.chord_tolerance)
     refuse("contact.chord_tolerance",
            fmt::format("the sub-faces of an incremental block are fixed, see contact.subdivisions ({})",
@@ -189,7 +188,7 @@ void check_formulation(const Scene& scene, Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < scene.measure.size(); ++i)
     if (!scene.measure[i].block.empty() && !scene.measure[i].point)
       refuse(entry_key("measure", i, "block"),
-             fmt::format("an incremental block is followed at points only (\"{}\" has none)",
+             fmt::format("an incremental block is measured at points only (\"{}\" has none)",
                          scene.measure[i].name));
   for (std::size_t i = 0; i < scene.material.size(); ++i)
     if (scene.material[i].elasticity == SceneMaterial::Elasticity::st_venant_kirchhoff)

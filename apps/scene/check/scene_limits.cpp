@@ -76,7 +76,7 @@ void check_histories(const Scene& scene, std::size_t k, double size, Diagnostics
     const double farthest = RecordedMotion(support_history(fix)).farthest_until(scene.analysis.end_time);
     if (farthest <= most) continue;
     diagnostics.error(scene.places.value(fmt::format("block.{}.fix.{}.{}", k, n, history_key(fix))),
-                      fmt::format("{} goes so far that the block is lost in rounding "
+                      fmt::format("{} moves the block beyond the range of double precision "
                                   "({:.4g} m), at most {:.4g} m is allowed",
                                   history_key(fix), farthest, most));
   }

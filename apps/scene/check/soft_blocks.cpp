@@ -108,12 +108,11 @@ void warn_of_speed(const Scene& scene, std::size_t k, const JudgedBlock& judged,
   const char* key = turns ? "angular_velocity" : "velocity";
   diagnostics.warning(
       scene.places.value(fmt::format("block.{}.{}", k, key)),
-      fmt::format(
-          "{} is large ({:.4g} m/s at the fastest point of block \"{}\"): where it meets something it is "
-          "strained by {:.3g}, up to {} is ordinary, that of {:.3g} m/s in a material of young_modulus "
-          "{:.3g} Pa",
-          key, judged.speed, judged.block.name, strain, largest_ordinary_strain,
-          largest_ordinary_strain * sound, judged.material.young_modulus));
+      fmt::format("{} is large ({:.4g} m/s at the fastest point of block \"{}\"): an impact strains it by "
+                  "{:.3g}, up to {} is ordinary, that of {:.3g} m/s in a material of young_modulus "
+                  "{:.3g} Pa",
+                  key, judged.speed, judged.block.name, strain, largest_ordinary_strain,
+                  largest_ordinary_strain * sound, judged.material.young_modulus));
 }
 
 /// @param key of a normal stiffness. @param concerns true if a block has joints with it
@@ -131,10 +130,10 @@ void warn_of_stiffness(const Scene& scene, const std::string& key, double stiffn
   if (!(largest.strain > largest_ordinary_strain)) return;
   diagnostics.warning(
       scene.places.value(key),
-      fmt::format(
-          "normal_stiffness is small ({:.10g} {}): block \"{}\" sinks by {:.3g} of its size into what "
-          "bears its own weight, up to {} is ordinary",
-          stiffness, area ? "Pa/m" : "N/m", largest.block->name, largest.strain, largest_ordinary_strain));
+      fmt::format("normal_stiffness is small ({:.10g} {}): block \"{}\" sinks by {:.3g} of its size under "
+                  "its own weight, up to {} is ordinary",
+                  stiffness, area ? "Pa/m" : "N/m", largest.block->name, largest.strain,
+                  largest_ordinary_strain));
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ void warn_of_slivers(const Scene& scene, const CutRock& rock, std::size_t block,
   diagnostics.warning(scene.places.key(fmt::format("cut.{}", cut)),
                       fmt::format("cuts leave {} sliver{} among {} pieces of block \"{}\" (the least, "
                                   "\"{}\", has {:.3g} m^3, a piece has "
-                                  "{:.3g} m^3 in the mean): rounding pushes them about by more than they "
-                                  "weigh, which takes most of the "
+                                  "{:.3g} m^3 in the mean): rounding errors of contact forces exceed their "
+                                  "weight, which takes most of the "
                                   "time of a run; min_volume = {:.0e} glues {}",
                                   slivers, slivers == 1 ? "" : "s", pieces.size(), scene.block[block].name,
                                   piece_names(scene.block[block].name, solid)[least], pieces[least]->volume(),

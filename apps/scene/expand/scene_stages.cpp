@@ -231,18 +231,17 @@ class StageCheck {
       if (wrong != blocks.end()) error(s, key, fmt::format("block \"{}\" {}", names_[*wrong], words));
       return blocks;
     };
-    const auto removed =
-        check("remove", stage.remove, false,
-              "is removed but not there (remove), a block that an earlier stage has left is needed");
+    const auto removed = check("remove", stage.remove, false,
+                               "is absent before this stage (remove); name a block of the stage before");
     const auto added =
         check("add", stage.add, true,
-              "is added but there already (add), a block that was held back or removed is needed");
+              "is present before this stage (add); name a block that is added later or was removed");
     std::vector<std::size_t> both;
     std::set_intersection(removed.begin(), removed.end(), added.begin(), added.end(),
                           std::back_inserter(both));
     if (!both.empty())
       error(s, "add",
-            fmt::format("block \"{}\" is removed and added in one stage (add), one of both is needed",
+            fmt::format("block \"{}\" is removed and added in one stage (add); name it in one of both lists",
                         names_[both.front()]));
   }
 
@@ -264,7 +263,7 @@ class StageCheck {
     for (std::size_t j = 0; j < stage.joint.size(); ++j) {
       if (stage.joint[j].tied.value_or(false))
         error(s, fmt::format("joint.{}.tied", j),
-              "tied in a stage (true), blocks can only be tied from the beginning, as they are placed");
+              "blocks cannot be tied in a stage (true); tie them by a [[joint]] of the scene");
     }
     std::vector<std::string> materials;
     for (const SceneMaterial& material : scene_.material) materials.push_back(material.name);
@@ -273,8 +272,8 @@ class StageCheck {
       if (!name.empty() && std::find(materials.begin(), materials.end(), name) == materials.end())
         error(s, fmt::format("material.{}.name", j),
               fmt::format(
-                  "material of a stage is none of the scene (\"{}\"), {}the name of a [[material]] that "
-                  "it takes the place of is needed",
+                  "unknown material of a stage (\"{}\"), {}the name of the [[material]] that it replaces "
+                  "is needed",
                   name, guess(name, materials, "\"")));
     }
   }
@@ -293,7 +292,7 @@ class StageCheck {
     if (s > 0 && scene_.places.contains(key_of(s, "analysis.initial_state")))
       error(s, "analysis.initial_state",
             fmt::format(
-                "initial_state of a later stage (\"{}\"), it goes on from the stage before; leave it out",
+                "initial_state of a later stage (\"{}\"), which starts from the stage before; leave it out",
                 name_of(initial_state_names, analysis.initial_state)));
   }
 

@@ -162,7 +162,7 @@ SceneRotation read_rotation(TomlTableReader table) {
 std::variant<ScenePlane, Vector3> read_where(TomlTableReader& table) {
   const bool plane_given = table.given("plane"), point_given = table.given("point");
   if (plane_given == point_given)
-    table.error_at_table(fmt::format("{} has {} (plane, point), exactly one of both is needed", table.name(),
+    table.error_at_table(fmt::format("{} has {} (plane, point); give one of both", table.name(),
                                      plane_given ? "two places" : "no place"));
   if (plane_given) {
     TomlTableReader plane = table.table_or_empty("plane");
@@ -281,14 +281,13 @@ SceneLoad read_load(TomlTableReader& table) {
   load.where = read_where(table);
   const bool traction_given = table.given("traction"), force_given = table.given("force");
   if (traction_given == force_given)
-    table.error_at_table(fmt::format("load has {} (traction, force), exactly one of both is needed",
+    table.error_at_table(fmt::format("load has {} (traction, force); give one of both",
                                      traction_given ? "two sizes" : "no size"));
   load.kind = traction_given ? SceneLoad::Kind::traction : SceneLoad::Kind::force;
   table.read_vector("traction", load.vector);
   table.read_vector("force", load.vector);
   if (traction_given && table.given("point"))
-    table.error_at_key("traction",
-                       "traction at a point (point), a traction needs a plane, a point takes a force");
+    table.error_at_key("traction", "traction at a point (point); give a plane, or a force");
   if (std::optional<HistoryRows> history = read_history(table, "history", 2, "[t, factor]")) {
     load.file = std::move(history->file);
     for (const auto& row : history->rows) load.history.push_back({row[0], row[1]});

@@ -80,8 +80,7 @@ void refuse_plane_keys(TomlTableReader& table, const char* kind) {
   for (const char* key :
        {"dip", "dip_direction", "point", "spacing", "fisher", "persistence", "radius", "number"})
     if (table.given(key))
-      table.error_at_key(key,
-                         fmt::format("{} beside {} (both given), only one of both is allowed", key, kind));
+      table.error_at_key(key, fmt::format("{} beside {} (both given); give one of both", key, kind));
 }
 
 }  // namespace
@@ -108,8 +107,7 @@ SceneCut read_cut(TomlTableReader& table) {
     cells.read_integer("count", cut.count, 1, largest_integer);
     cells.read_integer("seed", cut.seed, 0, largest_integer);
     refuse_plane_keys(table, "voronoi");
-    if (solid)
-      table.error_at_key("voronoi", "voronoi beside solid (both given), only one of both is allowed");
+    if (solid) table.error_at_key("voronoi", "voronoi beside solid (both given); give one of both");
   }
   table.read_number("min_volume", cut.min_volume, range::not_negative);
   table.read_bool("glued", cut.glued);

@@ -133,8 +133,8 @@ class RecordReader {
     std::vector<double> row;
     for (std::size_t k = width_; k < fields.size(); ++k) {
       if (fields[k].text.empty()) continue;
-      fault(fields[k].column, fmt::format("row is too long ({} fields), {} are needed as there are names; a "
-                                          "decimal comma makes two fields of one number",
+      fault(fields[k].column, fmt::format("row has {} fields, the header has {}; use decimal points, "
+                                          "not commas",
                                           fields.size(), width_));
       return;
     }
@@ -145,7 +145,7 @@ class RecordReader {
       }
       if (columns_[n] >= fields.size()) {
         fault(static_cast<int>(line.size()) + 1,
-              fmt::format("row is too short ({} fields), {} are needed", fields.size(), columns_[n] + 1));
+              fmt::format("row has {} fields, at least {} are needed", fields.size(), columns_[n] + 1));
         return;
       }
       const std::optional<double> value = number(fields[columns_[n]]);

@@ -119,7 +119,7 @@ void refuse_assignment(const std::string& text) {
       ++at;
       continue;
     }
-    throw FormulaError("= within a formula, == compares", at);
+    throw FormulaError("= within a formula; use == to compare", at);
   }
 }
 
@@ -145,7 +145,7 @@ std::string words_of(const mu::Parser::exception_type& error) {
     case mu::ecTOO_FEW_PARAMS:
       return "a function has too few arguments";
     default:
-      return "it is no formula from here on";
+      return "the text from here on is not a formula";
   }
 }
 

@@ -116,14 +116,14 @@ class DocumentReader {
       for (auto step = circle; step != open_.end(); ++step) names.push_back(step->filename().string());
       names.push_back(canonical.filename().string());
       error(entry, file,
-            fmt::format("files include each other ({}), a circle is not allowed", fmt::join(names, " -> ")));
+            fmt::format("circular include of files ({}); remove one of them", fmt::join(names, " -> ")));
       return std::nullopt;
     }
     if (read_.contains(canonical)) return std::nullopt;
     if (open_.size() > deepest_include) {
       error(entry, file,
-            fmt::format("include goes too deep ({} files within each other), at most {} are allowed",
-                        open_.size(), deepest_include));
+            fmt::format("includes are nested too deeply ({} levels), at most {} are allowed", open_.size(),
+                        deepest_include));
       return std::nullopt;
     }
     return read_included(entry, path, file, (folder / said).parent_path());

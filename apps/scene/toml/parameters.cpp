@@ -126,10 +126,9 @@ Formulas read_parameters(const toml::table& document, TomlReading& reading) {
                                                        describe(parameters.node(name))));
   }
   if (const std::vector<std::string> circle = parameters.circle(); !circle.empty())
-    reading.error(
-        parameters.node(circle.front()),
-        fmt::format("parameters need each other ({}), one of them has to be given without the others",
-                    fmt::join(circle, " -> ")));
+    reading.error(parameters.node(circle.front()),
+                  fmt::format("circular definition of parameters ({}); give one of them without the others",
+                              fmt::join(circle, " -> ")));
   return formulas;
 }
 

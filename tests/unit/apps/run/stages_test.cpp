@@ -312,7 +312,7 @@ TEST_F(Stages, FaultsAreToldAtTheirKeys) {
               HasSubstr("stage names no block (\"hihg\"), did you mean \"high\"?"));
   EXPECT_THAT(faults_of("[[stage]]\nname = \"a\"\nremove = [\"high\"]\nanalysis = { type = \"static\" }\n"
                         "[[stage]]\nname = \"b\"\nremove = [\"high\"]\nanalysis = { type = \"static\" }\n"),
-              HasSubstr("block \"high\" is removed but not there"));
+              HasSubstr("block \"high\" is absent before this stage (remove)"));
   EXPECT_THAT(faults_of("[[stage]]\nname = \"a\"\n"), HasSubstr("end_time"));
   EXPECT_THAT(faults_of("[[stage]]\nname = \"a\"\nanalysis = { type = \"capacity\" }\n"),
               HasSubstr("limit analysis in a stage (\"capacity\")"));

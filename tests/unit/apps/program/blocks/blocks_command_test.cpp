@@ -150,7 +150,7 @@ TEST_F(BlocksCommand, RefusesWhatIsNoDirection) {
     options.force = force;
     EXPECT_EQ(run(options), exit_status::bad_input) << force;
     EXPECT_THAT(err_.str(),
-                HasSubstr("--removable is no direction (" + std::string(force) + "), three numbers"));
+                HasSubstr("--removable is not a direction (" + std::string(force) + "), three numbers"));
   }
 }
 

@@ -108,7 +108,7 @@ TEST_F(Sweep, DrawsOneValueAgainstTheKeys) {
             exit_status::bad_input);
   EXPECT_THAT(faults_, HasSubstr("one such key is needed"));
   EXPECT_EQ(sweep({"--vary", "contact.friction_angle=20", "--picture", "p.jpg"}), exit_status::bad_input);
-  EXPECT_THAT(faults_, HasSubstr(".svg or .png is needed"));
+  EXPECT_THAT(faults_, HasSubstr("use .svg or .png"));
 }
 
 TEST_F(Sweep, SamplesHaveStatisticsAndAHistogram) {
@@ -161,9 +161,9 @@ TEST_F(Sweep, SamplesOfTheSameValuesAreRunOnce) {
 
 TEST_F(Sweep, FaultsOfSamplesAreTold) {
   EXPECT_EQ(sweep({"--vary", "analysis.end_time=uniform(0.1,0.2)"}), 2);
-  EXPECT_THAT(faults_, HasSubstr("--samples is needed"));
+  EXPECT_THAT(faults_, HasSubstr("give --samples"));
   EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--samples", "2"}), 2);
-  EXPECT_THAT(faults_, HasSubstr("--samples without a value that is drawn"));
+  EXPECT_THAT(faults_, HasSubstr("--samples without a random value"));
   EXPECT_EQ(sweep({"--vary", "analysis.end_time=normal(0.1)", "--samples", "2"}), 2);
   EXPECT_THAT(faults_, HasSubstr("mean and deviation"));
 }

@@ -69,10 +69,10 @@ TEST_F(PictureCommand, RefusesWhatIsNoDirection) {
 
 TEST_F(PictureCommand, RefusesPointsAndSizesThatAreNone) {
   EXPECT_EQ(picture({"--at=1,2"}), exit_status::bad_input);
-  EXPECT_THAT(err.str(), HasSubstr("point (1,2), x,y,z is needed"));
+  EXPECT_THAT(err.str(), HasSubstr("malformed point (1,2); give x,y,z"));
   for (const char* option : {"--zoom=0", "--zoom=-1", "--zoom=nan", "--scale=0", "--time-limit=0"})
     EXPECT_EQ(picture({option}), exit_status::bad_input) << option;
-  EXPECT_THAT(err.str(), HasSubstr("time limit (0), more than 0 is needed"));
+  EXPECT_THAT(err.str(), HasSubstr("time limit is not positive (0); give more than 0"));
 }
 
 TEST_F(PictureCommand, RefusesSectionsRangesAndNamesThatAreNone) {
@@ -104,7 +104,7 @@ TEST_F(PictureCommand, RefusesFramesBelowZero) {
 TEST_F(PictureCommand, WritesPngOnly) {
   EXPECT_EQ(run_command_line({"picture", path("out"), "-o", path("p.jpg")}, out, err),
             exit_status::bad_input);
-  EXPECT_THAT(err.str(), HasSubstr("p.jpg), a name that ends with .png is needed"));
+  EXPECT_THAT(err.str(), HasSubstr("p.jpg); give a name that ends with .png"));
 }
 
 TEST_F(PictureCommand, ABrowserThatFailsIsNamed) {

@@ -79,16 +79,15 @@ TEST(SoftBlocks, StiffnessesThatAreGivenCount) {
   EXPECT_THAT(warnings({"contact.normal_stiffness=245251"}), IsEmpty());
   EXPECT_THAT(warnings({"contact.normal_stiffness=122625"}),
               ElementsAre("--set contact.normal_stiffness=122625: warning: normal_stiffness is small (122625 "
-                          "Pa/m): block \"A\" sinks by 0.2 of its size into what bears its own weight, up to "
+                          "Pa/m): block \"A\" sinks by 0.2 of its size under its own weight, up to "
                           "0.1 is ordinary"));
   EXPECT_EQ(warnings({"joint.0.normal_stiffness=122625"}).size(), 1U);
-  // Three points bear 98100 N of B, whose size is cbrt(4) m: 0.1 of it at 206e3 N/m.
+  // Three points transmit 98100 N of B, whose size is cbrt(4) m: 0.1 of it at 206e3 N/m.
   EXPECT_THAT(warnings({"contact.springs=point", "contact.normal_stiffness=2.1e5"}), IsEmpty());
-  EXPECT_THAT(
-      warnings({"contact.springs=point", "contact.normal_stiffness=2e5"}),
-      ElementsAre("--set contact.normal_stiffness=2e5: warning: normal_stiffness is small (200000 "
-                  "N/m): block \"B\" sinks by 0.103 of its size into what bears its own weight, up to "
-                  "0.1 is ordinary"));
+  EXPECT_THAT(warnings({"contact.springs=point", "contact.normal_stiffness=2e5"}),
+              ElementsAre("--set contact.normal_stiffness=2e5: warning: normal_stiffness is small (200000 "
+                          "N/m): block \"B\" sinks by 0.103 of its size under its own weight, up to "
+                          "0.1 is ordinary"));
 }
 
 }  // namespace

@@ -105,8 +105,8 @@ TEST_F(Include, RefusesCircles) {
   write("b.toml", "\ninclude = [\"../" + folder_.path().filename().string() + "/main.toml\"]\n");
   (void)read();
   EXPECT_THAT(faults_,
-              ElementsAre("b.toml:2:12: error: files include each other (main.toml -> a.toml -> b.toml -> "
-                          "main.toml), a circle is not allowed"));
+              ElementsAre("b.toml:2:12: error: circular include of files (main.toml -> a.toml -> b.toml -> "
+                          "main.toml); remove one of them"));
 }
 
 TEST_F(Include, ReadsAFileOnce) {
@@ -125,7 +125,7 @@ TEST_F(Include, RefusesDeepNesting) {
     write(fmt::format("{}.toml", k), fmt::format("include = [\"{}.toml\"]\n", k + 1));
   write("40.toml", "");
   (void)read();
-  EXPECT_THAT(faults_, ElementsAre(HasSubstr("include goes too deep")));
+  EXPECT_THAT(faults_, ElementsAre(HasSubstr("includes are nested too deeply")));
 }
 
 TEST_F(Include, CannotBeSet) {
