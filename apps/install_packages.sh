@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages of packages.txt that are missing; does nothing, and needs no rights, if none is.
+# Installs the missing Debian packages of packages.txt; needs no rights if none is missing.
 # Use: install_packages.sh [--except PATTERN], an extended regular expression of packages to leave out
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a first result: installs what is missing, builds the program and the Python module in one build,
-# runs the falling block and puts `ashlar` on the PATH, or says the line that does.
+# From a bare Debian 12 to a first result: installs missing packages, builds program and Python module in one build,
+# runs the falling block and puts `ashlar` on the PATH, or prints the line that does.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"

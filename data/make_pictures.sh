@@ -13,7 +13,7 @@ else
   trap 'rm -rf "$results"' EXIT
 fi
 
-# What each picture shows: scene, file name without .png, and how `ashlar picture` draws it.
+# Pictures: scene, file name without .png, and options of `ashlar picture`.
 pictures() {
   cat <<'LIST'
 falling_block   falling_block_0000  --frame 0 --from 0.4,-1,0.3 --color von_mises

@@ -1,4 +1,4 @@
-"""Writes what pages of the book take from the program itself, and checks that it is up to date.
+"""Writes the generated parts of the book from the program, and checks that they are up to date.
 
     generate.py PROGRAM                    rewrites the pages
     generate.py PROGRAM --check            writes nothing; exit status 1 if a page differs from the program
@@ -60,7 +60,7 @@ def override_paths(path):
 
 
 def accepted_value(program, scene, path):
-    """What the reader says it needs where it is given a table; None: it takes a table."""
+    """The type that the reader requires in place of a table; None: a table is accepted."""
     for override in override_paths(path):
         told = json.loads(output_of(program, "check", scene, "--json", "--set", f"{override}={{}}"))
         for fault in told["faults"]:
@@ -70,7 +70,7 @@ def accepted_value(program, scene, path):
 
 
 def keys_of(schema, table=""):
-    """Paths of all keys of the schema that are no tables themselves."""
+    """Paths of all keys of the schema that are not tables."""
     for key, value in schema.get("properties", {}).items():
         inner = value.get("items", value) if value.get("type") == "array" else value
         path = f"{table}.{key}" if table else key
@@ -174,7 +174,7 @@ def with_verification(program, text, cases=None):
 
 
 def changed_tolerances(program, text):
-    """Of the quick cases: what differs from the page, or does not pass."""
+    """Quick cases that differ from the page, or fail."""
     quick = [name for name, source in read_sources().items() if not source.get("slow")]
     page = {name: tolerance for name, tolerance, _ in ROW.findall(TABLE.search(text)[2])}
     for case in json.loads(output_of(program, "verify", "--json", *quick))["cases"]:

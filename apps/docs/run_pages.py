@@ -1,4 +1,4 @@
-"""Runs what the pages show: every page in a folder of its own, its blocks one after the other.
+"""Runs the examples of the pages: every page in a separate folder, its blocks one after the other.
 
     run_pages.py PROGRAM MODULE_FOLDER [PAGE]...        without pages: all of tutorial/ and howto/, and the README
 
@@ -43,7 +43,7 @@ def agree(expected, seen):
 
 
 def printed(expected, seen):
-    """Whether lines are those expected; `...` stands for any."""
+    """True if lines are the expected ones; `...` matches any."""
     if not expected:
         return not seen
     if expected[0].strip() == "...":

@@ -1,4 +1,4 @@
-"""What pip and other builders call: setuptools, with the extension ashlar._core built by CMake.
+"""Build backend for pip and other builders: setuptools, with the extension ashlar._core built by CMake.
 
 The libraries that CMake looks for come from the system (packages.txt). ASHLAR_BUILD_DIR names a build folder whose
 module is taken as it is, instead of a new build below build/python.
@@ -54,7 +54,7 @@ class CMakeBuild(build_ext):
 
 
 class SourceDistribution(sdist):
-    """What the module is built from: the layers below it and its own files."""
+    """Sources of the module: the layers below it and its own files."""
 
     def make_distribution(self):
         found = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*"))

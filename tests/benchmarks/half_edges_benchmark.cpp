@@ -1,5 +1,5 @@
-// The table of half-edges against CGAL::Surface_mesh: made from triangles and asked for the twin of every
-// half-edge, or only asked; and the search for the contacts of two convex blocks, in which two such tables are
+// The table of half-edges against CGAL::Surface_mesh: built from triangles and queried for the twin of every
+// half-edge, or only queried; and the search for the contacts of two convex blocks, in which two such tables are
 // made. The argument is the number of triangles: a box, then spheres. Items per second are triangles per
 // second, of the search pairs per second.
 #include <benchmark/benchmark.h>
@@ -48,7 +48,7 @@ std::size_t sum_of_twins(const SurfaceMesh& surface) {
   return sum;
 }
 
-/// By lists, as hulls are asked whose triangles change.
+/// By lists, as for hulls with changing triangles.
 std::size_t sum_of_found(const TriangleMesh& mesh, const HalfEdges& half_edges) {
   std::size_t sum = 0;
   for (int h = 0; h < static_cast<int>(3 * mesh.triangles.size()); ++h)

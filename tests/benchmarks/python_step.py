@@ -1,4 +1,4 @@
-"""What a step costs from Python, over what it costs in the program: processor time on one thread, as a ratio.
+"""Cost of a step from Python relative to the program: processor time on one thread, as a ratio.
 
 Each side runs a scene twice, for a few steps and for many; the difference is that of the steps alone, without start, reading
 and building. Both sides take turns, and the least of each counts. Times are of this machine, their ratio is not.

@@ -13,7 +13,7 @@ class BlocksTest(PageTest):
         self.assertEqual(self.evaluate("data.blocks.filter(block => block.fixed).map(block => block.name)"),
                          ["support.1", "support.2"])
         self.assertEqual(self.evaluate("data.blocks.filter(block => !block.fixed && block.order === 0).length"), 9)
-        # The range is that of the voussoirs: what sinks by micrometres, not 0 to 1 m of no values.
+        # The range is that of the voussoirs, micrometres, not 0 to 1 m for missing values.
         low, high = self.evaluate("rangeOf(fields.displacement, currentFrame())")
         largest = self.evaluate("data.summary.largest_displacement.value")
         self.assertLess(largest, 0.01)
@@ -67,7 +67,7 @@ class BlocksTest(PageTest):
         self.assertEqual(title, "displacement relative to base (mm)")
         self.assertIn("largest displacement relative to base", self.text("answers"))
         self.assertIn("largest displacement, absolute", self.text("answers"))
-        # Enlarged displacements leave the base where it is and take the stone on: at 2.5 to 3.5 m, less 0.2 m once more.
+        # Enlarged displacements keep the base in place and move the stone further: 2.5 to 3.5 m, less 0.2 m once more.
         self.change("scale", "2")
         x = self.evaluate("[0, 1].map(block => centreOf(block).x)")
         self.assertAlmostEqual(x[0], 0.2, delta=1e-5)
@@ -90,7 +90,7 @@ class BlocksTest(PageTest):
         for place in self.evaluate("""pointsOfBlocks()[2].map(p =>
                 lengthAt(shownDisplacement(currentFrame()), p))"""):
             self.assertAlmostEqual(place, 0, delta=1e-4)
-        # A point that stands still seems to have turned the other way about the axis: by Y - R Y.
+        # A point at rest appears to have rotated in the opposite direction about the axis: by Y - R Y.
         rows = self.evaluate("""pointsOfBlocks()[1].map(p => [0, 1, 2].map(k => data.reference[3 * p + k])
             .concat([0, 1, 2].map(k => shownDisplacement(currentFrame())[3 * p + k])))""")
         self.assertEqual(len(rows), 8)

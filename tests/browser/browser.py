@@ -18,8 +18,8 @@ def find_chromium():
 
 
 class Browser:
-    """One page. complaints collects what the page writes to the console as warning or error, and what it
-    throws."""
+    """One page. complaints collects warnings and errors of the console, and exceptions of the
+    page."""
 
     def __init__(self, chromium, width=1200, height=800):
         self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -72,7 +72,7 @@ class Browser:
             self._receive()
 
     def evaluate(self, expression):
-        """The value of an expression of the page, of a promise what it comes to."""
+        """The value of an expression of the page; promises are awaited."""
         answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in answer:
             raise RuntimeError(f"{expression}: {answer['exceptionDetails']}")

@@ -1,4 +1,4 @@
-"""What a page tells of how it is drawn, as expressions: what of the scene is seen, what is too wide or too faint."""
+"""Expressions that examine the drawing of a page: visible parts of the scene, items too wide or too faint."""
 
 # Shares of the scene's canvas that are not background: in its middle half, and along its two sides.
 DRAWN = """(() => {
@@ -23,7 +23,7 @@ TOO_WIDE = """[...document.querySelectorAll("body *")].filter((item) => {
       || (item.matches("button, legend, label, td, h1") && item.scrollWidth > item.clientWidth + 1));
   }).map((item) => item.tagName + "#" + item.id + " " + item.textContent.slice(0, 20))"""
 
-# Texts whose contrast with what is behind them (WCAG 2) is less than 4.5, and the colours that texts on the picture have.
+# Texts whose contrast with their background (WCAG 2) is less than 4.5, and the colours that texts on the picture have.
 TOO_FAINT = """(() => {
     const numbers = (colour) => colour.match(/[\\d.]+/g).map(Number);
     const light = (rgb) => rgb.slice(0, 3).map((c) => c / 255)

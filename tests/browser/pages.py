@@ -1,4 +1,4 @@
-"""Pages of `ashlar view` for all tests, and what a user of one does and sees."""
+"""Pages of `ashlar view` for all tests, with actions and views of a user."""
 import pathlib
 import subprocess
 import unittest

@@ -1,4 +1,4 @@
-"""`ashlar picture`, and the picture of a study: what is on them. Run by view_test.py, with its pages."""
+"""Contents of `ashlar picture` and of the picture of a study. Run by view_test.py, with its pages."""
 import subprocess
 import unittest
 

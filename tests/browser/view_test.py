@@ -1,4 +1,4 @@
-"""Opens the pages of `ashlar view` in Chromium and does what a user does; skipped (77) where it is missing.
+"""Opens the pages of `ashlar view` in Chromium and acts like a user; skipped (77) where it is missing.
 
 Use: view_test.py ASHLAR SCENES, the program and the folder of the demo scenes.
 """

@@ -74,7 +74,7 @@ def commit(folder, subject, date):
 
 
 def repository_faults():
-    """None, or in words what goes wrong in a repository, whole and shallow, with a bad commit before FIRST and one after it."""
+    """A fault of this script in a repository, whole and shallow, with a bad commit before FIRST and one after it, or None."""
     with tempfile.TemporaryDirectory() as folder:
         whole, shallow = pathlib.Path(folder).resolve() / "whole", pathlib.Path(folder).resolve() / "shallow"
         whole.mkdir()

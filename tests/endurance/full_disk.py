@@ -1,4 +1,4 @@
-"""Runs on a file system that becomes full: state and summary of the last good step are there, and the run goes on
+"""Runs on a file system that becomes full: state and summary of the last accepted step exist, and the run is resumed
 from them once there is space. Skipped (77) where no small file system can be mounted.
 
 Use: full_disk.py ASHLAR

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Kills runs at random moments and lets them go on: the results must be those of a run that never stopped, bit for bit.
+"""Kills runs at random moments and resumes them: the results must be those of an uninterrupted run, bit for bit.
 
     python3 tests/endurance/kills.py --program build/release/apps/ashlar --count 1600 --seed 1
     python3 tests/endurance/kills.py --kinds 'solver_*' 'demo_*' --count 200
@@ -28,7 +28,7 @@ HERE = pathlib.Path(__file__).parent
 TABLES = ["history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd", "joints.pvd"]
 # How a run is taken on: no result depends on it.
 MANNERS = [["--checkpoint", "0"], ["--checkpoint", "0.02"], [], ["--checkpoint", "0.01", "--threads", "2"]]
-# Of the summary: clocks, memory, and work that a run which goes on has to do again.
+# Keys of the summary for clocks, memory, and work that a resumed run repeats.
 MEASURED = ["wall_seconds", "peak_memory_bytes"]
 REPEATED = ["symbolic_factorizations", "numeric_factorizations", "numeric_factorizations_reused", "linear_solves",
             "conjugate_gradient_iterations", "predicates_by_filter", "predicates_exact", "share_of_exact_predicates"]
@@ -41,7 +41,7 @@ class Failure(Exception):
 
 
 class Kind:
-    """A run of kinds.json, and what it comes to when nothing stops it."""
+    """A run of kinds.json, with the results of an uninterrupted run."""
 
     def __init__(self, program, name, entry, folder):
         self.name = name
@@ -59,7 +59,7 @@ class Kind:
         return [*self.command, "--out", str(out), *manner]
 
     def run(self, out, manner):
-        """Runs to the end; returns the exit status and what was said."""
+        """Runs to the end; returns the exit status and the messages."""
         done = subprocess.run(self.arguments(out, manner), capture_output=True, text=True, check=False)
         return done.returncode, done.stderr
 
@@ -96,7 +96,7 @@ def end_at(kind, out, manner, moment, ending):
 
 
 def differences(a, b):
-    """Names of what differs between two result folders."""
+    """Names of the differences between two result folders."""
     names = sorted(p.name for p in (a / "frames").iterdir())
     if names != sorted(p.name for p in (b / "frames").iterdir()):
         return ["the list of frames"]
@@ -133,7 +133,7 @@ def trial(kind, chance, most, out):
         moment = chance.uniform(0.0, 1.1 * kind.seconds)
         result = end_at(kind, out, manner + how, moment, ending)
         if result == "unfit" and forced:
-            # Killed between its new tables and its first checkpoint: the old one is told to fit to nothing.
+            # Killed between its new tables and its first checkpoint: the old checkpoint is refused.
             how = ["--force"]
             result = end_at(kind, out, manner + how, moment, ending)
         if result == "unfit":

@@ -1,4 +1,4 @@
-// A run of each kind in kinds.json that goes on from some of its steps takes all later ones to the bit.
+// A run of each kind in kinds.json resumed from some of its steps takes all later ones to the bit.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -40,7 +40,7 @@ std::vector<Kind> kinds() {
   return result;
 }
 
-/// State that a run has reached, without clock times and what it cost.
+/// State of a run, without clock times and costs.
 std::string reached(SimulationSnapshot snapshot) {
   snapshot.run.log = {};
   snapshot.finder.counts = {};
@@ -51,7 +51,7 @@ std::string reached(SimulationSnapshot snapshot) {
 class StagedRun {
  public:
   explicit StagedRun(const LoadedScene& loaded) : loaded_(loaded) { begin(0); }
-  /// Goes on from the state of a run at one of its steps.
+  /// Resumes from the state of a run at one of its steps.
   StagedRun(const LoadedScene& loaded, std::size_t stage, const std::string& checkpoint) : loaded_(loaded) {
     begin(stage);
     simulation_->restore(snapshot_from_bytes(checkpoint));

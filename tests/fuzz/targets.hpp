@@ -1,5 +1,5 @@
-// What fuzzing feeds with bytes: every reader of a file that a user may have from somewhere else. A target
-// returns whether the reader took the bytes, and checks what a reader promises of those that it took. Errors
+// Targets of fuzzing: every reader of a file of foreign origin. A target returns true if the reader accepts the
+// bytes, and then checks the guarantees of the reader. Errors
 // that readers document are caught; any other exception, a failed check, a sanitizer's report, a hang or too
 // much memory is a find.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace ashlar::fuzz {
 
-/// What a reader promises does not hold. Not derived from std::exception, so that no reader's handler takes
-/// it for bad input.
+/// A violated guarantee of a reader. Not derived from std::exception, so that no reader handles it as bad
+/// input.
 struct BrokenPromise {
   const char* what;
 };

@@ -219,7 +219,7 @@ def summary_of(folder):
 
 
 def deepest_of(folder):
-    """What is deepest over all frames and pairs of blocks in which one can move, against the size of that one.
+    """The largest depth over all frames and pairs of blocks with a movable one, relative to its size.
 
     @return dict: depth (m), share (of the size), size (m), time, place, block (whose point it is), inside
     (block), frames

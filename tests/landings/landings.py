@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random landings: makes scenes (scenes.py), runs the program on them and audits what it wrote (audit.py).
+"""Random landings: makes scenes (scenes.py), runs the program on them and audits the results (audit.py).
 
     python3 tests/landings/landings.py --program build/release/apps/ashlar --out /tmp/landings.out --seed 1 --count 300
     python3 tests/landings/landings.py --seed 1 --count 300 --list
@@ -68,7 +68,7 @@ def land(index, options):
 
 
 def judge(report, result, status, message):
-    """Adds what the audit finds to the report."""
+    """Adds the findings of the audit to the report."""
     try:
         audit.summary_of(result)
     except (OSError, ValueError) as error:
@@ -132,7 +132,7 @@ def table(reports):
 
 
 def campaign(options):
-    """Runs all scenes asked for, prints those that fail as they end, then the summary; returns the exit status."""
+    """Runs all requested scenes, prints failures as they end, then the summary; returns the exit status."""
     wanted = [options.only] if options.only is not None else range(options.count)
     os.makedirs(options.out, exist_ok=True)
     reports = []

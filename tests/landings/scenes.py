@@ -214,7 +214,7 @@ def ring_scene(kind, rng):
 # --- scenes
 
 def settings(rng):
-    """What varies besides the shapes. Times go with the root of the scale, so that steps look alike at all scales."""
+    """Variations besides the shapes. Times are proportional to the root of the scale, so that steps are similar at all scales."""
     step = rng.choice([1e-3, 1e-3, 1e-4])
     return {"augmented": rng.random() < 0.5, "order": rng.choice([1, 1, 2]), "time_step": step,
             "end_time": 0.08 if step == 1e-4 else round(rng.uniform(0.25, 0.5), 3),

@@ -87,7 +87,7 @@ def wrench(force, place, middle):
 
 
 def largest_factor(boxes, loads, friction):
-    """What both programmes balance: friction in the corners, and where it resists twisting as uniform pressure does."""
+    """The load that both programmes balance: with friction in the corners, and with the twisting resistance of uniform pressure."""
     return min(largest_factor_of(boxes, loads, friction, near) for near in (False, True))
 
 

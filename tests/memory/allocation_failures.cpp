@@ -1,5 +1,5 @@
 // The program with its n-th allocation failing, for many n: it must end with a message and exit status 1, or as without a
-// failure where the allocation was not needed, and a run must keep a state that goes on to the same results.
+// failure where the allocation was not needed, and a run must keep a state that can be resumed to the same results.
 //
 //   allocation_failures [--first N] [--last N] [--step N] [--from-then-on] [--all] [--trace] [--bare] [--folder DIR] -- ARGUMENTS
 //
@@ -32,7 +32,7 @@
 #include "apps/program/command_line.hpp"
 #include "apps/program/program_memory.hpp"
 
-// The C library's own, behind the names that this program defines anew.
+// The functions of the C library, behind the names that this program redefines.
 extern "C" void* __libc_malloc(std::size_t bytes);
 extern "C" void* __libc_calloc(std::size_t count, std::size_t bytes);
 extern "C" void* __libc_realloc(void* place, std::size_t bytes);
@@ -217,7 +217,7 @@ std::string fault_of(const Ending& ending, const Ending& reference) {
   return ending.said.find("out of memory") == std::string::npos ? "no word of memory" : "";
 }
 
-/// Goes on with a run that ended for memory. @return what is wrong then
+/// Resumes a run that ended out of memory. @return the fault, if any
 std::string fault_of_resume(const Options& options, const std::string& history,
                             const std::filesystem::path& scratch) {
   std::vector<std::string> arguments = options.arguments;

@@ -53,7 +53,7 @@ def answers(program, folder, name, scene, options=("--threads", "1")):
         raise RuntimeError(f"exit status {done.returncode}: {done.stderr.strip()[-500:]}")
     with open(os.path.join(out, "history.csv"), encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    # Of a static analysis the equilibrium counts, not the way to it.
+    # Only the equilibrium of a static analysis counts, not its path.
     if scene["analysis"].get("type") == "static" and "stage" not in scene:
         rows = rows[-1:]
     return {(measure["name"], kind): [[float(row[f"{measure['name']}.{x}"]) for x in kind] for row in rows]
@@ -75,7 +75,7 @@ def difference(before, after, relation):
 
 
 def try_scene(options, name):
-    """@return lines of what was found, and how many relations do not hold"""
+    """@return lines of findings, and the number of violated relations"""
     scene, lines, failed = scenes.SCENES[name](), [], 0
     chosen = [options.relation] if options.relation else relations.RELATIONS
     with tempfile.TemporaryDirectory() as folder:

@@ -106,7 +106,7 @@ def stages():
 
 
 def multipliers():
-    """A block that slides and tilts on a joint that does not give way."""
+    """A block that slides and tilts on a joint without compliance."""
     return scene({"end_time": 0.1, "time_step": 1e-3}, {"friction_angle": 20.0, "augmented": True},
                  [floor(), box("stone", (-0.5, -0.375, 0), (0.5, 0.375, 1), velocity=[2.0, 0.5, 0.0])], ["stone"])
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Changes one operator or constant of a layer's sources at a time and asks the layer's tests whether they notice.
+"""Changes one operator or constant of a layer's sources at a time and checks that the layer's tests detect it.
 
     python3 tests/mutants/mutants.py --layer geometry --count 20 --seed 1 --folder /tmp/mutants
     python3 tests/mutants/mutants.py --layer mechanics --count 20 --seed 1 --files 'mechanics/contact/*' --list
@@ -30,7 +30,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = ["geometry", "mechanics", "solver", "apps"]
-# No part of the libraries that a layer's test program has: what is tested from outside only.
+# Sources tested from outside only, not part of the libraries of a layer's test program.
 OUTSIDE = ["apps/program/main.cpp", "apps/python/*"]
 MEMORY = 8 << 30  # bytes that a test program may take
 # Binary operators stand between spaces, which those of templates, references and pointers do not.
@@ -41,7 +41,7 @@ OPERATORS = {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ":
 OPERATOR = re.compile("|".join(re.escape(o) if not o.isalpha() else rf"\b{o}\b"
                                for o in sorted(OPERATORS, key=len, reverse=True)))
 NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*(?:e[+-]?\d+)?|\d+(?:e[+-]?\d+)?)(?![\w.])")
-# Lines whose numbers and operators change no result: storage, text and what the compiler decides.
+# Lines whose numbers and operators have no effect on results: storage, text and compile-time decisions.
 SKIPPED = re.compile(r"^\s*#|^\s*(?:static_assert|template|using|namespace)\b|\breserve\(|\bthrow\b|operator")
 
 
@@ -113,7 +113,7 @@ class Project:
         self.times = {}
 
     def check(self, file):
-        """That the sources build and pass the tests of a file. @return what is wrong, or None"""
+        """Builds the sources and runs the tests of a file. @return the fault, or None"""
         if run(self.build, cwd=self.source) != 0:
             return "does not build: " + " ".join(self.build)
         for command in self.tests(file):
@@ -174,7 +174,7 @@ def layer_project(layer, folder, jobs):
     if shutil.which("ccache"):
         os.environ.update(CMAKE_C_COMPILER_LAUNCHER="ccache", CMAKE_CXX_COMPILER_LAUNCHER="ccache",
                           CCACHE_BASEDIR=str(source), CCACHE_NOHASHDIR="1")
-    # With assertions, so that what reads beyond an array is noticed.
+    # With assertions, so that reads beyond an array are detected.
     if run(["cmake", "--preset", "release", "-DASHLAR_WARNINGS_AS_ERRORS=OFF", "-DASHLAR_BUILD_BENCHMARKS=OFF",
             "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -D_GLIBCXX_ASSERTIONS"], cwd=source) != 0:
         raise SystemExit(f"error: {source} cannot be configured")

@@ -96,7 +96,7 @@ def random_slope(numbers, kind, scale):
 
 
 def summary_of(options, scene, settings, seconds=MOST_SECONDS):
-    """@return summary.json of a run, or None where it failed; what was said"""
+    """@return summary.json of a run, or None where it failed; the messages"""
     folder = os.path.join(options.out, "run.out")
     shutil.rmtree(folder, ignore_errors=True)
     command = [options.program, "run", scene, "--out", folder, "--quiet", *(f"--set={setting}" for setting in settings)]
@@ -110,7 +110,7 @@ def summary_of(options, scene, settings, seconds=MOST_SECONDS):
 
 
 class Motion:
-    """Whether blocks of a scene set off, by factor."""
+    """True for factors at which blocks of a scene begin to move."""
 
     def __init__(self, options, scene):
         self.options, self.scene, self.moving, self.runs, self.rejected, self.failed = options, scene, "", 0, 0, []
@@ -130,7 +130,7 @@ class Motion:
         return True
 
     def least(self):
-        """@return a bracket of the least factor that moves, 0.5 % wide but where runs fail; None: there is none"""
+        """@return a bracket of the least factor that moves, 0.5 % wide unless runs fail; None: there is none"""
         if self.sets_off(LEAST) is not False:
             return None
         stands, moves = LEAST, MOST

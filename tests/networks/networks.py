@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random joint networks: cuts a cube by 3 to 6 sets of joints and asks whether the blocks fill it.
+"""Random joint networks: cuts a cube by 3 to 6 sets of joints and checks that the blocks fill it.
 
     python3 tests/networks/networks.py --program build/release/apps/ashlar --out /tmp/networks.out --seed 1 --count 20
     python3 tests/networks/networks.py --growth            # time and memory of one network with more and more blocks
@@ -91,7 +91,7 @@ def scene_of(network, spacing, order=0, min_volume=0.0):
 
 
 def run(command):
-    """@return exit status, output, what was said on stderr, seconds of processor time"""
+    """@return exit status, output, messages on stderr, seconds of processor time"""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
         out, said = child.communicate()
@@ -108,7 +108,7 @@ def write_scene(options, name, text):
 
 
 def faults_of(report):
-    """What does not fit in the blocks of a scene, by the numbers of `ashlar blocks --json` alone."""
+    """Mismatches between the blocks of a scene, by the numbers of `ashlar blocks --json` alone."""
     faults = []
     error = abs(math.fsum(block["volume"] for block in report["blocks"]) / SIDE ** 3 - 1)
     if error > VOLUME_ERROR:

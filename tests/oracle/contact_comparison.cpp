@@ -82,7 +82,7 @@ RationalVector turn_of(const RationalVector& a, const RationalVector& b, const R
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-/// A polygon's vertices must be told around it: all turns one way, and once around.
+/// The vertices of a polygon must be in order around it: all turns in one direction, one full turn.
 bool is_cycle(const ContactRegion& region, const ExactContact& exact, const Vector3& towards_a) {
   std::vector<RationalVector> polygon;
   for (const RegionVertex& point : region.points) {
@@ -174,7 +174,7 @@ void compare_order(const std::string& name, const ExactContact& exact, const Con
                    const Vector3& towards_a, Report& report) {
   const PlacedPoints points = sorted(points_of(region));
   if (region.dimension != 2 || points != sorted(points_of(exact))) return;
-  // Vertices that round to the same doubles cannot be told apart.
+  // Vertices that round to the same doubles cannot be distinguished.
   const auto same_place = [](const PlacedPoint& x, const PlacedPoint& y) {
     return std::get<0>(x) == std::get<0>(y) && std::get<1>(x) == std::get<1>(y);
   };

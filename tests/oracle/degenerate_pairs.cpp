@@ -68,7 +68,7 @@ Transformation random_transformation(Random& random) {
     rows = random_shear(random);
     result.name += " sheared";
   }
-  // Stretched before it is turned, by up to 2^30 either way along one axis.
+  // Stretched before rotation, by up to 2^30 or 2^-30 along one axis.
   std::array<int, 3> stretch{};
   if (pick(random, 0, 2) == 0) {
     const int power = static_cast<int>(10 * pick(random, 1, 3));
@@ -110,7 +110,7 @@ Displacement random_displacement(Random& random, const LatticePair& pair) {
   const std::array<int, 3> sizes{kSmallest, 40, 20};
   result.bits = sizes[static_cast<std::size_t>(pick(random, 0, 2))];
   if (kind < 55) {
-    // A plane through the contact turns up or down by one more than nothing: parallel no longer.
+    // A plane through the contact is tilted up or down by the smallest amount: no longer parallel.
     LatticePoint slope{pick(random, -1, 1), pick(random, -1, 1), pick(random, -1, 1)};
     // The map 1 + 2^-bits normal slope' must not turn the body inside out.
     if (lattice_dot(slope, pair.normal) < 0) slope = lattice_add({}, slope, -1);
@@ -223,8 +223,8 @@ bool nudge(Random& random, Shape& shape) {
   return false;
 }
 
-/// The image under a linear map with entries that are no doubles, every coordinate rounded: what was exactly
-/// touching, parallel or flat now is almost so, in coordinates with all their bits.
+/// The image under a linear map with entries that are no doubles, every coordinate rounded: exact contact, parallelism
+/// and flatness become approximate, in coordinates with all their bits.
 /// @return whether both shapes are still valid; they are unchanged if not.
 bool round_off(Random& random, Shape& p, Shape& q) {
   constexpr int kDenominator = 997;

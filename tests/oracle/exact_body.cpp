@@ -206,7 +206,7 @@ std::vector<std::vector<int>> facet_cycles(const Shape& solid) {
     const auto on_plane = [&](int v) {
       return dot(plane.normal, body.vertices[static_cast<std::size_t>(v)]) == plane.offset;
     };
-    // Every edge of the facet runs either way; the way whose left side holds the facet is kept.
+    // Every edge of the facet occurs in both directions; the direction with the facet on its left is kept.
     std::map<int, int> next;
     for (auto [from, to] : body.edges) {
       if (!on_plane(from) || !on_plane(to)) continue;

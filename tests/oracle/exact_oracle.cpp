@@ -174,7 +174,7 @@ mpq_class power_of_two(long exponent) {
   return exponent >= 0 ? mpq_class(power) : mpq_class(mpz_class(1), power);
 }
 
-/// Contact of `moved_p` = divisor P + p_shift and `moved_q` = divisor Q + q_shift, which must meet, told in
+/// Contact of `moved_p` = divisor P + p_shift and `moved_q` = divisor Q + q_shift, which must meet, in
 /// the original coordinates (length unit 2^exponent).
 ExactContact describe(const ConvexBody& moved_p, const ConvexBody& moved_q,
                       const std::vector<CommonPoint>& points, const mpz_class& divisor,

@@ -69,7 +69,7 @@ bool FlatOverlap::contains(const PlanePoint& p) const {
   });
 }
 
-// Each piece at p is a sector; where one ends and another one begins nothing is open.
+// Each piece at p is a sector; there is no gap where one ends and another one begins.
 bool FlatOverlap::is_vertex(const PlanePoint& p) const {
   std::map<PlanePoint, int> open;
   for (const Polygon& piece : pieces_)

@@ -1,6 +1,6 @@
 // The common part of two plane regions given as triangles: brute force in rational numbers. Every triangle of
-// one is clipped by every triangle of the other; what the pieces leave open around a point says what the
-// point is. Shares no code with the program.
+// one is clipped by every triangle of the other; the gaps between the pieces around a point classify the
+// point. Shares no code with the program.
 #pragma once
 
 #include <gmpxx.h>

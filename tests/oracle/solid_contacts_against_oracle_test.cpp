@@ -37,7 +37,7 @@ struct Profile {
   }
 };
 
-// Which halves of the squares of a grid are taken: what stays the same when it is triangulated anew.
+// Halves of the squares of a grid that belong to the solid, independent of its triangulation.
 struct Cells {
   static constexpr int size = 5;
   std::array<std::array<int, size>, size> kind{};  // 0 none, 1 whole, 2 to 5 one of the four halves

@@ -1,5 +1,5 @@
-// The same pair told differently: mirrored, turned, swapped, renumbered, scaled, moved, meshed anew, all
-// exactly. Whatever is asked about a variant must give the answer of the original pair, carried along.
+// Equivalent forms of a pair: mirrored, rotated, swapped, renumbered, scaled, moved, with another mesh, all
+// exactly. All results of a variant must be the transformed results of the original pair.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-"""Makes the Debian packages of a build, unpacks them into an empty folder and uses what they bring.
+"""Builds the Debian packages of a build, unpacks them into an empty folder and uses their contents.
 use: debian_packages.py BUILD [--python]     exit 77: there are no tools for packages"""
 import argparse
 import json

@@ -1,4 +1,4 @@
-"""Frames of a run, read by meshio, against what the simulation itself says."""
+"""Frames of a run, read by meshio, compared with the simulation."""
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -10,7 +10,7 @@ import ashlar
 
 
 def read(frame):
-    """meshio knows no texts in a file: without the block names, which are the only ones, it reads what has cells."""
+    """meshio does not support texts in a file: it reads frames without the block names, their only texts."""
     copy = frame.with_suffix(".plain.vtu")
     copy.write_bytes(re.sub(rb"<FieldData>.*?</FieldData>", b"", frame.read_bytes(), count=1, flags=re.DOTALL))
     return meshio.read(copy)

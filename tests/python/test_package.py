@@ -1,4 +1,4 @@
-"""`pip install .` without a network: the source distribution, the wheel, and what is installed of it."""
+"""`pip install .` without a network: the source distribution, the wheel, and the installed files."""
 import os
 import pathlib
 import subprocess

@@ -230,7 +230,7 @@ def test_the_summary_tells_the_time_inside_the_run(tmp_path):
     elapsed = time.monotonic() - start
     seconds = json.loads((tmp_path / "out" / "summary.json").read_text())["wall_seconds"]
     assert 0 < seconds["setup"] < seconds["total"] and 0 < seconds["output"] < seconds["total"]
-    # What the caller waits after each of the ten steps is not the run's, all else is within what has passed.
+    # The waiting time of the caller after each of the ten steps is not part of the run; the rest is within the elapsed time.
     assert seconds["total"] < elapsed - 9 * 0.02
 
 

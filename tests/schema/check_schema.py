@@ -1,4 +1,4 @@
-"""Holds `ashlar schema` against a validator that others made.
+"""Checks `ashlar schema` with an independent validator.
 
 Every scene of data/scenes and every complete one of a list of faults is read by Python's own TOML reader and validated.
 Use: check_schema.py ASHLAR SCENES_FOLDER

@@ -1,4 +1,4 @@
-// The one helper that holds analytic derivatives to finite differences of what they are derivatives of.
+// Compares analytic derivatives with finite differences of the function; the only helper for this purpose.
 #pragma once
 
 #include <gtest/gtest.h>

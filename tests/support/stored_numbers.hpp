@@ -81,7 +81,7 @@ class StoredNumbers {
     auto& [origin, e1, e2, w] = frame;
     (*this)(origin, e1, e2, w);
   }
-  /// Of a plain struct all members, whatever it lists.
+  /// All members of a plain struct, regardless of its own list.
   template <class T>
   requires std::is_class_v<T>
   void visit(T& value) {

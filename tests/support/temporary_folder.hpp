@@ -1,4 +1,4 @@
-// A folder of its own for each test, gone when the test ends.
+// A separate folder for each test, removed at its end.
 #pragma once
 
 #include <stdlib.h>

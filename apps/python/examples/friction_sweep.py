@@ -1,4 +1,4 @@
-"""How far a stone slides down 30 degrees in half a second, by its angle of friction."""
+"""Displacement of a stone on a slope of 30 degrees in half a second, by its friction angle."""
 import math
 import ashlar
 
