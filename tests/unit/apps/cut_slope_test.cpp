@@ -32,8 +32,8 @@ std::string friction(const std::string& key, double angle) {
 
 class CutSlope : public testing::TestWithParam<double> {};
 
-// What lies on the bedding through the toe sets off along it with a = g (sin 30 - cos 30 tan(phi)), as one. In the first
-// iterations inertia bears its weight and it falls; which joints slide is another set in each of the few that follow.
+// Rock on the bedding through the toe begins to slide with a = g (sin 30 - cos 30 tan(phi)), as one. In the first
+// iterations inertia resists its weight and it falls; each of the few that follow has another set of sliding joints.
 TEST_P(CutSlope, SetsOffAlongItsBedding) {
   const double angle = GetParam();
   auto built = built_slope({"parameters.height=4", "parameters.width=3", friction("joint.0", angle)});
@@ -53,8 +53,8 @@ TEST_P(CutSlope, SetsOffAlongItsBedding) {
     EXPECT_LT((block.acceleration - expected).norm(), 0.01 * along) << block.block;
 }
 
-// Between steep joints of much friction the bounds of friction do not settle in some iterations. It stands by far: bedding
-// alone would hold it with tan(29) / 0.84 against tan(30).
+// Between steep joints of high friction the bounds of friction do not converge in some iterations. The slope is far from its
+// limit: bedding alone would hold it with tan(29) / 0.84 against tan(30).
 TEST(SteepJoints, StandsWhereFrictionDoesNotSettleAtOnce) {
   const auto raised = [](double angle) { return std::atan(std::tan(angle * degree) / 0.84) / degree; };
   auto built = built_slope({"parameters.height=6", "parameters.width=6", "parameters.length=16",

@@ -1,4 +1,4 @@
-// What `ashlar run` says of blocks that are deep in each other, and that it goes on in them as it was.
+// Messages of `ashlar run` on deep penetration, and resumption of such runs.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // The cube of the fixture, 450 kg with side 0.5 m, comes down with 0.5 m/s on springs of 1.25e7 N/m:
-// 0.5 * sqrt(450 / 1.25e7) = 3.0e-3 m deep at most, as the beam gives way, and twice that with 1 m/s.
+// 0.5 * sqrt(450 / 1.25e7) = 3.0e-3 m deep at most, as the beam yields, and twice that with 1 m/s.
 
 TEST_F(RunCommand, DepthBeyondWhatTheSceneAllowsFails) {
   ASSERT_EQ(run("allowed", {"--set", "contact.allowed_depth=0.004"}), exit_status::done) << faults_;
@@ -21,7 +21,7 @@ TEST_F(RunCommand, DepthBeyondWhatTheSceneAllowsFails) {
   EXPECT_GT(allowed["deepest"]["value"], 2.8e-3);
   EXPECT_LT(allowed["deepest"]["value"], 4e-3);
 
-  // What its contacts know is allowed beyond it: springs of a given stiffness give way as they were asked to.
+  // The depth of contacts is allowed beyond it: springs of a given stiffness have the given compliance.
   ASSERT_EQ(run("given", {"--set", "contact.allowed_depth=0.001"}), exit_status::done) << faults_;
 
   ASSERT_EQ(run("failed", {"--set", "contact.allowed_depth=0.001", "--set", "contact.normal_stiffness=auto",
@@ -41,7 +41,7 @@ TEST_F(RunCommand, DepthThatIsNotOrdinaryIsAWarning) {
   EXPECT_THAT(faults_, HasSubstr("m deep in block B at t = 0.0"));
 }
 
-// A corner dropped into a V-shaped groove of one mesh slides in it while the audit remembers what it knows.
+// A corner dropped into a V-shaped groove of one mesh slides in it with the memory of the audit.
 constexpr const char* groove_scene = R"([analysis]
 end_time = 0.12
 time_step = 1e-3

@@ -1,4 +1,4 @@
-// Vaults from drawings: what is drawn as one surface is one surface, and what rounding makes overlap is accepted.
+// Vaults from drawings: a surface drawn as one is one surface, and overlaps by rounding are accepted.
 #include <gmock/gmock.h>
 
 #include <random>
@@ -72,7 +72,7 @@ TEST_F(DrawnVault, ABarrelOf400StonesNeedsAnAllowedOverlap) {
   EXPECT_EQ(check({accepted}), 0) << faults_;
 }
 
-// Two stones with the same six corners at their joint, which are not in a plane, named from two sides.
+// Two stones with the same six corners at their joint, not coplanar, listed from two sides.
 TEST_F(DrawnVault, StonesOnAWarpedBedTouch) {
   const auto stone = [](double below, double above) {
     DrawnStone drawn;

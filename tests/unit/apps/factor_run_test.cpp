@@ -25,7 +25,7 @@ std::string plate_on_a_slope(const std::string& analysis, const std::string& con
 const char* const safety = "[analysis]\ntype = \"factor-of-safety\"\n";
 const char* const elastic = "[analysis]\ntype = \"factor-of-safety\"\nmethod = \"elastic\"\n";
 
-/// Of joints that lose strength limit analysis says nothing, so that static analyses look for the factor alone.
+/// Limit analysis does not apply to joints that lose strength, so that only static analyses search for the factor.
 const char* const brittle = "friction_angle = 40\nfriction_angle_residual = 39";
 
 class FactorRun : public RunCommand {

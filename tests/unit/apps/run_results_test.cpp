@@ -1,4 +1,4 @@
-// What becomes of results when something goes wrong: other runs, other people's files, full disks, hands.
+// Results in case of errors: other runs, foreign files, full disks, manual changes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -178,7 +178,7 @@ TEST_F(RunResults, AnotherFolderInItsPlaceIsNotWrittenTo) {
   EXPECT_LE(files("out").size() - 1 + files("out/frames").size(), 1U);
 }
 
-// A limit on the size of files stands for a disk without space for the table.
+// A limit on the size of files simulates a disk without space for the table.
 TEST_F(RunResults, ATableThatCannotGrowEndsTheRunWithStateAndSummary) {
   ASSERT_EQ(run("straight", {"--set", "analysis.end_time=2"}), exit_status::done) << faults_;
   const std::uintmax_t whole = std::filesystem::file_size(folder_ / "straight/history.csv");

@@ -1,4 +1,4 @@
-// What a run says of the friction that multipliers have lost.
+// Messages of a run on friction lost by multipliers.
 #include <gmock/gmock.h>
 
 #include <cmath>

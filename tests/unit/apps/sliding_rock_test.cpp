@@ -13,7 +13,7 @@ namespace {
 
 class SlidingRock : public RunCommand {};
 
-// Most blocks come near to balance while a few slivers lack all of it: that is progress, and Newton needs no fallback.
+// The residual of most blocks falls while a few slivers keep all of theirs: that is progress, and Newton needs no fallback.
 TEST_F(SlidingRock, NeedsNoFallbackWhereTheWorstBlockImprovesLast) {
   write_text(scene_, R"(
 analysis = { end_time = 4e-3, time_step = 1e-3, gravity = [0, 0, -9.81] }

@@ -48,7 +48,7 @@ rotate = { axis = [0, -1, 0], angle = 30 }
 )";
 
 TEST_F(StaticRun, APlateThatBendsRestsOnPointSprings) {
-  // Springs at its four corners alone did not feel its middle sink in, until that was too deep: it fell.
+  // Springs at its four corners alone did not resist penetration of its centre, until that was too deep: it fell.
   write_text(scene_, R"(
 [analysis]
 type = "static"
@@ -78,7 +78,7 @@ point = [0, 0, 0]
 )");
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   EXPECT_EQ(nlohmann::json::parse(text("out/summary.json"))["status"], "equilibrium");
-  // Three springs by three. The middle support of a beam over three stiff ones carries 5/8 of its weight,
+  // Three springs by three. The middle support of a beam over three stiff ones transmits 5/8 of its weight,
   // soft ones less: the middle spring no more than 25/64 of 22073 N.
   const double sinks = -column("out/history.csv", "middle.uz").back();
   EXPECT_GT(sinks, 0.0);
@@ -118,7 +118,7 @@ TEST_F(StaticRun, ComesBeforeMotion) {
   ASSERT_EQ(run("half", {"--set", "analysis.end_time=0.1"}), exit_status::done) << faults_;
   ASSERT_EQ(run("half", {"--resume"}), exit_status::done) << faults_;
   EXPECT_EQ(text("half/history.csv"), text("out/history.csv"));
-  // What does not stand is told of, and moves from where it was placed.
+  // Blocks that do not stand are reported, and move from their initial place.
   ASSERT_EQ(run("slides", {"--set", "contact.friction_angle=20"}), exit_status::done) << faults_;
   EXPECT_THAT(faults_, HasSubstr("all start as placed"));
   EXPECT_EQ(column("slides/history.csv", "top.uz").front(), 0.0);

@@ -1,4 +1,4 @@
-// Scenes whose steps once went wrong, each with what must hold of its summary (data/corpora/steps):
+// Scenes whose steps once failed, each with claims on its summary (data/corpora/steps):
 //   # claim: /pointer/into/summary OP VALUE      OP: ==, < or >; VALUE: JSON
 #include <gtest/gtest.h>
 

@@ -51,7 +51,7 @@ std::vector<Case> read_index() {
 void expect_defects(const Case& c, const TriangleMesh& mesh) {
   std::set<std::string> kinds;
   bool mentioned = false;
-  // The smallest example must be found whatever the limit, hence one of each kind here and all there.
+  // The smallest example must be found for any limit, hence one of each kind here and all there.
   for (const MeshDefect& defect : Polyhedron::find_defects(mesh, 1)) {
     kinds.insert(to_string(defect.kind));
     EXPECT_FALSE(defect.element.empty());

@@ -1,5 +1,4 @@
-// What contacts do over many steps: nothing creeps, nothing is lost, forces add up, energy does not come from
-// nowhere.
+// Contacts over many steps: no creep, no losses, forces add up, no energy is created.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +34,7 @@ struct Stack {
   }
 };
 
-/// A block of an order on an incline of 30 degrees whose friction angle is 31, let go without strain.
+/// A block of an order on an incline of 30 degrees whose friction angle is 31, released without strain.
 Simulation block_on_incline(int order, bool augmented) {
   Stack stack;
   stack.settings.time_step = 5e-3;
@@ -60,7 +59,7 @@ TEST(ContactHistory, ASoftCubeOnPointSpringsDoesNotSink) {
         block_of("cube", Polyhedron(make_box({-0.5, -0.5, 0}, {0.5, 0.5, 1})), {2500, 1e7, 0.2}, order));
     Simulation simulation = stack.simulation({1e8, 5e7, std::tan(std::numbers::pi / 6), 0.0, 0.0, false});
     ASSERT_TRUE(run_until(simulation, 1.0)) << order;
-    // m g / (4 kn) = 6.1e-5 m at rest, twice that when let go at once.
+    // m g / (4 kn) = 6.1e-5 m at rest, twice that when released suddenly.
     for (const double x : {-0.5, 0.5}) {
       for (const double y : {-0.5, 0.5}) {
         const double sunk = -place_of(simulation, 1, {x, y, 0}).z();
@@ -83,7 +82,7 @@ TEST(ContactHistory, StacksOfCurvedBlocksStandOnPointSprings) {
     Simulation simulation = stack.simulation({2e11, 1e11, std::tan(std::numbers::pi / 6), 0.0, 0.0, false});
     ASSERT_TRUE(run_until(simulation, 0.05)) << order;
     EXPECT_TRUE(simulation.rejections().empty()) << order;
-    // Less than ten times what its own weight, 5e4 Pa over 2 m, makes of it.
+    // Less than ten times the effect of its own weight, 5e4 Pa over 2 m.
     EXPECT_LT((place_of(simulation, 2, {0.5, 0.5, 2.0}) - Vector3(0.5, 0.5, 2.0)).norm(), 1e-4) << order;
   }
 }
@@ -101,7 +100,7 @@ TEST(ContactHistory, ATowerStandsWithAverageAcceleration) {
           block_of("cube", Polyhedron(make_box({-0.5, -0.5, z}, {0.5, 0.5, z + 1})), {2500, 1e10, 0.2}, 1));
     Simulation simulation = stack.simulation({2e11, 1e11, std::tan(std::numbers::pi / 6), 0.0, 0.0, false});
     ASSERT_TRUE(run_until(simulation, 0.3)) << augmented;
-    // Under its own weight it gives way by less than 1e-5 m, twice that when let go at once.
+    // Its compression under its own weight is less than 1e-5 m, twice that when released suddenly.
     EXPECT_LT((place_of(simulation, 3, {0.5, 0.5, 3.0}) - Vector3(0.5, 0.5, 3.0)).norm(), 4e-5) << augmented;
   }
 }

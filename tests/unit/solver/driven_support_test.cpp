@@ -80,13 +80,13 @@ TEST(DrivenSupport, CarriesAgainstGravityThatChangesWithoutWork) {
     settings.gravity_history = {{0.0, 1.0}, {{0, 0, -9.81}, {-5, 0, -3}}};
     Simulation simulation = lone(bar(2500, all, history, history), settings);
     ASSERT_TRUE(run_until(simulation, 1.0));
-    // What gravity takes from the block supports give: 1/2 m v^2 is left.
+    // The work of supports balances that of gravity: 1/2 m v^2 remains.
     EXPECT_NEAR(simulation.ledger().applied, 0.5 * 5000.0 * 4.0, 1e-6);
     EXPECT_LT(std::abs(simulation.ledger().residual), 1e-6);
   }
 }
 
-/// A belt at constant speed from a start on under a block that is laid on it.
+/// A belt with constant speed after a start, under a block laid on it.
 Simulation belt(double speed, double friction, double start = 0.0) {
   const SupportHistory history{{start, start + 10.0}, {Vector3::Zero(), {10.0 * speed, 0, 0}}};
   BlockDefinition base =
@@ -111,7 +111,7 @@ TEST(DrivenSupport, BeltTakesABlockAlong) {
   // It has the belt's speed after v / (mu g) = 0.204 s.
   ASSERT_TRUE(run_until(simulation, 0.4));
   EXPECT_NEAR(simulation.blocks()[1].momentum(simulation.states()[1]).x() / (mass * speed), 1.0, 1e-3);
-  // Friction took 1/2 m v^2; the belt gave as much again to the block, and what it needed itself.
+  // Friction dissipated 1/2 m v^2; the belt did as much work on the block, and that for its own motion.
   const double energy = 0.5 * mass * speed * speed;
   const double belt_energy = 0.5 * simulation.blocks()[0].mass() * speed * speed;
   EXPECT_NEAR(simulation.ledger().friction / energy, 1.0, 0.01);

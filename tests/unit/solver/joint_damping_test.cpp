@@ -100,7 +100,7 @@ TEST(JointDamping, ShearSwingsOutToo) {
 
 class Restitution : public testing::TestWithParam<std::tuple<Integrator, double>> {};
 
-// A Kelvin-Voigt contact that lets go where its force is nothing (Schwager and Poeschel 2007):
+// A Kelvin-Voigt contact that separates at zero force (Schwager and Poeschel 2007):
 // e = exp(-z/sqrt(1 - z^2) (pi - 2 asin z)).
 TEST_P(Restitution, IsThatOfAKelvinVoigtContactWithoutTension) {
   const auto [integrator, share] = GetParam();
@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Restitution,
                                                           Integrator::generalized_alpha),
                                           testing::Values(0.05, 0.2, 0.6)));
 
-/// Largest tilt of a column of 0.5 x 0.5 x 2 m on ground that shakes for three smooth cycles, and what is left of it 1 s
+/// Largest tilt of a column of 0.5 x 0.5 x 2 m on ground that shakes for three smooth cycles, and the tilt 1 s
 /// later.
 std::array<double, 2> rocked(double share, double step) {
   SupportHistory shaking;

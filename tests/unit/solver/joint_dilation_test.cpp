@@ -27,7 +27,7 @@ JointLaw dilating(double friction, double dilation, bool area = true) {
   return law;
 }
 
-/// A slab on a plate that sets off along the way it will take, up its dilation.
+/// A slab on a plate that starts along its path, up its dilation.
 Simulation sliding_slab(const JointLaw& law, const SimulationSettings& settings, int order, double speed,
                         double turn = 0.0) {
   std::vector<BlockModel> blocks;
@@ -64,7 +64,7 @@ TEST_P(SlidingUp, UnderConstantLoadRisesBySlipTimesTangent) {
   settings.contact_distance = 1e-3;  // far less than it rises
   settings.rest.sleeps = false;
   JointLaw law = dilating(friction, dilation, way.area);
-  // It is put down without pressure. What nothing damps bounces for ever, and slips in flight.
+  // It starts without pressure. Undamped, it bounces without end, and slips in flight.
   if (way.integrator == Integrator::average_acceleration && !way.augmented) law.damping = 0.3;
   Simulation simulation = sliding_slab(law, settings, way.order, speed, 0.3);
   const Vector3 start = place_of(simulation, 1, {0, 0, 0});
@@ -132,7 +132,7 @@ class Confined {
   static Vector3 force(const Simulation& simulation) { return force_on_a(simulation.contacts().at(0)); }
 };
 
-// Sliding between two levels, over several of them: what has slid in one is the start of the next.
+// Sliding between two levels, over several of them: the slip of one is the start of the next.
 TEST(JointDilation, UnderConstantStiffnessNormalStressRisesBySlip) {
   for (const bool augmented : {false, true}) {
     for (const double dilation : {0.0, 0.1, 0.3}) {
@@ -156,7 +156,7 @@ TEST(JointDilation, SlidingBackOpensOn) {
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing) status = simulation.static_step(1.8);
   ASSERT_EQ(status, StaticStatus::equilibrium);
-  // Of the way back, what shear strain has turned round is no slip: with t = sigma tan(phi) C before and after,
+  // On the way back, the reversal of shear strain is no slip: with t = sigma tan(phi) C before and after,
   // s2 = u - t1 - t2, and sigma2 = sigma1 + K tan(psi) s2.
   const double normal = 1.0 / (Confined::height / Confined::young + 1.0 / Confined::kn);
   const double give = friction * (2.0 * Confined::height / Confined::young + 1.0 / Confined::ks);
@@ -192,7 +192,7 @@ TEST(JointDilation, ResumedRunsAndThreadsHaveTheSameBits) {
   }
 }
 
-// A gap that dilation has opened is no gap: pressed down at rest the slab stays where it has risen to.
+// An opening by dilation is no gap: pressed down at rest the slab keeps its height.
 TEST(JointDilation, WhatHasRisenStaysUp) {
   SimulationSettings settings;
   settings.contact_distance = 1e-3;
@@ -217,7 +217,7 @@ Simulation cube(double dilation, const Vector3& velocity, double step) {
 }
 
 TEST(DilatingSlip, WhatHopsSlidesInFlight) {
-  // It starts along the plate and not up its dilation, which throws it up. What dilates is what is left of the slip.
+  // It starts along the plate and not up its dilation, which throws it up. Only the rest of the slip dilates.
   Simulation hops = cube(0.15, {2, 0, 0}, 1e-3);
   ASSERT_TRUE(run_until(hops, 0.2));
   const double slip = place_of(hops, 1, {0, 0, 0.5}).x();

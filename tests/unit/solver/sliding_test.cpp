@@ -1,4 +1,4 @@
-// Blocks that slide: over a face cut into many triangles, whose sides they must not feel, and over edges and
+// Blocks that slide: over a face cut into many triangles, whose sides must have no effect, and over edges and
 // on ridges that their faces are tilted to.
 #include <gtest/gtest.h>
 

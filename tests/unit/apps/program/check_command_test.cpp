@@ -1,4 +1,4 @@
-// `ashlar check --json`: what editors and scripts read.
+// `ashlar check --json`, for editors and scripts.
 #include "apps/program/check_command.hpp"
 
 #include <gmock/gmock.h>

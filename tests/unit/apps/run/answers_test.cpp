@@ -1,4 +1,4 @@
-// What an engineer reads of a run: measures of pairs and blocks, largest values, broken joints.
+// Results for engineers: measures of pairs and blocks, largest values, failed joints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A cube of 1 m and 2000 kg, E = 1 GPa, on a fixed floor, and what a scene says beside.
+/// A cube of 1 m and 2000 kg, E = 1 GPa, on a fixed floor, and further keys of the scene.
 std::string cube_on_floor(const std::string& analysis, const std::string& contact, const std::string& block,
                           const std::string& more) {
   return "[analysis]\n" + analysis + "[contact]\n" + contact + R"(

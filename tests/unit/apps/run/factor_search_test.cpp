@@ -8,7 +8,7 @@
 namespace ashlar {
 namespace {
 
-/// Blocks that stand below a limit; nothing is known within a relative distance of it.
+/// Blocks that stand below a limit; trials within a relative distance of it are unknown.
 struct Slope {
   double limit = 1.0;
   double unknown = 0.0;
@@ -83,7 +83,7 @@ TEST(FactorSearch, StaysInItsRangeAndSaysWhatIsBeyond) {
     EXPECT_EQ(bracket.upper, limit > 1.0 ? std::nullopt : std::optional(0.3));
     for (const double factor : slope.tried) EXPECT_TRUE(factor >= 0.3 && factor <= 7.0) << factor;
   }
-  // A range without 1 starts at its end that is nearest to it.
+  // A range without 1 starts at its end nearest to 1.
   Slope slope{3.0};
   EXPECT_TRUE(find_factor({{"*"}, 0.01, 2.0, 4.0}, std::ref(slope)).resolved);
   EXPECT_EQ(slope.tried.front(), 2.0);

@@ -38,7 +38,7 @@ TEST(InterruptGuard, TheLastOfSeveralPutsBackWhatWasThere) {
   }
 }
 
-/// How a process ends that gets a signal twice, or 128 + it if it goes on. @param pause between, microseconds
+/// Exit status of a process after two signals, or 128 + the signal if it continues. @param pause between, microseconds
 int end_of_process(int signal, useconds_t pause) {
   const pid_t process = ::fork();
   if (process == 0) {

@@ -1,4 +1,4 @@
-// A run that goes on from any of its steps takes the next ones to the bit.
+// A run resumed from any of its steps takes the next ones to the bit.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-/// What a run has reached, without clock times and what it cost.
+/// State of a run, without clock times and costs.
 std::string reached(const Simulation& simulation) {
   SimulationSnapshot snapshot = simulation.snapshot();
   snapshot.run.log = {};

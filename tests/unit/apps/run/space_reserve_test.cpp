@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// What it is worth on a full disk is tested in tests/endurance.
+// tests/endurance tests it on a full disk.
 TEST(SpaceReserve, LeavesNothingInTheFolder) {
   const TemporaryFolder folder;
   SpaceReserve reserve(folder.path());

@@ -15,7 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// A stack of cubes of 1 m and 2000 kg on a fixed floor, order 1: the floor bears the weight of what stands on it.
+// A stack of cubes of 1 m and 2000 kg on a fixed floor, order 1: the floor supports the weight of the stack.
 const std::string stack = R"(title = "stack"
 [analysis]
 gravity = [0, 0, -10]
@@ -205,7 +205,7 @@ gravity = [0, 0, 0]
   };
   EXPECT_NEAR(weight(0), 40000.0, 1e-3);
   EXPECT_NEAR(weight(1), 50000.0, 1e-3);
-  // Its history has ended; what it was then is what it is.
+  // Its history has ended, with its last value.
   EXPECT_NEAR(weight(2), 50000.0, 1e-3);
 }
 

@@ -1,4 +1,4 @@
-// The reference of scenes, apps/docs/reference/scene.md, says what the reader does.
+// The reference of scenes, apps/docs/reference/scene.md, agrees with the reader.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -123,7 +123,7 @@ std::set<std::string> known_keys() {
     std::istringstream list(between(fault, "known here: ", "\n"));
     for (std::string key; std::getline(list, key, ',');) keys.insert(joined(table, trimmed(key)));
   }
-  // A stage's analysis has the keys of [analysis], which are told once.
+  // A stage's analysis has the keys of [analysis], which are described once.
   std::erase_if(keys, [&](const std::string& key) {
     constexpr std::string_view of_stage = "stage.";
     return key.starts_with("stage.analysis.") && keys.contains(key.substr(of_stage.size()));

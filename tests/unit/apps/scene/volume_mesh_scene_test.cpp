@@ -86,7 +86,7 @@ TEST_F(VolumeMeshScene, ABarOfTetrahedraUnderTensionStretchesByStressOverModulus
     while (run.step()) {
     }
     ASSERT_EQ(run.status(), RunStatus::equilibrium) << run.message();
-    // u = sigma x / E. The ties give way by sigma / k each, k = 1000 E / size or so.
+    // u = sigma x / E. The compliance of ties adds sigma / k each, k = 1000 E / size or so.
     const std::vector<BlockModel>& blocks = run.simulation().blocks();
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const Vector3 point = blocks[b].solid().mesh().points.front();

@@ -160,7 +160,7 @@ TEST(DistanceMinima, OfSolidsThatAreNotConvexAreSeveral) {
   EXPECT_NE(round_to_nearest(edges[0].w), round_to_nearest(edges[1].w));
 }
 
-// A reflex edge or corner is nearest to nothing but what touches it: the tip over the inner edge of an L is nearer to the
+// A reflex edge or corner is nearest only to features in contact with it: the tip over the inner edge of an L is nearer to the
 // notch's faces, and one that stands in the valley touches both.
 TEST(DistanceMinima, AValleyIsNearestOnlyToWhatTouchesIt) {
   const TriangleMesh valley = test_support::make_prism(

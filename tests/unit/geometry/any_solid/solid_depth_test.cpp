@@ -132,8 +132,8 @@ TEST(SolidDepth, NoPointOfASegmentIsDeeperThanTheAnswer) {
 }
 
 TEST(SolidDepth, SegmentsAlongAFaceAreAsDeepAsTheyWereMovedIn) {
-  // Between two points of each face, moved in or out by less and by more than the resolution. Of the samples only those
-  // whose faces are wider than what they are moved by count.
+  // Between two points of each face, moved in or out by less and by more than the resolution. Only samples count
+  // whose faces are wider than this motion.
   std::mt19937_64 random(5);
   int tried = 0;
   for (const auto& [name, solid] : test_support::sample_solids()) {

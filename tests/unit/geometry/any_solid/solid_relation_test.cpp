@@ -26,7 +26,7 @@ void expect_relation(const TriangleMesh& a, const TriangleMesh& b, Relation rela
   }
 }
 
-// Hull of a few points of a small lattice: touching in every way is common.
+// Hull of a few points of a small lattice: all kinds of contact are common.
 TriangleMesh lattice_hull(std::mt19937_64& random) {
   for (;;) {
     std::vector<Vector3> points;

@@ -252,7 +252,7 @@ TEST(ContactSearch, ATipBelowAValleyIsHeldByBothFlanks) {
 }
 
 TEST(ContactSearch, AFlankEndsAtItsConvexRim) {
-  // The outer rim of a flank is x = z = 2: what is below the flank's plane beyond it is beside the block.
+  // The outer rim of a flank is x = z = 2: points below the flank's plane beyond it are beside the block.
   const Body ground(groove());
   const Body beside(tip({2.004, 0.1, 1.99}));
   for (const VertexContact& contact : find_contacts(beside.placed, ground.placed, limits).vertices) {
@@ -280,10 +280,10 @@ TEST(ContactSearch, AnEdgeThatIsLongerThanAValleyIsHeldByBothOfItsRims) {
 }
 
 TEST(ContactSearch, BehindAHiddenSideTheFaceBesideItHolds) {
-  // The right half of the groove as a block of its own: its side x = 0 lies on the left half.
+  // The right half of the groove as a separate block: its side x = 0 lies on the left half.
   const Body half(Polyhedron(make_convex_hull(std::vector<Vector3>{
       {0, -1, 0}, {2, -1, 2}, {2, -1, -1}, {0, -1, -1}, {0, 1, 0}, {2, 1, 2}, {2, 1, -1}, {0, 1, -1}})));
-  // 1 mm behind the side, 8 mm below the flank: the side is nearer, but no way leads out there.
+  // 1 mm behind the side, 8 mm below the flank: the side is nearer, but it is occluded.
   const Vector3 place(0.001, 0.1, 0.001 - 0.008 * std::sqrt(2.0));
   const Body falling(Polyhedron(make_convex_hull(std::vector<Vector3>{
       place, place + Vector3(-0.1, 0.1, 1), place + Vector3(-0.4, 0.3, 1), place + Vector3(-0.2, -0.3, 1)})));

@@ -171,7 +171,7 @@ struct TouchingEdge {
   Polyhedron below;
   double to;  ///< the edge of a standing square from y = 0 on
   ContactType type;
-  std::vector<double> places;  ///< ends of what it has in common with the block below
+  std::vector<double> places;  ///< ends of its overlap with the block below
 };
 
 TEST(ConvexSearch, AnEdgeThatJustTouchesIsHeldAtBothEnds) {

@@ -71,7 +71,7 @@ TEST(MotionCheck, AMissIsNoTouch) {
   EXPECT_EQ(first_share(Mover(box({2.01, -0.5, 0.1}, {3.01, 0.5, 1.1}), shift({0, 0, -2})), plate), 2.0);
   EXPECT_EQ(first_share(Mover(box({-0.5, -0.5, 0.1}, {0.5, 0.5, 1.1}), shift({0, 0, -0.0999})), plate), 2.0);
   EXPECT_EQ(first_share(Mover(box({-0.5, -0.5, 0.1}, {0.5, 0.5, 1.1}), shift({7, 0, 0.5})), plate), 2.0);
-  // Both move together: nothing happens between them, however far they go.
+  // Both move together: no collision at any distance.
   const Mover flying_plate(box({-2, -2, -0.01}, {2, 2, 0}), shift({30, 20, -40}));
   EXPECT_EQ(first_share(Mover(box({-0.5, -0.5, 0.1}, {0.5, 0.5, 1.1}), shift({30, 20, -40})), flying_plate),
             2.0);

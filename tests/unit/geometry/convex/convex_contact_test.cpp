@@ -57,7 +57,7 @@ TEST(ConvexContact, TheGapIsGivenWhereAskedFor) {
   EXPECT_EQ(classify(box(Vector3(0, 0, 1), Vector3(1, 1, 3)), lower, std::nullopt, detail).gap, 0.0);
 }
 
-// Whatever bounds the filter has of equal depths: facets of A first, by their numbers.
+// Independent of the filter's bounds of equal depths: facets of A first, by their numbers.
 TEST(ConvexContact, EqualTranslationsComeInOrder) {
   const ConvexShape cube = box(Vector3(0, 0, 0), Vector3(1, 1, 1));
   const ConvexContact contact = classify(cube, cube);

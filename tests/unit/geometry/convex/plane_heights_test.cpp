@@ -28,7 +28,7 @@ TEST(PlaneHeights, OfABoxOverABox) {
   EXPECT_EQ(tops, 1);
 }
 
-// Coordinates of 53 bits: what the value lacks is below the bound, by exact comparison of N.(y - x) with both
+// Coordinates of 53 bits: the error of the value is below the bound, by exact comparison of N.(y - x) with both
 // ends of the interval.
 TEST(PlaneHeights, TheBoundHolds) {
   const double third = 1.0 / 3.0, seventh = 1.0 / 7.0;

@@ -275,7 +275,7 @@ TEST(CutAnySolid, ThousandsOfTriangles) {
   }
 }
 
-/// Volumes of what is inside a surface and of what is not.
+/// Volumes inside and outside a surface.
 std::pair<double, double> parted_volumes(const CutSolid& solid) {
   std::pair<double, double> volumes(0.0, 0.0);
   for (const int piece : solid.pieces())

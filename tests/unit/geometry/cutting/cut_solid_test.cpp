@@ -197,7 +197,7 @@ TEST(CutSolid, SectionsMayHaveLoopsWithinHoles) {
     block.cut_along(pit, 0, rim, [&](int piece) { return block.label(piece) == around; });
     around = rim;
   }
-  // Plate and wall, the gap between wall and tower, the tower, and what is in it.
+  // Plate and wall, the gap between wall and tower, the tower, and its inside.
   std::map<int, int> by_label;
   for (const int piece : block.pieces()) by_label[block.label(piece)] = piece;
   ASSERT_EQ(by_label.size(), 4U);
@@ -260,7 +260,7 @@ TEST(CutSolid, ChoiceLeavesPiecesWholeAndFacesFit) {
   EXPECT_EQ(solid.mesh(right).points.size(), 8U);
 }
 
-// Measures half way between two numbers: only exact arithmetic tells that they are, and the even one is taken.
+// Measures midway between two doubles: only exact arithmetic detects the tie, which goes to the even one.
 TEST(CutSolid, MeasuresBetweenTwoNumbersAreRoundedToTheEvenOne) {
   constexpr double x = 1 + 0x1p-26;
   const auto measure = [&](double y) {

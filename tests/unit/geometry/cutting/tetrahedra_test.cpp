@@ -77,7 +77,7 @@ TEST(Tetrahedra, FillSolidsThatAPointSees) {
 }
 
 TEST(Tetrahedra, AnLIsSeenFromItsInnerSquare) {
-  // What sees all of an L has x < 1 and y < 1; its centroid (5/6, 5/6, 1/2) does.
+  // An L is star-shaped about points with x < 1 and y < 1, such as its centroid (5/6, 5/6, 1/2).
   const TetrahedronMesh mesh = tetrahedra_of(Polyhedron(test_support::make_l_prism()), 0.0);
   EXPECT_NEAR((mesh.points.back() - Vector3(5, 5, 3) / 6.0).norm(), 0.0, 1e-15);
   EXPECT_EQ(mesh.cells.size(), 20U);

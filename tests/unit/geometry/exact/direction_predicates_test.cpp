@@ -11,7 +11,7 @@
 namespace ashlar {
 namespace {
 
-// Points of a grid of 2^-10 of which coordinates are replaced by what is left of a cosine of zero, at a
+// Points of a grid of 2^-10 of which coordinates are replaced by the rounding error of a zero cosine, at a
 // scale.
 class TinyParts : public testing::TestWithParam<int> {
  protected:

@@ -39,7 +39,7 @@ TEST(DoubleDouble, QuotientsRoundLikeTheDivisionOfDoubles) {
     }
   EXPECT_FALSE(quotient(DoubleDouble(1.0), DoubleDouble(0.0)).has_value());
   EXPECT_FALSE(quotient(DoubleDouble(1.0), DoubleDouble(0x1p-40, 0.0, 0x1p-40)).has_value());
-  // 1 / (1 + 2^-1070) is just below 1: what is lost of the product with the low part must not count as zero.
+  // 1 / (1 + 2^-1070) is just below 1: the rounded part of the product with the low part must not count as zero.
   EXPECT_FALSE(quotient(DoubleDouble(1.0 + 0x1p-30), DoubleDouble(1.0, 0x1p-1070, 0.0)).has_value());
 }
 

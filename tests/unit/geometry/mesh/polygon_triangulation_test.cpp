@@ -157,8 +157,8 @@ TEST(PolygonTriangulation, FansFromTheLeastCorner) {
   EXPECT_EQ(divided(points, {1, 0, 3, 2}), mirrored(expected));
 }
 
-// Corners on one place, as where a hole is joined to the rim, and all on one place: the least beginning is then
-// decided by what follows, in time linear in the corners.
+// Corners on one place, as where a hole is joined to the rim, and all on one place: the least start is then
+// decided by the following corners, in linear time.
 TEST(PolygonTriangulation, ComparesWhatFollowsEqualCorners) {
   const std::vector<Vector3> points = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0},
                                        {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}};

@@ -1,4 +1,4 @@
-// What must hold between faces, edges, corners and triangles of every solid.
+// Invariants of faces, edges, corners and triangles of every solid.
 #pragma once
 
 #include <gmock/gmock.h>

@@ -25,7 +25,7 @@ Eigen::Matrix3Xd bent(const AdaptiveSurface& surface, double bend) {
   return values;
 }
 
-/// Every side of every cell has exactly one neighbour that has it the other way round: no cracks.
+/// Every side of every cell has exactly one neighbour with the opposite direction: no cracks.
 void expect_conforming(const SubFaceSurface& surface) {
   std::map<std::array<int, 2>, int> sides;
   for (const SurfaceCell& cell : surface.cells) {
@@ -210,7 +210,7 @@ void expect_same_cells(const SubFaceSurface& a, const SubFaceSurface& b) {
   for (std::size_t k = 0; k < a.cells.size(); ++k) EXPECT_EQ(a.cells[k].corners, b.cells[k].corners) << k;
 }
 
-// Bent less and less: what a division keeps depends on what it was.
+// Bent less and less: the cuts that a division keeps depend on its past.
 TEST(AdaptiveSurface, ADivisionThatIsTakenOverGoesOnAsItWould) {
   const Polyhedron solid(make_box({0, 0, 0}, {4, 2, 0.5}));
   AdaptiveSurface first(solid, 2, 0);

@@ -130,7 +130,7 @@ TEST(Moments, TwoHundredRandomMeshesConvexAndNot) {
       for (int k = 0; k < 8; ++k) points.emplace_back(number(), number(), number());
       mesh = make_convex_hull(points);
     } else {
-      // A prism over an L, sheared: closed and not convex whatever the shear.
+      // A prism over an L, sheared: closed and not convex for any shear.
       mesh = test_support::l_shaped_prism().mesh();
       const double a = number(), b = number(), c = number();
       for (Vector3& point : mesh.points)

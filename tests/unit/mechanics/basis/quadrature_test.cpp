@@ -177,7 +177,7 @@ TEST(Quadrature, NearlyStraightCornersKeepARuleExact) {
 // Where two sides that almost lie on each other cross is known badly: a rule is not exact for pressures with
 // a kink, but its error may not jump with that place.
 TEST(Quadrature, APolygonSeenFromBehindHasTheSamePoints) {
-  // The second corner is nearly straight: 1.5e-4 of the line between its neighbours high.
+  // The second corner is nearly straight: its height over the line between its neighbours is 1.5e-4 of that line.
   const std::vector<Eigen::Vector2d> polygon = {{0, 0}, {1.2, -3e-4}, {2, 0}, {2, 1}, {0, 1.5}};
   std::vector<Eigen::Vector2d> behind;
   for (const Eigen::Vector2d& corner : polygon) behind.insert(behind.begin(), {-corner.x(), corner.y()});

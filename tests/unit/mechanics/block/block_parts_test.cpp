@@ -75,7 +75,7 @@ TEST(BlockParts, RoundedTranslationsShareTheirShape) {
     definition.supports.pop_back();
     const BlockModel shared(definition, with);
     EXPECT_NEAR(shared.basis().centroid().z(), 1e3 + 0.15, 1e-12);
-    // Exactly the volume of the shape, whatever the place has rounded.
+    // Exactly the volume of the shape, independent of rounding by its placement.
     EXPECT_EQ(shared.basis().volume(), PolynomialBasis(*shape, 1).volume());
     // The clamp of the placed block is met.
     const Eigen::MatrixX3d motion = shared.space().expand(Eigen::VectorXd::Ones(shared.unknowns())) /

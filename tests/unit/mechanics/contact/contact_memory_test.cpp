@@ -202,7 +202,7 @@ TEST(ContactMemory, FrictionTurnsOverAFaceThatTwistsOnceAllOfItSlides) {
   EXPECT_TRUE(memory.turning().empty());
   store_around(memory, around, ContactState::sliding, ContactState::sliding);
   EXPECT_EQ(memory.turning(), (std::vector<FacePair>{{3, 7}}));
-  // It goes on while directions differ, whatever slides.
+  // It continues while directions differ, also without sliding points.
   store_around(memory, around, ContactState::locked, ContactState::locked);
   EXPECT_EQ(memory.turning().size(), 1U);
   store_around(memory, along, ContactState::sliding, ContactState::sliding);

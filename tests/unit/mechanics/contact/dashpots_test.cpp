@@ -33,7 +33,7 @@ TEST(Dashpots, NeverPull) {
   const PointResponse response = point_response(damped(-1e-5, {0, 0}), -2e-6, {0, 0});
   EXPECT_EQ(response.state, ContactState::open);
   EXPECT_TRUE(response.force.isZero(0.0));
-  // What the spring has still left is not lost yet.
+  // The energy still in the spring is not lost yet.
   EXPECT_NEAR(response.normal_energy, 0.5 * 2e8 * 4e-12, 1e-18);
   EXPECT_NEAR(response.damped, 400.0 * 8e-6, 1e-15);
   // Bonds do bear that.
@@ -84,7 +84,7 @@ TEST(Dashpots, TangentsAreDerivatives) {
   }
 }
 
-// Over a step: the springs' energy, what sliding takes and what the dashpots take are all that there is.
+// Over a step the energy of springs and the dissipation of sliding and dashpots add up to the work.
 TEST(Dashpots, MeanForcesLoseWhatTheyDamp) {
   std::mt19937_64 random(11);
   const auto any = [&](double most) { return most * (0x1p-52 * static_cast<double>(random() >> 11U) - 1.0); };

@@ -83,7 +83,7 @@ TEST(Dilation, TangentAndCouplingAreTheDerivative) {
   }
 }
 
-// The bound that is held is what friction bears beyond dilation: then forces are the gradient of a convex function.
+// The held bound is that of friction beyond dilation: then forces are the gradient of a convex function.
 TEST(Dilation, HeldBoundsMakeItMonotone) {
   PointLaw point = point_law(joint(0.8, 0.3), 0.1, false);
   const PointResponse coulomb = point_response(point, -1e-5, {3e-5, 4e-5});
@@ -108,7 +108,7 @@ TEST(Dilation, HeldBoundsMakeItMonotone) {
       place, -point_response(point, place[0], place.tail<2>()).tangent, 1e-9, 1e-6);
 }
 
-// Sliding by p takes (|F| - N tan(psi)) p: never less than nothing while psi <= phi.
+// Sliding by p dissipates (|F| - N tan(psi)) p: never negative while psi <= phi.
 TEST(Dilation, MeanForcesTakeWhatSlidingTakesLessWhatItRaises) {
   std::mt19937_64 random(7);
   const auto any = [&](double most) { return most * (0x1p-52 * static_cast<double>(random() >> 11U) - 1.0); };

@@ -94,7 +94,7 @@ TEST(JointLaw, RoundingDoesNotChooseTheState) {
   const PointLaw intact = point_law({2e9, 1e9, 0.5, 3e4, 0.0, true, false, 1e-14}, 0.1, true);
   for (const double gap : {-0.9e-14, 0.9e-14})
     EXPECT_NEAR(point_response(intact, gap, {1e-6, 0}).force[1], -100.0, 1e-9);
-  // A point in touch slides under its limit, and what friction gains where it is pressed is known.
+  // A point in contact slides below its limit, with a known gain of friction under pressure.
   for (const double gap : {-0.5e-14, 0.0, 0.5e-14}) {
     const PointResponse sliding = point_response(point, gap, {3e-5, 0});
     EXPECT_EQ(sliding.state, ContactState::sliding);

@@ -37,7 +37,7 @@ TEST(JointLaw, AMeanForceHasNoKinkWhereGapsAreRounding) {
         EXPECT_NEAR(other.limit, exact.limit, 1e-3);
       }
     }
-    // What rounding has closed is closed for no share of a step to where it is open.
+    // A point closed by rounding is closed for no share of a step to an open position.
     EXPECT_EQ(mean(0.9e-14, 1.1e-14).limit, 0.0);
     EXPECT_EQ(mean(1.1e-14, 0.9e-14).limit, 0.0);
   }
@@ -62,8 +62,8 @@ TEST(JointLaw, MeanForceDoesExactlyTheWorkOfTheSpring) {
   }
 }
 
-// Whatever a point does in a step, locked, sliding, turning round, opening: its mean force never gives more
-// work than its springs' energy falls, and exactly as much where it stays locked.
+// For any motion of a point in a step, locked, sliding, reversing, opening: the work of its mean force never exceeds
+// the loss of its springs' energy, and equals it where the point stays locked.
 TEST(JointLaw, MeanForcesGiveNoWorkOfTheirOwn) {
   std::mt19937_64 random(20261121);
   const auto any = [&](double most) { return most * (0x1p-52 * static_cast<double>(random() >> 11U) - 1.0); };

@@ -72,7 +72,7 @@ TEST(OverlapOutline, PiecesHaveTheCornersOfTheWhole) {
   }
 }
 
-// A rim that crosses another one by rounding only makes corners that are none: these two squares are turned
+// An edge that crosses another one by rounding only yields spurious corners: these two squares are turned
 // against each other by the last bit.
 TEST(OverlapOutline, RimsOnEachOtherCrossNowhere) {
   const double off = 0x1p-50;
@@ -109,9 +109,8 @@ TEST(OverlapOutline, SidesThatAlmostFitCrossNowhere) {
   EXPECT_EQ(outline_between(turned(0.125), below).corners, 8U);
 }
 
-// Faces of blocks that bend almost fit: near a corner of both several sides cross, which of these corners a
-// piece keeps is chance, and each piece is seen along a normal of its own. The corner is a contact point all
-// the same.
+// Faces of bending blocks almost coincide: near a corner of both several sides cross, a piece keeps any of these
+// corners, and each piece is projected along its own normal. The corner is a contact point nevertheless.
 TEST(OverlapOutline, FacesThatBendAndAlmostFitKeepTheirCorners) {
   const Body below(box({0, 0, -1}, {1, 1, 0}), 0);
   const Body above(box({0, 0, 0}, {1, 1, 1}), 0);

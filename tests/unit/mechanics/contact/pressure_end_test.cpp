@@ -87,7 +87,7 @@ TEST(PressureEnd, ACutStaysUntilPressureEndsElsewhere) {
 }
 
 TEST(PressureEnd, ACutGoesOnWhereNoPointIsUnderPressure) {
-  // A gap that bulges, (x - 0.3)^2 + 0.01, its affine part 1.4 x - 0.5667: a cut that is there goes on at its
+  // A gap that bulges, (x - 0.3)^2 + 0.01, its affine part 1.4 x - 0.5667: an existing cut continues at its
   // zero, 0.40476, none begins.
   const PolygonRule rule = polygon_rule(square, 4);
   std::vector<double> gaps;

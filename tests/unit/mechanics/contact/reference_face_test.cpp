@@ -57,7 +57,7 @@ TEST(ContactMaster, BelongsToTheFaceThatARimIsOn) {
   // The edge of the larger block stands on the smaller one's face.
   EXPECT_EQ(references_on_a(Body(rising_block()), Body(Polyhedron(make_box({-1, -1, -0.1}, {2, 1, 0})))),
             std::vector{false});
-  // The larger one's face lies on the edge of the smaller one, of one of equal size, and of a fixed one.
+  // The face of the larger one lies on the edge of a smaller one, of an equal one, and of a fixed one.
   for (const double bottom : {-0.1, -0.4, -3.0}) {
     const Body support(Polyhedron(make_box({0.3, -1, bottom}, {2, 1, 0.02})));
     EXPECT_EQ(references_on_a(Body(rising_block()), support), std::vector{true}) << bottom;

@@ -60,7 +60,7 @@ TEST(SpringEnergy, RestsAreOnTheSurfaceWhereThatIsNoGain) {
 }
 
 TEST(SpringEnergy, APointFoundDeepStartsWithoutForce) {
-  // The first spring held 1/2 J and goes on to; nothing was known at the place of the second one.
+  // The first spring held 1/2 J and still does; the second one has no memory.
   EXPECT_EQ(rest_gaps({1.0, 4.0}, {-1.0, -3.0}, {0.0, -3.0}, 0.5), (std::vector<double>{0.0, -3.0}));
 }
 
@@ -83,7 +83,7 @@ TEST(SpringEnergy, RestsMoveBackAsFarAsTheEnergyAllows) {
 }
 
 TEST(SpringEnergy, RestsThatHoldWhatTheyHeldStay) {
-  // Both 1 m deep, 5/2 J, again and again: they do not move by the rounding of what they hold.
+  // Both 1 m deep, 5/2 J, repeatedly: rounding of their energy does not move them.
   std::vector<double> rests = {-1.0, -2.0};
   for (int step = 0; step < 100; ++step)
     rests = rest_gaps({1.0, 4.0}, {-2.0, -3.0}, rests, 2.5 * (1.0 + 1e-16 * (step % 3 - 1)));

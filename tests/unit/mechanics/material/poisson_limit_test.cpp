@@ -31,7 +31,7 @@ double false_stress(int order, double poisson_ratio) {
 TEST(PoissonLimit, RoundingLeavesStressesRightUpToTheLimit) {
   for (const int order : {1, 2, 3, 5, 8}) {
     EXPECT_LT(false_stress(order, largest_poisson_ratio(order)), 1e-8) << order;
-    // Ten thousand times nearer to 0.5 it does not: the limit is no timid one.
+    // Ten thousand times nearer to 0.5 it does not: the limit is not too strict.
     const double nearer = 0.5 - 1e-4 * (0.5 - largest_poisson_ratio(order));
     EXPECT_GT(false_stress(order, nearer), 1e-7) << order;
   }

@@ -18,7 +18,7 @@ Eigen::MatrixX3d bent(const PolynomialBasis& basis, double size) {
   return q;
 }
 
-/// Energy by a quadrature that shares nothing with the program's.
+/// Energy by an independent quadrature.
 double energy_by_quadrature(const Polyhedron& solid, const PolynomialBasis& basis,
                             const Eigen::MatrixX3d& q) {
   double sum = 0.0;

@@ -42,7 +42,7 @@ TEST(RecordedMotion, AccelerationIsTheRecordAndItsIntegrals) {
     EXPECT_NEAR(motion.displacement(next).x(), u, 1e-9) << next;
     EXPECT_NEAR(motion.displacement(next).z(), -2.0 * u, 1e-9) << next;
   }
-  // At rest before; afterwards on with what is left.
+  // At rest before; afterwards with the remaining velocity.
   EXPECT_EQ(motion.velocity(0.49), Vector3::Zero());
   EXPECT_EQ(motion.displacement(-7.0), Vector3::Zero());
   EXPECT_EQ(motion.acceleration(2.5), Vector3::Zero());

@@ -29,7 +29,7 @@ Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned 
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return some(generator); });
 }
 
-/// Motion, forces and tangents against what the definitions give with all coefficients, x = sum_a phi_a q_a.
+/// Motion, forces and tangents compared with the definitions with all coefficients, x = sum_a phi_a q_a.
 void expect_as_defined(const AdmissibleSpace& space, const Subject& subject) {
   const Eigen::MatrixXd phi = subject.basis.values(subject.points);
   const BlockRows rows(space, phi);

@@ -83,7 +83,7 @@ TEST(ContactFinder, PairsKnownToBeApartAreNotSearchedUntilTheyCouldMeet) {
     finder.accept_motion();
     EXPECT_TRUE(finder.find(scene.states, expected(motion), histories).empty());
   }
-  // 0.22 apart, having gone 0.4 of the 0.5: the eighth step could still not close what is left.
+  // 0.22 apart, having gone 0.4 of the 0.5: the eighth step could still not close the remaining gap.
   EXPECT_EQ(finder.counts().block_pairs_tested, 1U);
   EXPECT_EQ(finder.counts().block_pairs_far, 7U);
   // With 0.3 expected it could: the pair is looked at again, and found.

@@ -92,7 +92,7 @@ TEST(DepthAudit, BlocksThatTouchOrArePassedOverHaveNone) {
 }
 
 TEST(DepthAudit, ACornerInTheNotchOfAnLIsOutside) {
-  // The notch is x > 1, y > 1: a cube in it touches nothing, one moved 0.1 into its inner edge is in.
+  // The notch is x > 1, y > 1: a cube in it has no contact, one moved 0.1 into its inner edge is in.
   EXPECT_TRUE(audit(cube({1.1, 1.1, 0.1}, 0.5), test_support::l_shaped_prism(), 1).empty());
   const auto depths = audit(cube({0.9, 0.9, 0.25}, 0.5), test_support::l_shaped_prism(), 1);
   ASSERT_FALSE(depths.empty());
@@ -126,7 +126,7 @@ TEST(DepthAudit, WhatHasHardlyMovedIsNotAskedAgain) {
     states[0].position += blocks[0].basis().linear_field({0, 0, -down}, Eigen::Matrix3d::Zero());
   };
   move(4e-4);
-  // Another audit, that of a run that goes on, knows as much.
+  // The audit of a resumed run has the same memory.
   DepthAudit resumed(2);
   for (DepthAudit* one : {&audit, &resumed}) {
     const Audit second = one->run(blocks, states, surfaces, scope, known);

@@ -56,28 +56,28 @@ TEST(EnergyBounds, ABlockTakesAlongWhatItNoLongerHoldsElsewhere) {
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 3)}, memory, all_move), (std::vector<double>{6}));
   // Shear does not.
   EXPECT_EQ(energy_bounds({pair_at_depth(0, 2, 3)}, memory, all_move)[0].shear, 0.0);
-  // 1 J of the 6 J is still held there; the others, which lack 4 J each, have half of the 5 J each.
+  // 1 J of the 6 J is still held there; the others, with a deficit of 4 J each, receive half of the 5 J each.
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 1), pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, memory,
                           all_move),
             (std::vector<double>{6, 2.5, 2.5}));
   // All of it is: found deeper, it keeps its own.
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 1, 3), pair_at_depth(0, 2, 2)}, memory, all_move),
             (std::vector<double>{6, 0}));
-  // A pair that was known takes what is added to its own.
+  // A known pair receives the surplus of its own.
   EXPECT_EQ(
       normal_bounds({pair_at_depth(0, 2, 3)}, {{{0, 1}, that_held(6)}, {{0, 2}, that_held(1)}}, all_move),
       (std::vector<double>{7}));
 }
 
 TEST(EnergyBounds, AreSharedOutByWhatIsLackedInAnyOrder) {
-  // Pairs at block 0 lack 4 and 16 J of the 10 J that were lost there: 2 and 8 J.
+  // Pairs at block 0 have deficits of 4 and 16 J, and 10 J were lost there: 2 and 8 J.
   const PairHistories memory = {{{0, 1}, that_held(10)}};
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 4)}, memory, all_move),
             (std::vector<double>{2, 8}));
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 4), pair_at_depth(0, 3, 2)}, memory, all_move),
             (std::vector<double>{8, 2}));
-  // Of 12 J at block 0 both lack 4 J, and have 4 J. One of them has block 3 too, where 6 J were lost: what both
-  // lack is there, and no more than that is taken.
+  // Both have a deficit of 4 J at block 0, where 12 J were lost, and receive 4 J. One of them also has block 3, where
+  // 6 J were lost: the deficit is covered, and no more is used.
   const PairHistories two = {{{0, 1}, that_held(12)}, {{1, 3}, that_held(6)}};
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, two, all_move),
             (std::vector<double>{4, 4}));
@@ -86,7 +86,7 @@ TEST(EnergyBounds, AreSharedOutByWhatIsLackedInAnyOrder) {
   const std::vector<double> shared =
       normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, scarce, all_move);
   EXPECT_EQ(shared[1], 4.0);
-  // It is offered 2 J and 6 J, and takes half of each; 3 J of the 4 J are left for the other, which lacks 4 J.
+  // It is offered 2 J and 6 J, and uses half of each; 3 J of the 4 J remain for the other, with a deficit of 4 J.
   EXPECT_DOUBLE_EQ(shared[0], 3.0);
 }
 

@@ -1,4 +1,4 @@
-// Blocks that slide from one block to the next over a seam.
+// Blocks that slide from one block to the next over a joint.
 #include "solver/contact/internal_edges.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(InternalEdges, ACubeSlidesOverThemAsOverOneFloor) {
       crossing.area = area;
       const Vector3 way = travel(crossed(crossing));
       EXPECT_NEAR(way.x(), 1.2, area ? 1e-8 : 1e-4) << order << area;
-      // It rests 2.45e-5 m deep and does not sink at a seam, as it would by as much again if springs began
+      // It rests 2.45e-5 m deep and does not sink at a joint, as it would by as much again if springs began
       // anew there.
       if (area && order == 1) {
         EXPECT_NEAR(way.z(), -2500.0 * 9.81 / 1e9, 2e-6);
@@ -103,7 +103,7 @@ TEST(InternalEdges, OnASlopeToo) {
 }
 
 TEST(InternalEdges, StonesWithSidesThatLeanOutSlideOverThem) {
-  // The edges of strips are under such sides before the sole has come to them.
+  // The edges of strips are under such sides before the sole reaches them.
   for (const int order : {1, 2}) {
     for (const bool area : {true, false}) {
       Crossing crossing;
@@ -182,7 +182,7 @@ TEST(InternalEdges, StonesMayStartOnThem) {
     knife.emplace_back(0.3, y, 0.0);
     for (const double x : {0.0, 0.6}) knife.emplace_back(x, y, 0.3);
   }
-  // An edge that ends a step by so much past the joint has hardly come to the next block.
+  // An edge that ends a step so little past the joint has barely reached the next block.
   for (const double past : {0.0, 1e-12, 1e-9}) {
     OverJoint scene;
     scene.joint = 0.3 - past;
@@ -210,7 +210,7 @@ TEST(InternalEdges, StonesMayLandOnThem) {
   }
 }
 
-/// Of a stone that comes with 2 m/s and slides from one loose slab to the next.
+/// A stone slides at 2 m/s from one loose slab to the next.
 double speed_over_loose_slabs(OverJoint scene, double height, double modulus, double stiffness_per_modulus) {
   scene.joint = 0.5;
   scene.loose = true;
@@ -220,7 +220,7 @@ double speed_over_loose_slabs(OverJoint scene, double height, double modulus, do
 }
 
 TEST(InternalEdges, LooseBlocksMakeThemToo) {
-  // The one that carries the stone lies deeper in what is below than the next.
+  // The slab under the stone lies deeper in its support than the next one.
   for (const bool augmented : {false, true}) {
     OverJoint scene;
     scene.end_time = 0.4;
@@ -231,7 +231,7 @@ TEST(InternalEdges, LooseBlocksMakeThemToo) {
 }
 
 TEST(InternalEdges, BlocksThatAreSofterThanTheirSpringsMakeThemToo) {
-  // The one that carries the stone has been pressed to less than the height of the next, by far more than
+  // The slab under the stone is compressed to less than the height of the next, by far more than
   // contacts are deep.
   for (const bool augmented : {false, true}) {
     OverJoint scene;
@@ -243,7 +243,7 @@ TEST(InternalEdges, BlocksThatAreSofterThanTheirSpringsMakeThemToo) {
   }
 }
 
-/// What is left of the contacts between two blocks by one way out of a third.
+/// The remaining contacts between two blocks after a retraction from a third.
 PairContacts left_by(const Vector3& direction, const test_support::PlacedBody& a,
                      const test_support::PlacedBody& b) {
   PairContacts contacts = find_contacts(a.placed, b.placed, {1e-3, 1e-3, 1e-4});
@@ -255,7 +255,7 @@ PairContacts left_by(const Vector3& direction, const test_support::PlacedBody& a
 
 TEST(InternalEdges, BlocksOfOneHeightPush) {
   // Two boxes whose upper rims cross, or of which one has a corner in a side of the other. Where they lie on
-  // or under another block, they have a way up or down out of that.
+  // or under another block, they have a retraction up or down from it.
   const test_support::PlacedBody first(test_support::tilted_box({-1, 0, -1}, {0, 1, 0}, -0.5));
   const test_support::PlacedBody second(turned(test_support::tilted_box({0, 0, -1}, {1, 1, 0}, 0.5),
                                                Eigen::AngleAxisd(1e-3, Vector3::UnitX()), {0, 0.5, 0}));
@@ -295,8 +295,8 @@ double deepest_on_mirror_image(const std::vector<Vector3>& corners, int order, d
 }
 
 TEST(InternalEdges, ARidgeStandsOnARidge) {
-  // Both flanks of a ridge are narrow while it has hardly gone in, and each is beside the way out of the
-  // other: none of the two may be taken for a seam. d deep, each of two parallel pairs of flanks has a width
+  // Both flanks of a ridge are narrow while it has hardly gone in, and each is beside the retraction of the
+  // other: neither of the two is an internal edge. d deep, each of two parallel pairs of flanks has a width
   // and a depth of d/sqrt(2), and they hold k L d^2/sqrt(2).
   std::vector<Vector3> corners;
   for (const double y : {-0.5, 0.5}) {

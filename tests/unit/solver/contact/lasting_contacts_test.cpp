@@ -66,7 +66,7 @@ TEST_F(TwoCubes, AGapFollowsTheMotionAlongTheNormal) {
   move(below_, of_b_, {0, 0, -1e-8});
   const auto now = kept();
   ASSERT_TRUE(now);
-  // -1e-7 + 3e-8 + 1e-8; along the surface nothing changes it.
+  // -1e-7 + 3e-8 + 1e-8; motion along the surface has no effect.
   EXPECT_NEAR(now->points[0].gap, -6e-8, 1e-15);
   EXPECT_NEAR(now->points[0].place_a.x(), 0.5 + 2e-8, 1e-15);
 }
@@ -201,7 +201,7 @@ TEST(LastingContacts, ComeToRestWhereContactsFoundInEachStepDo) {
     take_steps(lasting, 150);
     take_steps(anew, 150);
     for (std::size_t k = 1; k < 4; ++k) {
-      // Far below what the column gives way by, 1e-7 m; the limit of motion is 5e-7 m.
+      // Far below the compression of the column, 1e-7 m; the limit of motion is 5e-7 m.
       EXPECT_LT((lasting.states()[k].position - anew.states()[k].position).norm(), 1e-9) << k << augmented;
     }
   }

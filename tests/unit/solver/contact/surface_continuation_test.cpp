@@ -10,7 +10,7 @@
 namespace ashlar {
 namespace {
 
-/// Whether a second slab goes on, for a cube on both, behind the rim of the first one at x = 0.
+/// True if a second slab continues the surface, for a cube on both, behind the edge of the first one at x = 0.
 /// @param fall of the second one's top over its length, m
 bool goes_on(double second_start, double second_top, double cube_bottom, double fall = 0.0) {
   const test_support::PlacedBody first(test_support::box({-1, -1, -1}, {0, 1, 0}));

@@ -37,7 +37,7 @@ std::size_t address_space() {
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// @return 0: solved, 1: told that there is no memory
+/// @return 0: solved, 1: reported out of memory
 int solve_with(std::size_t more_bytes) {
   alarm(60);  // OpenBLAS would try without end
   const SymmetricMatrix matrix = full_matrix(300);
@@ -54,7 +54,7 @@ int solve_with(std::size_t more_bytes) {
   }
 }
 
-// In a process of its own each: what OpenBLAS has mapped, it keeps.
+// Each in a separate process, because OpenBLAS keeps its mapped memory.
 TEST(BlasMemory, MissingAddressSpaceIsAnException) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need address space themselves";

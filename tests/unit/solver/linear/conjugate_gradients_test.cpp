@@ -30,7 +30,7 @@ Eigen::VectorXd mode(int masses, int k) {
   return shape;
 }
 
-// A solution must not depend on earlier ones: a run that goes on from a checkpoint does not know of it.
+// A solution must not depend on earlier ones: a resumed run does not have them.
 TEST(ConjugateGradients, AFactorIsNotKeptForTheNextStep) {
   constexpr int masses = 10'000;
   const SymmetricMatrix matrix = row_of_springs(masses);

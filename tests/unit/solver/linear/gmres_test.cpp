@@ -19,7 +19,7 @@ TEST(Gmres, SolvesAnUnsymmetricSystem) {
 }
 
 TEST(Gmres, NeedsAsManyIterationsAsTheMatrixIsAwayFromTheIdentity) {
-  // The identity and one dyad: two iterations, whatever the size.
+  // The identity and one dyad: two iterations for any size.
   const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(50, 0.0, 1.0);
   const Eigen::VectorXd v = Eigen::VectorXd::LinSpaced(50, 1.0, -0.5);
   const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(50, -3.0, 2.0);

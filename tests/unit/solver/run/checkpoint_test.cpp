@@ -110,7 +110,7 @@ TEST_P(CheckpointOfSolver, ResumedSimulationGoesOnBitForBit) {
 
   SimulationSnapshot expected = straight.snapshot();
   SimulationSnapshot reached = resumed.snapshot();
-  // Time is measured, and what is factorised anew is counted anew.
+  // Times differ, and repeated factorisations are counted again.
   expected.run.log.seconds = reached.run.log.seconds;
   expected.run.log.counts.factors = reached.run.log.counts.factors;
   EXPECT_EQ(to_bytes(reached), to_bytes(expected));
@@ -118,7 +118,7 @@ TEST_P(CheckpointOfSolver, ResumedSimulationGoesOnBitForBit) {
 INSTANTIATE_TEST_SUITE_P(All, CheckpointOfSolver,
                          ::testing::Values(LinearMethod::cholesky, LinearMethod::conjugate_gradients));
 
-// A run that goes on from its end takes no step before depths are measured.
+// A run resumed from its end takes no step before depths are measured.
 TEST(Checkpoint, FacesThatCurveAreDividedAsTheyWere) {
   constexpr double chord_tolerance = 1e-4;  // m
   Simulation straight = make_simulation(LinearMethod::cholesky, chord_tolerance);
@@ -157,7 +157,7 @@ Simulation make_stack() {
   return {std::move(blocks), motions, test_support::same_law({1e9, 1e9, 0.5, 0.0, 0.0, true}), settings};
 }
 
-// A factor of an earlier step is what the next one solves with, so that a run that goes on needs the same.
+// The next step solves with a factor of an earlier one, so that a resumed run needs the same factor.
 TEST(Checkpoint, AFactorOfAnEarlierStepIsMadeAgain) {
   Simulation straight = make_stack();
   take_steps(straight, steps_before);

@@ -90,7 +90,7 @@ TEST(ContactExplanation, TheSideOfTheNextSlabIsAnInternalEdge) {
 }
 
 TEST(ContactExplanation, AnOverlapAsThinAsRoundingHasNoArea) {
-  // The cube stands beside the slab, but for 4e-16 m by which their faces are over each other.
+  // The cube stands beside the slab, except for a face overlap of 4e-16 m.
   const Simulation simulation =
       boxes({{{-1, 0, -1}, {4e-16, 1, 0}}, {{0, 0, 0}, {1, 1, 1}}}, {true, false}, 0.0);
   const ContactExplanation explanation = simulation.explain_contacts(0, 1);

@@ -64,7 +64,7 @@ double moved(const Simulation& simulation) {
   return farthest;
 }
 
-// Without gravity nothing moves, whatever holds the blocks apart and however they are in each other: as deep at
+// Without gravity nothing moves, with any kind of contact and any overlap: as deep at
 // both ends, deeper at one, and at one end above the floor.
 TEST(KnownOverlap, StartsWithoutForce) {
   for (const bool multipliers : {false, true}) {
@@ -112,7 +112,7 @@ TEST(KnownOverlap, IsWhereContactBegins) {
   }
 }
 
-// The depth belongs to material points: a cube that slides along keeps it, and where it is half of what is known
+// The depth belongs to material points: a cube that slides along keeps it, and half of the known depth
 // as well.
 TEST(KnownOverlap, GoesAlongWhereABlockSlides) {
   Placed placed;

@@ -60,7 +60,7 @@ TEST(Simulation, TimesAreMultiplesOfTheStepAndTheLastStepIsAWholeOne) {
     ASSERT_EQ(simulation.report().step, 2e-3);
   }
   EXPECT_EQ(simulation.steps(), 15000);
-  // What is left up to a later end is a step of its own unless it is less than rounding.
+  // The remaining time up to a later end is a separate step unless it is within rounding error.
   const double sliver = end * (1.0 + 1e-15);
   EXPECT_TRUE(simulation.reached(sliver));
   EXPECT_TRUE(simulation.reached(end + 1e-12));

@@ -37,7 +37,7 @@ TEST(BlockSystem, TiesBlocksWithACommonFaceAndLeavesTheOthersOut) {
   EXPECT_TRUE(system.is_tied(2));
   EXPECT_FALSE(system.is_tied(3));
   EXPECT_EQ(system.left_out(), (std::set<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
-  // What is tied to a supported block is not free.
+  // A block tied to a supported one is not free.
   EXPECT_EQ(system.free_bodies(), (std::vector<std::vector<int>>{{3}}));
 }
 

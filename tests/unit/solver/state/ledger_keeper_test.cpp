@@ -63,7 +63,7 @@ TEST(LedgerKeeper, WhatTheBalanceLacksIsTheResidual) {
   EXPECT_NEAR(keeper.ledger().residual, -2.0, 1e-13);
   EXPECT_NEAR(keeper.largest_step_residual(), 2.0, 1e-13);
   EXPECT_NEAR(keeper.largest_energy(), 4.0, 1e-13);
-  // A step that lacks nothing changes neither.
+  // A step without a residual changes neither.
   keeper.close_step(system, states);
   EXPECT_NEAR(keeper.ledger().residual, -2.0, 1e-13);
   EXPECT_NEAR(keeper.largest_step_residual(), 2.0, 1e-13);

@@ -59,7 +59,7 @@ struct RandomProgramme {
       const double mu = 0.05 + 0.2 * std::abs(number()), c = 0.02 + 0.2 * std::abs(number());
       point.strength = std::array<ConeStrength, 5>{
           ConeStrength{mu, 0, 0}, {mu, c, 0.3 * c / mu}, {mu, c, 9 * c / mu}, {0, c, c}, {0, 0, 0}}[kind];
-      // Half of what the point bears at a random normal force.
+      // Half of the strength of the point at a random normal force.
       const ConeStrength& s = point.strength;
       const double normal = std::abs(number());
       Vector3d force(normal, number(), number());
@@ -83,7 +83,7 @@ struct Lacking {
   double work = 0.0;      ///< of forces beside the least that the strength has in this motion
 };
 
-/// @param rest of `rest` v is what is left of the loads, else nothing is
+/// @param rest if true, `rest` v remains of the loads, else nothing
 Lacking lacking(const RandomProgramme& of, const ConeAnswer& answer, std::vector<BodyVelocity> loads,
                 const std::vector<double>& shift, bool rest) {
   Lacking most;

@@ -66,7 +66,7 @@ TEST(ConeProgram, FrictionHoldsUpToItsAngle) {
 }
 
 TEST(ConeProgram, BeyondItsAngleTheForceIsTheNearestOfTheCone) {
-  // The projection of (1, -q) on the ray (1, -mu) is at l = (1 + mu q)/(1 + mu^2). What is left of the load,
+  // The projection of (1, -q) on the ray (1, -mu) is at l = (1 + mu q)/(1 + mu^2). The rest of the load,
   // (mu, 1)(q - mu)/(1 + mu^2), opens by mu times what it slides.
   constexpr double mu = 0.6;
   for (const double q : {0.61, 0.9, 5.0}) {
@@ -240,7 +240,7 @@ TEST(ConeProgram, BodiesOfAPairMayComeInEitherOrder) {
 }
 
 TEST(ConeProgram, OneCoordinateMayMoveAlongSlopesOnly) {
-  // Up a slope of the tangent k the body opens by k of what it slides. Friction of more than k holds it whatever pushes:
+  // Up a slope of the tangent k the body opens by k of what it slides. Friction above k holds it under any push:
   // N (k - mu) + f = 0 has a solution.
   for (const double k : {0.3, 0.59, 0.61, 2.0}) {
     const double length = std::hypot(1.0, k);

@@ -14,7 +14,7 @@ using Polygon = std::vector<Eigen::Vector2d>;
 TEST(FaceFriction, MeanDistanceOfASquareAndADisc) {
   const double square = 2.0 / 6.0 * (std::sqrt(2.0) + std::asinh(1.0));
   EXPECT_NEAR(mean_distance({{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}}, {0, 0}), square, 1e-15);
-  // In three parts, one of which is nowhere near the middle, seen from somewhere else and from behind.
+  // In three parts, one of them far from the centre, in another view and from behind.
   const Polygon left{{4, 4}, {5, 4}, {5, 6}, {4, 6}}, low{{5, 4}, {6, 4}, {6, 4.5}, {5, 4.5}},
       high{{5, 4.5}, {6, 4.5}, {6, 6}, {5, 6}};
   EXPECT_NEAR(mean_distance({left, low, high}, {5, 5}), square, 1e-14);

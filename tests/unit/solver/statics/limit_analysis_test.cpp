@@ -148,7 +148,7 @@ TEST(LimitAnalysis, TiedBlocksAreOneBody) {
 }
 
 TEST(LimitAnalysis, ASupportLeavesWhatItLeaves) {
-  // Held across x on its top face, a block may only move along x: a push that friction of its joint bears 0.5 W of.
+  // Held across x on its top face, a block may only move along x: a push of which friction in its joint resists 0.5 W.
   Scene scene;
   const int block = scene.add("A", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), 1);
   scene.add_fixed(Polyhedron(make_box({1, -1, -1}, {2, 2, 2})));
@@ -276,7 +276,7 @@ TEST(LimitAnalysis, AFactorHasNoUnit) {
 }
 
 TEST(LimitAnalysis, AWedgeSlidesAlongTwoPlanes) {
-  // Released, each plane bears N = W cos(dip)/sqrt(2), all of its friction along the line: F = mu sqrt(2)/tan(dip).
+  // Released, each plane transmits N = W cos(dip)/sqrt(2), all of its friction along the line: F = mu sqrt(2)/tan(dip).
   // Forces in balance may also press across the line, by s and N + s: 2 t = W sin(dip), t^2 + s^2 = mu^2 (N + s)^2. The
   // most t is N mu/sqrt(1 - mu^2), so that mu/F = k/sqrt(1 + k^2) with k = tan(dip)/sqrt(2).
   constexpr double mu = 0.6;

@@ -1,4 +1,4 @@
-// How blocks set off, of motions that are known by hand.
+// Mechanisms of motions known by hand.
 #include "solver/statics/limit_motion.hpp"
 
 #include <gtest/gtest.h>

@@ -100,7 +100,7 @@ TEST(ReleasedMotion, AKeystoneFallsFromNoForcesAndStandsFromThoseThatWedgeIt) {
 
 TEST(ReleasedMotion, SlipOfAKeystoneGrows) {
   // Of least normal force are those at the limit of friction. With s = mu cos(b) |v| and the power of the load
-  // 1 |v'| = 2 s N, slip grows by mu cos(b)/(mu cos(b) - sin(b)) > 1: whatever wedges it, it may fall.
+  // 1 |v'| = 2 s N, slip grows by mu cos(b)/(mu cos(b) - sin(b)) > 1: it may fall under any wedging.
   Keystone keystone(0.8);
   std::vector<BodyVelocity> start = {BodyVelocity::Zero()};
   start[0][1] = -1.0;

@@ -27,7 +27,7 @@ std::vector<MovingBlock> moving_blocks(BlockDefinition block, const JointLaw& la
   return simulation.moving_blocks();
 }
 
-/// A wall 1 m thick and 3 m high on a base tilted by `share` of what it stands.
+/// A wall 1 m thick and 3 m high on a base tilted by `share` of its limit.
 struct Wall {
   double share;
   double modulus;
@@ -62,7 +62,7 @@ TEST(RigidOnset, AWallTipsOverItsEdgeHoweverSoftItsSpringsAre) {
       for (const bool augmented : {false, true}) {
         Wall wall{share, modulus, 20.0 * modulus, true, 1, augmented};
         EXPECT_NEAR(tipping(wall) / expected, 1.0, 5e-3) << share << modulus << augmented;
-        // Its edge gives way as corners of blocks do.
+        // Its edge yields like corners of blocks.
         wall.order = 2;
         EXPECT_NEAR(tipping(wall) / expected, 1.0, 2e-2) << share << modulus << augmented;
       }
@@ -88,7 +88,7 @@ TEST(RigidOnset, AJointOfGivenStiffnessGivesWay) {
 }
 
 TEST(RigidOnset, WhereRigidBlocksWouldStayThoseThatGiveWayCount) {
-  // Not by what rigid ones do on the way, which is nothing where they stand on the edge. An iteration takes
+  // Not by the motion of rigid ones on the way, which is zero where they stand on the edge. An iteration takes
   // the wall far: it sees the strip as it is at its end, and the weight's arm as at its start.
   EXPECT_NEAR(tipping({0.95, 1e10, 2e8}) / over_the_pressed_strip(0.95, 2e8), 1.0, 0.2);
 }
@@ -112,8 +112,8 @@ TEST(RigidOnset, ItIsThatOfTheStartAlsoWhereBlocksTurnLater) {
 }
 
 TEST(RigidOnset, ABondThatBreaksHoldsNoMore) {
-  // A block on a slope of 45 degrees, bonded by a part of what it takes beside friction of 30 degrees: g (sin
-  // - cos tan phi) once the bond is broken, however little was lacking when it broke.
+  // A block on a slope of 45 degrees, bonded by a part of the necessary strength besides friction of 30 degrees: g (sin
+  // - cos tan phi) once the bond is broken, for any residual at failure.
   SimulationSettings settings;
   settings.gravity = g * std::sqrt(0.5) * Vector3(1, 0, -1);
   const double friction = std::tan(std::numbers::pi / 6.0);

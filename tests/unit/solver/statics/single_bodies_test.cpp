@@ -20,7 +20,7 @@ TEST(SingleBodies, BlocksOfATowerSlideOneAtATime) {
   // tan(30) = 0.577: friction 0.4 holds neither, 0.8 both.
   for (const BodyVelocity& velocity : single.motions({1.0, 1.0}, 1e-3)) EXPECT_GT(velocity.norm(), 0.0);
   for (const BodyVelocity& velocity : single.motions({0.5, 1.0}, 1e-3)) EXPECT_EQ(velocity.norm(), 0.0);
-  // A body that stood with less strength is not asked again; that does not hide one that moves with less still.
+  // A body that stood with less strength is not tested again; one that moves with still less strength is found.
   for (const BodyVelocity& velocity : single.motions({0.6, 1.0}, 1e-3)) EXPECT_EQ(velocity.norm(), 0.0);
   const std::vector<std::vector<BodyVelocity>> sets = single.sets({1.0, 1.0}, 1e-3);
   ASSERT_EQ(sets.size(), 2U);  // they touch

@@ -1,4 +1,4 @@
-// Static analyses whose answer statics gives: equilibrium, friction that holds, nothing that holds.
+// Static analyses with answers by hand: equilibrium, sufficient friction, no support.
 #include "solver/statics/static_analysis.hpp"
 
 #include <gtest/gtest.h>
@@ -116,7 +116,7 @@ TEST(StaticAnalysis, CubeRestsOnItsBase) {
       force += parts[0] * point.normal + parts[1] * point.tangent_1 + parts[2] * point.tangent_2;
     }
     EXPECT_LT((force - Vector3(0, 0, 2700.0 * 9.81)).norm(), 1e-8 * 2700.0 * 9.81);
-    // The pressure is rho g and the springs give way by rho g / kn, but for the base that grows by Poisson's
+    // The pressure is rho g and the compression of springs is rho g / kn, but for the base that grows by Poisson's
     // ratio times rho g / (2 E), here 2.6e-7, in both directions.
     if (order == 1) {
       EXPECT_NEAR(simulation.largest_penetration() / (2700.0 * 9.81 / 1e10), 1.0, 1e-6);
@@ -129,7 +129,7 @@ TEST(StaticAnalysis, BlockSticksOnAnIncline) {
   const Vector3 start = place_of(simulation, 0, {0, 0, 0});
   ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
   EXPECT_TRUE(simulation.moving_blocks().empty());
-  // The springs of 1e10 N/m carry m g: what the block gives way is of the size of m g / k.
+  // The springs of 1e10 N/m transmit m g: the compression of the block is of the order of m g / k.
   EXPECT_LT((place_of(simulation, 0, {0, 0, 0}) - start).norm(), 10.0 * 2700.0 * 9.81 / 1e10);
 }
 
@@ -174,7 +174,7 @@ TEST(StaticAnalysis, AnEdgeThatJustTouchesAnEdgeIsNotWithoutContact) {
 }
 
 TEST(StaticAnalysis, SoftPlatesOnStiffPiersSettleWithMultipliers) {
-  // Which forces the corners of the piers bear is settled far more slowly than how deep they are.
+  // The forces at the corners of the piers converge far more slowly than their depths.
   for (const int order : {1, 3}) {
     BlockDefinition plate =
         block_of("plate", Polyhedron(make_box({-1, -1, 1}, {1, 1, 1.2})), {1000.0, 1e7, 0.3}, order);

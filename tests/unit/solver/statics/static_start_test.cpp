@@ -52,8 +52,8 @@ TEST(StaticStart, WhatIsHeldStaysAndWhatIsThrownFlies) {
   EXPECT_LT(simulation.largest_step_residual(), 1e-8 * simulation.largest_energy());
 }
 
-// Five courses in running bond. Multipliers bear what springs took in statics, and a step may give that back: bricks that
-// settle by what the static iteration has left would otherwise have their forces lowered until nothing balances.
+// Five courses in running bond. Multipliers have the energy of springs in statics, and a step may release it: otherwise the
+// residual motion of the static iteration would lower the forces of bricks until no equilibrium is left.
 TEST(StaticStart, AWallStaysWithFewIterationsAStep) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-1, -1, -0.5}, {3, 1, 0}));
@@ -100,7 +100,7 @@ TEST(StaticStart, EndsWhereItIsToldToWithAllAsPlaced) {
   EXPECT_EQ(simulation.steps(), 0);
   const Vector3 low(0.5, 0.5, 1.0);
   EXPECT_EQ(place_of(simulation, 1, low), low);
-  // What was done is counted, but nothing that motion depends on is left of it.
+  // The analysis is counted, but leaves nothing that motion depends on.
   ASSERT_TRUE(run_until(simulation, 0.05));
   Simulation fresh = stack_and_stone(multipliers());
   ASSERT_TRUE(run_until(fresh, 0.05));

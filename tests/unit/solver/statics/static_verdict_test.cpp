@@ -1,4 +1,4 @@
-// Static analyses of what cannot stand: which blocks move, and how they set off.
+// Static analyses without equilibrium: moving blocks and their onset.
 #include "solver/statics/static_verdict.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(StaticAnalysis, BlockSlidesOnAnIncline) {
 }
 
 TEST(StaticAnalysis, AccelerationsOfABlockThatWasInBalanceAreThoseAfterIt) {
-  // Friction holds the block until an iteration lacks nothing; then there is less of it.
+  // Friction holds the block until an iteration has no residual; then there is less of it.
   Simulation held = on_incline(30, 31);
   while (held.snapshot().run.statics.still_iterations == 0)
     ASSERT_EQ(held.static_step(1.0), StaticStatus::balancing);
@@ -80,7 +80,7 @@ double toppling(double stiffness) {
 
 TEST(StaticAnalysis, TallBlockTopples) {
   // It turns over its lower edge, from +z towards -x, about -y, as it starts to: m g (H/2 sin - D/2 cos) over
-  // m (D^2 + H^2)/3, if the joint is so stiff that what is pressed is an edge. Else N = 67 kN press a strip
+  // m (D^2 + H^2)/3, if the joint is so stiff that pressure acts on an edge. Else N = 67 kN press a strip
   // of width w = sqrt(2 N / (k theta)), and it turns over a line w/3 farther in, faster by w/3 of the
   // weight's arm of 0.317 m: at theta = 6e-4 by 5 % with 1e11 Pa/m, by 0.5 % with 1e13.
   const double expected = 9.81 * (1.5 * 0.5 - 0.5 * std::sqrt(0.75)) / (10.0 / 3.0);
@@ -125,7 +125,7 @@ Polyhedron upright_prism(const std::vector<std::array<double, 2>>& profile) {
 }
 
 TEST(StaticAnalysis, PlanksThatSlideApartAreNotFollowedInSmallSteps) {
-  // Edges that slide down on each other are found anew in each iteration, which took 500 of them.
+  // Edges that slide down on each other are detected again in each iteration, which took 500 of them.
   const double friction = std::tan(10.0 * std::numbers::pi / 180.0);
   Simulation simulation(
       models(block_of("left", upright_prism({{-2, 0}, {-1.8, 0}, {0, 1.6}, {0, 1.8}}), rock, 1),

@@ -47,7 +47,7 @@ LimitScene flat_arch() {
   return scene;
 }
 
-/// The bracket is as narrow as rounding allows, and holds a value, but for the errors of many steps.
+/// The bracket is as narrow as rounding allows, and contains a value, except for the errors of many steps.
 void expect_end(const SupportPath& path, double value) {
   constexpr double widest = 2e-5, of_steps = 2e-6;
   EXPECT_EQ(path.end, MovementEnd::collapses);
@@ -109,7 +109,7 @@ LimitScene leaning_bars(double friction) {
   return scene;
 }
 
-/// Thrust of leaning bars over the weight of one, whose feet are farther apart than they were by some way. From foot to
+/// Thrust of leaning bars over the weight of one, whose feet have spread by some distance. From foot to
 /// crown (cos a, sin a) D; the centre of gravity, (2/3, 1.6/3) from the foot at first, turns with it. H D sin a = W x.
 double thrust_of_leaning_bars(double spread) {
   const double bar = std::sqrt(2.0), lead = std::atan2(1.6, 2.0) - 0.25 * std::numbers::pi;
@@ -202,7 +202,7 @@ TEST(SupportMovement, OfARoundArchThatIsPressedInLiftsItsCrown) {
 }
 
 TEST(SupportMovement, SettlingAndLiftingAreMirrorImages) {
-  // A support that settles leaves the arch as the other one does that is lifted, and the arch is its own mirror image.
+  // A settling support has the effect of lifting the other one, and the arch is its own mirror image.
   const SupportMovement movement = moved(RoundArch{12, 0.15}.scene(), 13, {Vector3(0, 0, -2), 1.0, 1e-4});
   EXPECT_EQ(movement.out.end, MovementEnd::collapses);
   EXPECT_EQ(movement.in.end, MovementEnd::collapses);

@@ -1,4 +1,4 @@
-// Thrust of what stands between supports, by hand.
+// Thrust of structures between supports, by hand.
 #include "solver/statics/thrust.hpp"
 
 #include <gtest/gtest.h>

@@ -72,7 +72,7 @@ double fall_under_ceiling(double tensile_strength, double cohesion) {
 }
 
 TEST(OpenClose, AJointBreaksWhereTheBalancedPullExceedsItsStrength) {
-  // The first guess of each step, free fall, is far beyond the strength either way. What the step's damping
+  // The predictor of each step, free fall, is far beyond the strength either way. What the step's damping
   // leaves of the sudden start adds 0.1 %.
   for (const double cohesion : {5e4, 0.0}) {
     EXPECT_LT(fall_under_ceiling(1.01 * 24525.0, cohesion), 1e-4);

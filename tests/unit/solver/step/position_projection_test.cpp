@@ -128,7 +128,7 @@ TEST(MovedApart, ABarThatSlidesOverARimIsSecondOrderInTheTimeStep) {
   };
   constexpr double time = 0.5;
   const auto errors_of = [](double time_step) -> Errors {
-    // So stiff that what gives way has no part in the errors.
+    // So stiff that compliance does not contribute to the errors.
     Simulation simulation = bar_over_a_rim(time_step, 1e13, 1e-9);
     const auto energy = [&] {
       const Ledger& ledger = simulation.ledger();

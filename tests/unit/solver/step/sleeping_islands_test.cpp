@@ -139,7 +139,7 @@ TEST(SleepingIslands, ABlockAtTheTopOfItsFlightDoesNotSleep) {
   EXPECT_NEAR(height(simulation, 0) - 0.5, 0.01 * 5e-3 - 0.5 * g * 25e-6, 1e-9);
 }
 
-// Friction lacks 1e-4 of what the slope asks for: a = g (sin - mu cos) sets off far below the way of a rest.
+// Friction is 1e-4 below the demand of the slope: the motion of a = g (sin - mu cos) begins far below the limit of rest.
 TEST(SleepingIslands, ABlockThatSetsOffSlowlyDoesNotSleep) {
   constexpr double degrees = 30.0;
   const double angle = degrees * std::numbers::pi / 180.0;

@@ -64,7 +64,7 @@ double rebound(double share_of_step, int order, double stop_stiffness) {
   EXPECT_GT(simulation.report().locked + simulation.report().sliding, 0);
   EXPECT_LT((simulation.momentum() - momentum).norm(), 1e-12 * momentum.norm());
   EXPECT_LT(simulation.ledger().kinetic + simulation.ledger().elastic, energy);
-  // The balance lacks its share of the largest force at most, m v/dt, which acts over less than v dt.
+  // The residual is at most its share of the largest force, m v/dt, which acts over less than v dt.
   EXPECT_LT(std::abs(simulation.ledger().residual),
             settings.iteration.residual_tolerance * 2500.0 * speed * speed);
   double largest = 0.0;

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Two cubes of 1 m cut from a bar, on a slab that carries both; the joint between them is loose.
+// Two cubes of 1 m cut from a bar, on a slab that supports both; the joint between them is loose.
 const std::string bar = R"(title = "bar"
 analysis = { end_time = 0.01, time_step = 1e-3 }
 contact = { friction_angle = 45 }

@@ -20,7 +20,7 @@ TEST(ErrorTimeStudy, HalfTheStepIsAQuarterOfTheErrorOfWhatTumbles) {
     }
   }
   for (int problem = 1; problem <= 4; ++problem) {
-    // Of what is on the front, the slower has less error.
+    // Of two points on the front, the slower has the smaller error.
     double fastest = INFINITY;
     double error_of_fastest = 0.0;
     double least = INFINITY;

@@ -42,7 +42,7 @@ TEST(SampleStatistics, SamplesAreGroupedByListedValues) {
   const std::vector<SampleGroup> groups = sample_groups(keys(), table(), "factor_of_safety.lower", 1.0);
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].name, "dip = 20");
-  // Where the least factor moves already, it is no more than that; a search without an answer says nothing.
+  // If the smallest factor moves already, the factor is at most that; a search without an answer has none.
   EXPECT_EQ(groups[0].values, (std::vector<std::optional<double>>{1.2, 0.1, std::nullopt}));
   EXPECT_EQ(groups[1].values, (std::vector<std::optional<double>>{10.0, std::nullopt}));
   // The least factor that is tried may be above the limit: it is not known on which side of it the sample is.

@@ -133,7 +133,7 @@ TEST_F(Sweep, SamplesHaveStatisticsAndAHistogram) {
 }
 
 TEST_F(Sweep, TheShareOfFailuresIsThatOfFactorsBelowOne) {
-  // A plate on a slope of 30 degrees stands if its friction angle is more: every row can be told by its key.
+  // A plate on a slope of 30 degrees stands if its friction angle is larger: each row can be checked by its key.
   write_text(scene_, std::string("analysis = { type = \"factor-of-safety\", safety = { tolerance = 0.002 } "
                                  "}\ncontact = { friction_angle = 30 }\n") +
                          rock_text + plate_text);
@@ -181,7 +181,7 @@ TEST_F(Sweep, KeepsWhatHasRunAndAddsWhatIsNew) {
   EXPECT_EQ(lines("t.csv").size(), 3U);
   EXPECT_EQ(std::filesystem::last_write_time(runs() / "analysis.end_time=0.1/summary.json"), kept);
   EXPECT_THAT(text("t.runs/analysis.end_time=0.1.log"), HasSubstr("kept"));
-  // A scene that has changed since is not taken for the same, nor overwritten unasked.
+  // A scene that has changed since is not accepted as the same, nor overwritten without --force.
   ASSERT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1"}), 2);
   EXPECT_THAT(text("t.runs/analysis.end_time=0.1.log"), HasSubstr("another scene"));
   EXPECT_EQ(sweep({"--vary", "analysis.end_time=0.1", "--set", "material.0.density=1", "--force"}), 0);

@@ -44,7 +44,7 @@ TEST(Variants, FoldersAreFileNamesAndDiffer) {
     folders.insert(variant.folder);
   }
   EXPECT_THAT(folders, SizeIs(variants.size()));
-  // Whatever else is varied in the same call, so that values can be added.
+  // Independent of other keys varied in the same call, so that values can be added.
   EXPECT_EQ(variants_of({{"file", {"a b"}}})[0].folder, variants[1].folder);
 }
 

@@ -63,7 +63,7 @@ TEST(Placement, SupportsOfSingleComponentsCanBeMovedButNotTurned) {
   EXPECT_EQ(std::get<Plane>(placed(block, moved).supports[0].where).point, Vector3(0, 0, 2));
 }
 
-/// What a case measures in its own place and in another. Checks whose reference is zero measure errors, which
+/// Measured values of a case in its original placement and in another. Checks whose reference is zero measure errors, which
 /// are rounding: they only have to pass.
 class TurnedCase : public testing::TestWithParam<const char*> {};
 
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Contact, TurnedCase,
                                          "goodman-bray", "book-stack", "bounce", "rocking-block", "wedge",
                                          "arch"));
 
-/// Four cubes let go a millimetre over the ground, each over the next: 100 steps of the tower settling.
+/// Four cubes released a millimetre above the ground and each other: 100 steps of the settling tower.
 TEST(Tower, TurnsWithItsScene) {
   const auto places = [](const Placement& placement) {
     ContactScene scene(placement);
@@ -162,8 +162,8 @@ TEST(Collision, TurnsWithItsScene) {
   }
 }
 
-/// An arch of nine voussoirs of order 2 that is let go: 50 steps. Their faces lie on each other but for what
-/// the springs give way. @return displacements of all corners, in the scene's own axes
+/// An arch of nine voussoirs of order 2 that is released: 50 steps. Their faces coincide up to the compression of
+/// the springs. @return displacements of all corners, in the scene's own axes
 std::vector<Vector3> settled_arch(bool area_springs, const Placement& placement) {
   ContactScene scene(placement);
   scene.settings.time_step = 1e-3;

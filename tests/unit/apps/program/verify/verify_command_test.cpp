@@ -69,7 +69,7 @@ TEST(VerifyCommand, ListsCasesOfRecord) {
     EXPECT_NE(answer.out.find(std::string(name) + " "), std::string::npos) << name;
 }
 
-// Each case is a test of its own: they run side by side, and a preset can leave out the slow ones by name.
+// Each case is a separate test: they run in parallel, and a preset can exclude slow ones by name.
 class EveryCase : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryCase, Passes) {

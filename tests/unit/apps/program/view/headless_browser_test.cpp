@@ -1,4 +1,4 @@
-// A script stands for Chromium: it notes what it was called with.
+// A script in place of Chromium stores its arguments.
 #include "apps/program/view/headless_browser.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// What `ashlar movie` refuses, and what it gives ffmpeg; a browser and an ffmpeg stand in for the real ones.
+// Errors of `ashlar movie`, and its arguments for ffmpeg; scripts replace the browser and ffmpeg.
 #include "apps/program/view/movie_command.hpp"
 
 #include <gmock/gmock.h>

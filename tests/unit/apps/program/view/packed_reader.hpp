@@ -1,4 +1,4 @@
-// Reads what a page holds as its script does (page/numbers.js), written from the description in packed_numbers.hpp.
+// Reads the data of a page like its script (page/numbers.js), written from the description in packed_numbers.hpp.
 #pragma once
 
 #include <zlib.h>

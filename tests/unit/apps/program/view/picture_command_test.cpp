@@ -1,4 +1,4 @@
-// What `ashlar picture` refuses; the pictures themselves are tested in tests/browser.
+// Errors of `ashlar picture`; the pictures themselves are tested in tests/browser.
 #include "apps/program/view/picture_command.hpp"
 
 #include <gmock/gmock.h>
@@ -125,7 +125,7 @@ TEST_F(PictureCommand, ABrowserThatHangsIsEndedWithAllItStarted) {
   ::setenv("ASHLAR_BROWSER", path("hang").c_str(), 1);
   EXPECT_EQ(picture({"--time-limit", "2"}), exit_status::failed);
   EXPECT_THAT(err.str(), HasSubstr("hang did not finish within 2 s and was ended"));
-  // What nobody has waited for is a zombie ("Z") until init does.
+  // A process without a waiting parent is a zombie ("Z") until init waits for it.
   const std::string stat = "/proc/" + std::to_string(std::stoi(read_text(folder / "child"))) + "/stat";
   const auto running = [&] {
     std::ifstream file(stat);

@@ -1,5 +1,4 @@
-// `ashlar view` from its command line to its page; what a browser makes of the page is tested in
-// tests/browser.
+// `ashlar view` from its command line to its page; the page in a browser is tested in tests/browser.
 #include "apps/program/view/view_command.hpp"
 
 #include <gmock/gmock.h>

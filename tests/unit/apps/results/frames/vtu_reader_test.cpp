@@ -100,7 +100,7 @@ TEST(VtuReader, EveryCutIsNoticed) {
 TEST(VtuReader, DamageIsNoticed) {
   const std::string whole = to_vtu(sample());
   const std::size_t data = whole.find("\n_") + 2;
-  // Block count, block size (the low bytes say nothing where there is one block), size of the last block,
+  // Block count, block size (without meaning in the low bytes for a single block), size of the last block,
   // packed size, first packed byte.
   for (const std::size_t place : {0, 7, 15, 16, 23, 24, 31, 32}) {
     std::string damaged = whole;

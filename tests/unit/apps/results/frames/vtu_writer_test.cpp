@@ -1,4 +1,4 @@
-// What a reader sees in the files is checked by VTK's own reader, tests/vtk/read_samples.py.
+// VTK's own reader checks the contents of the files, tests/vtk/read_samples.py.
 #include "apps/results/frames/vtu_writer.hpp"
 
 #include <gmock/gmock.h>
@@ -83,7 +83,7 @@ TEST(WriteVtu, WritesTheBytesAndNothingElse) {
   EXPECT_THROW(write_vtu(folder / "none/a.vtu", triangle_grid()), std::runtime_error);
 }
 
-// Equal values are what zlib shortens best; a file that is not compressed would hold all 8 bytes of each.
+// zlib shortens equal values best; an uncompressed file would hold all 8 bytes of each.
 TEST(WriteVtu, Compresses) {
   UnstructuredGrid grid;
   grid.points.assign(100000, Vector3(1, 2, 3));

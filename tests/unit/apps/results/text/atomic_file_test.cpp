@@ -33,7 +33,7 @@ TEST_P(AtomicFile, ReplacesTheRemainsOfAKilledRun) {
   EXPECT_EQ(folder.entry_count(), 1U);
 }
 
-// Readers that opened the old file go on reading it: the new one is another file, not the same overwritten.
+// Readers of the old file continue to read it: the new one is another file, not an overwritten one.
 TEST_P(AtomicFile, DoesNotTouchTheOldFile) {
   const TemporaryFolder folder;
   write_file_atomically(folder / "a", "old content", GetParam());

@@ -1,4 +1,4 @@
-// Histories of supports as users write them, and what is said of them.
+// Histories of supports as users write them, and their messages.
 #include "apps/scene/check/base_motion.hpp"
 
 #include <fmt/format.h>

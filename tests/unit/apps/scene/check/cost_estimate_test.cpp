@@ -1,4 +1,4 @@
-// What scenes cost is told, and refused, before it is paid: none of these could be built in the time of a
+// The cost of scenes is estimated, and refused, before they are built: none of these could be built within a
 // test.
 #include "apps/scene/check/cost_estimate.hpp"
 

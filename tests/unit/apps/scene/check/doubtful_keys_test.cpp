@@ -47,7 +47,7 @@ TEST(DoubtfulKeys, GravityUpwards) {
   EXPECT_THAT(warnings(sample(), {"analysis.gravity=[0, 0, 9.81]"}),
               ElementsAre(HasSubstr("warning: gravity points upwards ([0, 0, 9.81])")));
   EXPECT_THAT(warnings(sample(), {"analysis.gravity=[9.81, 0, 1]"}), IsEmpty());
-  // A history: where it begins. What turns over is tilted.
+  // A history counts by its start. A later reversal is a tilt.
   EXPECT_THAT(warnings(sample(), {"analysis.gravity_history=[[0, 0, 0, 9.81], [1, 0, 0, -9.81]]"}),
               ElementsAre(HasSubstr("warning: gravity points upwards ([0, 0, 9.81])")));
   EXPECT_THAT(warnings(sample(), {"analysis.gravity_history=[[0, 0, 0, -9.81], [1, 0, 0, 9.81]]"}),

@@ -99,7 +99,7 @@ TEST(IdleKeys, AnOrderOfManyBlocksIsThatOfTheFreeOnes) {
   const std::string both = "[[assign]]\nblocks = [\"A.*\"]\nfixed = true\n";
   EXPECT_THAT(warnings(stones + both),
               ElementsAre("s.toml:16:1: warning: order has no effect: a fixed block does not deform"));
-  // Of two keys the one that stands for fixed blocks alone.
+  // Of two keys the one for fixed blocks only.
   const std::string ordered = "[[assign]]\nblocks = [\"A.1\"]\nfixed = true\norder = 2\n";
   EXPECT_THAT(warnings(stones + ordered),
               ElementsAre("s.toml:37:1: warning: order has no effect: a fixed block does not deform"));

@@ -152,7 +152,7 @@ TEST(InitialOverlap, OfRoundingStartsWithoutForceTooButIsNotWarnedOf) {
   ASSERT_EQ(known.size(), 1U);
   EXPECT_TRUE(known[0].rounding);
   EXPECT_THAT(told, IsEmpty());
-  // Without the key nothing is known, and springs start as they always did.
+  // Without the key there is no known overlap, and springs start as usual.
   EXPECT_TRUE(overlaps(0.0, 0x1p-30, told).empty());
   EXPECT_THAT(told, IsEmpty());
 }

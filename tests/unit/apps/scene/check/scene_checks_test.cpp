@@ -138,7 +138,7 @@ TEST(SceneChecks, FaultyValuesAreNotComplainedAboutAgain) {
 }
 
 TEST(SceneChecks, EntriesThatAreNoTablesDoNotShiftOthers) {
-  // The first block is none; the second one's place is still that of the second.
+  // The first block is invalid; the second one keeps its place.
   EXPECT_THAT(all_faults(sample_with(19, ""), {"block.A=1", "joint=[]"}),
               ElementsAre(StartsWith("s.toml:17:1: error: missing key (material), block \"B\" has none"),
                           "--set block.A=1: error: block has the wrong type (1), a table is needed"));

@@ -76,7 +76,7 @@ TEST(JointPlanes, NoDrawGoesOnForEver) {
   EXPECT_THROW(JointHeights(cut, {{1e149, 1e150}}, 1000), CutError);
 }
 
-// What planes there are does not depend on where they are looked at.
+// The planes do not depend on the region in which they are listed.
 TEST(JointPlanes, RandomOnesAreTheSameInEveryRange) {
   SceneCut cut = bedding();
   cut.deviation = 0.05;

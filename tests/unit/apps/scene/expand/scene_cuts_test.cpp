@@ -18,7 +18,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A cube of 2 m on a slab; what a test adds starts at line 17.
+/// A cube of 2 m on a slab; additions of a test start at line 17.
 const std::string rock_scene = R"(analysis = { end_time = 0.01, time_step = 1e-3 }
 contact = { friction_angle = 30 }
 [[material]]
@@ -242,7 +242,7 @@ TEST(SceneCuts, PlanesThatCutNothingAreCountedToo) {
       load(rare + "spacing = 4e-9\n").text,
       HasSubstr("s.toml:25:11: error: cut \"z\" has too many planes (about 5e+08), at most 100000 are "
                 "allowed, or most_blocks if that is more, up to 10000000; a larger spacing is needed"));
-  // No draw of this seed goes on for long: it ends at the first plane that is not allowed.
+  // Drawing ends at the first plane beyond the limit, so that this seed takes little time.
   EXPECT_THAT(load(rare + "spacing = { mean = 1e-6, deviation = 1e-7 }\n").text,
               HasSubstr("cut \"z\" has too many planes (at least 100001), at most 100000 are allowed"));
   const Outcome fewer = load(along_z + "persistence = 0\npoint = [0, 0, 1]\nspacing = 1e-3\n");

@@ -72,7 +72,7 @@ remove = ["a"]
     const Place place = stage.places.value("analysis.time_step");
     places.push_back(std::to_string(place.line) + ":" + std::to_string(place.column));
   });
-  // a: 8 t/8 until t = 4 of the first stage, 4 at its end; what the second adds is 4 t/4 until t = 2.
+  // a: 8 t/8 until t = 4 of the first stage, 4 at its end; the second adds 4 t/4 until t = 2.
   EXPECT_EQ(of_a, (Loads{{{8.0, 2}}, {{4.0, 0}, {4.0, 2}}, {{4.0, 0}, {2.0, 0}}}));
   // late comes in the second stage: 8 (1 - t/8) until t = 2.
   EXPECT_EQ(of_late, (Loads{{{8.0, 2}}, {{8.0, 2}}, {{6.0, 0}}}));
@@ -111,7 +111,7 @@ TEST(SceneStages, AreCheckedInATimeThatGoesWithTheirNumber) {
   for (int k = 0; k < 2000; ++k)
     stages += "[[stage]]\nname = \"s" + std::to_string(k) +
               "\"\nanalysis.end_time = " + std::to_string(k + 1) + "\n";
-  // Each put together from all before it, this is 2e6 stages, a minute.
+  // If each were built from all before it, these would be 2e6 stages, a minute.
   const Scene scene = loaded(stages);
   ASSERT_EQ(scene.stage.size(), 2000U);
   EXPECT_EQ(scene_of_stage(scene, 1999).analysis.end_time, 2000.0);

@@ -41,7 +41,7 @@ std::string data_uri() {
   return "data:application/octet-stream;base64," + to_base64(cube_bytes());
 }
 
-/// @param nodes JSON of the array. @param roots of the scene. @param buffer what the buffer has beside its length
+/// @param nodes JSON of the array. @param roots of the scene. @param buffer keys of the buffer besides its length
 std::string cube_file(const std::string& nodes, const std::string& roots, const std::string& buffer) {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": )" + roots + R"(}], "nodes": )" +
          nodes +
@@ -88,7 +88,7 @@ TEST(GltfReader, NodesWithoutNamesHaveTheirIndex) {
       "[2, 0, 1]");
   std::vector<std::string> names;
   for (const MeshGroup& group : groups) names.push_back(group.name);
-  // Each before what follows it in the scene, children first; the second "a" of the file is the first in the scene.
+  // In the order of the scene, children first; the second "a" of the file is the first in the scene.
   EXPECT_THAT(names, ElementsAre("a", "nodes[4]", "nodes[0]", "a_2"));
 }
 
@@ -127,7 +127,7 @@ TEST(GltfReader, StripsFansAndListsAreTriangles) {
   };
   using Triangle = std::array<int, 3>;
   EXPECT_THAT(triangles(4), ElementsAre(Triangle{0, 1, 2}, Triangle{3, 4, 5}));
-  // Every second one is turned, so that all look the same way.
+  // Every second one is reversed, so that all face the same side.
   EXPECT_THAT(triangles(5),
               ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}, Triangle{2, 3, 4}, Triangle{4, 3, 5}));
   EXPECT_THAT(triangles(6),

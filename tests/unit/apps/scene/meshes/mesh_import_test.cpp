@@ -35,7 +35,7 @@ Vector3 cube_corner(int k, double x) {
   return Vector3(x + k % 2, k / 2 % 2, k / 4);
 }
 
-/// Unit cubes side by side, each on a layer of its own.
+/// Unit cubes side by side, each on a separate layer.
 std::string dxf(int count) {
   std::string text = "0\nSECTION\n2\nENTITIES\n";
   for (int cube = 0; cube < count; ++cube) {

@@ -81,7 +81,7 @@ TEST(ShapeLayout, MirroredShapesKeepTheirOutside) {
   const std::vector<MeshGroup> groups = layout.groups();
   EXPECT_EQ(Polyhedron(groups[0].mesh).volume(), 2.0);
   EXPECT_EQ(Polyhedron(groups[1].mesh).volume(), 2.0);
-  // The triangle of the cube that begins at its first corner goes round the other way.
+  // The triangle of the cube that begins at its first corner has the opposite orientation.
   const TriangleMesh plain = make_box(Vector3::Zero(), Vector3::Ones());
   const std::array<int, 3> first = plain.triangles.front();
   EXPECT_EQ(groups[2].mesh.triangles.front(), (std::array{first[0], first[2], first[1]}));

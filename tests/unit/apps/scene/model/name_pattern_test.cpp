@@ -32,7 +32,7 @@ TEST(NamePattern, CountsCodePoints) {
 }
 
 TEST(NamePattern, BytesOfNoCodePointAreCharacters) {
-  // A continuation alone, an overlong slash, half a surrogate pair, a lead without what follows, beyond the last plane.
+  // A continuation alone, an overlong slash, half a surrogate pair, a lead byte without continuation, beyond the last plane.
   EXPECT_TRUE(pattern_matches("a?b",
                               "a\x80"
                               "b"));

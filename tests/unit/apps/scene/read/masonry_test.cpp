@@ -322,7 +322,7 @@ TEST(MasonryDome, ClosesWithAKeystone) {
   const Built result =
       built("kind = \"dome\"\nradius = 3\nthickness = 0.5\ncourses = 4\nvoussoirs = 12\nto = 72\n");
   ASSERT_THAT(result.solids, SizeIs(49));
-  // Each voussoir is what two similar pyramids with their apex in the centre leave; the keystone is a frustum.
+  // Each voussoir is the difference of two similar pyramids with their apex in the centre; the keystone is a frustum.
   const double inner = 2.75, outer = 3.25, cubes = outer * outer * outer - inner * inner * inner;
   const auto unit = [](double up, double around) {
     return Vector3(std::cos(up) * std::cos(around), std::cos(up) * std::sin(around), std::sin(up));

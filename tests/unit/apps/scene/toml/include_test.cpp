@@ -15,7 +15,7 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-// Files of a scene in a folder of its own; its main one is main.toml.
+// Files of a scene in a separate folder; the main one is main.toml.
 class Include : public ::testing::Test {
  protected:
   void write(const std::string& name, const std::string& text) {
