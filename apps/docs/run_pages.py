@@ -35,7 +35,7 @@ def blocks_of(page):
 
 
 def agree(expected, seen):
-    """Whether two lines say the same: equal between numbers, and numbers nearly equal."""
+    """True if two lines are equal apart from numbers, and their numbers nearly equal."""
     if NUMBER.sub("#", expected).split() != NUMBER.sub("#", seen).split():
         return False
     pairs = zip(NUMBER.findall(expected), NUMBER.findall(seen), strict=True)

@@ -71,7 +71,7 @@ struct CrossingDetail {
                                      const std::optional<Entrance>& history = std::nullopt,
                                      const CrossingDetail& detail = {});
 
-/// How near to a common plane features must be to count as one contact; from the scene, never hidden here.
+/// Distance to a common plane up to which features count as one contact; an input of the scene, without default.
 struct Resolution {
   double distance = 0.0;  ///< m, >= 0: tau
   double sine = 0.0;      ///< of the contact angle, 0 to 1

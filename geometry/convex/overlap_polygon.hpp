@@ -38,7 +38,7 @@ struct OverlapVertex {
   PlaneLocation a, b;
 };
 
-/// How the two sets lie; decides which arithmetic is enough.
+/// Relative position of the two sets; it decides the necessary arithmetic.
 enum class PlaneSetting {
   coplanar,  ///< both in one plane across w
   level,     ///< each in a plane across w

@@ -26,7 +26,7 @@ using BlockPlace = std::variant<Plane, Vector3, FaceList>;
 /// users write decimals, and a rotated block's corners are rounded.
 inline constexpr double placement_tolerance = 1e-6;
 
-/// That distance in m.
+/// The same distance in m.
 [[nodiscard]] double allowed_offset(const Polyhedron& solid);
 
 /// Indices of the faces all of whose corners lie in the plane, increasing. Empty if there is none.

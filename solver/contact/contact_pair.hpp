@@ -14,7 +14,7 @@
 
 namespace ashlar {
 
-/// How approaching points are stopped (step/velocity_contact.hpp).
+/// Rule that stops approaching points (step/velocity_contact.hpp).
 struct Stop {
   double stiffness = 0.0;  ///< of a point relative to its effective inertia, dimensionless
   double inertia_a = 0.0;  ///< density over the step squared, kg/(m^3 s^2); unused if fixed
@@ -213,7 +213,7 @@ class ContactPair {
   /// From points whose rows are known.
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,
               std::vector<PointMemory> memory, PairRows rows, bool tied);
-  // How a patch starts: PatchStart.
+  // Start of a patch: PatchStart.
   void continue_springs();
   void touch_within(double depth);
   void freeze_at_gap(double taken);

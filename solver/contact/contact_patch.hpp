@@ -19,10 +19,10 @@ struct ContactPatch {
   std::vector<FacePair> turning = {};  ///< faces over which friction turned in the step before
   std::shared_ptr<const PairRows::Values> rows = nullptr;  ///< of the points; null: to be made
   std::shared_ptr<const LastingContacts> lasting =
-      nullptr;  ///< what later steps may use again; null: nothing
+      nullptr;  ///< reused by later steps; null: none
 };
 
-/// How springs and multipliers of a patch start a step, beside what their points remember.
+/// Start of the springs and multipliers of a patch in a step, besides the memory of their points.
 struct PatchStart {
   /// True if the points are those of the last step: springs continue from its compression, and hold the same energy
   bool continues = false;

@@ -34,7 +34,7 @@
 
 namespace ashlar {
 
-/// How an iteration of a static analysis ended.
+/// Outcome of an iteration of a static analysis.
 enum class StaticStatus {
   balancing,      ///< continue
   equilibrium,    ///< of the loads at the end time

@@ -6,7 +6,7 @@
 
 namespace ashlar {
 
-/// How a step ended.
+/// Outcome of a step.
 enum class StepStatus {
   accepted,
   too_many_cuts,  ///< the state is that of the last accepted step; see RunLog::rejections

@@ -15,7 +15,7 @@
 
 namespace ashlar {
 
-/// How an open-close iteration ended.
+/// Outcome of an open-close iteration.
 enum class IslandStatus {
   converged,
   not_converged,          ///< not even the fallback balanced the forces: cut the step

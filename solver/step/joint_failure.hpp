@@ -1,4 +1,4 @@
-// How joints fail within the open-close iteration of a step.
+// Failure of joints within the open-close iteration of a step.
 //
 // Joints with tensile strength resist any tension until the forces are balanced. If the balanced tension exceeds the
 // strength, the most overstressed joints fail permanently and the iteration continues: there are no more rounds than

@@ -26,7 +26,7 @@ import time
 
 HERE = pathlib.Path(__file__).parent
 TABLES = ["history.csv", "contacts.csv", "blocks.pvd", "contacts.pvd", "joints.pvd"]
-# How a run is taken on: no result depends on it.
+# Conditions of a resumed run: no result depends on them.
 MANNERS = [["--checkpoint", "0"], ["--checkpoint", "0.02"], [], ["--checkpoint", "0.01", "--threads", "2"]]
 # Keys of the summary for clocks, memory, and work that a resumed run repeats.
 MEASURED = ["wall_seconds", "peak_memory_bytes"]
@@ -108,7 +108,7 @@ def differences(a, b):
 
 
 def told_by(path):
-    """What a summary says of the results."""
+    """Statements of a summary on the results."""
     summary = json.loads(path.read_text())
     for key in MEASURED:
         del summary[key]

@@ -29,7 +29,7 @@ std::string bytes_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(input), {}};
 }
 
-// Whether all went well.
+// True without a fault.
 bool replay(const std::string& file, const std::string& bytes) {
   for (const auto& target : ashlar::fuzz::targets) {
     const auto fail = [&](const char* what) {

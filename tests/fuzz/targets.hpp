@@ -21,7 +21,7 @@ inline void require(bool holds, const char* what) {
 
 bool scene(std::string_view bytes);       ///< the text of a scene, up to the keys
 bool include(std::string_view bytes);     ///< a scene, a line "# part.toml", and a file that it may include
-bool formula(std::string_view bytes);     ///< what follows the "=" of a formula of h, n and lost
+bool formula(std::string_view bytes);     ///< the text after the "=" of a formula of h, n and lost
 bool record(std::string_view bytes);      ///< a CSV file with columns t, a and b
 bool off(std::string_view bytes);         ///< each of the meshes: points, faces, triangles
 bool obj(std::string_view bytes);         //
@@ -41,7 +41,7 @@ bool summary(std::string_view bytes);     ///< summary.json
 struct Target {
   std::string_view name;  ///< of its folder in corpus/ too
   bool (*run)(std::string_view bytes);
-  /// Whether its format stays, so that the corpus must have files that the reader takes. Stored states are
+  /// True if its format is stable, so that the corpus must have files that the reader accepts. Stored states are
   /// those of one version of the program.
   bool lasting = true;
 };

@@ -1,4 +1,4 @@
-"""How deep blocks are in each other, and whether energy rises, from the files of a result folder alone.
+"""Depths of blocks in each other, and rises of energy, from the files of a result folder alone.
 
 Nothing that the program says about its contacts is used. Of each frame the drawn surfaces are read; a point is inside
 a block if its winding number is not zero, and as deep as the nearest triangle is far. Asked are all drawn points

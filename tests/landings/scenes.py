@@ -156,7 +156,7 @@ def corners_and_edges(triangles):
 
 
 def way_down(block, ground):
-    """How far the block, which is clear of the ground, can sink before it touches it; inf if it never does."""
+    """Distance by which the block above the ground can fall before contact; inf if it never touches it."""
     box = [(min(p[k] for p in block[0]), max(p[k] for p in block[0])) for k in (0, 1)]
 
     def near(points):

@@ -41,7 +41,7 @@ extern "C" void __libc_free(void* place);
 
 namespace {
 
-/// Which allocation fails. Changed only while one thread runs.
+/// The failing allocation. Changed only while one thread runs.
 struct Failure {
   bool armed = false;
   bool all = false;  ///< the C library's allocations count too

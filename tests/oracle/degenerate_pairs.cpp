@@ -24,7 +24,7 @@ struct Transformation {
   std::string name;
 };
 
-/// How P is moved after it was put in touch: each point by 2^-bits times its step.
+/// Motion of P after contact: each point by 2^-bits times its step.
 struct Displacement {
   std::vector<LatticePoint> steps;
   int bits = 0;  ///< kSmallest: as many as the doubles can hold

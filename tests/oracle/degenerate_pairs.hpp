@@ -15,7 +15,7 @@ namespace ashlar::oracle {
 struct DegeneratePair {
   Shape p;
   Shape q;
-  std::string family;  ///< how it was made: shapes, gap, transformation
+  std::string family;  ///< its construction: shapes, gap, transformation
 };
 
 class DegeneratePairs {

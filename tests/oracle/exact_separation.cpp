@@ -7,7 +7,7 @@
 namespace ashlar::oracle {
 namespace {
 
-/// Whether direction = divisor (p - q) proves p and q to be a closest pair: p lowest and q highest along it.
+/// True if direction = divisor (p - q) proves p and q to be a closest pair: p lowest and q highest along it.
 bool is_closest(const ConvexBody& p, const ConvexBody& q, const IntegerVector& direction,
                 const mpz_class& lowest_p, const mpz_class& highest_q) {
   if (is_zero(direction)) return false;

@@ -1,4 +1,4 @@
-// How far two convex bodies are apart, by trying all pairs of features.
+// The distance of two convex bodies, by trying all pairs of features.
 #pragma once
 
 #include "oracle/exact_body.hpp"

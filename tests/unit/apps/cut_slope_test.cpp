@@ -53,8 +53,8 @@ TEST_P(CutSlope, SetsOffAlongItsBedding) {
     EXPECT_LT((block.acceleration - expected).norm(), 0.01 * along) << block.block;
 }
 
-// Between steep joints of high friction the bounds of friction do not converge in some iterations. The slope is far from its
-// limit: bedding alone would hold it with tan(29) / 0.84 against tan(30).
+// Between steep joints of high friction the bounds of friction do not converge in some iterations. The slope is far from
+// its limit: bedding alone would hold it with tan(29) / 0.84 against tan(30).
 TEST(SteepJoints, StandsWhereFrictionDoesNotSettleAtOnce) {
   const auto raised = [](double angle) { return std::atan(std::tan(angle * degree) / 0.84) / degree; };
   auto built = built_slope({"parameters.height=6", "parameters.width=6", "parameters.length=16",

@@ -160,7 +160,7 @@ std::array<double, 2> rocked(double share, double step) {
   return largest;
 }
 
-// How a column rocks is set by its joint, not by the step.
+// The rocking of a column depends on its joint, not on the step.
 TEST(JointDamping, ARockingColumnDoesNotDependOnTheStep) {
   const auto [coarse, coarse_late] = rocked(0.1, 2e-3);
   const auto [fine, fine_late] = rocked(0.1, 5e-4);

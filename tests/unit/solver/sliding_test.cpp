@@ -136,7 +136,7 @@ TEST(Sliding, FrictionTakesTheKineticEnergyWhicheverIntegrator) {
   }
 }
 
-/// How a plate lies on two fixed supports, touched along a line across it by either of them.
+/// Position of a plate on two fixed supports, each in contact along a line across it.
 struct OnEdges {
   int order = 1;
   bool area = true;

@@ -1,4 +1,4 @@
-// What a scene does, does not depend on how it lies: scenes of blocks in exact touch, as users place them,
+// Results do not depend on the orientation of a scene: blocks in exact contact, as users place them,
 // and the same scenes turned, their corners rounded. Every step of these has solutions near each other or
 // states that only rounding tells apart.
 #include <gtest/gtest.h>

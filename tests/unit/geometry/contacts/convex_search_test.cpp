@@ -229,7 +229,7 @@ TEST(ConvexSearch, DiagonalNeighboursBearWhenTheyAreDeeperThanRounding) {
       const ConvexSurface of_high(high.placed), of_low(low.placed);
       EXPECT_FALSE(settle_convex_contacts(of_high, of_low, {{}, 0.001, rounding}, contacts).has_value());
       EXPECT_TRUE(contacts.empty()) << x << " " << z;
-      // What was known of them before stays known.
+      // Their earlier history is kept.
       const EntranceName known{EntranceKind::face_of_b, {-1, -1}, {of_low.cell_of_facet(0), -1}, false};
       EXPECT_EQ(settle_convex_contacts(of_high, of_low, {known, 0.001, rounding}, contacts), known);
     }

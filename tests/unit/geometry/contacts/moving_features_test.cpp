@@ -67,7 +67,7 @@ TEST(MovingFeatures, FacesThatStandForThem) {
   }
   // All but the face that is across the cube.
   for (int cell = 0; cell < 6; ++cell) EXPECT_EQ(as_set(faces_of_cell(cube.surface, cell)).size(), 5U);
-  // Those beside an edge and those at its ends.
+  // Faces beside an edge and at its ends.
   for (const SurfaceEdge& edge : cube.surface.edges) {
     const SurfaceSide side{edge.ends, edge.cells};
     EXPECT_EQ(as_set(faces_of_side(cube.surface, side)).size(), 4U);

@@ -32,7 +32,7 @@ TEST(Dilation, RaisesTheNormalForceWhereAPointSlides) {
   EXPECT_LT((response.force - Eigen::Vector3d(3600, -1080, -1440)).norm(), 1e-9);
   EXPECT_NEAR(response.normal_energy, 0.5 * kn * 1.8e-5 * 1.8e-5, 1e-14);
   EXPECT_LT((elastic_slip(point, response, {3e-5, 4e-5}) - Eigen::Vector2d(1.08e-5, 1.44e-5)).norm(), 1e-17);
-  // What does not slide does not dilate.
+  // No dilation without sliding.
   const PointResponse locked = point_response(point, -1e-5, {0.9e-5, 0});
   EXPECT_EQ(locked.state, ContactState::locked);
   EXPECT_EQ(locked.dilation, 0.0);

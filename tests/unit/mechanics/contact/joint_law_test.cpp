@@ -249,7 +249,7 @@ TEST(JointLaw, ImpulsesCountInTheBoundOfTheShearForceAsFarAsTheNormalForceGoes) 
     const double change = point_response(point, gap - less, far).force[1] - sliding.force[1];
     EXPECT_NEAR(change, less * sliding.coupling.force[1], 1e-8) << impulse;
   }
-  // What just touches does not rub.
+  // No friction without pressure.
   EXPECT_EQ(point_response(point, 0.0, far).force[1], 0.0);
 }
 

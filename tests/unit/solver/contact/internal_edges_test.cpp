@@ -270,7 +270,7 @@ TEST(InternalEdges, BlocksOfOneHeightPush) {
   }
 }
 
-/// How deep a block goes that is put on a fixed one, its mirror image below z = 0, in 0.3 s, m.
+/// Depth within 0.3 s of a block placed on a fixed one, its mirror image below z = 0, m.
 /// @param corners of the upper block, its lowest point at 0
 double deepest_on_mirror_image(const std::vector<Vector3>& corners, int order, double stiffness) {
   std::vector<BlockModel> blocks;

@@ -56,7 +56,7 @@ Simulation simulation_of(const Placed& placed) {
   return simulation;
 }
 
-/// How far any corner of the cube is from where it was placed, m.
+/// Largest displacement of a corner of the cube, m.
 double moved(const Simulation& simulation) {
   double farthest = 0.0;
   for (const Vector3& point : simulation.blocks()[1].solid().mesh().points)

@@ -1,4 +1,4 @@
-// How far supports can move, against hinged mechanisms in closed form.
+// Limits of support movements, compared with hinged mechanisms in closed form.
 #include "solver/statics/support_movement.hpp"
 
 #include <gtest/gtest.h>

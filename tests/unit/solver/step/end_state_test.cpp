@@ -1,4 +1,4 @@
-// What a step may not end in, and that it then ends with the last good state.
+// Inadmissible end states of a step, and the end of the run with the last valid state.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -18,7 +18,7 @@ TEST(IslandProblem, ContactsAreFollowedOnceUntilBlocksMoveOn) {
     problem.apply(cube.space().restrict(cube.basis().linear_field({along, 0, 0}, gradient)), 1.0);
     problem.respond();
   };
-  // What rows leave out is slip times turn.
+  // The error of rows is slip times rotation.
   constexpr double tolerance = 1e-5;
   move_on(1e-2, 0.0);
   EXPECT_FALSE(problem.follow_contacts(tolerance)) << "it has not turned";

@@ -86,7 +86,7 @@ std::array<double, 2> speed_of_a_sliding_bar(double time) {
           -along * std::sin(y[1]) - across * std::cos(y[1])};
 }
 
-/// That bar, let go at rest. @param young modulus, Pa
+/// The same bar, released at rest. @param young modulus, Pa
 Simulation bar_over_a_rim(double time_step, double young, double penetration_tolerance) {
   std::vector<BlockModel> blocks;
   blocks.emplace_back(fixed_box({-0.2, -1, -1}, {0, 1.5, 0}));

@@ -140,7 +140,7 @@ TEST(GeneralizedAlpha, OneModeFollowsItsAmplificationMatrix) {
         }
       }
     }
-    // That matrix keeps `radius` of the highest frequencies: a double root, found to the root of rounding.
+    // The matrix keeps `radius` of the highest frequencies: a double root, accurate to the root of rounding.
     EXPECT_NEAR(spectral_radius(amplification(radius, 1.0, 1e12, 0.0)), radius, 1e-3);
   }
 }
