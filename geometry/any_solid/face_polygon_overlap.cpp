@@ -224,7 +224,7 @@ class Overlay {
     return signs_.turn(before, at, after) == 0 && signs_.is_between(before, after, at);
   }
 
-  // Of pieces on both outlines those of A are used.
+  // For pieces on both outlines those of A are used.
   void add_pieces(Outline& own, Side& side, const Outline& other, bool own_is_b) {
     std::sort(side.cuts.begin(), side.cuts.end(), [](const Cut& x, const Cut& y) { return x.t < y.t; });
     side.cuts.erase(std::unique(side.cuts.begin(), side.cuts.end(),

@@ -67,7 +67,7 @@ struct SeparationResult {
 [[nodiscard]] std::vector<Support> find_farthest_separation(const ConvexShape& a, const ConvexShape& b,
                                                             PredicateLadder& ladder);
 
-/// Of several equally near entrances the one whose direction a contact takes (DirectionRule).
+/// The entrance that gives the direction of a contact, among equally near ones (DirectionRule).
 [[nodiscard]] const Support& preferred_support(const std::vector<Support>& supports, const ConvexShape& a,
                                                const ConvexShape& b, PredicateLadder& ladder);
 

@@ -17,7 +17,7 @@ class FlatView {
   /// The same by the second coordinate alone.
   [[nodiscard]] int compare_heights(const ExactPoint& a, const ExactPoint& b) const;
   /// True if a ray from a point, towards greater first coordinates, meets a segment that does not contain the point.
-  /// Of two segments that meet at the ray's height, it meets both or one depending on their other ends.
+  /// Where two segments meet at the ray's height, it crosses both or one depending on their other ends.
   [[nodiscard]] bool ray_meets(const ExactPoint& from, const ExactPoint& a, const ExactPoint& b) const;
   /// Coordinates in the view, whose axes go counter-clockwise.
   [[nodiscard]] std::array<Rational, 2> seen(const ExactPoint& point) const;

@@ -17,12 +17,12 @@
 namespace ashlar {
 namespace {
 
-// Of the greatest extent: beyond it welding would change the shape.
+// Largest weld distance relative to the extent: beyond it welding would change the shape.
 constexpr double largest_weld = 0.1;
-// Of the largest coordinate: below it there are no distances between zero and this.
+// Smallest weld distance relative to the largest coordinate: the spacing of doubles there is coarser.
 constexpr double smallest_weld = 0x1p-50;
 
-// Of an edge shared by several bodies: more are a defect, and would need quadratic time.
+// Most triangles at an edge shared by several bodies: more are a defect, and would need quadratic time.
 constexpr std::size_t most_sides = 1000;
 
 /// Points in cubes of the side `distance`. Kept points are apart by more than that, so that a cube has few.

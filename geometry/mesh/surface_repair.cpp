@@ -19,7 +19,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 
-// Of a hole: covering a complex one needs cubic time.
+// Most edges of a hole: covering a complex one needs cubic time.
 constexpr std::size_t most_hole_edges = 1000;
 
 struct Soup {

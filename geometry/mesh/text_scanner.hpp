@@ -43,7 +43,7 @@ class TextScanner {
   /// Text after the current line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
   [[nodiscard]] int line() const { return line_number_; }
-  /// Of the last word.
+  /// Column of the last word.
   [[nodiscard]] int column() const { return column_; }
 
   /// @throws MeshFileError at the last word: "what (word), allowed".

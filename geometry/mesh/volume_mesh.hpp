@@ -46,7 +46,7 @@ struct VolumeMesh {
 /// The facets that bound one of the tetrahedra only, outward, with the points that they use in the order of the mesh.
 /// @param chosen indices of tetrahedra. @throws MeshFileError for a facet of more than two of them
 [[nodiscard]] TriangleMesh surface_of(const VolumeMesh& mesh, const std::vector<int>& chosen);
-/// Of all tetrahedra; the triangles as they are where there are none.
+/// The facets of all tetrahedra; the triangles themselves if there are none.
 [[nodiscard]] TriangleMesh surface_of(const VolumeMesh& mesh);
 
 /// A body for each physical group: the surface of its tetrahedra, or its triangles.

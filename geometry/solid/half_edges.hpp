@@ -27,13 +27,13 @@ namespace ashlar {
 /// direction; the triangles need not be closed.
 class HalfEdges {
  public:
-  /// Holds none yet. @param triangles must outlive this; may change, but not in triangles that are held.
+  /// Empty at first. @param triangles must outlive this; added triangles must not change.
   HalfEdges(const std::vector<std::array<int, 3>>& triangles, std::size_t point_count)
       : triangles_(triangles), first_(point_count, -1), next_(3 * triangles.size(), -1) {}
 
   /// The three half-edges of a triangle. @pre its corners are in [0, point_count)
   void add(int triangle);
-  /// Of all triangles but those that name a point twice, which have no edges.
+  /// Adds all triangles except those that name a point twice, which have no edges.
   void add_all();
   /// @pre the triangle is held
   void remove(int triangle);

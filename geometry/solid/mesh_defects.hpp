@@ -63,7 +63,7 @@ struct MeshCheck {
   double volume = 0.0;     ///< m^3, correctly rounded; for a sound mesh only
 };
 
-/// Of a mesh that has other defects, self-intersections are looked for in the first 100 pairs of near triangles
+/// Self-intersections of a mesh with other defects are searched in the first 100 pairs of near triangles
 /// for each triangle (notes/overlapping_triangles.md). @param limit most defects listed of each kind, at
 /// least 1.
 [[nodiscard]] MeshCheck check_mesh(const TriangleMesh& mesh, std::size_t limit);

@@ -40,7 +40,7 @@ class PlacedSurface {
   [[nodiscard]] std::array<Vector3, 2> edge(int index) const;
   /// Largest distance of a point from the first one, m: invariant under translation and rotation of the block.
   [[nodiscard]] double size() const { return size_; }
-  /// Of the coordinates of all points.
+  /// Exponents of the coordinates of all points.
   [[nodiscard]] const NumericRange& range() const { return range_; }
 
  private:

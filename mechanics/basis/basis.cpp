@@ -70,9 +70,9 @@ struct PolynomialBasis::ExactParts {
 
 namespace {
 
-/// Of the integrals of products of functions: an eighth of the last place.
+/// Error of the integrals of products of functions: an eighth of the last place.
 constexpr double allowed_error = 0x1p-56;
-/// Of volume and second moment, relative: preserves the digits of small entries of a thin block's second moment.
+/// Relative error of volume and second moment: preserves the digits of small entries of a thin block's second moment.
 constexpr double allowed_error_of_measure = 0x1p-80;
 
 template <class Real>

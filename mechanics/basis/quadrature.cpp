@@ -108,7 +108,7 @@ using Corners = std::vector<Eigen::Vector2d>;
 /// Removes the flattest corner of a polygon if it is nearly straight. @return it, the next one and the last one
 std::optional<std::array<Eigen::Vector2d, 3>> take_flat_corner(Corners& polygon) {
   constexpr double nearly_straight = 1e-3;  // height of a corner over the line between its neighbours
-  // Of corners that are equally flat within rounding error: the first.
+  // The first of corners that are equally flat within rounding error.
   constexpr double less = 1.0 - 1e-6;
   const std::size_t corners = polygon.size();
   if (corners <= 3) return std::nullopt;

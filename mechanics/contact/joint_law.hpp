@@ -70,7 +70,7 @@ struct JointLaw {
   bool gives_way = false;  ///< true: a compliant joint with springs, also if other joints have multipliers
   double dilation = 0.0;   ///< tan(psi), 0 to the smallest friction: more would generate energy
   double damping = 0.0;    ///< >= 0, share of critical, of springs (ContactPair::damp)
-  /// Of surfaces that have failed, or were never bonded; each value at most that above. Empty: `friction` only
+  /// Strength of failed or never bonded surfaces; each value at most that above. Empty: `friction` only
   std::optional<ResidualStrength> residual = std::nullopt;
 
   friend bool operator==(const JointLaw&, const JointLaw&) = default;

@@ -11,7 +11,7 @@ namespace {
 
 /// Bodies are in balance if their acceleration relative to that by their loads alone is at most this.
 constexpr double still = 1e-4;
-/// Of the tolerance: decay rate of slow slip that still counts as motion, on the safe side.
+/// Decay rate of slow slip that still counts as motion, relative to the tolerance; on the safe side.
 constexpr double margin_share = 0.1;
 
 double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocity>& b) {

@@ -13,9 +13,9 @@
 namespace ashlar {
 namespace {
 
-/// Of settings.statics.travel: blocks that have gone so far when iterations end are moving slowly.
+/// Share of settings.statics.travel: blocks with this displacement at the last iteration are moving slowly.
 constexpr double slow_share = 0.1;
-/// Of settings.statics.travel: least displacement of blocks carried along by moving ones, or sinking due to their
+/// Share of settings.statics.travel: least displacement of blocks moved along by others, or sinking due to their
 /// motion. Blocks with merely increased contact forces have moved less.
 constexpr double taken_along_share = 1e-3;
 

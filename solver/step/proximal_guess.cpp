@@ -14,7 +14,7 @@ namespace {
 constexpr double over_relaxation = 1.6;
 constexpr int passes = 40;
 constexpr int passes_between_checks = 5;
-/// Of the largest force on a body: Newton's method converges from a smaller residual.
+/// Residual relative to the largest force on a body, from which Newton's method converges.
 constexpr double near_enough = 0.1;
 
 /// Points of a pair, (3, #points) along normals and tangents.

@@ -150,7 +150,7 @@ class IslandStop {
     return run_.blocks()[at(block)].material().density * scheme_.inertia;
   }
 
-  /// Of each pair at the present velocities.
+  /// Impulses of each pair at the present velocities.
   [[nodiscard]] std::vector<PairResponse> impulses() const {
     const MultiplierSettings& settings = run_.settings().multipliers;
     std::vector<PairResponse> responses;

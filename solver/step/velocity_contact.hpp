@@ -33,7 +33,7 @@ namespace ashlar {
 
 /// Effect of a pair's impulses at the end of a step.
 struct StoppedPair {
-  /// Of its points in their frames, impulse over step, N; empty: none
+  /// Forces of its points in their frames, impulse over step, N; empty: none
   std::vector<Eigen::Vector3d> forces;
   double work = 0.0;  ///< on both blocks, J
 };

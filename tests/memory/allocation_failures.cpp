@@ -176,7 +176,7 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Of the handler of std::terminate, which libraries bring about that declare functions noexcept and allocate in them.
+/// Message of the handler of std::terminate, called where libraries allocate in functions declared noexcept.
 constexpr const char* last_resort = "a run keeps the last state that it saved";
 
 /// One command in a process of its own. @param number of the allocation that fails; 0: none

@@ -90,7 +90,7 @@ double quantile(const Distribution& distribution, double share) {
     case Kind::normal:
       return math::quantile(math::normal(p[0], p[1]), share);
     case Kind::lognormal: {
-      // Of the logarithm.
+      // Variance of the logarithm.
       const double square = std::log1p((p[1] / p[0]) * (p[1] / p[0]));
       return math::quantile(math::lognormal(std::log(p[0]) - 0.5 * square, std::sqrt(square)), share);
     }

@@ -18,9 +18,9 @@ struct SlidingWedge {
   SlidingWedge();
   /// Two fixed blocks below the planes, 0 and 1, and the wedge, 2: 2 m along the line, 1 m up each plane.
   void add_to(ContactScene& scene, const Material& material) const;
-  /// Of both planes, m^2.
+  /// Contact area of both planes, m^2.
   [[nodiscard]] double contact_area() const { return 4.0; }
-  /// Of the wedge, m^3.
+  /// Volume of the wedge, m^3.
   [[nodiscard]] double volume() const { return d1.cross(d2).norm(); }
 };
 

@@ -14,7 +14,7 @@ struct SceneJointLaw {
   double friction_angle = 0.0;             ///< deg, 0 to less than 90
   double cohesion = 0.0;                   ///< Pa, >= 0
   double tensile_strength = 0.0;           ///< Pa, >= 0
-  /// Of failed or later contacts; at most the values above. Empty: friction_angle, no cohesion, no tensile strength
+  /// Strength of failed or later contacts; at most the values above. Empty: friction_angle, no cohesion, no tensile strength
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   double dilation_angle = 0.0;  ///< deg, 0 to friction_angle and its residual value
   double damping = 0.0;         ///< share of critical, of the joint's springs, 0 to 1

@@ -18,7 +18,7 @@ namespace {
 
 /// About a second of work.
 constexpr double most_tests = 1e7;
-/// Of the places of values assigned by an entry to a block, bytes.
+/// Memory for the places of values assigned by an entry to a block, bytes.
 constexpr double memory_of_keys = 100.0;
 
 bool is_glob(const std::string& pattern) {

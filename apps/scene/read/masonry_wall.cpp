@@ -12,9 +12,9 @@
 namespace ashlar {
 namespace {
 
-/// Of a brick: closer edges are equal.
+/// Share of a brick: closer edges are equal.
 constexpr double same_edge = 1e-9;
-/// Of a brick: thinner pieces cause a warning.
+/// Share of a brick: thinner pieces cause a warning.
 constexpr double thin_piece = 1e-2;
 
 enum class Bond { running, stack, header };

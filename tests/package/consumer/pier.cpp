@@ -18,7 +18,7 @@ int main(int count, char** arguments) {
       run.set_load_factor("pier", 0, factor);
       while (run.step()) {
       }
-      // Of a block of order 1 the stress is that of its middle: -(load + 2000 kg/m^3 * 10 m/s^2 * 1 m).
+      // The stress of a block of order 1 is that at its centre: -(load + 2000 kg/m^3 * 10 m/s^2 * 1 m).
       const ashlar::PointMotion middle = run.motion("pier", {0.5, 0.5, 1.0});
       std::cout << to_string(*run.status()) << ", vertical stress " << std::lround(middle.stress(2, 2) / 1e3)
                 << " kPa\n";

@@ -148,7 +148,7 @@ TEST_F(FactorRun, ResumeKeepsTrialsAndEndsAlike) {
   EXPECT_EQ(nlohmann::ordered_json::parse(text("half/factor_trials.json")).at("trials"), all);
   EXPECT_EQ(summary("half").at("factor_of_safety"), summary("whole").at("factor_of_safety"));
   expect_same_results("whole", "half");
-  // Of another scene.
+  // Results of another scene.
   trials["scene"] = 1;
   std::filesystem::remove(folder_ / "half/summary.json");
   write_text(folder_ / "half/factor_trials.json", trials.dump(1) + "\n");

@@ -122,7 +122,7 @@ class Confined {
     return {std::move(blocks), {{}, {}}, same_law(law), settings};
   }
 
-  /// Of springs in series: sigma = K (w + s tan(psi)), s = u - sigma tan(phi) C.
+  /// Stress of springs in series: sigma = K (w + s tan(psi)), s = u - sigma tan(phi) C.
   static double stress(double friction, double dilation, bool springs) {
     const double normal = 1.0 / (height / young + (springs ? 1.0 / kn : 0.0));
     const double shear = 2.0 * height / young + (springs ? 1.0 / ks : 0.0);

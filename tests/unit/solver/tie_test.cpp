@@ -166,7 +166,7 @@ TEST(Tie, HoldsABlockToAFixedOne) {
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing) status = simulation.static_step(1.0);
   ASSERT_EQ(status, StaticStatus::equilibrium);
-  // Of order 1, pulled by its weight rho g V at the centroid: strain rho g (L/2)/E.
+  // A block of order 1, pulled by its weight rho g V at the centroid: strain rho g (L/2)/E.
   EXPECT_NEAR(place_of(simulation, 1, {2, 0, 0}).x() - 2.0, 2500 * 9.81 * 1.0 / 1e9 * 2.0, 1e-8);
   // Compression of the joint: m g / (k A).
   EXPECT_NEAR(place_of(simulation, 1, {0, 0, 0}).x() / (2500 * 2 * 9.81 / 1e14), 1.0, 1e-3);

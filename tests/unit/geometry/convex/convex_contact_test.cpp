@@ -117,7 +117,7 @@ TEST(ConvexContact, WorksWhereFloatingPointUnderflowsOrOverflows) {
     EXPECT_EQ(contact.displacement, Vector3(0, 0, scale));
     EXPECT_EQ(contact.normal, Vector3(0, 0, 1));
     EXPECT_EQ(contact.squared_distance, scale * scale);  // 0 or infinite where that is the nearest double
-    // Of the smaller two powers the first or second one is still in the range of doubles, so signs of that
+    // The first or second of the smaller two powers is still in the range of doubles, so signs of that
     // degree are left to the filter; of the others none is.
     const bool has_safe_degree = scale == 0x1p-500 || scale == 0x1p400;
     EXPECT_EQ(contact.decided_by.filter > 0, has_safe_degree);

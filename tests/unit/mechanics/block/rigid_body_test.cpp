@@ -70,7 +70,7 @@ TEST(RigidBody, SmallChangesAreExactToTheirSize) {
   EXPECT_LT((rigid_change(start, change) - change).norm(), 1e-10 * change.norm());
 }
 
-/// Of a change with strain, the end is a rotation all the same.
+/// A change with strain also ends in a rotation.
 TEST(RigidBody, OtherChangesBecomeRigid) {
   const Eigen::MatrixX3d start = placed(turned(0.7, {1, -2, 1}), {1, 2, 3});
   Eigen::MatrixX3d change = 0.3 * start;

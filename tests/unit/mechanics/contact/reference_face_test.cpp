@@ -35,7 +35,7 @@ bool nothing(const RimPlace&) {
   return false;
 }
 
-/// Of all overlaps of two blocks, the same with the blocks swapped.
+/// Reference faces of all overlaps of two blocks, the same with the blocks swapped.
 std::vector<bool> references_on_a(const Body& a, const Body& b) {
   const ContactLimits limits{0.1, 0.1, 10.0 * std::numbers::pi / 180.0};
   const std::vector<CellOverlap> overlaps = find_contacts(a.placed, b.placed, limits).overlaps;

@@ -81,7 +81,7 @@ TEST(EnergyBounds, AreSharedOutByWhatIsLackedInAnyOrder) {
   const PairHistories two = {{{0, 1}, that_held(12)}, {{1, 3}, that_held(6)}};
   EXPECT_EQ(normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, two, all_move),
             (std::vector<double>{4, 4}));
-  // Of 4 J at block 0 both would have 2 J of 4 J; the other one, which has 6 J at block 3 too, needs less of them.
+  // Of the 4 J at block 0 each would have 2 J; the other one, with 6 J at block 3 too, needs less of them.
   const PairHistories scarce = {{{0, 1}, that_held(4)}, {{1, 3}, that_held(6)}};
   const std::vector<double> shared =
       normal_bounds({pair_at_depth(0, 2, 2), pair_at_depth(0, 3, 2)}, scarce, all_move);

@@ -25,7 +25,7 @@ struct Sample {
   [[nodiscard]] ReleasedMotion from_rest() const {
     return motion_from_rest(program, dilation, model.steady, {});
   }
-  /// Of the first body, m/s^2.
+  /// Acceleration of the first body, m/s^2.
   [[nodiscard]] Vector3 acceleration(const ReleasedMotion& motion) const {
     return motion_of(model.bodies[0], model.units.acceleration * motion.velocity[0]).translation;
   }
@@ -99,7 +99,7 @@ TEST(ReleasedMotion, AKeystoneFallsFromNoForcesAndStandsFromThoseThatWedgeIt) {
 }
 
 TEST(ReleasedMotion, SlipOfAKeystoneGrows) {
-  // Of least normal force are those at the limit of friction. With s = mu cos(b) |v| and the power of the load
+  // The forces of least normal force are at the limit of friction. With s = mu cos(b) |v| and the power of the load
   // 1 |v'| = 2 s N, slip grows by mu cos(b)/(mu cos(b) - sin(b)) > 1: it may fall under any wedging.
   Keystone keystone(0.8);
   std::vector<BodyVelocity> start = {BodyVelocity::Zero()};

@@ -109,7 +109,7 @@ class SpreadArch {
   [[nodiscard]] Weight placed(const Weight& weight, int voussoir) const {
     return {weight.force, placed(weight.place, voussoir)};
   }
-  /// Of crown thrust and weights above a joint about a point of it, > 0 if they pass it on its outer side.
+  /// Moment of crown thrust and weights above a joint about a point of it, > 0 if they pass it on its outer side.
   [[nodiscard]] double moment(int joint, const Point& point) const {
     const Point about = placed(point, joint - 1);
     double sum = thrust_ * (crown_.y() - about.y());

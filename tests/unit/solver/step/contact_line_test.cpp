@@ -44,7 +44,7 @@ TEST(ContactLine, WorkIsThatOfAllForcesAtEachShare) {
         EXPECT_NEAR(line.work(share), forces.dot(change), 1e-9 * forces.norm() * change.norm())
             << trial << ' ' << share;
       }
-      // Of the same line, seen from its end.
+      // The same line from its other end.
       EXPECT_NEAR(ContactLine(problem, change, at).work(0.3), line.work(0.3),
                   1e-9 * (std::abs(line.work(0.3)) + std::abs(line.work(2.0))));
       problem.apply(change, -at);

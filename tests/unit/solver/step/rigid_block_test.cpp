@@ -57,7 +57,7 @@ TEST_P(RigidBlock, FliesAParabolaExactly) {
   EXPECT_LT((place_of(simulation, 0, {1, 2, 3}) - Vector3(4, 2, 2)).norm(), 1e-11);
 }
 
-/// Of 1 x 2 x 3 m about its middle axis, where a turn is unstable.
+/// A block of 1 x 2 x 3 m spinning about its middle axis, which is unstable.
 TEST_P(RigidBlock, TumblesAboutItsMiddleAxisAsEulersEquationsSay) {
   const Vector3 half(0.5, 1.0, 1.5);
   const Vector3 start(0.01, 2.0, 0.02);

@@ -14,7 +14,7 @@ namespace {
 constexpr double density = 2500.0;
 constexpr double young = 1e8;
 constexpr double poisson = 0.25;
-/// Of a cube of 1 m that swells by (1 + e): energy 9/2 B e^2 with B = E / (3 (1 - 2 nu)), inertia rho / 4 for e.
+/// Vibration of a cube of 1 m that swells by (1 + e): energy 9/2 B e^2 with B = E / (3 (1 - 2 nu)), inertia rho / 4 for e.
 const double frequency = std::sqrt(36.0 * young / (3.0 * (1.0 - 2.0 * poisson)) / density);
 
 class StiffnessDamping : public testing::TestWithParam<std::tuple<Elasticity, Integrator>> {

@@ -25,12 +25,12 @@ TEST(RandomValue, DistributionsAreReadByName) {
 }
 
 TEST(RandomValue, QuantilesAreThoseOfTables) {
-  // Of the normal distribution: 1.959963984540054 deviations at 97.5 %, 3.090232306167814 at 99.9 %.
+  // Quantiles of the normal distribution: 1.959963984540054 deviations at 97.5 %, 3.090232306167814 at 99.9 %.
   EXPECT_NEAR(quantile(distribution("normal(10, 2)"), 0.975), 10 + 2 * 1.959963984540054, 1e-12);
   EXPECT_NEAR(quantile(distribution("normal(0, 1)"), 0.001), -3.090232306167814, 1e-12);
   EXPECT_NEAR(quantile(distribution("normal(0, 1)"), 0.5), 0.0, 1e-12);
   EXPECT_DOUBLE_EQ(quantile(distribution("uniform(20, 30)"), 0.25), 22.5);
-  // Of the triangle from 1 to 5 with its tip at 2: a quarter of its area lies below the tip.
+  // For the triangle from 1 to 5 with its tip at 2, a quarter of its area lies below the tip.
   EXPECT_NEAR(quantile(distribution("triangular(1, 2, 5)"), 0.25), 2.0, 1e-12);
   EXPECT_NEAR(quantile(distribution("triangular(1, 2, 5)"), 1.0 - 1.0 / 12.0), 4.0, 1e-12);
   // The median of a lognormal value is mean / sqrt(1 + (deviation / mean)^2).

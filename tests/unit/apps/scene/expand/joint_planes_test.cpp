@@ -95,7 +95,7 @@ TEST(JointPlanes, RandomOnesAreTheSameInEveryRange) {
   EXPECT_NE(joint_planes(cut, {2, 3}).front().plane.normal, few.front().plane.normal);
 }
 
-// Of n draws the mean is off by its deviation over sqrt(n): five of these are allowed.
+// The mean of n draws has the standard error deviation over sqrt(n): five of these are allowed.
 TEST(JointPlanes, SpacingsHaveTheirMeanAndDeviation) {
   constexpr int draws = 100000;
   for (const SceneCut::Spacing law : {SceneCut::Spacing::normal, SceneCut::Spacing::lognormal,

@@ -36,7 +36,7 @@ TEST(RandomPoints, AreInsideSolidsThatFillLittleOfTheirBox) {
   }
 }
 
-// Of 64,000 points in 4 x 4 x 4 equal cells each has 1000 in the mean, with a standard deviation of
+// With 64,000 points in 4 x 4 x 4 equal cells each has 1000 in the mean, with a standard deviation of
 // sqrt(64000 (1/64) (63/64)) = 31.4; five of them are exceeded by one in 27,000 draws of all cells.
 TEST(RandomPoints, AreEvenlySpread) {
   const Vector3 size(8, 1, 0.25);

@@ -260,7 +260,7 @@ TEST(SceneCuts, DrawnPlanesOfManyBlocksAreDrawnOnce) {
 }
 
 TEST(SceneCuts, CellsAreMadeInTurnedNeedlesAndSlabs) {
-  // Of the needle's bounding box one point in 2e7 would be inside.
+  // One point in 2e7 of the needle's bounding box would be inside.
   for (const char* size : {"1e4, 1, 1", "1e5, 1e5, 0.1"}) {
     const Outcome outcome = load(
         fmt::format("[[block]]\nname = \"n\"\nmaterial = \"rock\"\nbox = {{ min = [0, 0, 0], max = [{}] }}\n"
