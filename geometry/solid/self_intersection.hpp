@@ -20,8 +20,8 @@ namespace ashlar {
 /// True if the triangle has no area: repeated point or collinear points (exact).
 [[nodiscard]] bool is_degenerate(const std::vector<Vector3>& points, const std::array<int, 3>& triangle);
 
-/// Pairs of triangles that meet elsewhere than in the points they name in common and in the edge between two
-/// of them; neighbours that lie on each other are such pairs. Box tree, O(n log n + candidates); exact.
+/// Pairs of triangles that meet outside their common points and the edge between two of them; overlapping
+/// neighbours are such pairs. Box tree, O(n log n + candidates); exact.
 /// @param triangles without degenerate ones; equal points must have equal indices.
 /// @param limit of pairs, after which the search ends. @param candidates of which no more are tested: pairs of
 /// triangles whose boxes meet, up to n^2 / 2 of them. @return index pairs (i < j), sorted

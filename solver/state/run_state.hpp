@@ -100,7 +100,7 @@ struct FrictionTally {
   double due = 0.0;    ///< N s, tan(phi) times normal impulses, and cohesion
   double acted = 0.0;  ///< N s, of the shear forces
 
-  /// Relative excess of the friction that acted over the one due, < 0: less.
+  /// Relative difference of the actual friction from Coulomb's value; < 0: less.
   [[nodiscard]] double excess() const { return due > 0.0 ? acted / due - 1.0 : 0.0; }
 };
 

@@ -88,7 +88,7 @@ class LimitSearching {
     if (n == most_returns) released.resolved = false;
   }
 
-  /// Tries a factor again from the last motion, if it stood when a motion far above was followed.
+  /// Repeats the trial of a standing factor from the last motion, in case the search had followed a motion far above it.
   bool moves_at_lower() {
     LimitBracket& released = answer_.released;
     if (!released.resolved || !released.lower || !released.upper) return false;

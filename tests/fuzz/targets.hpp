@@ -27,7 +27,7 @@ bool off(std::string_view bytes);         ///< each of the meshes: points, faces
 bool obj(std::string_view bytes);         //
 bool stl(std::string_view bytes);         //
 bool ply(std::string_view bytes);         //
-bool groups(std::string_view bytes);      ///< an OBJ file of many stones
+bool groups(std::string_view bytes);      ///< an OBJ file of many blocks
 bool gltf(std::string_view bytes);        ///< each of the imported meshes, without files beside it
 bool glb(std::string_view bytes);         //
 bool dxf(std::string_view bytes);         //

@@ -31,7 +31,7 @@ class SceneCutter {
   struct Target {
     std::size_t block;
     std::vector<int> pieces;  ///< increasing
-    int newest;               ///< pieces with larger numbers are made by the cut
+    int newest;               ///< largest number of a piece before the cut
   };
 
   [[nodiscard]] std::vector<Target> targets_of(const SceneCut& cut);

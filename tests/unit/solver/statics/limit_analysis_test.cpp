@@ -28,7 +28,7 @@ using test_support::tangent_of;
 using test_support::tilted_box;
 using Scene = test_support::LimitScene;
 
-/// Bodies that accelerate by 1e-4 of their loads stand still, which a factor may be wrong by.
+/// Accelerations up to 1e-4 of the loads count as rest, which is the error of a factor.
 constexpr double stillness = 5e-4;
 
 void expect_factor(const LimitBracket& bracket, double factor, double tolerance, const std::string& what) {
