@@ -47,7 +47,7 @@ bool replay(const std::string& file, const std::string& bytes) {
   return true;
 }
 
-// Every target whose format lasts has seeds that its reader takes, or fuzzing would begin far outside.
+// Every target with a stable format has seeds that its reader accepts; otherwise fuzzing would begin far from valid input.
 bool has_good_seeds(const fs::path& folder) {
   bool good = true;
   for (const auto& target : ashlar::fuzz::targets) {

@@ -72,7 +72,7 @@ def masked(text):
 
 
 def other_number(number):
-    """Twice a number and 1 for 0; whole ones are one more."""
+    """Mutant of a number: a whole one plus 1, another one doubled, 1 for 0."""
     if re.fullmatch(r"\d+", number):
         return str(int(number) + 1)
     return "1.0" if float(number) == 0.0 else repr(2.0 * float(number))

@@ -86,7 +86,7 @@ TEST(JointDamping, ABondedBoxSwingsOutByItsShareOfCritical) {
   }
 }
 
-// The shear springs alike, where the box does not slide.
+// The same for the shear springs, where the box does not slide.
 TEST(JointDamping, ShearSwingsOutToo) {
   Body body{0.05};
   body.bonded = true;
