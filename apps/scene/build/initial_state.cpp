@@ -43,8 +43,8 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
     const BlockModel& block = simulation.blocks()[k];
     const bool is_settled = std::find(settled.begin(), settled.end(), static_cast<int>(k)) != settled.end();
     if (is_settled && is_inside_out(block, simulation.states()[k])) {
-      diagnostics.error(place, fmt::format("initial_state (\"equilibrium\") turns block \"{}\" inside out, a "
-                                           "load that its stiffness can bear is needed",
+      diagnostics.error(place, fmt::format("initial_state (\"equilibrium\") turns block \"{}\" inside out; "
+                                           "reduce its load or raise its stiffness",
                                            block.name()));
     }
     if (block.fixed() || is_settled) continue;
@@ -58,8 +58,8 @@ std::vector<std::string> start_in_equilibrium(const Scene& scene, Simulation& si
   }
   if (settled.empty() && !any_held) {
     diagnostics.warning(place,
-                        "initial_state has no effect (\"equilibrium\"): it settles blocks that their own "
-                        "supports hold, and there is none; all start as placed");
+                        "initial_state has no effect (\"equilibrium\"): it applies to blocks held by "
+                        "their own supports, and there is none; all start as placed");
   }
   return as_placed;
 }
@@ -74,9 +74,10 @@ StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>
     case StaticStatus::equilibrium:
       return {};
     case StaticStatus::balancing:
-      return {StaticStart::End::interrupted,
-              "interrupted in the static analysis that comes before the motion (initial_state = \"static\"): "
-              "nothing of it is saved, the same command starts anew"};
+      return {
+          StaticStart::End::interrupted,
+          "interrupted in the static analysis before the motion (initial_state = \"static\"): nothing of it "
+          "is saved; run the same command again"};
     case StaticStatus::not_converged:
       break;
   }
@@ -89,9 +90,8 @@ StaticStart start_in_statics(Simulation& simulation, const std::function<bool()>
   }
   return {StaticStart::End::failed,
           fmt::format(
-              "error: initial_state (\"static\"): no equilibrium was found under gravity and the loads at "
-              "t = 0, and none was ruled out{}; run the scene with analysis.type = \"static\" to see how "
-              "far it gets",
+              "error: initial_state (\"static\"): the analysis under gravity and the loads at t = 0 did not "
+              "converge{}; run the scene with analysis.type = \"static\" to examine it",
               why)};
 }
 

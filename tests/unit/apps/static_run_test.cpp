@@ -184,9 +184,9 @@ TEST_F(StaticRun, InterruptedBeforeMotionStartsAnew) {
   EXPECT_EQ(run_command_line({"run", scene_.string(), "--out", (folder_ / "out").string()}, out, err),
             exit_status::interrupted);
   EXPECT_THAT(faults.str(),
-              HasSubstr("ashlar: interrupted in the static analysis that comes before the motion "
-                        "(initial_state = \"static\"): nothing of it is saved, the same command "
-                        "starts anew\n"));
+              HasSubstr("ashlar: interrupted in the static analysis before the motion "
+                        "(initial_state = \"static\"): nothing of it is saved; run the same command "
+                        "again\n"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "history.csv"));
   ASSERT_EQ(run("out"), exit_status::done) << faults_;
   ASSERT_EQ(run("straight"), exit_status::done) << faults_;
