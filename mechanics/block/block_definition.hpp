@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/solid/polyhedron.hpp"
+#include "mechanics/material/initial_stress.hpp"
 #include "mechanics/material/material.hpp"
 #include "mechanics/supports/loads.hpp"
 #include "mechanics/supports/supports.hpp"
@@ -30,6 +31,8 @@ struct BlockDefinition {
   bool fixed = false;  ///< never moves, has no unknowns; material is not used
   std::vector<BlockSupport> supports;
   std::vector<Load> loads;
+  /// Stress in the placed block; empty: none. Rigid and fixed blocks have no stress
+  StressField initial_stress = nullptr;
 
   /// Fixed blocks are total for any value.
   Formulation formulation = Formulation::total;

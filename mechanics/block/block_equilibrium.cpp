@@ -65,7 +65,7 @@ std::optional<Eigen::MatrixX3d> BlockModel::equilibrium(const Vector3& gravity, 
   if (fixed()) return basis_.identity_map();
   if (!space().held()) return std::nullopt;
   Eigen::VectorXd force = space().restrict(external_force(gravity, time));
-  if (form_) force -= space().restrict(elastic(basis_.identity_map()).force);
+  if (form_ || definition_.initial_stress) force -= space().restrict(elastic(basis_.identity_map()).force);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(unknowns());
   if (material().elasticity == Elasticity::linear) {
     const Eigen::LLT<Eigen::MatrixXd> factor(parts_->reduced_stiffness);

@@ -46,6 +46,12 @@ BlockModel::BlockModel(BlockDefinition definition, std::shared_ptr<const Increme
   if (fixed()) return;
   if (rigid() && (form_ || supported()))
     throw std::invalid_argument("a rigid block has no supports, and no incremental form");
+  natural_ = basis_.identity_map();
+  if (definition_.initial_stress && !rigid()) {
+    if (form_ || parts_->large)
+      throw std::invalid_argument("initial stress needs linear elasticity and the total formulation");
+    natural_ -= initial_deformation(solid(), basis_, parts_->stiffness, definition_.initial_stress);
+  }
   motion_ = SupportMotion(solid(), basis_, definition_.supports);
   for (const Load& load : definition_.loads) loads_.push_back(load_coefficients(solid(), basis_, load));
 }
@@ -146,8 +152,7 @@ ElasticResponse BlockModel::elastic(const Eigen::MatrixX3d& position) const {
   if (parts_->large) return parts_->large->respond(position);
   if (form_)
     return incremental_response(basis_, material(), carried_.stress, position - basis_.identity_map());
-  return elastic_response(parts_->stiffness, parts_->mean_gradients, basis_.identity_map(), position,
-                          corotational());
+  return elastic_response(parts_->stiffness, parts_->mean_gradients, natural_, position, corotational());
 }
 
 Eigen::MatrixX3d BlockModel::rigid_position(const Eigen::MatrixX3d& position) const {
@@ -215,7 +220,7 @@ std::vector<Eigen::Matrix3d> BlockModel::stresses(const BlockState& state, const
     rotation = polar_decomposition(state.position.transpose() * parts_->mean_gradients).rotation;
   // d phi / dX_i = D_i phi: the derivative of a field of coefficients c is one of coefficients D_i' c.
   Eigen::MatrixX3d field = state.position;
-  if (!parts_->large) field = state.position * rotation - basis_.identity_map();
+  if (!parts_->large) field = state.position * rotation - natural_;
   std::array<Eigen::MatrixX3d, 3> derivatives;  // (#points, 3), by axes of X
   for (int axis = 0; axis < 3; ++axis)
     derivatives[static_cast<std::size_t>(axis)] =

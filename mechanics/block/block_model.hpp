@@ -43,7 +43,8 @@ struct CarriedBlock;
 class BlockModel {
  public:
   /// @throws std::invalid_argument, std::domain_error as PolynomialBasis, AdmissibleSpace,
-  /// load_coefficients and IncrementalForm do, and for a rigid block that has supports or is incremental
+  /// load_coefficients and IncrementalForm do, for a rigid block that has supports or is incremental, and for initial
+  /// stress in a block that is incremental or of St.-Venant-Kirchhoff elasticity
   explicit BlockModel(BlockDefinition definition);
   /// The same, with data shared with other blocks made with the library.
   BlockModel(BlockDefinition definition, BlockPartsLibrary& library);
@@ -98,6 +99,8 @@ class BlockModel {
   [[nodiscard]] Eigen::MatrixX3d external_force(const Vector3& gravity, double time) const;
   /// Loads without gravity. @return (p, 3)
   [[nodiscard]] Eigen::MatrixX3d load_force(double time) const;
+  /// Stress of the definition; empty: none, also if the block cannot have any.
+  [[nodiscard]] const StressField& initial_stress() const { return definition_.initial_stress; }
   /// Loads in the order of the definition.
   [[nodiscard]] const std::vector<Load>& loads() const { return definition_.loads; }
   /// @param load index into loads(). @throws std::out_of_range
@@ -164,6 +167,7 @@ class BlockModel {
   PolynomialBasis basis_;
   std::shared_ptr<const BlockParts> parts_;
   SupportMotion motion_;
+  Eigen::MatrixX3d natural_;  ///< shape without strain, (p, 3): with initial stress not the placed one
   std::vector<Eigen::MatrixX3d> loads_;  ///< coefficients at factor 1, in the order of the definition
   std::shared_ptr<const IncrementalForm> form_;
   CarriedShape carried_;

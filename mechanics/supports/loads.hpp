@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "mechanics/basis/basis.hpp"
 #include "mechanics/supports/face_selection.hpp"
+#include "mechanics/supports/linear_patch.hpp"
 
 namespace ashlar {
 
@@ -19,6 +21,12 @@ struct History {
   [[nodiscard]] bool changes_between(double start, double end) const;
 };
 
+/// Pressure on a part of the surface.
+struct PressedPart {
+  LinearPatch pressure;  ///< Pa
+  Vector3 direction;     ///< of the traction, unit length: inward for a pressure
+};
+
 /// A load of constant direction. `vector` is a traction (Pa) on the faces of a plane, or a force (N) distributed
 /// evenly over them, or a force (N) at a material point.
 struct Load {
@@ -26,7 +34,11 @@ struct Load {
   bool traction = true;  ///< on a plane: true Pa, false total N
   Vector3 vector = Vector3::Zero();
   History history;
-  double factor = 1.0;  ///< in addition to the history; set by BlockModel::set_load_factor
+  /// A traction that varies over the faces, Pa, in place of `vector`, by places (m). Polynomials of degree 4 are
+  /// integrated exactly
+  std::function<Vector3(const Vector3&)> field = nullptr;
+  std::vector<PressedPart> parts = {};  ///< not empty: in place of `where` and `vector`
+  double factor = 1.0;                  ///< in addition to the history; set by BlockModel::set_load_factor
 };
 
 /// Work-conjugate coefficients: integral of C' f. @return (p, 3) at factor 1

@@ -10,6 +10,7 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
+#include "solver/run/initial_stress.hpp"
 #include "solver/run/stage_start.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/rigid_verdict.hpp"
@@ -83,6 +84,11 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   state_.pairs.clear();
   for (const auto& [blocks, deepest] : placed)
     if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
+}
+
+void Simulation::start_stressed() {
+  for (auto& [blocks, memory] : contacts_under_stress(system_, state_))
+    state_.pairs[blocks].memory = std::move(memory);
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {

@@ -48,6 +48,9 @@ class Simulation {
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
 
+  /// Contacts of blocks with initial stress begin with its forces (initial_stress.hpp), before the first step and after
+  /// start_overlapping().
+  void start_stressed();
   /// Lets pairs of blocks with an initial overlap touch without force (notes/known_overlaps.md). To be called before
   /// the first step.
   /// @param depths by pair, m, >= 0. @throws std::invalid_argument if a block is incremental: its material points do

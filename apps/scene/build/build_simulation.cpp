@@ -12,7 +12,9 @@
 
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/build/limit_choices.hpp"
+#include "apps/scene/build/stress_field.hpp"
 #include "apps/scene/build/tied_joints.hpp"
+#include "apps/scene/build/water_loads.hpp"
 #include "apps/scene/check/turned_supports.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
@@ -30,7 +32,8 @@ BlockPlace place_of(const Where& where) {
 }
 
 /// @param load_factor of the block's loads
-BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, double load_factor) {
+BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, double load_factor,
+                             const WaterLoads& water) {
   const Scene& scene = loaded.scene;
   const SceneBlock& block = scene.block[index];
   BlockDefinition definition;
@@ -64,7 +67,16 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, doubl
     }
     definition.loads.push_back({place_of(load.where), load.kind == SceneLoad::Kind::traction,
                                 load_factor * load.vector, std::move(history)});
+    if (load.field.given())
+      definition.loads.back().field = [load_factor, at = load.field.at](const Vector3& place) {
+        const std::vector<double> value = at(place);
+        return Vector3(load_factor * Vector3(value[0], value[1], value[2]));
+      };
   }
+  if (!block.fixed) definition.initial_stress = initial_stress_of(scene, index);
+  // After those of the scene, whose numbers stay.
+  if (Load pressure = water.of_block(index); !pressure.parts.empty())
+    definition.loads.push_back(std::move(pressure));
   return definition;
 }
 
@@ -268,13 +280,16 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   std::vector<InitialMotion> motions;
   BlockPartsLibrary parts;
   const std::vector<bool> multiplied = multiplied_blocks(scene);
+  if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
+  const WaterLoads water(loaded, diagnostics);
+  if (!diagnostics.good()) return std::nullopt;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
     if (preparation != nullptr)
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
       const double load_factor = multiplied[k] ? factors.load : 1.0;
-      blocks.emplace_back(define_block(loaded, k, load_factor), parts);
+      blocks.emplace_back(define_block(loaded, k, load_factor, water), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(
           scene.places.value(fmt::format("block.{}.order", k)),
@@ -308,6 +323,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                         {},
                         loaded.overlaps};
   built.simulation.start_overlapping(depths_without_force(loaded));
+  if (scene.initial_stress.given()) built.simulation.start_stressed();
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {

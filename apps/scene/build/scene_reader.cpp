@@ -16,7 +16,9 @@
 #include "apps/scene/read/block_reader.hpp"
 #include "apps/scene/read/cut_reader.hpp"
 #include "apps/scene/read/history_reader.hpp"
+#include "apps/scene/read/initial_stress_reader.hpp"
 #include "apps/scene/read/masonry.hpp"
+#include "apps/scene/read/water_reader.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/include.hpp"
 #include "apps/scene/toml/input_file.hpp"
@@ -247,6 +249,7 @@ SceneStage read_stage(TomlTableReader& table, const SceneAnalysis& base) {
   });
   stage.joint = table.read_tables("joint", read_joint);
   stage.material = table.read_tables("material", read_material);
+  stage.water = table.read_tables("water", read_water);
   table.read_bool("reset_displacement", stage.reset_displacement);
   stage.analysis = base;
   TomlTableReader analysis = table.table_or_empty("analysis");
@@ -273,6 +276,10 @@ void read_tables(TomlTableReader top, Scene& scene) {
   scene.assign = top.read_tables("assign", read_assignment);
   scene.cut = top.read_tables("cut", read_cut);
   scene.measure = top.read_tables("measure", read_measure);
+  scene.water = top.read_tables("water", read_water);
+  const bool stressed = top.given("initial_stress");
+  TomlTableReader initial_stress = top.table_or_empty("initial_stress");
+  scene.initial_stress = read_initial_stress(initial_stress, stressed);
   read_output(top.table_or_empty("output"), scene.output);
   if (top.given("include"))
     top.error_at_key("include", "include cannot be set (include), files are read before anything is set");

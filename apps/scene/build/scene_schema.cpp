@@ -222,6 +222,11 @@ point = [0, 0, 0]
 [[measure]]
 name = "contact"
 pair = ["A", "B"]
+[[water]]
+level = { point = [0, 0, 0], normal = [0, 0, 1] }
+unit_weight = 9810
+[initial_stress]
+k0 = 0.5
 [[stage]]
 name = "all"
 analysis = { end_time = 1 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/scene/check/joint_checks.hpp"
+#include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -330,6 +331,9 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
   check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
   check_factor_search(scene, diagnostics);
+  check_names(scene, scene.water, "water", diagnostics);
+  check_water(scene, diagnostics, of_blocks);
+  check_initial_stress(scene, diagnostics, of_blocks);
 }
 
 void check_cuts(const Scene& scene, Diagnostics& diagnostics) {

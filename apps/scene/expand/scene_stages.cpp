@@ -82,6 +82,7 @@ class StageScenes {
     if (stage_) end_histories(*stage_);
     stage_ = stage_ ? *stage_ + 1 : 0;
     add_changes(*stage_);
+    change_water(*stage_);
     scene_.analysis = whole_.stage[*stage_].analysis;
     // The initial state applies to the first stage only.
     if (*stage_ > 0) scene_.analysis.initial_state = SceneAnalysis::InitialState::as_placed;
@@ -144,6 +145,20 @@ class StageScenes {
         scene_.material[k] = given.material[j];
         scene_.places.record_origin(fmt::format("material.{}", k), key_of(s, fmt::format("material.{}", j)));
       }
+    }
+  }
+
+  void change_water(std::size_t s) {
+    const std::vector<SceneWater>& given = whole_.stage[s].water;
+    for (std::size_t j = 0; j < given.size(); ++j) {
+      const auto same = std::find_if(scene_.water.begin(), scene_.water.end(),
+                                     [&](const SceneWater& water) { return water.name == given[j].name; });
+      const auto index = static_cast<std::size_t>(same - scene_.water.begin());
+      if (same == scene_.water.end())
+        scene_.water.push_back(given[j]);
+      else
+        *same = given[j];
+      scene_.places.record_origin(fmt::format("water.{}", index), key_of(s, fmt::format("water.{}", j)));
     }
   }
 

@@ -15,8 +15,10 @@
 #include "apps/scene/model/scene_analysis.hpp"
 #include "apps/scene/model/scene_block.hpp"
 #include "apps/scene/model/scene_contact.hpp"
+#include "apps/scene/model/scene_initial_stress.hpp"
 #include "apps/scene/model/scene_places.hpp"
 #include "apps/scene/model/scene_shape.hpp"
+#include "apps/scene/model/scene_water.hpp"
 #include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
@@ -89,6 +91,7 @@ struct SceneStage {
   std::vector<Load> load;
   std::vector<SceneJoint> joint;        ///< after all earlier ones
   std::vector<SceneMaterial> material;  ///< in place of the [[material]] of that name
+  std::vector<SceneWater> water;        ///< in place of the [[water]] of that name, or beside the others
   bool reset_displacement = false;      ///< true: results count displacements from here on
 };
 
@@ -123,6 +126,8 @@ struct Scene {
   std::vector<SceneAssign> assign;      ///< in file order; already applied in a scene that has been read
   std::vector<SceneCut> cut;            ///< in file order
   std::vector<SceneMeasure> measure;    ///< in file order
+  std::vector<SceneWater> water;        ///< in file order
+  SceneInitialStress initial_stress;
   SceneOutput output;
   /// In file order; empty: a single analysis. Otherwise `analysis` is that of the first one.
   std::vector<SceneStage> stage;

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/scene/model/scene_field.hpp"
 #include "apps/scene/model/scene_record.hpp"
 #include "apps/scene/model/scene_shape.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -48,6 +49,7 @@ struct SceneLoad {
   std::variant<ScenePlane, Vector3> where;  ///< as SceneFix::where; a traction needs a plane
   Kind kind = Kind::traction;
   Vector3 vector = Vector3::Zero();  ///< Pa or N
+  SceneField field;                  ///< a traction that varies, Pa, in place of vector
   std::vector<Factor> history;       ///< times increase; empty: factor 1 always
   std::optional<SceneRecord> file;   ///< its file, if not in the scene
   bool of_fill = false;              ///< weight of an arch's fill, which a fixed block ignores

@@ -13,6 +13,7 @@ struct SceneRecord {
   std::string time;            ///< name of the column of times
   std::vector<std::string> values;  ///< names of the columns of values; an empty one: zero
   double scale = 1.0;               ///< of the values
+  bool in_order = true;             ///< times must increase from row to row
   std::string sha256;               ///< of the file when it was read
 };
 

@@ -11,37 +11,10 @@
 #include "apps/scene/model/support_history.hpp"
 #include "apps/scene/read/block_arrays.hpp"
 #include "apps/scene/read/history_reader.hpp"
+#include "apps/scene/read/required_vectors.hpp"
 
 namespace ashlar {
 namespace {
-
-// Reads a required vector: not finite if missing, so that no later check applies to it.
-Vector3 required_vector(TomlTableReader& table, const char* key) {
-  Vector3 result = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  table.require(key);
-  table.read_vector(key, result);
-  return result;
-}
-
-// The same for coordinates.
-Vector3 required_place(TomlTableReader& table, const char* key) {
-  Vector3 result = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  table.require(key);
-  table.read_place(key, result);
-  return result;
-}
-
-// A direction of any length but zero.
-Vector3 required_direction(TomlTableReader& table, const char* key) {
-  Vector3 result = required_vector(table, key);
-  // The length may underflow for a valid direction; the largest component does not.
-  if (result.allFinite() && result.cwiseAbs().maxCoeff() == 0.0) {
-    table.error_at_value(
-        key, fmt::format("{} has no direction ([0, 0, 0]), a vector other than zero is needed", key));
-    result.setConstant(std::numeric_limits<double>::quiet_NaN());
-  }
-  return result;
-}
 
 SceneShape read_box(TomlTableReader table) {
   const SceneBox box{required_place(table, "min"), required_place(table, "max")};
@@ -284,7 +257,10 @@ SceneLoad read_load(TomlTableReader& table) {
     table.error_at_table(fmt::format("load has {} (traction, force); give one of both",
                                      traction_given ? "two sizes" : "no size"));
   load.kind = traction_given ? SceneLoad::Kind::traction : SceneLoad::Kind::force;
-  table.read_vector("traction", load.vector);
+  if (table.varies("traction"))
+    table.read_field("traction", load.field, 3, "[x, y, z]");
+  else
+    table.read_vector("traction", load.vector);
   table.read_vector("force", load.vector);
   if (traction_given && table.given("point"))
     table.error_at_key("traction", "traction at a point (point); give a plane, or a force");

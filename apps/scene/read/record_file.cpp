@@ -157,7 +157,7 @@ class RecordReader {
                         record_.scale));
       return;
     }
-    if (!rows.empty() && !(row[0] > rows.back()[0])) {
+    if (record_.in_order && !rows.empty() && !(row[0] > rows.back()[0])) {
       fault(fields[columns_[0]].column,
             fmt::format("time does not increase ({} after {}), each row must be later than the one before",
                         row[0], rows.back()[0]));

@@ -185,10 +185,13 @@ Json to_json(const SceneFix& fix) {
   return json;
 }
 
+Json to_json(const SceneField& field);
+
 Json to_json(const SceneLoad& load) {
   Json json = Json::object();
   add_where(json, load.where);
-  json[load.kind == SceneLoad::Kind::traction ? "traction" : "force"] = to_json(load.vector);
+  json[load.kind == SceneLoad::Kind::traction ? "traction" : "force"] =
+      load.field.given() ? to_json(load.field) : to_json(load.vector);
   if (load.file) {
     json["history"] = to_json(*load.file);
     return json;
@@ -205,6 +208,7 @@ Json to_json(const SceneMeasure& measure);
 Json to_json(const SceneStage::Fix& entry);
 Json to_json(const SceneStage::Load& entry);
 Json to_json(const SceneStage& stage);
+Json to_json(const SceneWater& water);
 
 template <typename Entry>
 Json list_to_json(const std::vector<Entry>& entries) {
@@ -272,6 +276,37 @@ Json to_json(const SceneMeasure& measure) {
   return json;
 }
 
+Json to_json(const SceneField& field) {
+  Json json = Json::array();
+  for (const auto& component : field.written)
+    std::visit([&](const auto& value) { json.push_back(value); }, component);
+  return json;
+}
+
+Json to_json(const SceneInitialStress& initial) {
+  Json json = Json::object();
+  if (initial.stress.given()) {
+    json["stress"] = to_json(initial.stress);
+  } else {
+    json["k0"] = *initial.k0;
+    json["surface"] = initial.surface;
+    if (initial.unit_weight) json["unit_weight"] = *initial.unit_weight;
+  }
+  json["blocks"] = initial.blocks;
+  return json;
+}
+
+Json to_json(const SceneWater& water) {
+  Json level = water.file
+                   ? Json{{"file", water.file->file.string()}, {"sha256", water.file->sha256}}
+                   : Json{{"point", to_json(water.level.point)}, {"normal", to_json(water.level.normal)}};
+  return {{"name", water.name},
+          {"level", std::move(level)},
+          {"unit_weight", water.unit_weight},
+          {"joints", water.joints},
+          {"faces", water.faces}};
+}
+
 template <typename Entry>
 void add_list(Json& json, const char* key, const std::vector<Entry>& entries) {
   if (!entries.empty()) json[key] = list_to_json(entries);
@@ -297,6 +332,7 @@ Json to_json(const SceneStage& stage) {
   add_list(json, "load", stage.load);
   add_list(json, "joint", stage.joint);
   add_list(json, "material", stage.material);
+  add_list(json, "water", stage.water);
   json["reset_displacement"] = stage.reset_displacement;
   json["analysis"] = to_json(stage.analysis);
   return json;
@@ -355,6 +391,8 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   if (const Json assignments = assignments_to_pieces(scene); !assignments.empty())
     json["assign"] = assignments;
   if (!scene.measure.empty()) json["measure"] = list_to_json(scene.measure);
+  add_list(json, "water", scene.water);
+  if (scene.initial_stress.given()) json["initial_stress"] = to_json(scene.initial_stress);
   json["output"] = to_json(scene.output);
   add_list(json, "stage", scene.stage);
   return json;

@@ -216,7 +216,7 @@ std::vector<Formulas::Name> Formulas::parameters_in(const std::string& text) {
   return names;
 }
 
-double Formulas::value(const std::string& text) const {
+void Formulas::check(const std::string& text) const {
   if (text.size() > longest_formula)
     throw FormulaError(fmt::format("formula is too long ({} characters), at most {} are allowed", text.size(),
                                    longest_formula),
@@ -237,6 +237,10 @@ double Formulas::value(const std::string& text) const {
                        name.offset);
   }
   refuse_assignment(text);
+}
+
+double Formulas::value(const std::string& text) const {
+  check(text);
   try {
     std::feclearexcept(FE_ALL_EXCEPT);
     parser_->parser.SetExpr(text.substr(1));
@@ -258,6 +262,37 @@ double Formulas::value(const std::string& text) const {
     throw FormulaError(fmt::format("formula cannot be read ({}), {}", words_of(error), allowed_words),
                        offset);
   }
+}
+
+std::function<double(const Vector3&)> Formulas::of_place(const std::string& text) const {
+  const auto formulas = std::make_shared<Formulas>();
+  for (const auto& [name, value] : parser_->values)
+    if (!is_constant(name)) formulas->define(name, value);
+  formulas->parser_->left_out = parser_->left_out;
+  for (const char* axis : {"x", "y", "z"}) formulas->define(axis, 0.0);
+  formulas->check(text);
+  return [formulas, text](const Vector3& place) {
+    formulas->define("x", place.x());
+    formulas->define("y", place.y());
+    formulas->define("z", place.z());
+    return formulas->value(text);
+  };
+}
+
+bool Formulas::knows(const std::string& name) const {
+  return parser_->values.contains(name) || parser_->left_out.contains(name);
+}
+
+std::string Formulas::with_values(const std::string& text) const {
+  std::string result = text;
+  std::vector<Name> names = parameters_in(text);
+  std::reverse(names.begin(), names.end());
+  for (const Name& name : names) {
+    const auto found = parser_->values.find(name.text);
+    if (found == parser_->values.end() || name.text == "x" || name.text == "y" || name.text == "z") continue;
+    result.replace(name.offset, name.text.size(), fmt::format("({})", found->second));
+  }
+  return result;
 }
 
 }  // namespace ashlar

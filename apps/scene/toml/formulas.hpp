@@ -4,12 +4,15 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "geometry/triangle_mesh.hpp"
 
 namespace ashlar {
 
@@ -58,6 +61,15 @@ class Formulas {
   /// division by zero or any other intermediate result that is not finite
   [[nodiscard]] double value(const std::string& text) const;
 
+  /// A formula of a place, whose coordinates are x, y and z (m). They hide parameters of these names. The function throws
+  /// FormulaError where the formula has no finite value. @throws FormulaError as value(), but for values
+  [[nodiscard]] std::function<double(const Vector3&)> of_place(const std::string& text) const;
+  /// The formula with its parameters, other than x, y and z, replaced by their values.
+  [[nodiscard]] std::string with_values(const std::string& text) const;
+
+  /// True for a parameter, whether it has a value or was left out.
+  [[nodiscard]] bool knows(const std::string& name) const;
+
   /// A name in a formula.
   struct Name {
     std::string text;
@@ -67,6 +79,8 @@ class Formulas {
   [[nodiscard]] static std::vector<Name> parameters_in(const std::string& text);
 
  private:
+  void check(const std::string& text) const;
+
   struct Parser;
   std::unique_ptr<Parser> parser_;
 };

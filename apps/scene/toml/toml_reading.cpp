@@ -115,6 +115,18 @@ std::optional<double> TomlReading::number(const toml::node& node, std::string_vi
   }
 }
 
+std::function<double(const Vector3&)> TomlReading::function(const toml::node& node, std::string_view key) {
+  if (node.is_number()) return [value = *node.value<double>()](const Vector3&) { return value; };
+  try {
+    return formulas_.of_place(**node.as_string());
+  } catch (const FormulaError& fault) {
+    if (*fault.what() != '\0')
+      error(place_in_text(node, fault.offset()),
+            fmt::format("{} ({}): {}", key, describe(node), fault.what()));
+    return nullptr;
+  }
+}
+
 TomlReading::KnownTable& TomlReading::add_table(const toml::table& table, std::string path,
                                                 std::string name) {
   for (const auto& [key, node] : table) {

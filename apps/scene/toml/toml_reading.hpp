@@ -54,6 +54,10 @@ class TomlReading {
 
   /// Sets the parameters of the document for later formulas.
   void set_formulas(Formulas formulas) { formulas_ = std::move(formulas); }
+  /// A number as a constant, a formula as a function of a place. Faults as in number(). @return empty after a fault
+  [[nodiscard]] std::function<double(const Vector3&)> function(const toml::node& node, std::string_view key);
+  [[nodiscard]] const Formulas& formulas() const { return formulas_; }
+
   /// True if a node is a number or the text of a formula.
   [[nodiscard]] static bool has_number(const toml::node& node);
   /// The value of such a node; a formula's is finite. A fault of a formula is reported at its character, with the

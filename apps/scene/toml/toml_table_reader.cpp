@@ -219,6 +219,57 @@ bool TomlTableReader::read_places(std::string_view key, std::vector<Vector3>& re
   return true;
 }
 
+bool TomlTableReader::varies(std::string_view key) {
+  const toml::node* node = find(key);
+  const toml::array* array = node == nullptr ? nullptr : node->as_array();
+  if (array == nullptr) return false;
+  return std::any_of(array->begin(), array->end(), [&](const toml::node& entry) {
+    const auto* text = entry.as_string();
+    if (text == nullptr || !is_formula(**text)) return false;
+    const std::vector<Formulas::Name> names = Formulas::parameters_in(**text);
+    return std::any_of(names.begin(), names.end(), [&](const Formulas::Name& name) {
+      return (name.text == "x" || name.text == "y" || name.text == "z") &&
+             !reading_.formulas().knows(name.text);
+    });
+  });
+}
+
+bool TomlTableReader::read_field(std::string_view key, SceneField& result, std::size_t width,
+                                 const char* words) {
+  note(key, {.kind = KeyForm::Kind::row, .width = width});
+  const toml::array* array = find_array(key, words);
+  if (!array) return false;
+  if (array->size() != width) {
+    reading_.error(
+        *array, fmt::format("{} has the wrong length ({} entries), {} is needed", key, array->size(), words));
+    return false;
+  }
+  SceneField field;
+  std::vector<std::function<double(const Vector3&)>> functions;
+  for (const toml::node& entry : *array) {
+    if (!TomlReading::has_number(entry)) {
+      value(entry, key).wrong_type("a number, or a formula of x, y and z");
+      continue;
+    }
+    if (entry.is_number() && !value(entry, key).finite_number("a number")) continue;
+    functions.push_back(reading_.function(entry, key));
+    if (functions.back() == nullptr) return false;
+    if (entry.is_number())
+      field.written.emplace_back(*entry.value<double>());
+    else
+      field.written.emplace_back(reading_.formulas().with_values(**entry.as_string()));
+  }
+  if (functions.size() != width) return false;
+  field.at = [functions](const Vector3& place) {
+    std::vector<double> values;
+    values.reserve(functions.size());
+    for (const auto& function : functions) values.push_back(function(place));
+    return values;
+  };
+  result = std::move(field);
+  return true;
+}
+
 bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result) {
   note(key, {.kind = KeyForm::Kind::texts});
   const toml::array* array = find_array(key, "an array of texts");

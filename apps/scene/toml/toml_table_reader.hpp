@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/scene/model/scene_field.hpp"
 #include "apps/scene/toml/number_ranges.hpp"
 #include "apps/scene/toml/toml_reading.hpp"
 #include "apps/scene/toml/toml_value.hpp"
@@ -71,6 +72,10 @@ class TomlTableReader {
   bool read_vector(std::string_view key, Vector3& result);
   /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
   bool read_place(std::string_view key, Vector3& result);
+  /// An array of numbers, or formulas of x, y and z. @param words description of the array
+  bool read_field(std::string_view key, SceneField& result, std::size_t width, const char* words);
+  /// True if the key holds an array with a formula of x, y or z, which no parameters are.
+  [[nodiscard]] bool varies(std::string_view key);
   bool read_texts(std::string_view key, std::vector<std::string>& result);
   /// An array of at least `minimum` rows of `width` finite numbers each. @param words name of a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,

@@ -1,0 +1,14 @@
+// The initial stress of a scene as a field.
+#pragma once
+
+#include "apps/scene/model/scene.hpp"
+#include "mechanics/material/initial_stress.hpp"
+
+namespace ashlar {
+
+/// Stress at places of a block (Pa, tension positive); empty: none. With k0 the vertical stress is minus the weight
+/// above, unit_weight times the height up to the surface, along gravity, and the stress across is k0 times it; none
+/// above the surface. Blocks that a stage adds have none. @param block index
+[[nodiscard]] StressField initial_stress_of(const Scene& scene, std::size_t block);
+
+}  // namespace ashlar

@@ -1,0 +1,21 @@
+// Contacts that begin under the stress of the ground.
+#pragma once
+
+#include <map>
+
+#include "solver/contact/pair_history.hpp"
+#include "solver/state/block_system.hpp"
+#include "solver/state/run_state.hpp"
+
+namespace ashlar {
+
+/// What contacts of the blocks as placed remember, so that each point has the traction of its blocks' initial stress
+/// (BlockDefinition::initial_stress; the mean of both, or that of the one that has any):
+///   N = -n . s n A,  shear force on a = -(s n - n (n . s n)) A,   n out of b
+/// A spring gets a rest gap N / kn above the surface and a slip, a point with multipliers the forces themselves. A point
+/// that the stress pulls begins without force, as does its shear.
+/// @param state at its start, with blocks as placed. @return by pair, only those with stress
+[[nodiscard]] std::map<PairKey, ContactMemory> contacts_under_stress(const BlockSystem& system,
+                                                                     RunState& state);
+
+}  // namespace ashlar
