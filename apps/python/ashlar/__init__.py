@@ -79,12 +79,14 @@ class Scene:
         """The scene as used: every key, with defaults."""
         return _json.loads(self._core.json())
 
-    def simulation(self, threads=1):
-        """A simulation at its start. It passes through all stages of a staged analysis.
+    def simulation(self, threads=1, resume=None):
+        """A simulation at its start. Of a scene in stages it goes through them one after the other. A scene that seeks a
+        factor, thrust or movements (analysis.type) is searched by the first steps; `summary` has the answer.
 
-        Raises ValueError for a search for a factor (analysis.type), which needs many analyses: use `run`.
+        resume: a result folder of this scene, recorded by `record` or `ashlar run`, whose run goes on where it was, into
+        the same folder; the history starts there. Raises ValueError or RuntimeError where it cannot.
         """
-        return Simulation(self, threads)
+        return Simulation(self, threads, resume)
 
     def __getstate__(self):
         return self._text, self._file, self._overrides
@@ -122,11 +124,11 @@ class _Blocks:
 class Simulation:
     """A run, step by step, created by Scene.simulation."""
 
-    def __init__(self, scene, threads=1):
-        self._core = _core.simulation(scene._core, threads)
+    def __init__(self, scene, threads=1, resume=None):
+        self._core = _core.simulation(scene._core, threads, None if resume is None else str(resume))
 
     def step(self):
-        """Takes one step, or one iteration of a static analysis. Returns False at the end of the run.
+        """Takes one step, or one iteration of a static analysis or of a search. Returns whether there is more to do.
 
         Raises RuntimeError if the step fails: the state is then that before the step and can be read and written, the
         status is failed, and each further call raises the same again.
@@ -179,6 +181,12 @@ class Simulation:
         return self._core.message
 
     @property
+    def summary(self):
+        """What summary.json would have now, a dictionary: factor_of_safety, load_factor, thrust of a search that has ended.
+        Its status is interrupted while the run has not ended."""
+        return _json.loads(self._core.summary())
+
+    @property
     def stage(self):
         """Number of the present stage, from 1; 0 for a scene without stages."""
         return self._core.stage
@@ -196,7 +204,8 @@ class Simulation:
         return self._core.contacts()
 
     def record(self, folder):
-        """Writes each further step into a new result folder, with frames as output asks, and the summary at the end."""
+        """Writes each step from now on into a new result folder, frames where they are due, checkpoints, and at the end the
+        summary, as `ashlar run` does."""
         self._core.record(str(folder))
 
     def write(self, folder):
