@@ -23,7 +23,11 @@ double area_of(const std::vector<ContactMemory::Entry>& entries) {
 
 double most_dilation_of(const std::vector<ContactMemory::Entry>& entries) {
   double most = 0.0;
-  for (const ContactMemory::Entry& entry : entries) most = std::max(most, entry.memory.dilation);
+  for (const ContactMemory::Entry& entry : entries) {
+    most = std::max(most, entry.memory.dilation);
+    // A bond that softens transmits forces across its opening.
+    if (entry.memory.intact && entry.memory.damage > 0.0) most = std::max(most, -entry.memory.compression);
+  }
   return most;
 }
 
@@ -154,6 +158,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
     result.deferred_friction += weight * memory.deferred_friction;
     result.dilation += weight * memory.dilation;
     result.level_dilation += weight * memory.level_dilation;
+    result.damage += weight * memory.damage;
+    result.level_damage += weight * memory.level_damage;
     if (memory.intact) intact += weight;
   }
   // A bond midway between intact and failed ones has failed, independent of rounding.
@@ -167,6 +173,8 @@ std::optional<ContactMemory::Found> ContactMemory::near(const ContactPoint& poin
   result.deferred_friction /= sum;
   result.dilation /= sum;
   result.level_dilation /= sum;
+  result.damage /= sum;
+  result.level_damage /= sum;
   return found;
 }
 
@@ -248,6 +256,7 @@ void ContactMemory::start_level() {
   for (Entry& entry : entries_) {
     entry.memory.level_slip = entry.memory.slip;
     entry.memory.level_dilation = entry.memory.dilation;
+    entry.memory.level_damage = entry.memory.damage;
     entry.memory.in_level = entry.memory.state != ContactState::open;
   }
 }

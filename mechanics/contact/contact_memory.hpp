@@ -1,4 +1,4 @@
-// Memory of contact points from step to step: elastic slip, state, multipliers, dilation, and intactness of the
+// Memory of contact points from step to step: elastic slip, state, multipliers, dilation, intactness and damage of the
 // joint. Memory belongs to material points, not to the step's polygons. A new point inherits from the nearest old one
 // in the material of either block, or from all that are at most half as far again: a new point midway between old
 // ones gets their mean, so that rounding does not select one. Slip follows the contact to another face over an edge
@@ -34,6 +34,8 @@ struct PointMemory {
                           ///< slip yet
   double dilation = 0.0;  ///< dilation by sliding: height of the normal spring's rest gap, m, >= 0
   double level_dilation = 0.0;  ///< the same at the start of the present load level
+  double damage = 0.0;          ///< of a bond with fracture energy (bond_damage.hpp), 0 to 1
+  double level_damage = 0.0;    ///< the same at the start of the present load level
 };
 
 /// Memory of a pair of blocks.
@@ -91,7 +93,7 @@ class ContactMemory {
 
   /// Largest penetration of the last step, m, >= 0.
   [[nodiscard]] double deepest() const { return deepest_; }
-  /// Largest separation of the surfaces by dilation, m, >= 0: blocks touch across such gaps.
+  /// Largest separation of the surfaces by dilation or at a softened bond, m, >= 0: blocks touch across such gaps.
   [[nodiscard]] double most_dilation() const { return most_dilation_; }
   /// Possible additional depth between the points, m, >= 0.
   [[nodiscard]] double bulge() const { return bulge_; }

@@ -4,16 +4,44 @@
 #include <utility>
 
 #include "mechanics/contact/sliding_point.hpp"
+#include "mechanics/contact/softened_point.hpp"
 
 namespace ashlar {
 
-PointLaw point_law(const JointLaw& law, double area, bool intact) {
+void PointLaw::set_damage(double damage) {
+  if (!bond.softens()) return;
+  bond.start = damage;
+  tension = bond.tension * (1.0 - damage);
+  cohesion = bond.cohesion * (1.0 - damage);
+}
+
+namespace {
+
+BondDamage bond_of(const JointLaw& law, double area) {
+  BondDamage bond;
+  if (law.fracture.tension > 0.0 && law.tensile_strength > 0.0) {
+    bond.tension = law.tensile_strength * area;
+    bond.peak = law.tensile_strength / law.normal_stiffness;
+    bond.end_opening = 2.0 * law.fracture.tension / law.tensile_strength;
+  }
+  if (law.fracture.shear > 0.0 && law.cohesion > 0.0) {
+    bond.cohesion = law.cohesion * area;
+    bond.end_slip = 2.0 * law.fracture.shear / law.cohesion;
+  }
+  return bond;
+}
+
+}  // namespace
+
+PointLaw point_law(const JointLaw& law, double area, bool intact, double damage) {
   const double scale = law.area_springs ? area : 1.0;
   const ResidualStrength residual = law.residual.value_or(ResidualStrength{law.friction, 0.0, 0.0});
   PointLaw point{law.normal_stiffness * scale, law.shear_stiffness * scale, law.friction,
                  law.cohesion * area,          law.tensile_strength * area, law.rounding};
   point.residual = {residual.friction, residual.cohesion * area, residual.tensile_strength * area};
   point.dilation.tangent = law.dilation;
+  if (law.fracture.given()) point.bond = bond_of(law, area);
+  if (point.bond.softens()) point.set_damage(damage);
   if (!intact) point.fail();
   return point;
 }
@@ -122,6 +150,7 @@ void set_shear_energy(const PointLaw& law, const Eigen::Vector2d& slip, PointRes
 }  // namespace
 
 PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vector2d& slip) {
+  if (law.bond.softens()) return softened_response(law, gap, slip);
   PointResponse response{ContactState::open, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), 0.0, 0.0};
   double normal = trial_normal(law, gap);
   const double resistance = law.shear_stiffness + law.dashpots.shear;
@@ -170,6 +199,7 @@ PointResponse point_response(const PointLaw& law, double gap, const Eigen::Vecto
 }
 
 MeanResponse end_response(const PointLaw& law, const PointResponse& end, double gap) {
+  if (law.bond.softens()) return {end.force, end.tangent, end.coupling, softened_limit(law, end)};
   double limit = 0.0;
   if (end.state != ContactState::open) {
     const double dilation = step_dilation(law.dilation, gap).tangent;
@@ -291,6 +321,7 @@ double lift(double trial, double stiffness, double dilation, NormalAt normal_at,
 
 AveragedStep averaged_step(const PointLaw& law, const PointResponse& start,
                            const Eigen::Vector3d& start_place, const Eigen::Vector3d& end_place) {
+  if (law.bond.softens()) return softened_step(law, start, start_place, end_place);
   if (law.augmented) {
     const PointResponse end = point_response(law, end_place[0], end_place.tail<2>());
     return {end, end_response(law, end, end_place[0])};

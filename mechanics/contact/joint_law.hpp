@@ -28,6 +28,8 @@
 // Dilation (notes/dilation.md): slip p raises the rest gap of the normal spring by p tan(psi) at once:
 //     N = -kn (g - p tan(psi)),    ks (|s| - p) = max(N, 0) tan(phi) + c A,    p >= 0
 //
+// With fracture energy strength falls gradually instead of failing (softened_point.hpp).
+//
 // Damping (notes/joint_damping.md): a dashpot parallel to each spring, before the slider, while the point is closed.
 // Without tensile strength it never makes N negative.
 //
@@ -37,6 +39,8 @@
 
 #include <Eigen/Dense>
 #include <optional>
+
+#include "mechanics/contact/bond_damage.hpp"
 
 namespace ashlar {
 
@@ -72,6 +76,12 @@ struct JointLaw {
   double damping = 0.0;    ///< >= 0, share of critical, of springs (ContactPair::damp)
   /// Strength of failed or never bonded surfaces; each value at most that above. Empty: `friction` only
   std::optional<ResidualStrength> residual = std::nullopt;
+  /// Of each strength that is not zero, or of none. With it: area springs, without dilation, damping and multipliers,
+  /// residual strength by friction only, and springs of more than least_bond_stiffness()
+  FractureEnergy fracture = {};
+  /// Normal velocity after an impact over that before, 0 to 1 (solver/step/restitution.hpp). Empty: as springs,
+  /// dashpots or multipliers have it
+  std::optional<double> restitution = std::nullopt;
 
   friend bool operator==(const JointLaw&, const JointLaw&) = default;
 };
@@ -113,6 +123,7 @@ struct PointLaw {
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();
   Dilation dilation = {};
   Dashpots dashpots = {};
+  BondDamage bond = {};  ///< of a joint with fracture energy
 
   /// True if its strength can fail.
   [[nodiscard]] bool weakens() const {
@@ -125,11 +136,15 @@ struct PointLaw {
     friction = residual[0];
     cohesion = residual[1];
     tension = residual[2];
+    bond = {};
   }
+  /// Sets the damage of a bond with fracture energy at the start of a step, and the strength left.
+  void set_damage(double damage);
 };
 
 /// @param area tributary area of the point, m^2. @param intact false: with residual strength
-[[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact);
+/// @param damage of a joint with fracture energy at the start of the step, 0 to 1
+[[nodiscard]] PointLaw point_law(const JointLaw& law, double area, bool intact, double damage = 0.0);
 
 /// Unsymmetric part of -d force / d (g, s1, s2), missing from a symmetric tangent: force by'. With dilation
 ///   -d force / d (g, s) = k (1, -f e) (1, -tan(psi) e)' + rotation of the force,   e = s/|s|, f: derivative of the
@@ -150,10 +165,13 @@ struct PointResponse {
   double normal_energy;  ///< of the normal spring, J
   double shear_energy;   ///< of the shear spring, J
   Eigen::Vector2d direction = Eigen::Vector2d::Zero();  ///< unit, of the shear force of a sliding point
-  Coupling coupling = {};  ///< of a point that slides under Coulomb's law; otherwise zero
+  Coupling coupling = {};  ///< of a point that slides under Coulomb's law, or softens; otherwise zero
   double dilation = 0.0;   ///< increase of the rest gap in the step, m
   double damped = 0.0;     ///< energy dissipated by the dashpots in the step, J
   Eigen::Vector2d shear_damped = Eigen::Vector2d::Zero();  ///< part of `force` due to the shear dashpot, N
+  double damage = 0.0;  ///< of a bond with fracture energy at the end of the step, 0 to 1
+  /// Energy dissipated by damage in the step beside that of the shear force on permanent slip, J
+  double fractured = 0.0;
 
   [[nodiscard]] double energy() const { return normal_energy + shear_energy; }
 };

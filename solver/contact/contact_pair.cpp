@@ -70,8 +70,9 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, std::vec
             law.augmented ? 0.0 : law.damping},
       start_(3, static_cast<Eigen::Index>(points_.size())),
       rows_(std::move(rows)) {
+  kind_.restitution = law.restitution;
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    laws_.push_back(point_law(law, points_[k].area, memory_[k].intact));
+    laws_.push_back(point_law(law, points_[k].area, memory_[k].intact, memory_[k].damage));
     if (law.augmented) {
       const double scale = multiplier_scale(points_[k]);
       const Vector3 shear = scale * memory_[k].shear_multiplier;
@@ -131,6 +132,7 @@ void ContactPair::count_slip(const std::vector<Vector3>& moved) {
     PointMemory& memory = memory_[k];
     if (!memory.in_level) memory.level_slip = -flat(k, along(moved[k]));
     rests_[k] = memory.level_dilation;
+    laws_[k].set_damage(memory.level_damage);
     start_(0, static_cast<Eigen::Index>(k)) = points_[k].gap - rests_[k];
     start_.col(static_cast<Eigen::Index>(k)).tail<2>() = along(memory.level_slip + moved[k]);
   }
@@ -289,7 +291,11 @@ std::vector<PointMemory> ContactPair::memory_after(const PairResponse& response,
     const bool torn =
         laws_[k].tension > 0.0 ? open || laws[k].tension < laws_[k].tension : open && gap > tearing_gap;
     const bool sheared = point.state == ContactState::sliding && laws_[k].weakens_by_sliding();
-    memory.intact = memory_[k].intact && (kind_.freezes_failure || (!torn && !sheared));
+    const bool softens = laws_[k].bond.softens();
+    memory.level_damage = memory_[k].level_damage;
+    if (softens) memory.damage = laws[k].bond.softens() ? point.damage : 1.0;
+    const bool fails = softens ? memory.damage >= 1.0 : torn || sheared;
+    memory.intact = memory_[k].intact && (kind_.freezes_failure || !fails);
     if (laws[k].augmented && point.state != ContactState::open) {
       const Eigen::Vector2d shear = point.force.tail<2>();
       const double scale = multiplier_scale(points_[k]);
@@ -314,6 +320,7 @@ ContactPair ContactPair::at_rigid_onset(const PairResponse& response, const std:
       pair.start_(0, static_cast<Eigen::Index>(k)) = std::numeric_limits<double>::infinity();
     law.tension = open ? 0.0 : laws[k].tension;
     law.cohesion = open ? 0.0 : laws[k].cohesion;
+    law.bond = {};
     law.augmented = true;
     law.normal_multiplier = point.force[0];
     law.shear_multiplier = point.force.tail<2>();

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mechanics/contact/contact_memory.hpp"
@@ -54,6 +55,16 @@ class ContactPair {
   [[nodiscard]] bool tied() const { return kind_.tied; }
   /// True if its springs represent rigid contact.
   [[nodiscard]] bool rigid() const { return kind_.rigid; }
+  /// Of joints with a coefficient of restitution (step/restitution.hpp).
+  [[nodiscard]] const std::optional<double>& restitution() const { return kind_.restitution; }
+  /// Gap of a point relative to its rest gap at the start of the step, m.
+  [[nodiscard]] double start_gap(std::size_t point) const {
+    return start_(0, static_cast<Eigen::Index>(point));
+  }
+  /// True if a point is under compression at the start of the step.
+  [[nodiscard]] bool loaded(std::size_t point) const { return start_responses_[point].force[0] > 0.0; }
+  /// True if a point is tied, or bonded with tensile strength.
+  [[nodiscard]] bool holds(std::size_t point) const { return tied() || laws_[point].tension > 0.0; }
   /// True if sliding causes dilation.
   [[nodiscard]] bool dilates() const { return kind_.dilation > 0.0; }
   /// Size of the rounding errors of the forces, in the norm of a block's unknowns. @param laws of the points
@@ -191,6 +202,8 @@ class ContactPair {
   /// store no energy, all work of sliding points. Less the work of normal forces on dilation.
   [[nodiscard]] double friction_work(const PairResponse& response, const std::vector<PointLaw>& laws,
                                      const Eigen::VectorXd& ya, const Eigen::VectorXd& yb) const;
+  /// Energy dissipated by damage of bonds in the step, J, beside friction_work(). In statics since the last iteration.
+  [[nodiscard]] double fracture_work(const PairResponse& response) const;
   /// Energy dissipated by dashpots in the step, J, >= 0.
   [[nodiscard]] static double damped(const PairResponse& response);
   /// Spring energy at the end of the step, J.
@@ -206,6 +219,7 @@ class ContactPair {
     bool counts_slip = false;
     bool freezes_failure = false;
     bool goes_on = false;
+    std::optional<double> restitution = std::nullopt;
   };
 
   ContactPair(const PairBodies& bodies, const JointLaw& law, std::vector<ContactPoint> points,

@@ -43,6 +43,8 @@ void validate(const PairHistories& histories, int blocks) {
     for (const ContactMemory::Entry& entry : pair.memory.entries()) {
       demand(entry.face_a >= 0 && entry.face_b >= 0, "a point without faces");
       demand(is_size(entry.area), "an area is negative or not finite");
+      demand(entry.memory.damage >= 0.0 && entry.memory.damage <= 1.0,
+             "damage of a bond is not within 0 and 1");
     }
   }
 }

@@ -17,7 +17,9 @@ void ContactPair::freeze_failure() {
   kind_.freezes_failure = true;
   const JointLaw bond = unbreakable_law(1.0);
   for (PointLaw& law : laws_) {
-    if (tied() || !law.weakens() || (law.cohesion == 0.0 && law.tension == 0.0)) continue;
+    // Strength that falls gradually is lost as far as the balance needs.
+    if (tied() || law.bond.softens() || !law.weakens() || (law.cohesion == 0.0 && law.tension == 0.0))
+      continue;
     law.cohesion = bond.cohesion;
     if (law.tension > 0.0) law.tension = bond.tensile_strength;
   }
@@ -60,6 +62,13 @@ void ContactPair::damp(double step) {
                     law.shear_stiffness * retardation(shear) / step, start[0],
                     elastic_slip(law, start_responses_[k], slip)};
   }
+}
+
+double ContactPair::fracture_work(const PairResponse& response) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < response.points.size(); ++k)
+    sum += response.points[k].fractured - start_responses_[k].fractured;
+  return sum;
 }
 
 double ContactPair::damped(const PairResponse& response) {

@@ -23,11 +23,16 @@ double automatic_normal_stiffness(const StiffnessSource& a, const StiffnessSourc
   return ratios.normal_stiffness * modulus / size * (area_springs ? 1.0 : size * size);
 }
 
-double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b, const AutomaticRatios& ratios) {
-  const auto stiffness = [](const BlockModel& block) {
-    return block.fixed() ? 0.0 : block.material().young_modulus / block_size(block);
+double automatic_tie_stiffness(const StiffnessSource& a, const StiffnessSource& b,
+                               const AutomaticRatios& ratios) {
+  const auto stiffness = [](const StiffnessSource& block) {
+    return block.fixed ? 0.0 : block.young_modulus / block.size;
   };
   return ratios.tie_stiffness * std::max(stiffness(a), stiffness(b));
+}
+
+double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b, const AutomaticRatios& ratios) {
+  return automatic_tie_stiffness(stiffness_source(a), stiffness_source(b), ratios);
 }
 
 }  // namespace ashlar

@@ -41,5 +41,7 @@ struct StiffnessSource {
 /// Stiffness of a tied joint from the stiffer material and the smaller size, Pa/m.
 [[nodiscard]] double automatic_tie_stiffness(const BlockModel& a, const BlockModel& b,
                                              const AutomaticRatios& ratios = {});
+[[nodiscard]] double automatic_tie_stiffness(const StiffnessSource& a, const StiffnessSource& b,
+                                             const AutomaticRatios& ratios = {});
 
 }  // namespace ashlar

@@ -16,11 +16,13 @@ namespace ashlar {
 struct Ledger {
   double kinetic = 0.0;
   double elastic = 0.0;
-  double gravity = 0.0;         ///< -m g . x; 0 if gravity has a history
-  double contact = 0.0;         ///< stored in normal and shear springs
-  double friction = 0.0;        ///< dissipated by sliding so far, less the work of dilation
-  double damping = 0.0;         ///< dissipated by damping of mass, of stiffness and of joints so far
-  double applied = 0.0;         ///< work of loads, moving supports, and gravity with a history, so far
+  double gravity = 0.0;  ///< -m g . x; 0 if gravity has a history
+  double contact = 0.0;  ///< stored in normal and shear springs
+  double friction =
+      0.0;               ///< dissipated by sliding and by fracture of bonds so far, less the work of dilation
+  double damping = 0.0;  ///< dissipated by damping of mass, of stiffness and of joints, and by impacts with a
+                         ///< coefficient of restitution so far
+  double applied = 0.0;  ///< work of loads, moving supports, and gravity with a history, so far
   double numerical = 0.0;       ///< dissipated by the time integrator so far
   double refound_gained = 0.0;  ///< gained by springs of re-detected contacts so far, >= 0
   double refound_lost = 0.0;    ///< lost by springs of re-detected contacts so far, >= 0

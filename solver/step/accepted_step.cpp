@@ -339,7 +339,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       potential.change += held - pair.start_energy();
       held_by_all += held;
       if (pair.tied()) continue;
-      const double slid = pair.friction_work(response, result.laws[n], ya, yb);
+      const double slid = pair.friction_work(response, result.laws[n], ya, yb) + pair.fracture_work(response);
       friction += slid;
       damped += ContactPair::damped(response);
       if (run.settings().augmented && scheme.from_rest)

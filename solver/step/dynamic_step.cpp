@@ -8,6 +8,7 @@
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/position_projection.hpp"
+#include "solver/step/restitution.hpp"
 #include "solver/step/sleeping_islands.hpp"
 #include "solver/step/snapshot.hpp"
 #include "solver/step/step_problem.hpp"
@@ -24,6 +25,7 @@ class DynamicStep {
   StepStatus run() {
     const SimulationSettings& settings = run_.settings();
     pair_up();
+    rebound_from_touches();
     while (cuts_ <= settings.max_step_cuts && additions_ <= settings.max_step_cuts) {
       const TimeScheme scheme = time_scheme(settings, step_);
       const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
@@ -31,6 +33,9 @@ class DynamicStep {
         reject_unsettled(run_, step_, status, problem_);
         unsettled_ = true;
         cut(0.5);
+      } else if (const auto share = share_until_impact(run_, step_, problem_);
+                 share && cuts_ < settings.max_step_cuts) {
+        cut(*share);
       } else if (const auto broken = broken_block(run_, problem_)) {
         reject(run_, step_, *broken);
         cut(0.5);
@@ -63,6 +68,16 @@ class DynamicStep {
       if (!unmoved_) unmoved_ = snapshot_of(run_);
       if (!project_positions(run_, step_, problem_, found_, most)) break;
       ++moves_;
+      do {
+        detect();
+      } while (wake_touched(run_, problem_.pairs));
+    }
+  }
+
+  /// Impacts at the start of the step. Blocks that are struck may strike others at once: no more often than there are
+  /// pairs.
+  void rebound_from_touches() {
+    for (std::size_t most = problem_.pairs.size(); most > 0 && rebound(run_, problem_.pairs); --most) {
       do {
         detect();
       } while (wake_touched(run_, problem_.pairs));

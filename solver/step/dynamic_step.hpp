@@ -1,5 +1,5 @@
 // Step control: a step that does not converge is halved; one in which blocks would pass through each other is cut to
-// their first touch. The reason is recorded. The state changes only when a step is accepted.
+// their first touch. The reason is recorded. One in which a joint with restitution closes ends before the touch. The state changes only when a step is accepted.
 #pragma once
 
 #include "solver/step/run_context.hpp"

@@ -21,6 +21,8 @@ JointFailure::JointFailure(IslandProblem& problem) : problem_(problem) {
     strengths_.emplace_back();
     for (PointLaw& law : laws) {
       strengths_.back().push_back(law.tension);
+      // A bond with fracture energy transmits what is left of its strength.
+      if (law.bond.tension > 0.0) continue;
       if (law.tension > 0.0)
         law.tension = std::numeric_limits<double>::infinity();
       else if (law.cohesion > 0.0)

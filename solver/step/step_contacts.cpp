@@ -111,6 +111,7 @@ void take_slip(const std::vector<ContactPoint>& points, const std::vector<Vector
                std::vector<PointMemory>& memory) {
   for (std::size_t k = 0; k < points.size(); ++k) {
     memory[k].level_dilation = memory[k].dilation;
+    memory[k].level_damage = memory[k].damage;
     if (!memory[k].in_level) continue;
     const Vector3 slid = memory[k].level_slip + moved[k] - memory[k].slip;
     memory[k].level_slip -= slid - points[k].normal.dot(slid) * points[k].normal;
