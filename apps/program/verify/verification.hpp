@@ -81,6 +81,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> support_cases();
 /// Water and stress in the ground.
 [[nodiscard]] std::span<const VerificationCase> ground_cases();
+/// Records of earthquakes.
+[[nodiscard]] std::span<const VerificationCase> record_cases();
 /// Rock cut by joints.
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
 /// The paper's example.

@@ -45,8 +45,10 @@ Json record() {
            {{"file", text},
             {"time", text},
             {"values", array_of(text, 1)},
-            {"scale", number(range::any_number, "number")}}},
-          {"required", Json::array({"file", "time", "values"})},
+            {"scale", {{"anyOf", Json::array({number(range::any_number, "number"), Json{{"const", "g"}}})}}},
+            {"baseline", {{"enum", Json::array({0, 1, 2, 3})}}},
+            {"resample", number(range::positive, "number")}}},
+          {"required", Json::array({"file", "values"})},
           {"additionalProperties", false}};
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/scene/meshes/dxf_outline.hpp"
 #include "apps/scene/meshes/dxf_pairs.hpp"
 #include "geometry/exact/degree_turn.hpp"
 #include "geometry/mesh/text_scanner.hpp"
@@ -60,6 +61,7 @@ struct Polyline {
   long long n = 0;
   int line = 0;
   std::vector<Vector3> points;
+  DxfOutline outline;                           ///< of one that is no mesh
   std::vector<std::array<long long, 4>> faces;  ///< 1-based indices, negative for hidden edges, 0: none
   std::vector<int> face_lines;
 };
@@ -159,6 +161,8 @@ class DxfReader {
         read_face(block);
       else if (pairs_.is(0, "POLYLINE"))
         read_polyline(block);
+      else if (pairs_.is(0, "LWPOLYLINE"))
+        read_outline(block);
       else if (pairs_.is(0, "INSERT"))
         read_insert(block);
       else
@@ -193,10 +197,37 @@ class DxfReader {
     add_face(block.layer(layer), corners);
   }
 
+  /// Reads a property that outlines of both kinds have.
+  void read_property(DxfOutline& outline) {
+    const int code = pairs_.code();
+    if (code == 39) outline.thickness = pairs_.number("a thickness");
+    if (code == 42 && pairs_.number("a bulge") != 0.0) outline.has_arcs = true;
+    if (code == 210 || code == 220) outline.upward = outline.upward && pairs_.number("a direction") == 0.0;
+    if (code == 230) outline.upward = outline.upward && pairs_.number("a direction") > 0.0;
+    if (code == 70) outline.closed = (pairs_.integer("flags") & closed_in_m) != 0;
+  }
+
+  void read_outline(Block& block) {
+    DxfOutline outline;
+    outline.line = pairs_.line();
+    std::string layer;
+    each_pair([&] {
+      if (pairs_.code() == 8) layer = pairs_.text();
+      if (pairs_.code() == 38) outline.elevation = pairs_.number("an elevation");
+      if (pairs_.code() == 10) outline.points.push_back(Vector3::Zero());
+      if (!outline.points.empty()) read_point(outline.points.back(), 0);
+      read_property(outline);
+    });
+    if (outline.thickness != 0.0) add_prism(std::move(outline), block.layer(layer));
+  }
+
   void read_polyline(Block& block) {
     Polyline polyline;
     polyline.line = pairs_.line();
+    polyline.outline.line = polyline.line;
     each_pair([&] {
+      if (pairs_.code() == 30) polyline.outline.elevation = pairs_.number("an elevation");
+      read_property(polyline.outline);
       if (pairs_.code() == 8) polyline.layer = pairs_.text();
       if (pairs_.code() == 70) polyline.flags = pairs_.integer("flags");
       if (pairs_.code() == 71) polyline.m = pairs_.integer("a number of vertices");
@@ -206,7 +237,12 @@ class DxfReader {
     while (pairs_.is(0, "VERTEX")) read_vertex(polyline);
     if (!pairs_.is(0, "SEQEND")) pairs_.fail("must be VERTEX or SEQEND, in a POLYLINE");
     each_pair([] {});
-    if ((polyline.flags & (polyface | polygon_mesh)) == 0) return;  // a line
+    if ((polyline.flags & (polyface | polygon_mesh)) == 0) {
+      if (polyline.outline.thickness == 0.0) return;  // a line
+      polyline.outline.points = std::move(polyline.points);
+      add_prism(std::move(polyline.outline), block.layer(polyline.layer));
+      return;
+    }
     PolygonSoup& soup = block.layer(polyline.layer);
     if ((polyline.flags & polyface) != 0)
       add_polyface(polyline, soup);
@@ -222,6 +258,7 @@ class DxfReader {
     each_pair([&] {
       const int code = pairs_.code();
       if (code == 70) flags = pairs_.integer("flags");
+      if (code == 42 && pairs_.number("a bulge") != 0.0) polyline.outline.has_arcs = true;
       if (code >= 71 && code <= 74)
         corners[static_cast<std::size_t>(code - 71)] = pairs_.integer("a point index");
       read_point(point, 0);

@@ -1,5 +1,5 @@
-// Reads drawings (DXF as text): 3DFACE, POLYLINE as polyface or polygon mesh, and INSERT of blocks with them.
-// Coordinates are those of the file.
+// Reads drawings (DXF as text): 3DFACE, POLYLINE as polyface or polygon mesh, closed outlines with a thickness
+// (dxf_outline.hpp), and INSERT of blocks with them. Coordinates are those of the file.
 //
 // Other entities, and the visibility of edges and layers, are ignored. Rejected with a message: binary DXF, smoothed
 // polygon meshes, inserts in rows and columns, and inserts in another plane than xy. Numbers of vertices and faces

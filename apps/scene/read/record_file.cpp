@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -13,6 +14,8 @@
 
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/read/peer_record.hpp"
+#include "apps/scene/read/sampled_record.hpp"
+#include "apps/scene/read/text_fields.hpp"
 #include "apps/scene/toml/input_file.hpp"
 
 namespace ashlar {
@@ -20,35 +23,9 @@ namespace {
 
 constexpr std::size_t listed_faults = 20;
 
-struct Field {
-  std::string_view text;  ///< without surrounding blanks and quotes
-  int column;             ///< 1-based
-};
-
-std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r") {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::vector<Field> fields_of(std::string_view line, char separator) {
-  std::vector<Field> fields;
-  std::size_t start = 0;
-  while (true) {
-    const std::size_t end = std::min(line.find(separator, start), line.size());
-    std::string_view text = trimmed(line.substr(start, end - start));
-    const std::size_t column = text.empty() ? start : static_cast<std::size_t>(text.data() - line.data());
-    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    fields.push_back({text, static_cast<int>(column) + 1});
-    if (end == line.size()) return fields;
-    start = end + 1;
-  }
-}
-
-char separator_of(std::string_view names) {
-  for (const char separator : {';', '\t'})
-    if (names.find(separator) != std::string_view::npos) return separator;
-  return ',';
+bool are_numbers(const std::vector<TextField>& fields) {
+  return std::all_of(fields.begin(), fields.end(),
+                     [](const TextField& field) { return number_of(field.text); });
 }
 
 /// Reads one file and counts its faults.
@@ -66,7 +43,7 @@ class RecordReader {
       ++line_;
       std::string_view text = line;
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-      const std::string_view content = trimmed(text);
+      const std::string_view content = trimmed_text(text);
       if (line_ == 1 && begins_peer_record(content))
         return parse_peer_record(record_, stream, name_, diagnostics_);
       if (const std::size_t ended = content.find('\r'); ended != std::string_view::npos) {
@@ -78,6 +55,7 @@ class RecordReader {
       if (content.empty() || content.front() == '#') continue;
       if (columns_.empty()) {
         if (!find_columns(text)) return std::nullopt;
+        if (without_names_) add_row(text, rows);
       } else {
         add_row(text, rows);
       }
@@ -109,8 +87,18 @@ class RecordReader {
 
   bool find_columns(std::string_view line) {
     separator_ = separator_of(line);
+    const std::vector<TextField> fields = fields_of(line, separator_);
+    width_ = fields.size();
     std::vector<std::string> names;
-    for (const Field& field : fields_of(line, separator_)) names.emplace_back(field.text);
+    for (const TextField& field : fields) names.emplace_back(field.text);
+    const bool names_time = std::find(names.begin(), names.end(), record_.time) != names.end();
+    if (!names_time && are_numbers(fields)) return number_columns();
+    if (record_.time.empty()) {
+      fault(1, fmt::format(
+                   "record has a line of column names ({}); time, the name of its column of times, is needed",
+                   fmt::join(names, ", ")));
+      return false;
+    }
     const auto find = [&](const std::string& name) {
       const auto found = std::find(names.begin(), names.end(), name);
       if (found == names.end()) {
@@ -122,14 +110,34 @@ class RecordReader {
         fault(1, fmt::format("record has several columns \"{}\" ({}), one is needed", name, times));
       return static_cast<std::size_t>(found - names.begin());
     };
-    width_ = names.size();
     columns_.push_back(find(record_.time));
     for (const std::string& name : record_.values) columns_.push_back(name.empty() ? no_column : find(name));
     return faults_ == 0;
   }
 
+  /// Columns of a file without names: times and values, or columns named by their numbers.
+  bool number_columns() {
+    without_names_ = true;
+    const auto find = [&](const std::string& name, std::size_t other) {
+      std::size_t column = 0;
+      const auto [stop, status] = std::from_chars(name.data(), name.data() + name.size(), column);
+      const bool whole = !name.empty() && status == std::errc() && stop == name.data() + name.size();
+      if (whole && column >= 1 && column <= width_) return column - 1;
+      if (!whole && other < width_) return other;
+      fault(1, fmt::format(
+                   "record has {} columns without names, none is \"{}\"; a number from 1 to {} is needed",
+                   width_, name, width_));
+      return no_column;
+    };
+    constexpr std::size_t of_two = 1;
+    columns_.push_back(find(record_.time, 0));
+    for (const std::string& name : record_.values)
+      columns_.push_back(name.empty() ? no_column : find(name, width_ == 2 ? of_two : no_column));
+    return faults_ == 0;
+  }
+
   void add_row(std::string_view line, std::vector<std::vector<double>>& rows) {
-    const std::vector<Field> fields = fields_of(line, separator_);
+    const std::vector<TextField> fields = fields_of(line, separator_);
     std::vector<double> row;
     for (std::size_t k = width_; k < fields.size(); ++k) {
       if (fields[k].text.empty()) continue;
@@ -166,12 +174,8 @@ class RecordReader {
     rows.push_back(std::move(row));
   }
 
-  std::optional<double> number(const Field& field) {
-    double value = 0.0;
-    std::string_view digits = field.text;
-    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-    const auto [stop, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (status == std::errc() && stop == digits.data() + digits.size() && std::isfinite(value)) return value;
+  std::optional<double> number(const TextField& field) {
+    if (const std::optional<double> value = number_of(field.text)) return value;
     constexpr std::size_t longest_shown = 60;
     const bool comma = field.text.find(',') != std::string_view::npos;
     fault(field.column,
@@ -186,7 +190,8 @@ class RecordReader {
   std::string name_;
   Diagnostics& diagnostics_;
   std::vector<std::size_t> columns_;  ///< of the time and of each value
-  std::size_t width_ = 0;             ///< number of fields of the line of names
+  std::size_t width_ = 0;             ///< number of fields of the first line
+  bool without_names_ = false;        ///< the first line has numbers
   char separator_ = ',';
   int line_ = 0;
   std::size_t faults_ = 0;
@@ -219,6 +224,10 @@ std::optional<std::vector<std::vector<double>>> read_record(const SceneRecord& r
 std::optional<std::vector<std::vector<double>>> parse_record(const SceneRecord& record, std::istream& content,
                                                              const std::string& name,
                                                              Diagnostics& diagnostics) {
+  std::string kind = std::filesystem::path(name).extension().string();
+  for (char& letter : kind) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  if (kind == ".v2") return parse_volume2_record(record, content, name, diagnostics);
+  if (kind == ".smc") return parse_smc_record(record, content, name, diagnostics);
   return RecordReader(record, name, diagnostics).read(content);
 }
 

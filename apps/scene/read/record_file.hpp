@@ -1,5 +1,7 @@
-// Records (of an earthquake, of a load) from CSV files: a line of column names, then a line for each time. Other
-// kinds of files are recognised by their first line (peer_record.hpp).
+// Records (of an earthquake, of a load) from text files: a line of column names, then a line for each time. A file
+// whose first line has numbers alone has no names: its columns are named "1", "2", ..., the first has the times, and of
+// two columns any other name stands for the second. Other kinds are recognised by their first line (peer_record.hpp)
+// or by the ending of their name, .V2 and .smc (sampled_record.hpp).
 #pragma once
 
 #include <filesystem>
@@ -13,8 +15,8 @@
 
 namespace ashlar {
 
-/// The rows [time, values...] of a record, with scaled values. Fields are separated by commas, semicolons or tabs, as
-/// in the line of names. Blank lines and lines that begin with # are ignored. Faults are reported at their line and
+/// The rows [time, values...] of a record, with scaled values. Fields are separated by commas, semicolons, tabs or
+/// blanks, as in the first line. Blank lines and lines that begin with # are ignored. Faults are reported at their line and
 /// column of the file, the first 20 and a count; a file that cannot be read, or has more than most_input_bytes, at
 /// `place`.
 /// @param folder of relative paths. @param place of the file's name in the scene

@@ -19,11 +19,14 @@ Json or_auto(const std::optional<Number>& number) {
 }
 
 Json to_json(const SceneRecord& record) {
-  return {{"file", record.file.string()},
-          {"time", record.time},
-          {"values", record.values},
-          {"scale", record.scale},
-          {"sha256", record.sha256}};
+  Json json = {{"file", record.file.string()},
+               {"time", record.time},
+               {"values", record.values},
+               {"scale", record.scale}};
+  if (record.baseline) json["baseline"] = *record.baseline;
+  if (record.resample) json["resample"] = *record.resample;
+  json["sha256"] = record.sha256;
+  return json;
 }
 
 void add_gravity(Json& json, const SceneAnalysis& analysis) {

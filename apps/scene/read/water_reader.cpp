@@ -15,7 +15,7 @@ void read_surface(TomlTableReader& level, SceneWater& water) {
   std::string name;
   if (!level.read_name("file", name)) return;
   SceneRecord record{
-      .file = name, .time = "x", .values = {"y", "z"}, .scale = 1.0, .in_order = false, .sha256 = {}};
+      .file = name, .time = "x", .values = {"y", "z"}, .scale = 1.0, .sha256 = {}, .in_order = false};
   TomlReading& reading = level.reading();
   const auto rows = read_record(record, reading.folder(), reading.places().value(level.path("file")),
                                 reading.diagnostics());

@@ -43,6 +43,50 @@ std::string refusal(const std::string& text) {
   return "taken";
 }
 
+/// An L of 3 m^2 (a square of 2 m without a quarter), clockwise, as a LWPOLYLINE; more pairs may follow.
+std::string outline(const std::string& head, const std::string& more = "") {
+  return lines("0 LWPOLYLINE 8 W 90 6 " + head +
+               " 10 0 20 0 10 0 20 2 10 1 20 2 10 1 20 1 10 2 20 1 10 2 20 0" + more);
+}
+
+TEST(DxfReader, ClosedOutlinesWithAThicknessArePrisms) {
+  for (const char* head : {"70 1 38 5 39 0.5", "70 129 38 5.5 39 -0.5"}) {
+    const TriangleMesh mesh = read_dxf(drawing(outline(head))).whole();
+    const Polyhedron body(mesh);
+    EXPECT_EQ(body.volume(), 1.5) << head;
+    EXPECT_EQ(body.faces().size(), 8U);
+    double low = 9.0, high = 0.0;
+    for (const Vector3& point : mesh.points) {
+      low = std::min(low, point.z());
+      high = std::max(high, point.z());
+    }
+    EXPECT_EQ(low, 5.0);
+    EXPECT_EQ(high, 5.5);
+  }
+  // Its last point is its first one.
+  EXPECT_EQ(Polyhedron(read_dxf(drawing(outline("70 0 39 2", " 10 0 20 0"))).whole()).volume(), 6.0);
+  const std::string polyline = lines(
+      "0 POLYLINE 8 W 66 1 70 1 10 0 20 0 30 3 39 2 0 VERTEX 10 0 20 0 30 3 0 VERTEX 10 1 20 0 30 3 0 VERTEX "
+      "10 "
+      "0 20 1 30 3 0 SEQEND");
+  EXPECT_EQ(Polyhedron(read_dxf(drawing(polyline)).whole()).volume(), 1.0);
+}
+
+TEST(DxfReader, OtherOutlinesAreLines) {
+  for (const char* head : {"70 1", "70 1 39 0", "70 0 39 2"})
+    EXPECT_EQ(read_dxf(drawing(triangle + outline(head))).whole().triangles.size(), 1U) << head;
+}
+
+TEST(DxfReader, RefusesOutlinesThatAreNoPrisms) {
+  EXPECT_EQ(refusal(drawing(outline("70 1 39 2", " 42 0.5"))),
+            "6: arc in an outline with a thickness (bulge, 42), straight edges are needed");
+  EXPECT_EQ(refusal(drawing(outline("70 1 39 2 210 1 220 0 230 0"))),
+            "6: outline with a thickness in another plane than xy, allowed is the direction (0, 0, 1) (210, "
+            "220, 230)");
+  EXPECT_EQ(refusal(drawing(lines("0 LWPOLYLINE 8 W 70 1 39 2 10 0 20 0 10 1 20 0 10 1 20 0"))),
+            "6: outline with a thickness has fewer than 3 corners, a polygon is needed");
+}
+
 TEST(DxfReader, OneLayerHasItsName) {
   const std::vector<MeshGroup> groups = read_dxf(drawing(triangle)).groups();
   ASSERT_EQ(groups.size(), 1U);
