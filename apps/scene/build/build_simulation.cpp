@@ -1,0 +1,320 @@
+#include "apps/scene/build/build_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <type_traits>
+
+#include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/build/limit_choices.hpp"
+#include "apps/scene/build/tied_joints.hpp"
+#include "apps/scene/check/turned_supports.hpp"
+#include "apps/scene/model/cut_rock.hpp"
+#include "apps/scene/model/joint_table.hpp"
+#include "apps/scene/model/support_history.hpp"
+#include "geometry/boxes/box_pairs.hpp"
+#include "solver/state/automatic.hpp"
+
+namespace ashlar {
+namespace {
+
+template <class Where>
+BlockPlace place_of(const Where& where) {
+  if (const auto* plane = std::get_if<ScenePlane>(&where)) return Plane{plane->point, plane->normal};
+  return std::get<Vector3>(where);
+}
+
+/// @param load_factor of the block's loads
+BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, double load_factor) {
+  const Scene& scene = loaded.scene;
+  const SceneBlock& block = scene.block[index];
+  BlockDefinition definition;
+  definition.name = block.name;
+  definition.shape = loaded.shapes[index];
+  definition.solid = block.translate.isZero(0.0) ? loaded.shapes[index]
+                                                 : std::make_shared<const Polyhedron>(loaded.solids[index]);
+  definition.order = block.order;
+  definition.fixed = block.fixed;
+  if (scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
+    definition.formulation = Formulation::incremental;
+    definition.sub_face_levels = scene.contact.subdivisions.value_or(definition.sub_face_levels);
+    for (const SceneMeasure& measure : scene.measure) {
+      if (measure.block == block.name && measure.point) definition.followed.push_back(*measure.point);
+    }
+  }
+  if (const SceneMaterial* material = find_material(scene, block.material)) {
+    definition.material = {material->density, material->young_modulus, material->poisson_ratio,
+                           material->elasticity == SceneMaterial::Elasticity::linear
+                               ? Elasticity::linear
+                               : Elasticity::st_venant_kirchhoff};
+  }
+  for (const SceneFix& fix : block.fix) {
+    definition.supports.push_back({place_of(fix.where), fix.components, support_history(fix)});
+  }
+  for (const SceneLoad& load : block.load) {
+    History history;
+    for (const auto& point : load.history) {
+      history.times.push_back(point.time);
+      history.values.push_back(point.factor);
+    }
+    definition.loads.push_back({place_of(load.where), load.kind == SceneLoad::Kind::traction,
+                                load_factor * load.vector, std::move(history)});
+  }
+  return definition;
+}
+
+Integrator integrator_of(SceneAnalysis::Integrator integrator) {
+  switch (integrator) {
+    case SceneAnalysis::Integrator::dda:
+      return Integrator::dda;
+    case SceneAnalysis::Integrator::average_acceleration:
+      return Integrator::average_acceleration;
+    case SceneAnalysis::Integrator::generalized_alpha:
+      return Integrator::generalized_alpha;
+  }
+  return Integrator::dda;
+}
+
+SimulationSettings settings_of(const Scene& scene, const std::vector<BlockModel>& blocks, int threads,
+                               std::vector<AutomaticChoice>& choices) {
+  const AutomaticRatios ratios;
+  SimulationSettings settings;
+  settings.integrator = integrator_of(scene.analysis.integrator);
+  if (scene.analysis.solver == SceneAnalysis::Solver::cg)
+    settings.linear_method = LinearMethod::conjugate_gradients;
+  settings.spectral_radius = scene.analysis.spectral_radius;
+  settings.mass_damping = scene.analysis.mass_damping;
+  settings.stiffness_damping = scene.analysis.stiffness_damping;
+  settings.rest.sleeps = scene.analysis.sleeping;
+  settings.time_step = scene.analysis.time_step;
+  settings.gravity = scene.analysis.gravity;
+  for (const auto& [time, value] : scene.analysis.gravity_history) {
+    settings.gravity_history.times.push_back(time);
+    settings.gravity_history.values.push_back(value);
+  }
+  settings.area_springs = scene.contact.springs == SceneContact::Springs::area;
+  settings.curved_surface = scene.contact.surface == SceneContact::Surface::curved;
+  settings.threads = threads;
+
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const BlockModel& block : blocks) smallest = std::min(smallest, block_size(block));
+  const auto choose = [&](const auto& given, auto automatic, const char* key, const char* unit) {
+    if (given) return static_cast<double>(*given);
+    choices.push_back({key, static_cast<double>(automatic), unit});
+    return static_cast<double>(automatic);
+  };
+  settings.contact_distance =
+      choose(scene.contact.distance, ratios.distance * smallest, "contact.distance", "m");
+  settings.search.contact_angle =
+      choose(scene.contact.angle, ratios.angle_degrees, "contact.angle", "deg") * std::numbers::pi / 180.0;
+  settings.augmented = has_multipliers(scene);
+  if (settings.augmented) {
+    if (!scene.contact.augmented) choices.push_back({"contact.augmented", true, ""});
+    settings.multipliers.penetration_tolerance =
+        choose(scene.contact.penetration_tolerance, ratios.penetration_tolerance * settings.contact_distance,
+               "contact.penetration_tolerance", "m");
+  }
+  settings.depth.allowed_depth = scene.contact.allowed_depth.value_or(0.0);
+  const bool curved = std::any_of(blocks.begin(), blocks.end(), [](const BlockModel& block) {
+    return !block.fixed() && block.order() >= 2 && block.incremental() == nullptr;
+  });
+  // Springs at corners alone would miss bending between them.
+  settings.search.subdivisions =
+      scene.contact.subdivisions.value_or(curved && !settings.area_springs ? 1 : 0);
+  if (curved && !scene.contact.subdivisions) {
+    settings.search.chord_tolerance = choose(scene.contact.chord_tolerance, ratios.chord_tolerance * smallest,
+                                             "contact.chord_tolerance", "m");
+  }
+  return settings;
+}
+
+/// The law with its strength divided by a factor.
+JointLaw reduced(JointLaw law, double factor) {
+  for (double* strength : {&law.friction, &law.cohesion, &law.tensile_strength, &law.residual->friction,
+                           &law.residual->cohesion, &law.residual->tensile_strength})
+    *strength /= factor;
+  // The dilation of a joint is limited by its friction.
+  law.dilation = std::min(law.dilation, law.residual->friction);
+  return law;
+}
+
+/// Laws between blocks.
+class JointLaws {
+ public:
+  JointLaws(const Scene& scene, const std::vector<BlockModel>& blocks,
+            std::shared_ptr<const JointTable> table, double strength_factor,
+            std::vector<AutomaticChoice>& choices)
+      : area_(scene.contact.springs == SceneContact::Springs::area),
+        multipliers_(has_multipliers(scene)),
+        asked_for_(scene.contact.augmented.value_or(false)),
+        table_(std::move(table)),
+        strength_factor_(strength_factor),
+        reduced_(scene) {
+    source_.reserve(blocks.size());
+    for (const BlockModel& block : blocks) source_.push_back(stiffness_source(block));
+    if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
+  }
+
+  JointLaw operator()(int a, int b) const {
+    const auto first = static_cast<std::size_t>(a), second = static_cast<std::size_t>(b);
+    const JointLaw whole = law(first, second);
+    return strength_factor_ != 1.0 && reduced_.contains(first, second) ? reduced(whole, strength_factor_)
+                                                                       : whole;
+  }
+
+ private:
+  [[nodiscard]] JointLaw law(std::size_t a, std::size_t b) const {
+    const SceneJointLaw given = table_->law_between(a, b);
+    JointLaw result;
+    result.area_springs = area_;
+    result.normal_stiffness = given.normal_stiffness
+                                  ? *given.normal_stiffness
+                                  : automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
+    result.rigid = !given.normal_stiffness;
+    result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
+    result.shear_stiffness =
+        given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
+    const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
+    result.friction = tangent(given.friction_angle);
+    result.cohesion = given.cohesion;
+    result.tensile_strength = given.tensile_strength;
+    // One entry may give the residual and a later one a smaller strength.
+    result.residual = {
+        std::min(result.friction, tangent(given.friction_angle_residual.value_or(given.friction_angle))),
+        std::min(result.cohesion, given.cohesion_residual.value_or(0.0)),
+        std::min(result.tensile_strength, given.tensile_strength_residual.value_or(0.0))};
+    // Several entries together must not generate energy either.
+    result.dilation = std::min(tangent(given.dilation_angle), result.residual->friction);
+    result.damping = given.damping;
+    return result;
+  }
+
+  /// Two blocks, or one, of each kind: equal blocks matched by the same globs have the same joints.
+  [[nodiscard]] std::vector<std::vector<std::size_t>> kinds_of_blocks(const Scene& scene) const {
+    std::vector<std::vector<std::size_t>> globs(source_.size());
+    for (std::size_t joint = 0; joint < scene.joint.size(); ++joint) {
+      for (const std::size_t side : {0U, 1U}) {
+        // A glob that matches every block distinguishes none.
+        if (table_->matched(joint, side).size() == source_.size()) continue;
+        for (const std::size_t block : table_->matched(joint, side)) globs[block].push_back(2 * joint + side);
+      }
+    }
+    std::map<std::pair<std::vector<std::size_t>, StiffnessSource>, std::vector<std::size_t>> kinds;
+    for (std::size_t k = 0; k < source_.size(); ++k) {
+      std::vector<std::size_t>& blocks = kinds[{std::move(globs[k]), source_[k]}];
+      if (blocks.size() < 2) blocks.push_back(k);
+    }
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& [kind, blocks] : kinds) result.push_back(std::move(blocks));
+    return result;
+  }
+
+  /// The softest and the stiffest pair with automatic stiffness.
+  void note_choices(const std::vector<std::vector<std::size_t>>& kinds,
+                    std::vector<AutomaticChoice>& choices) const {
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (std::size_t m = 0; m < kinds.size(); ++m) {
+      for (std::size_t n = m; n < kinds.size(); ++n) {
+        const std::size_t a = kinds[m].front(), b = kinds[n].back();
+        if (a == b || (source_[a].fixed && source_[b].fixed)) continue;
+        const double stiffness = automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
+        if (stiffness >= least && stiffness <= most) continue;
+        if (table_->law_between(a, b).normal_stiffness) continue;
+        least = std::min(least, stiffness);
+        most = std::max(most, stiffness);
+      }
+    }
+    const char* unit = area_ ? "Pa/m" : "N/m";
+    if (most > 0.0) {
+      choices.push_back({"contact.normal_stiffness (softest pair)", least, unit});
+      if (most > least) choices.push_back({"contact.normal_stiffness (stiffest pair)", most, unit});
+    }
+  }
+
+  bool area_;
+  bool multipliers_;
+  bool asked_for_;  ///< for all joints, with any given stiffness
+  AutomaticRatios ratios_;
+  std::shared_ptr<const JointTable> table_;
+  double strength_factor_;
+  ReducedJoints reduced_;
+  std::vector<StiffnessSource> source_;  ///< (#blocks)
+};
+
+/// Depth up to which contacts start without force, m, for all blocks whose boxes intersect.
+std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
+  std::map<PairKey, double> depths;
+  const double allowed = loaded.scene.contact.allowed_overlap;
+  if (allowed == 0.0) return depths;
+  std::vector<Box> boxes;
+  for (const Polyhedron& solid : loaded.solids) boxes.push_back(box_of(solid.mesh().points));
+  for (const PairKey& pair : meeting_boxes(boxes)) depths[pair] = allowed;
+  return depths;
+}
+
+}  // namespace
+
+std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
+                                                Diagnostics& diagnostics, Preparation* preparation,
+                                                const TrialFactors& factors) {
+  const Scene& scene = loaded.scene;
+  std::vector<BlockModel> blocks;
+  std::vector<InitialMotion> motions;
+  BlockPartsLibrary parts;
+  const std::vector<bool> multiplied = multiplied_blocks(scene);
+  for (std::size_t k = 0; k < scene.block.size(); ++k) {
+    const SceneBlock& block = scene.block[k];
+    if (preparation != nullptr)
+      preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
+    try {
+      const double load_factor = multiplied[k] ? factors.load : 1.0;
+      blocks.emplace_back(define_block(loaded, k, load_factor), parts);
+    } catch (const OrderTooHigh& error) {
+      diagnostics.error(
+          scene.places.value(fmt::format("block.{}.order", k)),
+          fmt::format(
+              "order is too high for the shape of block {} in double precision ({}), at most {} is allowed",
+              block.name, block.order, error.highest_safe_order));
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      diagnostics.error(scene.places.key(fmt::format("block.{}", k)),
+                        fmt::format("block cannot be modelled ({}): {}", block.name, error.what()));
+    }
+    motions.push_back({block.velocity, block.angular_velocity});
+  }
+  if (!diagnostics.good()) return std::nullopt;
+  warn_of_turned_supports(scene, blocks, diagnostics);
+  if (preparation != nullptr) preparation->phase("surfaces and neighbours of all blocks");
+  std::vector<AutomaticChoice> choices;
+  const SimulationSettings settings = settings_of(scene, blocks, threads, choices);
+  const auto table = std::make_shared<const JointTable>(scene);
+  JointLaws laws(scene, blocks, table, factors.strength, choices);
+  const std::vector<TieRequest> ties = ties_of(scene, *table, blocks);
+  if (!ties.empty() && scene.analysis.formulation == SceneAnalysis::Formulation::incremental) {
+    diagnostics.error(scene.places.key("analysis.formulation"),
+                      "blocks of the incremental formulation cannot be tied");
+    return std::nullopt;
+  }
+  BuiltSimulation built{Simulation(std::move(blocks), motions, std::move(laws), settings, ties, scene.absent),
+                        std::move(choices),
+                        parts.size(),
+                        {},
+                        loaded.overlaps};
+  built.simulation.start_overlapping(depths_without_force(loaded));
+  check_ties(scene, *table, built.simulation.system(), diagnostics);
+  if (!diagnostics.good()) return std::nullopt;
+  if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
+    built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);
+    if (!diagnostics.good()) return std::nullopt;
+  }
+  return built;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,357 @@
+#include "apps/scene/build/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <stdexcept>
+
+#include "apps/scene/expand/scene_expansion.hpp"
+#include "apps/scene/model/scene_names.hpp"
+#include "apps/scene/read/assignments.hpp"
+#include "apps/scene/read/block_reader.hpp"
+#include "apps/scene/read/cut_reader.hpp"
+#include "apps/scene/read/history_reader.hpp"
+#include "apps/scene/read/masonry.hpp"
+#include "apps/scene/toml/fault_text.hpp"
+#include "apps/scene/toml/include.hpp"
+#include "apps/scene/toml/input_file.hpp"
+#include "apps/scene/toml/parameters.hpp"
+#include "apps/scene/toml/scene_overrides.hpp"
+#include "apps/scene/toml/toml_faults.hpp"
+#include "apps/scene/toml/toml_table_reader.hpp"
+
+namespace ashlar {
+namespace {
+
+void read_factor_search(TomlTableReader table, const char* of, SceneAnalysis::FactorSearch& search) {
+  if (table.read_texts(of, search.of) && search.of.empty())
+    table.error_at_value(of, fmt::format("{} is empty (0 entries), names or globs are needed", of));
+  table.read_number("tolerance", search.tolerance, range::positive_to_one);
+  table.read_number("lower", search.lower, range::positive);
+  table.read_number("upper", search.upper, range::positive);
+  if (!(search.lower < search.upper))
+    table.error_at_key("upper", fmt::format("upper is not above lower ({}), more than {} is needed",
+                                            search.upper, search.lower));
+}
+
+void read_support_search(TomlTableReader table, SceneAnalysis::SupportSearch& search) {
+  table.read_texts("supports", search.supports);
+  Vector3 direction;
+  if (table.read_vector("direction", direction)) {
+    search.direction = direction;
+    if (!(direction.norm() > 0.0))
+      table.error_at_value("direction", "direction is zero ([0, 0, 0]), a vector of any length is needed");
+  }
+  table.read_number_or_auto("limit", search.limit, range::positive);
+  table.read_number_or_auto("tolerance", search.tolerance, range::positive);
+}
+
+void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
+  table.read_choice("type", analysis.type, analysis_type_names);
+  table.read_number("end_time", analysis.end_time, range::positive);
+  table.read_number("time_step", analysis.time_step, range::positive);
+  table.read_choice("integrator", analysis.integrator, integrator_names);
+  table.read_number("spectral_radius", analysis.spectral_radius, range::zero_to_one);
+  table.read_choice("formulation", analysis.formulation, formulation_names);
+  table.read_choice("initial_state", analysis.initial_state, initial_state_names);
+  // For a stage: one form of gravity replaces the other.
+  if (table.read_vector("gravity", analysis.gravity)) analysis.gravity_history.clear();
+  if (auto history = read_history(table, "gravity_history", 4, "[t, gx, gy, gz]")) {
+    analysis.gravity_history.clear();
+    analysis.gravity_file = std::move(history->file);
+    for (const auto& row : history->rows)
+      analysis.gravity_history.push_back({row[0], {row[1], row[2], row[3]}});
+  }
+  table.read_choice("solver", analysis.solver, solver_names);
+  table.read_number("mass_damping", analysis.mass_damping, range::not_negative);
+  table.read_number("stiffness_damping", analysis.stiffness_damping, range::not_negative);
+  table.read_choice("method", analysis.method, method_names);
+  read_factor_search(table.table_or_empty("safety"), "joints", analysis.safety);
+  read_factor_search(table.table_or_empty("capacity"), "blocks", analysis.capacity);
+  read_support_search(table.table_or_empty("movement"), analysis.movement);
+  table.read_bool("sleeping", analysis.sleeping);
+  table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
+}
+
+bool has_history(const SceneBlock& block) {
+  return std::any_of(block.fix.begin(), block.fix.end(),
+                     [](const SceneFix& fix) { return !fix.history.empty(); }) ||
+         std::any_of(block.load.begin(), block.load.end(),
+                     [](const SceneLoad& load) { return !load.history.empty(); });
+}
+
+/// A static analysis of constant loads does not need times. @param loads_change true if anything but gravity does
+void complete_times(TomlTableReader& table, SceneAnalysis& analysis, bool loads_change) {
+  const bool timeless = is_static(analysis) && analysis.gravity_history.empty() && !loads_change;
+  if (!timeless) {
+    // A stage inherits [analysis].
+    if (!(analysis.end_time > 0.0)) table.require("end_time");
+    if (!(analysis.time_step > 0.0)) table.require("time_step");
+    return;
+  }
+  if (!(analysis.end_time > 0.0)) analysis.end_time = std::max(default_static_end_time, analysis.time_step);
+  if (!(analysis.time_step > 0.0)) analysis.time_step = std::min(default_static_time_step, analysis.end_time);
+}
+
+/// @param law a SceneJointLaw or a SceneJoint
+template <class Law>
+void read_more_of_joint(TomlTableReader& table, Law& law) {
+  table.read_number("friction_angle_residual", law.friction_angle_residual, range::zero_to_below_90);
+  table.read_number("cohesion_residual", law.cohesion_residual, range::not_negative);
+  table.read_number("tensile_strength_residual", law.tensile_strength_residual, range::not_negative);
+  table.read_number("dilation_angle", law.dilation_angle, range::zero_to_below_90);
+  table.read_number("damping", law.damping, range::zero_to_one);
+}
+
+void read_contact(TomlTableReader table, SceneContact& contact) {
+  table.read_choice("springs", contact.springs, springs_names);
+  table.read_choice("surface", contact.surface, surface_names);
+  table.read_number_or_auto("normal_stiffness", contact.law.normal_stiffness, range::positive);
+  table.read_number_or_auto("shear_stiffness", contact.law.shear_stiffness, range::positive);
+  table.read_number("friction_angle", contact.law.friction_angle, range::zero_to_below_90);
+  table.read_number("cohesion", contact.law.cohesion, range::not_negative);
+  table.read_number("tensile_strength", contact.law.tensile_strength, range::not_negative);
+  read_more_of_joint(table, contact.law);
+  table.read_number_or_auto("distance", contact.distance, range::positive);
+  table.read_number_or_auto("angle", contact.angle, range::zero_to_45);
+  table.read_number_or_auto("chord_tolerance", contact.chord_tolerance, range::positive);
+  table.read_integer("subdivisions", contact.subdivisions, 0, 8);
+  bool augmented = false;
+  if (table.read_bool("augmented", augmented)) contact.augmented = augmented;
+  table.read_number_or_auto("penetration_tolerance", contact.penetration_tolerance, range::positive);
+  table.read_number_or_auto("allowed_depth", contact.allowed_depth, range::positive);
+  table.read_number("allowed_overlap", contact.allowed_overlap, range::not_negative);
+  table.refuse_former(
+      "fit",
+      "fit is no key any more, blocks stay as they are placed; allowed_overlap accepts blocks that "
+      "overlap by the errors of a survey");
+  if (contact.chord_tolerance && contact.subdivisions)
+    table.error_at_key("subdivisions",
+                       fmt::format("subdivisions beside chord_tolerance ({}), only one of both "
+                                   "is allowed",
+                                   *contact.subdivisions));
+}
+
+// Distinguishes "not given" from "auto" for the stiffness of a joint.
+void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::optional<double>>& result) {
+  std::optional<double> stiffness;
+  if (table.read_number_or_auto(key, stiffness, range::positive)) result.emplace(stiffness);
+}
+
+SceneJoint read_joint(TomlTableReader& table) {
+  SceneJoint joint;
+  std::vector<std::string> blocks;
+  if (!table.read_name("cut", joint.cut)) table.require("blocks");
+  if (!joint.cut.empty()) joint.blocks = {"*", "*"};
+  if (table.read_texts("blocks", blocks)) {
+    if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
+      table.error_at_value(
+          "blocks",
+          "joint names no block (\"\"), the name of a [[block]] or a glob that matches one is needed");
+    else if (blocks.size() == 2)
+      joint.blocks = {blocks[0], blocks[1]};
+    else
+      table.error_at_value("blocks", fmt::format("blocks has the wrong length ({} entries), two block names "
+                                                 "are needed",
+                                                 blocks.size()));
+  }
+  read_stiffness(table, "normal_stiffness", joint.normal_stiffness);
+  read_stiffness(table, "shear_stiffness", joint.shear_stiffness);
+  table.read_number("friction_angle", joint.friction_angle, range::zero_to_below_90);
+  table.read_number("cohesion", joint.cohesion, range::not_negative);
+  table.read_number("tensile_strength", joint.tensile_strength, range::not_negative);
+  read_more_of_joint(table, joint);
+  bool tied = false;
+  if (table.read_bool("tied", tied)) joint.tied = tied;
+  return joint;
+}
+
+SceneMaterial read_material(TomlTableReader& table) {
+  SceneMaterial material;
+  for (const char* key : {"name", "density", "young_modulus", "poisson_ratio"}) table.require(key);
+  table.read_name("name", material.name);
+  table.read_number("density", material.density, range::positive);
+  table.read_number("young_modulus", material.young_modulus, range::positive);
+  table.read_number("poisson_ratio", material.poisson_ratio, range::zero_to_below_half);
+  table.read_choice("elasticity", material.elasticity, elasticity_names);
+  return material;
+}
+
+SceneMeasure read_measure(TomlTableReader& table) {
+  SceneMeasure measure;
+  table.require("name");
+  table.read_name("name", measure.name);
+  std::vector<std::string> pair;
+  if (table.given("pair")) {
+    if (table.read_texts("pair", pair) && pair.size() == 2)
+      measure.pair = {pair[0], pair[1]};
+    else if (!pair.empty())
+      table.error_at_value(
+          "pair",
+          fmt::format("pair has the wrong length ({} entries), two block names are needed", pair.size()));
+    for (const char* key : {"block", "point"})
+      if (table.given(key))
+        table.error_at_key(key, fmt::format("{} beside pair (both given), only one of both is allowed", key));
+    return measure;
+  }
+  table.require("block");
+  table.read_name("block", measure.block);
+  if (table.given("point")) {
+    // Not finite until read, so that no later check applies to a missing point.
+    measure.point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
+    table.read_place("point", *measure.point);
+  }
+  return measure;
+}
+
+void read_output(TomlTableReader table, SceneOutput& output) {
+  const bool every_given = table.given("every"), interval_given = table.given("interval");
+  table.read_integer("every", output.every, 1, std::numeric_limits<int>::max());
+  table.read_number("interval", output.interval, range::positive);
+  if (every_given && interval_given)
+    table.error_at_key("interval", "interval beside every (both given), only one of both is allowed");
+  if (!every_given && !interval_given) output.every = default_frame_distance;
+  table.read_integer("history_every", output.history_every, 1, std::numeric_limits<int>::max());
+  table.read_bool("curved", output.curved);
+  table.read_bool("solid", output.solid);
+  std::vector<std::string> fields;
+  if (!table.read_words("fields", fields, field_names)) return;
+  for (const auto& [name, member] : field_names)
+    output.fields.*member = std::find(fields.begin(), fields.end(), name) != fields.end();
+}
+
+std::vector<std::string> read_stage_blocks(TomlTableReader& table) {
+  std::vector<std::string> blocks;
+  table.require("blocks");
+  table.read_texts("blocks", blocks);
+  return blocks;
+}
+
+/// @param base replaced key by key by the stage's `analysis`
+SceneStage read_stage(TomlTableReader& table, const SceneAnalysis& base) {
+  SceneStage stage;
+  table.require("name");
+  table.read_name("name", stage.name);
+  table.read_texts("remove", stage.remove);
+  table.read_texts("add", stage.add);
+  stage.fix = table.read_tables("fix", [](TomlTableReader& entry) {
+    return SceneStage::Fix{read_stage_blocks(entry), read_fix(entry)};
+  });
+  stage.load = table.read_tables("load", [](TomlTableReader& entry) {
+    return SceneStage::Load{read_stage_blocks(entry), read_load(entry)};
+  });
+  stage.joint = table.read_tables("joint", read_joint);
+  stage.material = table.read_tables("material", read_material);
+  table.read_bool("reset_displacement", stage.reset_displacement);
+  stage.analysis = base;
+  TomlTableReader analysis = table.table_or_empty("analysis");
+  read_analysis(analysis, stage.analysis);
+  const bool loads_change =
+      std::any_of(stage.fix.begin(), stage.fix.end(),
+                  [](const SceneStage::Fix& entry) { return !entry.fix.history.empty(); }) ||
+      std::any_of(stage.load.begin(), stage.load.end(),
+                  [](const SceneStage::Load& entry) { return !entry.load.history.empty(); });
+  complete_times(analysis, stage.analysis, loads_change);
+  return stage;
+}
+
+void read_tables(TomlTableReader top, Scene& scene) {
+  top.read_text("title", scene.title);
+  (void)top.given("parameters");  // read before all others
+  TomlTableReader analysis = top.table_or_empty("analysis");
+  read_analysis(analysis, scene.analysis);
+  read_contact(top.table_or_empty("contact"), scene.contact);
+  scene.joint = top.read_tables("joint", read_joint);
+  scene.material = top.read_tables("material", read_material);
+  scene.block = top.read_tables("block", read_block);
+  std::vector<std::vector<SceneBlock>> masonry = top.read_tables("masonry", read_masonry);
+  scene.assign = top.read_tables("assign", read_assignment);
+  scene.cut = top.read_tables("cut", read_cut);
+  scene.measure = top.read_tables("measure", read_measure);
+  read_output(top.table_or_empty("output"), scene.output);
+  if (top.given("include"))
+    top.error_at_key("include", "include cannot be set (include), files are read before anything is set");
+  const bool has_blocks = !scene.block.empty() || !masonry.empty();
+  expand_blocks(scene, std::move(masonry), top.reading().diagnostics());
+  // After the analysis is complete without stages.
+  scene.stage =
+      top.read_tables("stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
+  if (scene.stage.empty())
+    complete_times(analysis, scene.analysis,
+                   std::any_of(scene.block.begin(), scene.block.end(), has_history));
+  else
+    scene.analysis = scene.stage.front().analysis;
+  if (!has_blocks) top.error_at_table("no block (0), at least one [[block]] is needed");
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
+  Scene scene;
+  scene.file = file;
+  const Place start{file.string(), 1, 1};
+  scene.places.record("", {start, start});
+  try {
+    auto [document, files] = parse_document(text, start.origin, diagnostics);
+    apply_overrides(document, overrides, diagnostics);
+    TomlReading reading(std::move(files), diagnostics, scene.places);
+    reading.set_formulas(read_parameters(document, reading));
+    read_tables(TomlTableReader(reading, document, "", ""), scene);
+    reading.report_unknown_keys();
+  } catch (const toml::parse_error& error) {
+    const toml::source_position& position = error.source().begin;
+    diagnostics.error({start.origin, static_cast<int>(position.line), static_cast<int>(position.column)},
+                      malformed_toml(text, error));
+  }
+  return scene;
+}
+
+void record_keys(std::string_view text, KeyRecorder& recorder) {
+  Scene scene;
+  Diagnostics ignored;
+  auto [document, files] = parse_document(text, "schema", ignored);
+  TomlReading reading(std::move(files), ignored, scene.places);
+  reading.record_keys(recorder);
+  read_tables(TomlTableReader(reading, document, "", ""), scene);
+}
+
+/// Text of a scene file, which may be a pipe. @throws std::runtime_error with the reason alone
+static std::string scene_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) throw std::runtime_error("is a folder");
+  // Some devices are unbounded.
+  if (std::filesystem::is_character_file(file, ignored)) throw std::runtime_error("is a device");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(std::strerror(errno));
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  if (!ignored && size > most_input_bytes) throw std::runtime_error(too_large(size));
+  return whole_stream(stream, most_input_bytes);
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 Diagnostics& diagnostics) {
+  const bool from_input = file == "-";
+  const std::filesystem::path name = from_input ? "(standard input)" : file;
+  std::string text;
+  try {
+    text = from_input ? whole_stream(std::cin, most_input_bytes) : scene_text(file);
+    if (from_input && text.empty()) throw std::runtime_error("standard input is empty or closed");
+  } catch (const std::runtime_error& reason) {
+    diagnostics.error({name.string(), 1, 1},
+                      fmt::format("scene {}cannot be read ({}), a {} is needed", from_input ? "" : "file ",
+                                  fault_text(reason), from_input ? "scene" : "readable TOML file"));
+    if (from_input) return parse_scene("", name, overrides, diagnostics);
+    Scene none;
+    none.file = file;
+    return none;
+  }
+  return parse_scene(text, name, overrides, diagnostics);
+}
+
+}  // namespace ashlar
