@@ -16,6 +16,7 @@
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
+#include "solver/step/accepted_bolts.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
@@ -83,6 +84,12 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
   state_.pairs.clear();
   for (const auto& [blocks, deepest] : placed)
     if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
+}
+
+void Simulation::add_bolts(std::vector<Bolt> bolts) {
+  system_.set_bolts(std::move(bolts));
+  state_.ledger.springs_hold(install_bolts(system_, state_));
+  state_.ledger.start(system_, state_.states);
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {

@@ -31,6 +31,10 @@ class WayOn {
       ways_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
       goes_[k] = !held[k] && lacks_the_same(scheme, k);
     }
+    // A slack bolt may become taut on the way.
+    for (const Island& island : problem.islands)
+      if (!island.bolts.empty())
+        for (const int block : island.bodies) goes_[at(block)] = false;
   }
 
   [[nodiscard]] bool any() const { return std::find(goes_.begin(), goes_.end(), true) != goes_.end(); }
