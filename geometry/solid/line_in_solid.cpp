@@ -1,5 +1,6 @@
 #include "geometry/solid/line_in_solid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 

@@ -17,6 +17,7 @@
 #include "solver/statics/static_start.hpp"
 #include "solver/statics/static_step.hpp"
 #include "solver/statics/static_verdict.hpp"
+#include "solver/step/accepted_bolts.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/sleeping_islands.hpp"
 
@@ -89,6 +90,12 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
 void Simulation::start_stressed() {
   for (auto& [blocks, memory] : contacts_under_stress(system_, state_))
     state_.pairs[blocks].memory = std::move(memory);
+}
+
+void Simulation::add_bolts(std::vector<Bolt> bolts) {
+  system_.set_bolts(std::move(bolts));
+  state_.ledger.springs_hold(install_bolts(system_, state_));
+  state_.ledger.start(system_, state_.states);
 }
 
 std::vector<int> Simulation::settle_supported_blocks() {

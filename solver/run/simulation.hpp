@@ -57,6 +57,10 @@ class Simulation {
   /// not store their initial places
   void start_overlapping(const std::map<PairKey, double>& depths);
 
+  /// Adds bolts and props, those that are installed without forces but for their pretension, in the present state. To
+  /// be called once, before the first step. @throws std::invalid_argument if a block of a bolt is incremental
+  void add_bolts(std::vector<Bolt> bolts);
+
   /// Moves every block whose supports prevent all rigid motions to its equilibrium under gravity and the loads at
   /// time 0, at rest, without contacts. To be called before the first step. Incremental blocks get there in at most
   /// settings.settling_steps steps. @return the blocks in equilibrium
@@ -128,6 +132,8 @@ class Simulation {
   [[nodiscard]] const StepReport& report() const { return state_.report; }
   [[nodiscard]] const std::vector<PairRecord>& contacts() const { return state_.records; }
   [[nodiscard]] const PairHistories& histories() const { return state_.pairs; }
+  /// By bolt of system().
+  [[nodiscard]] const std::vector<BoltState>& bolts() const { return state_.bolts; }
   [[nodiscard]] const Ledger& ledger() const { return state_.ledger.ledger(); }
   /// Largest change of the residual in one step and largest energy so far, J.
   [[nodiscard]] double largest_step_residual() const { return state_.ledger.largest_step_residual(); }

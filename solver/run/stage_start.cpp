@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/index.hpp"
+#include "solver/step/accepted_bolts.hpp"
 
 namespace ashlar {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 /// True if the snapshot fits blocks with these numbers of functions.
 bool fits(const RunContext& run, const SimulationSnapshot& end, const std::vector<bool>& was_absent) {
   const std::vector<BlockState>& states = end.run.states;
+  if (end.run.bolts.size() != run.state.bolts.size()) return false;
   bool same = states.size() == run.blocks().size() && was_absent.size() == states.size();
   for (int k = 0; same && k < run.system.count(); ++k)
     same = states[at(k)].position.rows() == run.state.states[at(k)].position.rows() &&
@@ -52,6 +54,10 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     for (const PointResponse& response : record.responses) in_springs += response.energy();
     state.records.push_back(std::move(record));
   }
+  // Those of this stage are installed where the blocks are now.
+  state.bolts = end.run.bolts;
+  commit_bolts(state);
+  in_springs += install_bolts(run.system, state);
   state.steps = end.run.steps;
   state.remembers_statics = true;
   state.report = end.run.report;

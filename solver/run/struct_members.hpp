@@ -107,17 +107,40 @@ void with_many_members(Struct& object, Visit& visit) {
   }
 }
 
+/// with_members() of 17 to 20 members.
+template <std::size_t count, class Struct, class Visit>
+void with_most_members(Struct& object, Visit& visit) {
+  if constexpr (count == 17) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = object;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+  }
+  if constexpr (count == 18) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = object;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  }
+  if constexpr (count == 19) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = object;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+  }
+  if constexpr (count == 20) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = object;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
+  }
+}
+
 /// Calls visit(first, second, ...) with all members of a plain struct, in the order of their declaration.
 template <class Struct, class Visit>
 void with_members(Struct& object, Visit&& visit) {
   using Plain = std::remove_const_t<Struct>;
   static_assert(std::is_aggregate_v<Plain>, "a class that is no plain struct needs its own visit_members()");
   constexpr std::size_t count = count_members<Plain>();
-  static_assert(count >= 1 && count <= 16, "a struct of at most 16 members can be stored: group some");
+  static_assert(count >= 1 && count <= 20, "a struct of at most 20 members can be stored: group some");
   if constexpr (count <= 8) {
     with_few_members<count>(object, visit);
-  } else {
+  } else if constexpr (count <= 16) {
     with_many_members<count>(object, visit);
+  } else {
+    with_most_members<count>(object, visit);
   }
 }
 

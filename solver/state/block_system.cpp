@@ -72,6 +72,14 @@ BlockSystem::BlockSystem(std::vector<BlockModel> blocks, LawOfPair law, const Si
   std::erase_if(free_bodies_, [this](const std::vector<int>& body) { return !present(body.front()); });
 }
 
+void BlockSystem::set_bolts(std::vector<Bolt> bolts) {
+  for (const Bolt& bolt : bolts)
+    for (const BoltSpan& piece : bolt.chain.shape().pieces())
+      if (blocks_.at(at(piece.block)).incremental() != nullptr)
+        throw std::invalid_argument("incremental blocks do not tell where a bolt was placed");
+  bolts_ = std::move(bolts);
+}
+
 bool BlockSystem::is_tied(int block) const {
   return std::any_of(ties_.begin(), ties_.end(),
                      [&](const TiedBlocks& tie) { return tie.a == block || tie.b == block; });

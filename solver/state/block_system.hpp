@@ -12,6 +12,7 @@
 #include "mechanics/block/block_model.hpp"
 #include "mechanics/contact/joint_law.hpp"
 #include "mechanics/contact/tie.hpp"
+#include "solver/bolts/bolt.hpp"
 #include "solver/settings.hpp"
 
 namespace ashlar {
@@ -53,6 +54,10 @@ class BlockSystem {
   [[nodiscard]] JointLaw law(int a, int b) const { return law_(a, b); }
   [[nodiscard]] const SimulationSettings& settings() const { return settings_; }
   [[nodiscard]] const std::vector<TiedBlocks>& ties() const { return ties_; }
+  /// Bolts and props of all stages.
+  [[nodiscard]] const std::vector<Bolt>& bolts() const { return bolts_; }
+  /// @throws std::invalid_argument if a block of a bolt is incremental
+  void set_bolts(std::vector<Bolt> bolts);
   [[nodiscard]] bool is_tied(int block) const;
   [[nodiscard]] bool are_tied(int a, int b) const;
   /// Pairs without contact search, the lower block first.
@@ -92,6 +97,7 @@ class BlockSystem {
   LawOfPair law_;
   SimulationSettings settings_;
   std::vector<TiedBlocks> ties_;
+  std::vector<Bolt> bolts_;
   std::set<std::array<int, 2>> left_out_;
   std::vector<std::vector<int>> free_bodies_;
   std::vector<double> roundoff_force_;

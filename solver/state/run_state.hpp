@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
+#include "solver/bolts/bolt.hpp"
 #include "solver/contact/contact_finder.hpp"
 #include "solver/contact/depth_audit.hpp"
 #include "solver/contact/pair_history.hpp"
@@ -150,6 +151,7 @@ struct RunState {
   std::vector<double> spin_debts;
   PairHistories pairs;
   KnownDepths depths;
+  std::vector<BoltState> bolts;  ///< by bolt of the system
   StaticState statics;
   Sleep sleep;
   LedgerKeeper ledger;

@@ -35,6 +35,10 @@ class MotionExtrapolation {
       displacements_[k] = mean_motion(*body.model, body.motion()) / block_size(*body.model);
       goes_[k] = !held[k] && residual_is_constant(scheme, k);
     }
+    // A slack bolt may become taut on the way.
+    for (const Island& island : problem.islands)
+      if (!island.bolts.empty())
+        for (const int block : island.bodies) goes_[at(block)] = false;
   }
 
   [[nodiscard]] bool any() const { return std::find(goes_.begin(), goes_.end(), true) != goes_.end(); }

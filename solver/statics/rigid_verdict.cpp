@@ -91,6 +91,10 @@ StaticStatus verdict_on_level(const RunContext& run, StaticStatus status) {
 }  // namespace
 
 StaticStatus rigid_verdict(const RunContext& run, double end_time, StaticStatus status) {
+  // The rigid model has no bolts.
+  if (std::any_of(run.state.bolts.begin(), run.state.bolts.end(),
+                  [](const BoltState& bolt) { return bolt.installed(); }))
+    return status;
   if (!can_tell(run, end_time)) return verdict_on_level(run, status);
   if (status == StaticStatus::equilibrium && !is_where_placed(run)) return status;
   const RunState placed = as_placed(run);

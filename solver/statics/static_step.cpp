@@ -11,6 +11,7 @@
 #include "geometry/index.hpp"
 #include "solver/statics/certain_motion.hpp"
 #include "solver/statics/static_verdict.hpp"
+#include "solver/step/accepted_bolts.hpp"
 #include "solver/step/accepted_step.hpp"
 #include "solver/step/end_state.hpp"
 #include "solver/step/step_problem.hpp"
@@ -76,6 +77,7 @@ void start_load_level(const RunContext& run, double end_time) {
   statics.progress.forces.assign(run.blocks().size(), std::numeric_limits<double>::infinity());
   statics.progress.travels.assign(run.blocks().size(), 0.0);
   for (auto& [blocks, pair] : run.state.pairs) pair.memory.start_level();
+  commit_bolts(run.state);
   statics.freezes_failure = true;
   forget_accelerations(run);
 }
@@ -195,8 +197,9 @@ class StaticIteration {
     } else if (!cut_) {
       statics.inertia = std::max(0.1 * scheme.inertia, least_);
     }
+    const bool ruptured = (balanced || has_set_off(run_)) && rupture_bolts(run_);
     const bool still =
-        balanced && (scheme.inertia <= least_ || least_ == 0.0) &&
+        balanced && !ruptured && (scheme.inertia <= least_ || least_ == 0.0) &&
         (before == contact_states(run_.state.report) || motion <= run_.settings().statics.stillness);
     if (still && !repeat) ++statics.multiplier_iterations;
     const bool settled =
@@ -251,8 +254,10 @@ std::vector<std::vector<int>> loose_blocks(const RunContext& run) {
   const std::vector<ContactPair> pairs = run.contacts.pairs(
       run.system, run.state, run.contacts.detect(run.system, run.state, 0.0), PairUse::statics);
   std::vector<std::vector<int>> loose;
-  for (const Island& island : find_islands(run.system.moving(), pairs)) {
-    bool held = island.pairs.empty() && run.blocks()[at(island.bodies.front())].space().held();
+  const std::vector<StepBolt> bolts = step_bolts(run.system.bolts(), run.state.bolts, run.blocks(),
+                                                 run.state.states, run.system.moving());
+  for (const Island& island : find_islands(run.system.moving(), pairs, bolts)) {
+    bool held = island.pairs.empty() && island.bodies.size() == 1 && run.blocks()[at(island.bodies.front())].space().held();
     for (const int index : island.pairs) {
       const ContactPair& pair = pairs[at(index)];
       for (const int block : {pair.a(), pair.b()}) {
@@ -260,6 +265,9 @@ std::vector<std::vector<int>> loose_blocks(const RunContext& run) {
         held = held || model.fixed() || model.supported();
       }
     }
+    for (const StepBolt* bolt : island.bolts)
+      for (const int block : bolt->blocks())
+        held = held || run.blocks()[at(block)].fixed() || run.blocks()[at(block)].supported();
     if (!held) loose.push_back(island.bodies);
   }
   return loose;

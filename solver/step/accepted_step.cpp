@@ -9,6 +9,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/contact/contact_accounts.hpp"
+#include "solver/step/accepted_bolts.hpp"
 #include "solver/step/angular_momentum.hpp"
 #include "solver/step/applied_force.hpp"
 #include "solver/step/block_changes.hpp"
@@ -118,6 +119,12 @@ void keep_angular_momentum(const RunContext& run, const TimeScheme& scheme, cons
       const PairResponse& response = problem.results[i].responses[n];
       if (run.system.moving()[at(pair.a())]) forces[at(pair.a())] += response.total_on_a();
       if (run.system.moving()[at(pair.b())]) forces[at(pair.b())] += response.total_on_b();
+    }
+    for (std::size_t n = 0; n < problem.islands[i].bolts.size(); ++n) {
+      const std::vector<int>& held = problem.islands[i].bolts[n]->blocks();
+      for (std::size_t k = 0; k < held.size(); ++k)
+        if (run.system.moving()[at(held[k])])
+          forces[at(held[k])] += problem.results[i].bolts[n].response.on_blocks[k];
     }
   }
   std::vector<double>& debts = run.state.spin_debts;
@@ -352,6 +359,11 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
                bulges.of(pair.a()) + bulges.of(pair.b()));
     }
   }
+  const BoltEnergies bolts = take_over_bolts(run, scheme, problem);
+  potential.work += bolts.work;
+  potential.change += bolts.gained;
+  friction += bolts.dissipated;
+  held_by_all += bolts.held;
   ledger.springs_hold(held_by_all);
   ledger.sliding_took(friction);
   ledger.damping_took(damped);

@@ -16,6 +16,11 @@ ContactLine::ContactLine(const IslandProblem& problem, const Eigen::VectorXd& ch
     line.start =
         pair.places(problem.block(pair.a()).change, problem.block(pair.b()).change) - share * line.way;
   });
+  const IslandBolts& bolts = problem.bolts();
+  for (std::size_t k = 0; k < bolts.size(); ++k) {
+    const Eigen::VectorXd way = bolts.bolt(k).motion(bolts.changes(k, changes));
+    bolts_.push_back({bolts.bolt(k).deformation(bolts.changes(k)) - share * way, way});
+  }
 }
 
 double ContactLine::work(double share) const {
@@ -31,7 +36,13 @@ double ContactLine::work(double share) const {
           problem_.pair(k).respond(point, place, averaged, laws[point]).mean.force.dot(way.col(column));
     }
   });
-  return std::accumulate(by_pair.begin(), by_pair.end(), 0.0);
+  double of_bolts = 0.0;
+  for (std::size_t k = 0; k < bolts_.size(); ++k)
+    of_bolts -= problem_.bolts()
+                    .bolt(k)
+                    .force(bolts_[k].start + share * bolts_[k].way, averaged)
+                    .dot(bolts_[k].way);
+  return std::accumulate(by_pair.begin(), by_pair.end(), of_bolts);
 }
 
 }  // namespace ashlar

@@ -14,7 +14,7 @@ class ContactLine {
   /// @param change of the unknowns in the island's equations. @param share of the change in the present guess
   ContactLine(const IslandProblem& problem, const Eigen::VectorXd& change, double share);
 
-  /// Work of all points per share, J. Excludes forces of blocks, inertia and shifts to common points. The sum does
+  /// Work of all points per share, J. Includes bolts, excludes forces of blocks, inertia and shifts to common points. The sum does
   /// not depend on the number of threads.
   [[nodiscard]] double work(double share) const;
 
@@ -25,8 +25,15 @@ class ContactLine {
     Eigen::Matrix3Xd way;    ///< change over the whole step of the line
   };
 
+  /// Deformation of a bolt, m.
+  struct BoltLine {
+    Eigen::VectorXd start;
+    Eigen::VectorXd way;
+  };
+
   const IslandProblem& problem_;
   std::vector<PairLine> lines_;  ///< by pair
+  std::vector<BoltLine> bolts_;  ///< by bolt
 };
 
 }  // namespace ashlar

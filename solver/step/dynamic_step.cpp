@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/step/accepted_bolts.hpp"
 #include "solver/step/accepted_step.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/end_state.hpp"
@@ -152,6 +153,7 @@ StepStatus take_step(const RunContext& run, double end_time) {
   if (run.settings().integrator == Integrator::generalized_alpha && run.state.accelerations.empty())
     run.state.accelerations = smooth_accelerations(run.system, run.state);
   wake_for_loads(run, step);
+  commit_bolts(run.state);
   return DynamicStep(run, step).run();
 }
 

@@ -1,6 +1,7 @@
 #include "solver/step/island.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "geometry/index.hpp"
@@ -115,10 +116,20 @@ Eigen::MatrixX3d BodyStep::internal_force(const TimeScheme& scheme) const {
   return elastic.force + scheme.stiffness_share * (elastic.force - start_force * frame.transpose());
 }
 
-std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs) {
+std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vector<ContactPair>& pairs,
+                                 const std::vector<StepBolt>& bolts) {
   UnionFind meeting(moving.size());
   for (const ContactPair& pair : pairs)
     if (moving[at(pair.a())] && moving[at(pair.b())]) meeting.unite(pair.a(), pair.b());
+  std::vector<int> block_of_bolt;  // one that moves; -1: none
+  for (const StepBolt& bolt : bolts) {
+    int& first = block_of_bolt.emplace_back(-1);
+    for (const int block : bolt.blocks()) {
+      if (!moving[at(block)]) continue;
+      if (first >= 0) meeting.unite(first, block);
+      first = block;
+    }
+  }
   std::vector<Island> islands;
   std::map<int, std::size_t> island_of_root;
   for (int block = 0; block < static_cast<int>(moving.size()); ++block) {
@@ -131,6 +142,9 @@ std::vector<Island> find_islands(const std::vector<bool>& moving, const std::vec
     const int block = moving[at(pairs[k].a())] ? pairs[k].a() : pairs[k].b();
     islands[island_of_root.at(meeting.find(block))].pairs.push_back(static_cast<int>(k));
   }
+  for (std::size_t k = 0; k < bolts.size(); ++k)
+    if (block_of_bolt[k] >= 0)
+      islands[island_of_root.at(meeting.find(block_of_bolt[k]))].bolts.push_back(&bolts[k]);
   return islands;
 }
 
@@ -187,6 +201,21 @@ IslandSolvers::Entry& solver_of(const Island& island, const std::vector<BodyStep
     if (a == place.end() || b == place.end()) continue;
     links.push_back({a->second, b->second});
     key.insert(key.end(), {a->second, b->second});
+  }
+  if (!island.bolts.empty()) {
+    std::set<std::array<int, 2>> known(links.begin(), links.end());
+    for (const StepBolt* bolt : island.bolts) {
+      std::vector<int> ends;  // increasing, as the blocks are
+      for (const int block : bolt->blocks())
+        if (const auto end = place.find(block); end != place.end()) ends.push_back(end->second);
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        for (std::size_t j = i + 1; j < ends.size(); ++j) {
+          if (!known.insert({ends[i], ends[j]}).second) continue;
+          links.push_back({ends[i], ends[j]});
+          key.insert(key.end(), {ends[i], ends[j]});
+        }
+      }
+    }
   }
   return solvers.find(key, sizes, links);
 }

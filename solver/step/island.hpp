@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/bolts/step_bolt.hpp"
 #include "solver/contact/contact_pair.hpp"
 #include "solver/linear/block_matrix.hpp"
 #include "solver/settings.hpp"
@@ -59,6 +60,13 @@ struct BodyStep {
   [[nodiscard]] Eigen::MatrixX3d internal_force(const TimeScheme& scheme) const;
 };
 
+/// A bolt's forces over a step and their work, J.
+struct BoltResult {
+  StepBoltResponse response;
+  double work;             ///< on all blocks
+  double prescribed_work;  ///< part of it on moving supports
+};
+
 /// Result of one island.
 struct IslandResult {
   IslandStatus status = IslandStatus::converged;
@@ -66,6 +74,7 @@ struct IslandResult {
   int fallbacks = 0;                        ///< times the fallback was needed
   std::vector<PairResponse> responses;      ///< of the island's pairs, at the end of the step
   std::vector<std::vector<PointLaw>> laws;  ///< of their points: broken joints, multipliers
+  std::vector<BoltResult> bolts;            ///< of the island's bolts
   /// Pairs whose rows were updated, by index. The responses belong to them.
   std::vector<std::pair<int, ContactPair>> followed;
   /// If not converged: blocks of the pair whose points have changed state most often; -1: none did
@@ -116,11 +125,14 @@ class IslandSolvers {
 struct Island {
   std::vector<int> bodies;  ///< increasing block indices
   std::vector<int> pairs;   ///< indices of contact pairs
+  std::vector<const StepBolt*> bolts = {};  ///< of the step
 };
 
 /// Islands of moving blocks; fixed blocks join nothing. @param moving (#blocks)
+/// @param bolts must outlive the islands
 [[nodiscard]] std::vector<Island> find_islands(const std::vector<bool>& moving,
-                                               const std::vector<ContactPair>& pairs);
+                                               const std::vector<ContactPair>& pairs,
+                                               const std::vector<StepBolt>& bolts = {});
 
 /// @throws std::logic_error unless each moving block is in one island, in order, and each pair of contacts or
 /// ties in that of its moving blocks

@@ -8,13 +8,27 @@
 #include "solver/parallel_for.hpp"
 
 namespace ashlar {
+namespace {
+
+std::vector<int> places_of(const Island& island, std::size_t blocks) {
+  std::vector<int> place(blocks, -1);
+  for (std::size_t k = 0; k < island.bodies.size(); ++k) place[at(island.bodies[k])] = static_cast<int>(k);
+  return place;
+}
+
+}  // namespace
 
 IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies,
                              const std::vector<ContactPair>& pairs, const TimeScheme& scheme,
                              const SimulationSettings& settings, IslandSolvers::Entry& solver)
-    : island_(island), bodies_(bodies), pairs_(pairs), settings_(settings), scheme_(scheme), solver_(solver) {
-  std::vector<int> place(bodies.size(), -1);
-  for (std::size_t k = 0; k < island.bodies.size(); ++k) place[at(island.bodies[k])] = static_cast<int>(k);
+    : island_(island),
+      bodies_(bodies),
+      pairs_(pairs),
+      settings_(settings),
+      scheme_(scheme),
+      solver_(solver),
+      bolts_(island, bodies, places_of(island, island.bolts.empty() ? 0 : bodies.size())) {
+  const std::vector<int> place = places_of(island, bodies.size());
   for (const int pair : island.pairs) {
     laws_.push_back(pairs[at(pair)].laws());
     places_.push_back({place[at(pairs[at(pair)].a())], place[at(pairs[at(pair)].b())]});
@@ -63,6 +77,7 @@ void IslandProblem::respond() {
     one.respond(bodies_[at(one.a())].change, bodies_[at(one.b())].change, scheme_.mean_contacts, laws_[k],
                 responses_[k]);
   });
+  bolts_.respond(scheme_.mean_contacts, bolts_.size() < 32 ? 1 : settings_.threads);
 }
 
 void IslandProblem::add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const {
@@ -87,6 +102,18 @@ void IslandProblem::add_contacts(Residual& residual, std::vector<ForceErrors>& e
       if (body < 0) continue;
       errors[at(body)].rounding += of_pairs[k].rounding;
       errors[at(body)].in_doubt += of_pairs[k].in_doubt;
+    }
+  }
+}
+
+void IslandProblem::add_bolts(Residual& residual, std::vector<ForceErrors>& errors) const {
+  for (std::size_t k = 0; k < bolts_.responses().size(); ++k) {
+    const double rounding = bolts_.bolt(k).force_rounding(bolts_.responses()[k]);
+    for (std::size_t n = 0; n < bolts_.places(k).size(); ++n) {
+      const int body = bolts_.places(k)[n];
+      if (body < 0) continue;
+      add_force(residual, body, bolts_.responses()[k].on_blocks[n]);
+      errors[at(body)].rounding += rounding;
     }
   }
 }
@@ -133,6 +160,7 @@ Residual IslandProblem::residual() const {
   });
   std::vector<ForceErrors> errors(bodies);
   add_contacts(result, errors);
+  add_bolts(result, errors);
   judge(result, errors);
   return result;
 }
@@ -203,7 +231,7 @@ void IslandProblem::set_guess(const std::vector<Eigen::VectorXd>& guess) {
 }
 
 Evaluation IslandProblem::set_aside() {
-  Evaluation result{guess(), {}, std::move(responses_)};
+  Evaluation result{guess(), {}, std::move(responses_), bolts_.set_aside()};
   for (const int index : island_.bodies) result.elastic.push_back(std::move(bodies_[at(index)].elastic));
   responses_.clear();
   return result;
@@ -212,6 +240,7 @@ Evaluation IslandProblem::set_aside() {
 void IslandProblem::take_back(Evaluation evaluation) {
   set_guess(evaluation.guess);
   responses_ = std::move(evaluation.responses);
+  bolts_.take_back(std::move(evaluation.bolts));
   for (std::size_t k = 0; k < island_.bodies.size(); ++k)
     bodies_[at(island_.bodies[k])].elastic = std::move(evaluation.elastic[k]);
 }
@@ -271,7 +300,7 @@ double IslandProblem::left_out(std::size_t k) const {
 }
 
 bool IslandProblem::follow_contacts(double tolerance) {
-  bool any = false;
+  bool any = bolts_.follow(tolerance);
   for (std::size_t k = 0; k < pairs(); ++k) {
     if (pair(k).tied() || !(left_out(k) > tolerance)) continue;
     const BodyStep& a = bodies_[at(pair(k).a())];
@@ -286,6 +315,11 @@ bool IslandProblem::follow_contacts(double tolerance) {
 
 void IslandProblem::hand_over(IslandResult& result) {
   for (auto& [k, pair] : replaced_) result.followed.emplace_back(island_.pairs[k], std::move(pair));
+  for (std::size_t k = 0; k < bolts_.responses().size(); ++k) {
+    const StepBoltResponse& response = bolts_.responses()[k];
+    result.bolts.push_back({response, bolts_.bolt(k).work(response, bolts_.changes(k)),
+                            bolts_.bolt(k).prescribed_work(response)});
+  }
   result.responses = std::move(responses_);
   result.laws = std::move(laws_);
 }

@@ -8,6 +8,7 @@
 
 #include "geometry/index.hpp"
 #include "solver/step/island.hpp"
+#include "solver/step/island_bolts.hpp"
 
 namespace ashlar {
 
@@ -33,6 +34,7 @@ struct Evaluation {
   std::vector<Eigen::VectorXd> guess;    ///< by body
   std::vector<ElasticResponse> elastic;  ///< by body
   std::vector<PairResponse> responses;   ///< by pair
+  std::vector<StepBoltResponse> bolts;   ///< by bolt
 };
 
 /// Motion of a body that the iteration of a step starts from.
@@ -95,6 +97,7 @@ class IslandProblem {
   /// Gaps of a pair's points at the present guess, m.
   [[nodiscard]] std::vector<double> gaps(std::size_t pair) const;
   [[nodiscard]] const std::vector<PairResponse>& responses() const { return responses_; }
+  [[nodiscard]] const IslandBolts& bolts() const { return bolts_; }
   [[nodiscard]] std::vector<std::vector<PointLaw>>& laws() { return laws_; }
   [[nodiscard]] const std::vector<std::vector<PointLaw>>& laws() const { return laws_; }
   [[nodiscard]] const TimeScheme& scheme() const { return scheme_; }
@@ -110,6 +113,7 @@ class IslandProblem {
  private:
   /// Adds forces of pairs to a residual. @param errors by body: rounding error and force within rounding error, N
   void add_contacts(Residual& residual, std::vector<ForceErrors>& errors) const;
+  void add_bolts(Residual& residual, std::vector<ForceErrors>& errors) const;
   /// Adds the force on a body's unknowns to a residual.
   void add_force(Residual& residual, int place, const Eigen::VectorXd& on_unknowns) const;
   /// Residual of each body relative to its tolerance.
@@ -137,6 +141,7 @@ class IslandProblem {
   std::map<std::size_t, ContactPair> replaced_;
   std::map<std::size_t, Followed> followed_;
   std::vector<PairResponse> responses_;
+  IslandBolts bolts_;
   std::vector<std::vector<PointLaw>> laws_;
 };
 

@@ -63,6 +63,7 @@ void IslandTangent::assemble(bool positive) {
     if (b >= 0) matrix.add_diagonal(b, tangent.bb);
     if (a >= 0 && b >= 0) matrix.add_pair(a, b, tangent.ab);
   }
+  problem_.bolts().add_tangents(matrix);
   assembled_ = true;
 }
 
@@ -131,7 +132,7 @@ void IslandTangent::add_blocks(const Eigen::VectorXd& x, Eigen::VectorXd& force)
   }
 }
 
-void IslandTangent::add_pairs(std::vector<PairProduct>& products, const Eigen::VectorXd& x,
+void IslandTangent::add_pairs(std::vector<PairProduct>& products, bool with_bolts, const Eigen::VectorXd& x,
                               Eigen::VectorXd& force) const {
   const auto equations = [&](auto& of_island, std::size_t k) {
     return of_island.segment(solver_.matrix.offset(static_cast<int>(k)), problem_.body(k).model->freedom());
@@ -160,6 +161,7 @@ void IslandTangent::add_pairs(std::vector<PairProduct>& products, const Eigen::V
     if (a >= 0) forces[at(a)] += one.on_a;
     if (b >= 0) forces[at(b)] += one.on_b;
   }
+  if (with_bolts) problem_.bolts().add_products(changes, forces);
   for (std::size_t k = 0; k < problem_.bodies(); ++k)
     equations(force, k) += problem_.body(k).in_equations(forces[k]);
 }
@@ -186,7 +188,7 @@ Eigen::VectorXd IslandTangent::solve_with_old(const Eigen::VectorXd& right_side,
   const auto preconditioned = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = assembled_ ? times(solver_.matrix.matrix(), x) : Eigen::VectorXd::Zero(x.size());
     if (!assembled_) add_blocks(x, force);
-    add_pairs(products, x, force);
+    add_pairs(products, !assembled_, x, force);
     return solver_.factor->solve(force, false);
   };
   const KrylovSolution found = gmres(preconditioned, solver_.factor->solve(right_side, false),
@@ -209,7 +211,7 @@ Eigen::VectorXd IslandTangent::solve(const Eigen::VectorXd& right_side, bool cou
   if (couplings.empty()) return solver_.factor->solve(right_side);
   const auto with_couplings = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(x.size());
-    add_pairs(couplings, x, force);
+    add_pairs(couplings, false, x, force);
     return x + solver_.factor->solve(force, false);
   };
   const IterationSettings& settings = problem_.settings().iteration;

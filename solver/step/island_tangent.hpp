@@ -54,8 +54,10 @@ class IslandTangent {
   /// Products of pairs that have stiffnesses. @param stiffnesses of the points of a pair, without columns: none
   [[nodiscard]] std::vector<PairProduct> products_of(
       const std::function<PointStiffnesses(std::size_t pair)>& stiffnesses) const;
-  /// Adds products of the stiffnesses of contact points and a change. @param x (equations)
-  void add_pairs(std::vector<PairProduct>& products, const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
+  /// Adds products of the stiffnesses of contact points and a change. @param with_bolts those of bolts too
+  /// @param x (equations)
+  void add_pairs(std::vector<PairProduct>& products, bool with_bolts, const Eigen::VectorXd& x,
+                 Eigen::VectorXd& force) const;
   /// Solves with an old factor. @return empty if it no longer preconditions the system
   [[nodiscard]] Eigen::VectorXd solve_with_old(const Eigen::VectorXd& right_side, bool coupled) const;
 

@@ -65,6 +65,7 @@ void put_to_sleep(const RunContext& run, const StepProblem& problem, std::size_t
   SleepingIsland sleeping{problem.islands[island].bodies, 0.0};
   for (const PairResponse& response : problem.results[island].responses)
     sleeping.held += ContactPair::energies(response).total();
+  for (const BoltResult& bolt : problem.results[island].bolts) sleeping.held += bolt.response.end.stored;
   for (const int block : sleeping.blocks) {
     BlockState& state = run.state.states[at(block)];
     run.state.ledger.integrator_took(run.blocks()[at(block)].kinetic_energy(state));

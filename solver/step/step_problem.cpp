@@ -46,7 +46,7 @@ std::vector<IslandResult> solve_islands(StepProblem& problem, const TimeScheme& 
   for (std::size_t k = 0; k < results.size(); ++k) {
     const Island& island = problem.islands[k];
     std::optional<IslandResult> lone;
-    if (island.bodies.size() == 1 && island.pairs.empty())
+    if (island.bodies.size() == 1 && island.pairs.empty() && island.bolts.empty())
       lone = solve_lone_body(problem.bodies[at(island.bodies[0])], scheme, settings, factors.lone);
     if (lone) {
       results[k] = std::move(*lone);
@@ -74,7 +74,9 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   for (IslandResult& result : problem.results) swap_followed(result);
   problem.results.clear();
   const SimulationSettings& settings = system.settings();
-  problem.islands = find_islands(system.moving(), problem.pairs);
+  problem.bolts =
+      step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
+  problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
   validate(problem.islands, system.moving(), problem.pairs);
   problem.bodies = prepare_bodies(system, state, scheme);
   for (ContactPair& pair : problem.pairs) {
@@ -82,6 +84,8 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
                     {problem.bodies[at(pair.a())].prescribed, problem.bodies[at(pair.b())].prescribed,
                      scheme.from_rest ? 0.0 : scheme.step, settings.augmented});
   }
+  for (StepBolt& bolt : problem.bolts)
+    bolt.prescribe([&](int block) { return problem.bodies[at(block)].prescribed; });
   problem.results = solve_islands(problem, scheme, settings, factors);
   SimulationCounts& counts = state.log.counts;
   IslandStatus status = IslandStatus::converged;

@@ -19,6 +19,7 @@ namespace ashlar {
 /// A trial step. Pairs whose rows were updated replace the original ones until the step is tried again.
 struct StepProblem {
   std::vector<ContactPair> pairs;
+  std::vector<StepBolt> bolts;
   std::vector<Island> islands;
   std::vector<BodyStep> bodies;
   std::vector<IslandResult> results;            ///< by island

@@ -1,0 +1,30 @@
+// What a run takes over of the bolts of an accepted step.
+#pragma once
+
+#include "solver/step/run_context.hpp"
+#include "solver/step/step_problem.hpp"
+
+namespace ashlar {
+
+/// Energies of the bolts of a step, J.
+struct BoltEnergies {
+  double work = 0.0;        ///< on all blocks
+  double held = 0.0;        ///< stored at the end
+  double gained = 0.0;      ///< stored at the end less at the start
+  double dissipated = 0.0;  ///< by yielding in this step; in statics what is no longer counts negative
+};
+
+/// Stores forces and memories, and books work on moving supports and what the bolts store more or less at the start of
+/// the step than at the end of the last one. Memories of a static analysis stay those of the start of the load level:
+/// the path of its iterations is none of a bar (notes/static_friction.md).
+[[nodiscard]] BoltEnergies take_over_bolts(const RunContext& run, const TimeScheme& scheme,
+                                           const StepProblem& problem);
+/// Lets evaluations start from the last state: at the start of a load level and of motion.
+void commit_bolts(RunState& state);
+/// Breaks bars that have reached their rupture strain in a static analysis. @return true if there are any
+bool rupture_bolts(const RunContext& run);
+
+/// Installs bolts of the run in the present state that have no memory yet. @return energy that they store, J
+double install_bolts(const BlockSystem& system, RunState& state);
+
+}  // namespace ashlar
