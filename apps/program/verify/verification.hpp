@@ -79,6 +79,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> impact_cases();
 /// Moving supports.
 [[nodiscard]] std::span<const VerificationCase> support_cases();
+/// Bolts and props.
+[[nodiscard]] std::span<const VerificationCase> bolt_cases();
 /// Rock cut by joints.
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
 /// The paper's example.

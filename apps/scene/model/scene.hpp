@@ -14,6 +14,7 @@
 
 #include "apps/scene/model/scene_analysis.hpp"
 #include "apps/scene/model/scene_block.hpp"
+#include "apps/scene/model/scene_bolt.hpp"
 #include "apps/scene/model/scene_contact.hpp"
 #include "apps/scene/model/scene_places.hpp"
 #include "apps/scene/model/scene_shape.hpp"
@@ -66,6 +67,7 @@ struct SceneMeasure {
   std::string block;                ///< name of a [[block]]; empty: `pair` is measured
   std::optional<Vector3> point;     ///< m, in the placed, undeformed block; empty: the block as a whole
   std::array<std::string, 2> pair;  ///< names of two blocks whose contacts are measured; otherwise empty
+  std::string bolt;                 ///< name of a bolt or prop that is measured; otherwise empty
 };
 
 /// [[stage]]: changes before the run continues. Names and globs match blocks, and pieces of cut blocks.
@@ -89,7 +91,10 @@ struct SceneStage {
   std::vector<Load> load;
   std::vector<SceneJoint> joint;        ///< after all earlier ones
   std::vector<SceneMaterial> material;  ///< in place of the [[material]] of that name
-  bool reset_displacement = false;      ///< true: results count displacements from here on
+  std::vector<SceneBolt> bolt;          ///< installed here
+  std::vector<SceneProp> prop;
+  std::vector<std::string> remove_support;  ///< names or globs of bolts and props that are removed
+  bool reset_displacement = false;          ///< true: results count displacements from here on
 };
 
 /// Steps between frames if a scene has neither every nor interval.
@@ -122,6 +127,8 @@ struct Scene {
   std::vector<SceneBlock> block;        ///< in file order, then pieces of masonry; at least one
   std::vector<SceneAssign> assign;      ///< in file order; already applied in a scene that has been read
   std::vector<SceneCut> cut;            ///< in file order
+  std::vector<SceneBolt> bolt;          ///< in file order; of one stage: those of all stages
+  std::vector<SceneProp> prop;          ///< the same
   std::vector<SceneMeasure> measure;    ///< in file order
   SceneOutput output;
   /// In file order; empty: a single analysis. Otherwise `analysis` is that of the first one.

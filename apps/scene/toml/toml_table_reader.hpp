@@ -71,6 +71,8 @@ class TomlTableReader {
   bool read_vector(std::string_view key, Vector3& result);
   /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
   bool read_place(std::string_view key, Vector3& result);
+  /// Some finite numbers. @param words name of them all: "[a, b]"
+  bool read_row(std::string_view key, std::vector<double>& result, std::size_t width, const char* words);
   bool read_texts(std::string_view key, std::vector<std::string>& result);
   /// An array of at least `minimum` rows of `width` finite numbers each. @param words name of a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
