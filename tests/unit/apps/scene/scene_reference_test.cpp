@@ -27,6 +27,8 @@ material = [{}]
 masonry = [{}, { kind = "wall", openings = [{ box = {}, lintel = {} }] }, { kind = "arch", fill = {} }, { kind = "column" },
            { kind = "dome" }]
 assign = [{}]
+bolt = [{}, { pattern = { plane = {} } }]
+prop = [{}]
 measure = [{}]
 [[block]]
 box = {}
