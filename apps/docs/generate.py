@@ -82,7 +82,7 @@ def keys_of(schema, table=""):
 
 def with_values(program, text):
     def table_of(line):
-        match = re.match(r"#+ `\[+([a-z.]*)\]+`", line)
+        match = re.match(r"#+ `\[+([a-z._]*)\]+`", line)
         return match[1] if match else ""
 
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:

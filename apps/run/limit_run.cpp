@@ -126,6 +126,7 @@ std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
 std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation) {
   const bool asks = seeks_factor(scene.analysis) || scene.analysis.type == SceneAnalysis::Type::thrust;
   if (!asks || scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return std::nullopt;
+  if (!simulation.bolts().empty()) return std::nullopt;
   const bool multiplies = scene.analysis.type == SceneAnalysis::Type::capacity;
   return simulation.rigid_model(scene.analysis.end_time,
                                 multiplies ? multiplied_blocks(scene) : std::vector<bool>());

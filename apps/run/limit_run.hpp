@@ -15,7 +15,7 @@
 namespace ashlar {
 
 /// Rigid model of a scene that seeks a factor or thrust. @param simulation as placed, without factors
-/// @return empty if the scene seeks neither, or limit analysis does not support its formulation
+/// @return empty if the scene seeks neither, or limit analysis does not support its formulation or its bolts
 [[nodiscard]] std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation);
 
 /// True if a search for a factor uses limit analysis: as the scene specifies, or if that is automatic, if no joint of

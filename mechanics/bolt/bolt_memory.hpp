@@ -1,4 +1,4 @@
-// What a bolt remembers from step to step.
+// Memory of a bolt from step to step.
 #pragma once
 
 #include <vector>

@@ -21,7 +21,7 @@ struct YieldingSpring {
   bool slack_above = false;  ///< no tension: `upper` is 0
 
   /// Share of the stiffness that a yielding spring keeps within a step.
-  static constexpr double hardening = 1e-6;
+  static constexpr double hardening = 1e-9;
 };
 
 /// Response at an elastic length change.

@@ -1,4 +1,4 @@
-// What a run takes over of the bolts of an accepted step.
+// The bolts of an accepted step: forces, memories and energies that the run keeps.
 #pragma once
 
 #include "solver/step/run_context.hpp"

@@ -27,7 +27,7 @@ IslandProblem::IslandProblem(const Island& island, std::vector<BodyStep>& bodies
       settings_(settings),
       scheme_(scheme),
       solver_(solver),
-      bolts_(island, bodies, places_of(island, island.bolts.empty() ? 0 : bodies.size())) {
+      bolts_(island, bodies, island.bolts.empty() ? std::vector<int>() : places_of(island, bodies.size())) {
   const std::vector<int> place = places_of(island, bodies.size());
   for (const int pair : island.pairs) {
     laws_.push_back(pairs[at(pair)].laws());

@@ -58,6 +58,8 @@ SimulationSnapshot snapshot_of(const RunContext& run) {
 }
 
 void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
+  if (snapshot.run.bolts.size() != run.system.bolts().size())
+    throw std::invalid_argument("a snapshot of other bolts");
   const std::map<int, int> orders = changed_orders(run, snapshot);
   FactorCache factors(run.settings().linear_method);
   factors.islands.restore(snapshot.factors);

@@ -83,6 +83,8 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> ground_cases();
 /// Records of earthquakes.
 [[nodiscard]] std::span<const VerificationCase> record_cases();
+/// Bolts and props.
+[[nodiscard]] std::span<const VerificationCase> bolt_cases();
 /// Rock cut by joints.
 [[nodiscard]] std::span<const VerificationCase> cutting_cases();
 /// The paper's example.

@@ -33,6 +33,7 @@ constexpr std::array run_files = {"history.csv",
                                   "factor_trials.json",
                                   "factor_trials.json.tmp",
                                   "joints.pvd",
+                                  "bolts.pvd",
                                   "surfaces.pvd",
                                   "factor_trial.checkpoint",
                                   "factor_trial.checkpoint.tmp"};

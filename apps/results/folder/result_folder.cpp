@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/results/frames/bolt_frames.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/csv_text.hpp"
 #include "geometry/index.hpp"
@@ -49,7 +50,8 @@ std::filesystem::path emptied(std::filesystem::path folder) {
         fmt::format("cannot create the folder {}: {}", (folder / "frames").string(), error.message()));
   }
   // Removed, not emptied: other names of these files keep their content.
-  for (const char* name : {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd"})
+  for (const char* name :
+       {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd", "bolts.pvd"})
     std::filesystem::remove(folder / name);
   remove_frames_but(folder, {});
   return folder;
@@ -62,6 +64,11 @@ void append(std::vector<double>& values, const Vector3& vector) {
 /// xx, yy, zz, xy, yz, xz
 void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {
   values.insert(values.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
+}
+
+/// True if a point of a block is measured.
+bool has_motion(const Measure& measure) {
+  return measure.kind == Measure::Kind::point || measure.kind == Measure::Kind::block;
 }
 
 constexpr const char* contact_columns =
@@ -77,6 +84,10 @@ std::vector<std::string> history_columns(const std::vector<Measure>& measures, b
     for (const char* part : parts) columns.push_back(measure.name + part);
   };
   for (const Measure& measure : measures) {
+    if (measure.kind == Measure::Kind::bolt) {
+      add(measure, {".axial_force", ".shear_force", ".state"});
+      continue;
+    }
     if (measure.kind == Measure::Kind::pair) {
       add(measure, {".normal_force", ".shear_force", ".opening", ".slip", ".area"});
       continue;
@@ -94,7 +105,7 @@ std::vector<std::string> history_columns(const std::vector<Measure>& measures, b
     columns.emplace_back(name);
   }
   for (const Measure& measure : measures)
-    if (measure.kind != Measure::Kind::pair) add(measure, {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"});
+    if (has_motion(measure)) add(measure, {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"});
   if (in_stages) columns.emplace_back("stage");
   return columns;
 }
@@ -105,6 +116,12 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   std::vector<double> values = {simulation.time(), report.step};
   std::vector<PointMotion> motions;
   for (std::size_t k = 0; k < measures.size(); ++k) {
+    if (measures[k].kind == Measure::Kind::bolt) {
+      const BoltMeasure bolt = measured_bolt(simulation, measures[k]);
+      values.insert(values.end(), {bolt.axial_force, bolt.shear_force,
+                                   static_cast<double>(static_cast<int>(bolt.condition))});
+      continue;
+    }
     if (measures[k].kind == Measure::Kind::pair) {
       const PairMeasure pair = measured_pair(simulation, measures[k]);
       values.insert(values.end(), {pair.normal_force, pair.shear_force, pair.opening, pair.slip, pair.area});
@@ -180,9 +197,8 @@ DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Mea
     return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
   };
   for (const Measure& measure : measures)
-    origin.measures.push_back(measure.kind == Measure::Kind::pair
-                                  ? Vector3(Vector3::Zero())
-                                  : displacement(measure.block, measure.point));
+    origin.measures.push_back(has_motion(measure) ? displacement(measure.block, measure.point)
+                                                  : Vector3(Vector3::Zero()));
   const auto displacements = [&](const auto& of_blocks, std::vector<std::vector<Vector3>>& by_block) {
     for (std::size_t b = 0; b < of_blocks.size(); ++b) {
       by_block.emplace_back();
@@ -212,6 +228,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   progress_.elapsed = place.elapsed;
   progress_.origin = place.origin;
   if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd");
+  if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd");
   if (progress_.stage == 1 && scene.stage.front().reset_displacement)
     progress_.origin = origin_of(simulation, measures_, drawn_);
   contact_rows_.write(contact_columns);
@@ -235,6 +252,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       contact_rows_(folder_ / "contacts.csv", OutputFile::Start::at_end),
       progress_(state.progress) {
   if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd", state.surface_frames);
+  if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd", state.bolt_frames);
   if (contact_rows_.size() < state.contact_bytes) {
     throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
                                          contact_rows_.path().string(), contact_rows_.size(),
@@ -242,8 +260,8 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   }
   contact_rows_.truncate(state.contact_bytes);
   std::set<std::filesystem::path> kept;
-  for (const auto* frames :
-       {&state.block_frames, &state.surface_frames, &state.contact_frames, &state.joint_frames}) {
+  for (const auto* frames : {&state.block_frames, &state.surface_frames, &state.contact_frames,
+                             &state.joint_frames, &state.bolt_frames}) {
     for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
   }
   remove_frames_but(folder_, kept);
@@ -258,6 +276,7 @@ ResultFolderState ResultFolder::synced_state() {
           .surface_frames = surfaces_ ? surfaces_->frames() : std::vector<PvdFrame>(),
           .contact_frames = contacts_.frames(),
           .joint_frames = joints_.frames(),
+          .bolt_frames = bolts_ ? bolts_->frames() : std::vector<PvdFrame>(),
           .contact_bytes = contact_rows_.size(),
           .progress = progress_};
 }
@@ -331,6 +350,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
       shown(block_frame, drawn_.surfaces));
   add(contacts_, "contacts", contact_frame(simulation));
   add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
+  if (bolts_) add(*bolts_, "bolts", bolt_frame(simulation));
   // After a failure none of them remains.
   std::vector<PvdWriter*> added;
   try {

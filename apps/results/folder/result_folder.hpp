@@ -62,7 +62,8 @@ struct ResultFolderState {
   std::vector<PvdFrame> surface_frames;  ///< empty unless output.solid
   std::vector<PvdFrame> contact_frames;
   std::vector<PvdFrame> joint_frames;
-  std::uint64_t contact_bytes = 0;  ///< in contacts.csv
+  std::vector<PvdFrame> bolt_frames;  ///< empty without bolts and props
+  std::uint64_t contact_bytes = 0;    ///< in contacts.csv
   ResultProgress progress;
 };
 
@@ -121,6 +122,7 @@ class ResultFolder {
   std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page
   PvdWriter contacts_;
   PvdWriter joints_;
+  std::optional<PvdWriter> bolts_;  ///< if the run has bolts or props
   OutputFile contact_rows_;
   ResultProgress progress_;
 };

@@ -6,6 +6,7 @@
 
 #include "apps/results/folder/identity_json.hpp"
 #include "apps/results/folder/program_version.hpp"
+#include "apps/results/folder/support_summary.hpp"
 #include "apps/scene/check/base_motion.hpp"
 #include "apps/scene/read/scene_json.hpp"
 
@@ -196,6 +197,7 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
   summary["largest_tension"] = json_of(largest.tension, simulation);
   const BrokenJoints broken = broken_joints(simulation);
   summary["broken"] = {{"pairs", broken.pairs}, {"area", broken.area}, {"of_area", broken.of_area}};
+  if (!simulation.bolts().empty()) summary["support"] = support_summary(simulation);
   if (const FrictionTally& tally = simulation.sliding_friction(); tally.due > 0.0)
     summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
   if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)

@@ -32,6 +32,10 @@ Vector3 place_of(const BlockModel& block, const BlockState& state, const Vector3
 std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockModel>& blocks) {
   std::vector<Measure> measures;
   for (const SceneMeasure& given : scene.measure) {
+    if (!given.bolt.empty()) {
+      measures.push_back({given.name, Measure::Kind::bolt, 0, Vector3::Zero(), -1, given.bolt});
+      continue;
+    }
     if (given.block.empty()) {
       measures.push_back({given.name, Measure::Kind::pair, index_of(scene, given.pair[0]), Vector3::Zero(),
                           index_of(scene, given.pair[1])});
@@ -75,6 +79,16 @@ Vector3 slip_of(const Simulation& simulation, const PairRecord& pair, std::size_
                       place_of(a, state, point.material_a) -
                       place_of(b, simulation.states()[at(pair.b)], point.material_b);
   return way - point.normal.dot(way) * point.normal;
+}
+
+BoltMeasure measured_bolt(const Simulation& simulation, const Measure& measure) {
+  const std::vector<Bolt>& bolts = simulation.system().bolts();
+  const auto bolt =
+      std::find_if(bolts.begin(), bolts.end(), [&](const Bolt& known) { return known.name == measure.bolt; });
+  if (bolt == bolts.end() || !simulation.bolts()[static_cast<std::size_t>(bolt - bolts.begin())].installed())
+    return {none, none, BoltCondition::absent};
+  const BoltState& state = simulation.bolts()[static_cast<std::size_t>(bolt - bolts.begin())];
+  return {largest_axial_force(state), largest_shear_force(state), condition_of(*bolt, state)};
 }
 
 PairMeasure measured_pair(const Simulation& simulation, const Measure& measure) {

@@ -1,5 +1,5 @@
 // History values of a [[measure]] of a scene: the motion and stress of a material point, the motion and rotation of a
-// block, or the contacts of two blocks.
+// block, the contacts of two blocks, or the forces of a bolt.
 #pragma once
 
 #include <string>
@@ -15,12 +15,14 @@ struct Measure {
     point,  ///< a material point
     block,  ///< a block: its centroid and its rotation
     pair,   ///< the contacts of two blocks
+    bolt,   ///< a bolt or prop
   };
   std::string name;
   Kind kind = Kind::point;
   int block = 0;
   Vector3 point = Vector3::Zero();  ///< reference coordinates, m; for a block its centroid
   int other = -1;                   ///< for a pair: the second block
+  std::string bolt = {};            ///< for a bolt: its name
 };
 
 /// Measures of a scene, in its order. @param blocks of the scene
@@ -47,5 +49,13 @@ struct PairMeasure {
   double area = 0.0;  ///< m^2, of closed points
 };
 [[nodiscard]] PairMeasure measured_pair(const Simulation& simulation, const Measure& measure);
+
+/// A bolt or prop after the last step.
+struct BoltMeasure {
+  double axial_force;       ///< N, largest by its amount along the bar, tension positive; nan: not installed
+  double shear_force;       ///< N, largest at any joint; nan: not installed
+  BoltCondition condition;  ///< worst so far
+};
+[[nodiscard]] BoltMeasure measured_bolt(const Simulation& simulation, const Measure& measure);
 
 }  // namespace ashlar

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "apps/scene/build/bolts_of_scene.hpp"
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/build/limit_choices.hpp"
 #include "apps/scene/build/stress_field.hpp"
@@ -330,6 +331,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     built.as_placed = start_in_equilibrium(scene, built.simulation, diagnostics);
     if (!diagnostics.good()) return std::nullopt;
   }
+  if (!scene.bolt.empty() || !scene.prop.empty()) built.simulation.add_bolts(bolts_of(loaded));
   return built;
 }
 

@@ -13,6 +13,7 @@
 #include "apps/scene/check/scene_checks.hpp"
 #include "apps/scene/check/scene_limits.hpp"
 #include "apps/scene/check/soft_blocks.hpp"
+#include "apps/scene/check/support_checks.hpp"
 #include "apps/scene/expand/scene_cuts.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
@@ -93,6 +94,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
     check_placement(stage, solids, diagnostics);
     check_limits(stage, solids, diagnostics);
   });
+  check_supports(loaded.scene, solids, diagnostics);
   warn_of_mesh_units(loaded.scene, solids, diagnostics);
   phase("overlaps of blocks");
   loaded.overlaps = check_overlaps(loaded.scene, solids, diagnostics);

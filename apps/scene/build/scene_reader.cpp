@@ -14,6 +14,7 @@
 #include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/assignments.hpp"
 #include "apps/scene/read/block_reader.hpp"
+#include "apps/scene/read/bolt_reader.hpp"
 #include "apps/scene/read/cut_reader.hpp"
 #include "apps/scene/read/history_reader.hpp"
 #include "apps/scene/read/initial_stress_reader.hpp"
@@ -201,6 +202,13 @@ SceneMeasure read_measure(TomlTableReader& table) {
         table.error_at_key(key, fmt::format("{} beside pair (both given), only one of both is allowed", key));
     return measure;
   }
+  if (table.given("bolt")) {
+    table.read_name("bolt", measure.bolt);
+    for (const char* key : {"block", "point"})
+      if (table.given(key))
+        table.error_at_key(key, fmt::format("{} beside bolt (both given), only one of both is allowed", key));
+    return measure;
+  }
   table.require("block");
   table.read_name("block", measure.block);
   if (table.given("point")) {
@@ -250,6 +258,9 @@ SceneStage read_stage(TomlTableReader& table, const SceneAnalysis& base) {
   stage.joint = table.read_tables("joint", read_joint);
   stage.material = table.read_tables("material", read_material);
   stage.water = table.read_tables("water", read_water);
+  stage.bolt = table.read_tables("bolt", read_bolt);
+  stage.prop = table.read_tables("prop", read_prop);
+  table.read_texts("remove_support", stage.remove_support);
   table.read_bool("reset_displacement", stage.reset_displacement);
   stage.analysis = base;
   TomlTableReader analysis = table.table_or_empty("analysis");
@@ -275,6 +286,8 @@ void read_tables(TomlTableReader top, Scene& scene) {
   std::vector<std::vector<SceneBlock>> masonry = top.read_tables("masonry", read_masonry);
   scene.assign = top.read_tables("assign", read_assignment);
   scene.cut = top.read_tables("cut", read_cut);
+  scene.bolt = top.read_tables("bolt", read_bolt);
+  scene.prop = top.read_tables("prop", read_prop);
   scene.measure = top.read_tables("measure", read_measure);
   scene.water = top.read_tables("water", read_water);
   const bool stressed = top.given("initial_stress");

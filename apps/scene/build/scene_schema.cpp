@@ -217,6 +217,22 @@ solid = { sphere = { radius = 1 } }
 name = "cells"
 blocks = ["A"]
 voronoi = { count = 2 }
+[[bolt]]
+name = "bolt"
+area = 1
+bond_stiffness = 1
+from = [0, 0, 0]
+to = [0, 0, 1]
+[[bolt]]
+name = "row"
+area = 1
+bond_stiffness = 1
+pattern = { plane = { point = [0, 0, 0], normal = [0, 0, 1] }, spacing = [1, 1], length = 1 }
+[[prop]]
+name = "prop"
+stiffness = 1
+from = [0, 0, 0]
+to = [0, 0, 1]
 [[measure]]
 name = "tip"
 block = "A"
@@ -229,6 +245,9 @@ level = { point = [0, 0, 0], normal = [0, 0, 1] }
 unit_weight = 9810
 [initial_stress]
 k0 = 0.5
+[[measure]]
+name = "force"
+bolt = "bolt"
 [[stage]]
 name = "all"
 analysis = { end_time = 1 }

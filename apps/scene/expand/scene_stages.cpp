@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "apps/scene/expand/stage_supports.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -75,6 +76,7 @@ class StageScenes {
   explicit StageScenes(const Scene& whole)
       : whole_(whole), scene_(whole), was_there_(whole.block.size(), false) {
     scene_.absent = held_back(whole);
+    add_later_supports(whole, scene_);
   }
 
   /// Advances to the next stage, initially to the first one.
@@ -87,6 +89,7 @@ class StageScenes {
     // The initial state applies to the first stage only.
     if (*stage_ > 0) scene_.analysis.initial_state = SceneAnalysis::InitialState::as_placed;
     change_presence(whole_, whole_.stage[*stage_], scene_.absent);
+    change_supports(whole_, *stage_, scene_);
     name_places(*stage_);
   }
   [[nodiscard]] const Scene& scene() const { return scene_; }

@@ -14,6 +14,7 @@
 
 #include "apps/scene/model/scene_analysis.hpp"
 #include "apps/scene/model/scene_block.hpp"
+#include "apps/scene/model/scene_bolt.hpp"
 #include "apps/scene/model/scene_contact.hpp"
 #include "apps/scene/model/scene_initial_stress.hpp"
 #include "apps/scene/model/scene_places.hpp"
@@ -68,6 +69,7 @@ struct SceneMeasure {
   std::string block;                ///< name of a [[block]]; empty: `pair` is measured
   std::optional<Vector3> point;     ///< m, in the placed, undeformed block; empty: the block as a whole
   std::array<std::string, 2> pair;  ///< names of two blocks whose contacts are measured; otherwise empty
+  std::string bolt;                 ///< name of a bolt or prop that is measured; otherwise empty
 };
 
 /// [[stage]]: changes before the run continues. Names and globs match blocks, and pieces of cut blocks.
@@ -92,7 +94,10 @@ struct SceneStage {
   std::vector<SceneJoint> joint;        ///< after all earlier ones
   std::vector<SceneMaterial> material;  ///< in place of the [[material]] of that name
   std::vector<SceneWater> water;        ///< in place of the [[water]] of that name, or beside the others
-  bool reset_displacement = false;      ///< true: results count displacements from here on
+  std::vector<SceneBolt> bolt;          ///< installed here
+  std::vector<SceneProp> prop;
+  std::vector<std::string> remove_support;  ///< names or globs of bolts and props that are removed
+  bool reset_displacement = false;          ///< true: results count displacements from here on
 };
 
 /// Steps between frames if a scene has neither every nor interval.
@@ -125,6 +130,8 @@ struct Scene {
   std::vector<SceneBlock> block;        ///< in file order, then pieces of masonry; at least one
   std::vector<SceneAssign> assign;      ///< in file order; already applied in a scene that has been read
   std::vector<SceneCut> cut;            ///< in file order
+  std::vector<SceneBolt> bolt;          ///< in file order; of one stage: those of all stages
+  std::vector<SceneProp> prop;          ///< the same
   std::vector<SceneMeasure> measure;    ///< in file order
   std::vector<SceneWater> water;        ///< in file order
   SceneInitialStress initial_stress;

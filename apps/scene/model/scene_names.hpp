@@ -53,6 +53,9 @@ inline constexpr ChoiceNames<SceneCut::Spacing, 4> spacing_names = {
      {"uniform", SceneCut::Spacing::uniform},
      {"exponential", SceneCut::Spacing::exponential}}};
 
+inline constexpr ChoiceNames<SceneBolt::Anchorage, 2> anchorage_names = {
+    {{"grouted", SceneBolt::Anchorage::grouted}, {"ends", SceneBolt::Anchorage::ends}}};
+
 inline constexpr ChoiceNames<SceneMaterial::Elasticity, 2> elasticity_names = {
     {{"linear", SceneMaterial::Elasticity::linear},
      {"st-venant-kirchhoff", SceneMaterial::Elasticity::st_venant_kirchhoff}}};

@@ -3,6 +3,7 @@
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/assignments.hpp"
+#include "apps/scene/read/bolt_json.hpp"
 
 namespace ashlar {
 namespace {
@@ -271,7 +272,9 @@ Json to_json(const SceneCut& cut) {
 
 Json to_json(const SceneMeasure& measure) {
   Json json = {{"name", measure.name}};
-  if (measure.block.empty())
+  if (!measure.bolt.empty())
+    json["bolt"] = measure.bolt;
+  else if (measure.block.empty())
     json["pair"] = measure.pair;
   else
     json["block"] = measure.block;
@@ -336,6 +339,8 @@ Json to_json(const SceneStage& stage) {
   add_list(json, "joint", stage.joint);
   add_list(json, "material", stage.material);
   add_list(json, "water", stage.water);
+  add_supports(json, stage.bolt, stage.prop);
+  if (!stage.remove_support.empty()) json["remove_support"] = stage.remove_support;
   json["reset_displacement"] = stage.reset_displacement;
   json["analysis"] = to_json(stage.analysis);
   return json;
@@ -393,6 +398,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   if (!scene.cut.empty()) json["cut"] = list_to_json(scene.cut);
   if (const Json assignments = assignments_to_pieces(scene); !assignments.empty())
     json["assign"] = assignments;
+  add_supports(json, scene.bolt, scene.prop);
   if (!scene.measure.empty()) json["measure"] = list_to_json(scene.measure);
   add_list(json, "water", scene.water);
   if (scene.initial_stress.given()) json["initial_stress"] = to_json(scene.initial_stress);

@@ -270,6 +270,16 @@ bool TomlTableReader::read_field(std::string_view key, SceneField& result, std::
   return true;
 }
 
+bool TomlTableReader::read_row(std::string_view key, std::vector<double>& result, std::size_t width,
+                               const char* words) {
+  note(key, {.kind = KeyForm::Kind::row, .width = width});
+  const toml::node* node = find(key);
+  if (node == nullptr) return false;
+  auto row = value(*node, key).row(width, words);
+  if (row) result = std::move(*row);
+  return row.has_value();
+}
+
 bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result) {
   note(key, {.kind = KeyForm::Kind::texts});
   const toml::array* array = find_array(key, "an array of texts");

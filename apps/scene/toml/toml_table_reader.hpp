@@ -76,6 +76,8 @@ class TomlTableReader {
   bool read_field(std::string_view key, SceneField& result, std::size_t width, const char* words);
   /// True if the key holds an array with a formula of x, y or z, which no parameters are.
   [[nodiscard]] bool varies(std::string_view key);
+  /// Some finite numbers. @param words name of them all: "[a, b]"
+  bool read_row(std::string_view key, std::vector<double>& result, std::size_t width, const char* words);
   bool read_texts(std::string_view key, std::vector<std::string>& result);
   /// An array of at least `minimum` rows of `width` finite numbers each. @param words name of a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,

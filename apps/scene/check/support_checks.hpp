@@ -1,0 +1,19 @@
+// Checks of bolts and props.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/scene/model/diagnostics.hpp"
+#include "apps/scene/model/scene.hpp"
+#include "geometry/solid/polyhedron.hpp"
+
+namespace ashlar {
+
+/// Reports names that are given twice, bolts and props that hold no blocks, measures and removals of unknown ones, and
+/// analyses without them: limit analysis, thrust, the incremental formulation. Warns of bolts in a single block.
+/// @param whole of all stages. @param solids by block; empty: not built
+void check_supports(const Scene& whole, const std::vector<std::optional<Polyhedron>>& solids,
+                    Diagnostics& diagnostics);
+
+}  // namespace ashlar

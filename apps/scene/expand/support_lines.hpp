@@ -1,0 +1,37 @@
+// Bolts and props of a scene as lines through its blocks as placed.
+//
+// A bolt is where its line is inside blocks (geometry/solid/line_in_solid.hpp). Pieces shorter than a tenth of the bar
+// are left out; where blocks overlap, the piece of the first one along the line ends where it does. A prop's end is on
+// the block behind it, seen along the prop, or else on the one it goes into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/scene/model/scene.hpp"
+#include "geometry/solid/polyhedron.hpp"
+#include "mechanics/bolt/bolt_shape.hpp"
+
+namespace ashlar {
+
+/// A bolt or prop.
+struct SupportLine {
+  std::string name;
+  std::string path;  ///< of its entry: "bolt.0"
+  BoltLaw law;
+  Vector3 from;
+  Vector3 to;
+  double thickness;             ///< m, diameter of a round bar of its area; 0: a prop
+  std::vector<BoltSpan> spans;  ///< empty: `fault`
+  bool installed;               ///< of one stage
+  /// Reason why it holds no blocks, and what is allowed; otherwise empty
+  std::string fault;
+};
+
+/// All bolts, patterns expanded, then all props, in the order of the scene. The order does not depend on the stage.
+/// Entries that are faulty in themselves have no lines.
+/// @param solids by block; null: not built
+[[nodiscard]] std::vector<SupportLine> support_lines(const Scene& scene,
+                                                     const std::vector<const Polyhedron*>& solids);
+
+}  // namespace ashlar
