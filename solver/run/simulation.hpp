@@ -5,9 +5,11 @@
 // together (dynamic_step.hpp; static_analysis.hpp: iterations towards equilibrium).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/statics/static_analysis.hpp"
@@ -47,6 +49,12 @@ class Simulation {
   Simulation(std::vector<BlockModel> blocks, const std::vector<InitialMotion>& motions, LawOfPair law,
              const SimulationSettings& settings, const std::vector<TieRequest>& ties = {},
              std::vector<bool> absent = {});
+
+  /// Pressure of water in the joint of two blocks at a place of the placed blocks, Pa; only results use it.
+  using JointPressure = std::function<double(int a, int b, const Vector3& place)>;
+  void set_joint_pressure(JointPressure pressure) { joint_pressure_ = std::move(pressure); }
+  /// Empty: no joint holds water.
+  [[nodiscard]] const JointPressure& joint_pressure() const { return joint_pressure_; }
 
   /// Contacts of blocks with initial stress begin with its forces (initial_stress.hpp), before the first step and after
   /// start_overlapping().
@@ -169,6 +177,7 @@ class Simulation {
   FactorCache factors_;
   DepthAudit audit_;
   std::optional<StateFault> fault_;
+  JointPressure joint_pressure_;
 };
 
 }  // namespace ashlar

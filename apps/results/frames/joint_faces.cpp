@@ -53,6 +53,7 @@ class PresentSurfaces {
 /// Sums over the points of a polygon.
 struct JointSums {
   double area = 0.0, gap = 0.0, normal = 0.0;
+  Vector3 place = Vector3::Zero();  ///< first moment of the placed block b, m^3
   Vector3 shear = Vector3::Zero(), slip = Vector3::Zero();
   std::array<double, 3> of_state = {};  ///< m^2
   double broken = 0.0;                  ///< m^2
@@ -141,6 +142,7 @@ void add(JointSums& sums, const ContactPoint& point, const PointResponse& respon
          const Vector3& slip, bool broken) {
   sums.area += point.area;
   sums.gap += point.area * gap;
+  sums.place += point.area * point.material_b;
   sums.normal += response.force[0];
   sums.shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
   sums.slip += point.area * slip;
@@ -208,6 +210,7 @@ UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<Sub
   UnstructuredGrid grid;
   std::vector<double> opening, slip, normal, shear, area;
   std::array<std::vector<std::int32_t>, 4> numbers;  // state, broken, block_a, block_b
+  std::vector<double> water;
   PresentSurfaces surfaces(simulation, cells);
   for (const PairRecord& record : simulation.contacts()) {
     for (const JointFace& face : faces_of(simulation, record, surfaces)) {
@@ -224,6 +227,8 @@ UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<Sub
       normal.push_back(sums.normal / sums.area);
       shear.push_back(sums.shear.norm() / sums.area);
       area.push_back(sums.area);
+      if (simulation.joint_pressure())
+        water.push_back(simulation.joint_pressure()(record.a, record.b, sums.place / sums.area));
       const auto most = std::max_element(sums.of_state.begin(), sums.of_state.end());
       numbers[0].push_back(static_cast<std::int32_t>(most - sums.of_state.begin()));
       numbers[1].push_back(sums.broken > 0.5 * sums.area ? 1 : 0);
@@ -236,6 +241,7 @@ UnstructuredGrid joint_frame(const Simulation& simulation, const std::vector<Sub
   grid.cell_data.push_back({"normal_traction", 1, {}, std::move(normal)});
   grid.cell_data.push_back({"shear_traction", 1, {}, std::move(shear)});
   grid.cell_data.push_back({"area", 1, {}, std::move(area)});
+  if (simulation.joint_pressure()) grid.cell_data.push_back({"water_pressure", 1, {}, std::move(water)});
   grid.cell_data.push_back({"state", 1, {}, std::move(numbers[0])});
   grid.cell_data.push_back({"broken", 1, {}, std::move(numbers[1])});
   grid.cell_data.push_back({"block_a", 1, {}, std::move(numbers[2])});

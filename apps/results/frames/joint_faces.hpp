@@ -19,6 +19,7 @@ namespace ashlar {
 ///   slip             m, vector: slip of block_a along block_b since both were placed (0: incremental blocks)
 ///   normal_traction  Pa, normal force over area, compression positive
 ///   shear_traction   Pa, length of the shear force over area
+///   water_pressure   Pa, in the middle; only where the scene has water
 ///   area             m^2, of the points: traction times area is the force
 ///   state            of most of the area: 0 open, 1 locked, 2 sliding
 ///   broken           1 if most of the area had strength and has failed, else 0

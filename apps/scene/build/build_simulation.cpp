@@ -282,7 +282,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
   BlockPartsLibrary parts;
   const std::vector<bool> multiplied = multiplied_blocks(scene);
   if (preparation != nullptr && !scene.water.empty()) preparation->phase("pressure of water");
-  const WaterLoads water(loaded, diagnostics);
+  const auto water = std::make_shared<const WaterLoads>(loaded, diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
     const SceneBlock& block = scene.block[k];
@@ -290,7 +290,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
       preparation->phase(fmt::format("model of block {} ({} of {})", block.name, k + 1, scene.block.size()));
     try {
       const double load_factor = multiplied[k] ? factors.load : 1.0;
-      blocks.emplace_back(define_block(loaded, k, load_factor, water), parts);
+      blocks.emplace_back(define_block(loaded, k, load_factor, *water), parts);
     } catch (const OrderTooHigh& error) {
       diagnostics.error(
           scene.places.value(fmt::format("block.{}.order", k)),
@@ -324,6 +324,10 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
                         {},
                         loaded.overlaps};
   built.simulation.start_overlapping(depths_without_force(loaded));
+  if (!scene.water.empty())
+    built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {
+      return water->in_joint(static_cast<std::size_t>(a), static_cast<std::size_t>(b), place);
+    });
   if (scene.initial_stress.given()) built.simulation.start_stressed();
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;

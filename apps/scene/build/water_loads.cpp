@@ -36,16 +36,17 @@ bool present(const Scene& scene, std::size_t block) {
 }  // namespace
 
 WaterLoads::WaterLoads(const LoadedScene& loaded, Diagnostics& diagnostics)
-    : scene_(loaded.scene), faces_(scene_.block.size(), -1), parts_(scene_.block.size()) {
-  const Vector3 up = up_of(scene_);
-  for (const SceneWater& water : scene_.water) {
+    : rock_(loaded.scene.rock), faces_(loaded.scene.block.size(), -1), parts_(loaded.scene.block.size()) {
+  const Scene& scene = loaded.scene;
+  const Vector3 up = up_of(scene);
+  for (const SceneWater& water : scene.water) {
     waters_.push_back({water.file ? WaterLevel(height_field(water.surface))
                                   : WaterLevel(Plane{water.level.point, water.level.normal}, up),
                        water.unit_weight});
-    block_.push_back(blocks_among(scene_, water.joints));
+    block_.push_back(blocks_among(scene, water.joints));
     cut_.emplace_back();
-    for (const SceneCut& cut : scene_.cut) cut_.back().push_back(matches_any(water.joints, cut.name));
-    const std::vector<bool> faces = blocks_among(scene_, water.faces);
+    for (const SceneCut& cut : scene.cut) cut_.back().push_back(matches_any(water.joints, cut.name));
+    const std::vector<bool> faces = blocks_among(scene, water.faces);
     for (std::size_t k = 0; k < faces.size(); ++k)
       if (faces[k]) faces_[k] = static_cast<int>(waters_.size()) - 1;
   }
@@ -64,8 +65,8 @@ int WaterLoads::water_of_joint(std::size_t a, std::size_t b) const {
   for (int w = static_cast<int>(waters_.size()) - 1; w >= 0; --w) {
     const auto index = static_cast<std::size_t>(w);
     if (block_[index][a] || block_[index][b]) return w;
-    if (!scene_.rock) continue;
-    for (const std::size_t cut : scene_.rock->cuts_between(a, b))
+    if (!rock_) continue;
+    for (const std::size_t cut : rock_->cuts_between(a, b))
       if (cut_[index][cut]) return w;
   }
   return -1;
@@ -102,7 +103,7 @@ void WaterLoads::press(const LoadedScene& loaded, int water, std::size_t block,
 
 void WaterLoads::add_free_faces(const LoadedScene& loaded, Diagnostics& diagnostics) {
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
-    if (faces_[k] < 0 || !present(scene_, k)) continue;
+    if (faces_[k] < 0 || !present(loaded.scene, k)) continue;
     const Polyhedron& solid = loaded.solids[k];
     for (const PolyhedronFace& face : solid.faces()) {
       for (const int triangle : face.triangles) {
@@ -122,7 +123,7 @@ void WaterLoads::add_joints(const LoadedScene& loaded, Diagnostics& diagnostics)
     boxes.push_back(box_of(solid.mesh().points).grown(allowed_offset(solid)));
   for (const std::array<int, 2>& pair : meeting_boxes(boxes)) {
     const auto a = static_cast<std::size_t>(pair[0]), b = static_cast<std::size_t>(pair[1]);
-    if (!present(scene_, a) || !present(scene_, b)) continue;
+    if (!present(loaded.scene, a) || !present(loaded.scene, b)) continue;
     const int joint = water_of_joint(a, b);
     if (joint < 0 && faces_[a] < 0 && faces_[b] < 0) continue;
     for (const CommonPolygon& common : common_polygons(loaded.solids[a], loaded.solids[b])) {

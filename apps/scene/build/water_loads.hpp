@@ -38,7 +38,7 @@ class WaterLoads {
   void press(const LoadedScene& loaded, int water, std::size_t block, const std::vector<Vector3>& polygon,
              const Vector3& inward, double sign, Diagnostics& diagnostics);
 
-  const Scene& scene_;
+  std::shared_ptr<const CutRock> rock_;
   std::vector<Water> waters_;
   std::vector<int> faces_;                       ///< (#blocks) the last [[water]] of its free faces; -1: none
   std::vector<std::vector<bool>> block_, cut_;   ///< by water: blocks and cuts among its joints
