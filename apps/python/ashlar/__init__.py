@@ -80,11 +80,11 @@ class Scene:
         return _json.loads(self._core.json())
 
     def simulation(self, threads=1, resume=None):
-        """A simulation at its start. Of a scene in stages it goes through them one after the other. A scene that seeks a
-        factor, thrust or movements (analysis.type) is searched by the first steps; `summary` has the answer.
+        """A simulation at its start. It passes through all stages of a staged analysis. The search of a scene that seeks a
+        factor, thrust or movements (analysis.type) is performed by the first steps; `summary` has the answer.
 
-        resume: a result folder of this scene, recorded by `record` or `ashlar run`, whose run goes on where it was, into
-        the same folder; the history starts there. Raises ValueError or RuntimeError where it cannot.
+        resume: the result folder of an earlier run of this scene (`record`, `ashlar run`), which is continued from its
+        checkpoint, into the same folder; the history begins there. Raises ValueError or RuntimeError if it cannot be.
         """
         return Simulation(self, threads, resume)
 
@@ -128,7 +128,7 @@ class Simulation:
         self._core = _core.simulation(scene._core, threads, None if resume is None else str(resume))
 
     def step(self):
-        """Takes one step, or one iteration of a static analysis or of a search. Returns whether there is more to do.
+        """Takes one step, or one iteration of a static analysis or of a search. Returns False at the end of the run.
 
         Raises RuntimeError if the step fails: the state is then that before the step and can be read and written, the
         status is failed, and each further call raises the same again.
@@ -182,8 +182,8 @@ class Simulation:
 
     @property
     def summary(self):
-        """What summary.json would have now, a dictionary: factor_of_safety, load_factor, thrust of a search that has ended.
-        Its status is interrupted while the run has not ended."""
+        """The content of summary.json for the present state, a dictionary; after a search with factor_of_safety, load_factor
+        or thrust. status is interrupted before the end of the run."""
         return _json.loads(self._core.summary())
 
     @property
@@ -204,8 +204,8 @@ class Simulation:
         return self._core.contacts()
 
     def record(self, folder):
-        """Writes each step from now on into a new result folder, frames where they are due, checkpoints, and at the end the
-        summary, as `ashlar run` does."""
+        """Writes each further step into a new result folder, as `ashlar run` does: frames as output asks, checkpoints, and
+        the summary at the end."""
         self._core.record(str(folder))
 
     def write(self, folder):
