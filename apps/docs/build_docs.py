@@ -16,7 +16,7 @@ import sys
 
 # Umbrella headers, as CMakeLists.txt has them.
 UMBRELLAS = ("geometry/geometry.hpp", "mechanics/mechanics.hpp", "solver/solver.hpp", "apps/scene/scene_library.hpp",
-             "apps/results/results_library.hpp")
+             "apps/results/results_library.hpp", "apps/run/run_library.hpp")
 # Suffixes of files of the repository that the site takes along where a page links to them.
 TAKEN_ALONG = (".png", ".toml", ".csv", ".py", ".cpp")
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")

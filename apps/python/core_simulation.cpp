@@ -5,14 +5,17 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "apps/python/core_scene.hpp"
-#include "apps/results/folder/scene_run.hpp"
+#include "apps/run/answer_search.hpp"
+#include "apps/run/run.hpp"
 #include "geometry/index.hpp"
 
 namespace py = pybind11;
@@ -75,10 +78,17 @@ ContactRow row_of(const PairRecord& pair, std::size_t k) {
   return row;
 }
 
-/// A SceneRun with numpy arrays. Calls from a thread wait for the step of another one.
+/// A Run with numpy arrays. Calls from a thread wait for the step of another one.
 class CoreSimulation {
  public:
-  CoreSimulation(const CoreScene& scene, int threads) : run_(scene.good(), threads) {}
+  /// @param folder of the run that it continues; empty: a new run
+  CoreSimulation(const CoreScene& scene, int threads, const std::optional<std::filesystem::path>& folder)
+      : run_(scene.good(), threads) {
+    if (folder) run_.resume(*folder);
+    // Searches take long: they are stepped.
+    if (!seeks_answer(run_.whole().analysis)) run_.begin();
+    if (run_.status() == RunStatus::failed) throw std::runtime_error(run_.message());
+  }
 
   /// Result of a function of the run. The interpreter lock is released while the thread waits, and during the
   /// function unless it makes Python objects.
@@ -109,7 +119,7 @@ class CoreSimulation {
   }
 
   [[nodiscard]] py::array_t<ContactRow> contacts() {
-    const std::vector<ContactRow> rows = without_interpreter([](const SceneRun& run) {
+    const std::vector<ContactRow> rows = without_interpreter([](const Run& run) {
       std::vector<ContactRow> found;
       for (const PairRecord& pair : run.simulation().contacts())
         for (std::size_t k = 0; k < pair.points.size(); ++k) found.push_back(row_of(pair, k));
@@ -120,7 +130,7 @@ class CoreSimulation {
 
   [[nodiscard]] int index_of(const std::string& name) {
     try {
-      return with_run([&](const SceneRun& run) { return run.block(name); });
+      return with_run([&](const Run& run) { return run.block(name); });
     } catch (const std::out_of_range&) {
       throw py::key_error(name);
     }
@@ -132,7 +142,7 @@ class CoreSimulation {
     return std::unique_lock<std::mutex>(access_);
   }
 
-  SceneRun run_;
+  Run run_;
   std::mutex access_;
 };
 
@@ -144,13 +154,13 @@ struct CoreBlock {
   /// Result of a function of the model, which is constant except for a block of the incremental formulation.
   template <class Function>
   [[nodiscard]] auto of_model(const Function& function) const {
-    return of->with_run([&](const SceneRun& run) { return function(run.simulation().blocks()[at(index)]); });
+    return of->with_run([&](const Run& run) { return function(run.simulation().blocks()[at(index)]); });
   }
 
   [[nodiscard]] std::vector<PointMotion> motions(const py::object& points, bool extrapolate) const {
     const std::vector<Vector3> places = points_of(points);
     const auto outside = extrapolate ? OutsidePoints::extrapolated : OutsidePoints::refused;
-    return of->without_interpreter([&](const SceneRun& run) { return run.motions(index, places, outside); });
+    return of->without_interpreter([&](const Run& run) { return run.motions(index, places, outside); });
   }
 
   /// @param part requested part of a point's motion. @return (n, 3)
@@ -171,7 +181,7 @@ struct CoreBlock {
   }
 
   [[nodiscard]] py::array_t<double> coefficients() const {
-    return array_of(of->with_run([&](const SceneRun& run) {
+    return array_of(of->with_run([&](const Run& run) {
       run.require_present(index);
       const Eigen::MatrixX3d& position = run.simulation().states()[at(index)].position;
       std::vector<Vector3> rows;
@@ -227,7 +237,7 @@ its motion and stress raise RuntimeError; its shape, volume and mass stay availa
       .def_property_readonly(
           "present",
           [](const CoreBlock& b) {
-            return b.of->with_run([&](const SceneRun& run) { return run.present(b.index); });
+            return b.of->with_run([&](const Run& run) { return run.present(b.index); });
           },
           "True if the block exists in the present stage; stages remove and add blocks.")
       .def_property_readonly("volume", of_block([](const BlockModel& b) { return b.basis().volume(); }),
@@ -249,11 +259,11 @@ its motion and stress raise RuntimeError; its shape, volume and mass stay availa
            "Cauchy stress at such points, tension positive: (n, 3) -> (n, 3, 3), Pa.");
 }
 
-std::string status_of(const SceneRun& run) {
+std::string status_of(const Run& run) {
   return run.status() ? to_string(*run.status()) : "running";
 }
 
-std::vector<std::string> names_of(const SceneRun& run) {
+std::vector<std::string> names_of(const Run& run) {
   std::vector<std::string> names;
   for (const BlockModel& block : run.simulation().blocks()) names.push_back(block.name());
   return names;
@@ -266,30 +276,36 @@ void bind_simulation(py::module_& module) {
   using Shared = std::shared_ptr<CoreSimulation>;
   module.def(
       "simulation",
-      [](const CoreScene& scene, int threads) { return std::make_shared<CoreSimulation>(scene, threads); },
-      py::arg("scene"), py::arg("threads"), py::call_guard<py::gil_scoped_release>());
+      [](const CoreScene& scene, int threads, const std::optional<std::filesystem::path>& resume) {
+        return std::make_shared<CoreSimulation>(scene, threads, resume);
+      },
+      py::arg("scene"), py::arg("threads"), py::arg("resume"), py::call_guard<py::gil_scoped_release>());
   py::class_<CoreSimulation, Shared>(module, "Simulation", made_here())
       .def("step",
-           [](CoreSimulation& s) { return s.without_interpreter([](SceneRun& run) { return run.step(); }); })
+           [](CoreSimulation& s) { return s.without_interpreter([](Run& run) { return run.step(); }); })
       .def_property_readonly("status", of_run(status_of))
-      .def_property_readonly("message", of_run([](const SceneRun& run) { return run.message(); }))
-      .def_property_readonly("stage", of_run([](const SceneRun& run) { return run.stage(); }))
-      .def_property_readonly("time", of_run([](const SceneRun& run) { return run.simulation().time(); }))
-      .def_property_readonly("steps", of_run([](const SceneRun& run) { return run.simulation().steps(); }))
+      .def_property_readonly("message", of_run([](const Run& run) { return run.message(); }))
+      .def_property_readonly("stage", of_run([](const Run& run) { return run.stage(); }))
+      .def_property_readonly("time", of_run([](const Run& run) { return run.simulation().time(); }))
+      .def_property_readonly("steps", of_run([](const Run& run) { return run.simulation().steps(); }))
+      .def("summary",
+           [](CoreSimulation& s) {
+             return s.without_interpreter([](const Run& run) { return run.summary(); });
+           })
       .def("history", &CoreSimulation::history)
       .def("contacts", &CoreSimulation::contacts)
       .def("set_load_factor",
            [](CoreSimulation& s, const std::string& block, int load, double factor) {
              (void)s.index_of(block);
-             s.with_run([&](SceneRun& run) { run.set_load_factor(block, load, factor); });
+             s.with_run([&](Run& run) { run.set_load_factor(block, load, factor); });
            })
       .def("record",
            [](CoreSimulation& s, const std::filesystem::path& folder) {
-             s.without_interpreter([&](SceneRun& run) { run.record(folder); });
+             s.without_interpreter([&](Run& run) { run.record(folder); });
            })
       .def("write",
            [](CoreSimulation& s, const std::filesystem::path& folder) {
-             s.without_interpreter([&](const SceneRun& run) { run.write(folder); });
+             s.without_interpreter([&](const Run& run) { run.write(folder); });
            })
       .def("names", of_run(names_of))
       .def("block", [](const Shared& s, const std::string& name) {

@@ -1,4 +1,4 @@
-// Simulations and their blocks for Python: a SceneRun that several Python threads may query and step, one after the
+// Simulations and their blocks for Python: a Run that several Python threads may query and step, one after the
 // other.
 #pragma once
 

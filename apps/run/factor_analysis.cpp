@@ -4,47 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <set>
 
-#include "apps/results/folder/run_summary.hpp"
-#include "apps/results/text/atomic_file.hpp"
-#include "apps/results/text/json_text.hpp"
-#include "apps/scene/toml/input_file.hpp"
+#include "apps/results/folder/run_status.hpp"
 
 namespace ashlar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const FactorTrial& trial) {
-  return {{"factor", trial.factor}, {"outcome", to_string(trial.outcome)}, {"iterations", trial.iterations}};
-}
-
-Json to_json(const std::vector<FactorTrial>& trials) {
-  Json json = Json::array();
-  for (const FactorTrial& trial : trials) json.push_back(to_json(trial));
-  return json;
-}
-
-FactorTrial trial_from(const Json& json) {
-  FactorTrial trial{json.at("factor").get<double>(), TrialOutcome::unknown, json.at("iterations").get<int>()};
-  for (const TrialOutcome outcome : {TrialOutcome::stands, TrialOutcome::moves})
-    if (json.at("outcome") == to_string(outcome)) trial.outcome = outcome;
-  return trial;
-}
-
-TrialOutcome outcome_of(StaticStatus status, const Simulation& simulation) {
-  switch (status) {
-    case StaticStatus::equilibrium:
-      return displaced_blocks(simulation).empty() ? TrialOutcome::stands : TrialOutcome::moves;
-    case StaticStatus::moving:
-      return TrialOutcome::moves;
-    case StaticStatus::balancing:
-    case StaticStatus::not_converged:
-      break;
-  }
-  return TrialOutcome::unknown;
-}
 
 /// Mode of most of the area of a pair's contact points.
 const char* mode_of(const PairRecord& record) {
@@ -84,52 +52,47 @@ StaticStatus trial_step(Simulation& simulation, double end_time) {
                                                                                     : status;
 }
 
-std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, double end_time,
-                                     const std::function<bool()>& goes_on) {
-  StaticStatus status = StaticStatus::balancing;
-  while (status == StaticStatus::balancing) {
-    if (!goes_on()) return std::nullopt;
-    try {
-      status = trial_step(simulation, end_time);
-    } catch (const std::bad_alloc&) {
-      throw;  // may be resolved by another attempt with more memory
-    } catch (const std::exception&) {
-      status = StaticStatus::not_converged;
-    }
+StaticStatus attempted_step(Simulation& simulation, double end_time) {
+  try {
+    return trial_step(simulation, end_time);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return StaticStatus::not_converged;
   }
-  return FactorTrial{factor, outcome_of(status, simulation), simulation.steps()};
 }
 
-TrialFile::TrialFile(std::filesystem::path path, std::uint64_t hash, bool resume)
-    : path_(std::move(path)), hash_(hash) {
-  if (!resume) std::filesystem::remove(path_);
-  if (!std::filesystem::exists(path_)) return;
-  const Json json = naming_the_file(path_, [&] { return parse_json(whole_file(path_)); });
-  if (!json.is_object() || json.value("scene", std::uint64_t{0}) != hash_)
-    throw std::runtime_error(
-        fmt::format("{} is of another scene, a new folder, or --force, is needed", path_.string()));
-  naming_the_file(path_, [&] {
-    for (const Json& trial : json.at("trials")) trials_.push_back(trial_from(trial));
-    return trials_.size();
-  });
+TrialOutcome outcome_of(StaticStatus status, const Simulation& simulation) {
+  switch (status) {
+    case StaticStatus::equilibrium:
+      return displaced_blocks(simulation).empty() ? TrialOutcome::stands : TrialOutcome::moves;
+    case StaticStatus::moving:
+      return TrialOutcome::moves;
+    case StaticStatus::balancing:
+    case StaticStatus::not_converged:
+      break;
+  }
+  return TrialOutcome::unknown;
 }
 
-std::optional<FactorTrial> TrialFile::find(double factor) const {
-  const auto found = std::find_if(trials_.begin(), trials_.end(),
-                                  [&](const FactorTrial& trial) { return trial.factor == factor; });
-  return found == trials_.end() ? std::nullopt : std::optional(*found);
-}
-
-void TrialFile::add(const FactorTrial& trial) {
-  trials_.push_back(trial);
-  const Json json = {{"scene", hash_}, {"trials", to_json(trials_)}};
-  write_file_atomically(path_, json_text(json, 1) + "\n", Durability::power);
+FactorTrial run_trial(Simulation& simulation, double factor, double end_time) {
+  StaticStatus status = StaticStatus::balancing;
+  while (status == StaticStatus::balancing) status = attempted_step(simulation, end_time);
+  return {factor, outcome_of(status, simulation), simulation.steps()};
 }
 
 double shown_factor(const FactorBracket& bracket, const SceneAnalysis::FactorSearch& search) {
   if (bracket.upper) return *bracket.upper;
   if (bracket.lower) return *bracket.lower;
   return std::clamp(1.0, search.lower, search.upper);
+}
+
+Json trials_json(const std::vector<FactorTrial>& trials) {
+  Json json = Json::array();
+  for (const FactorTrial& trial : trials)
+    json.push_back(
+        {{"factor", trial.factor}, {"outcome", to_string(trial.outcome)}, {"iterations", trial.iterations}});
+  return json;
 }
 
 std::string bracket_so_far(const FactorBracket& bracket) {
@@ -185,7 +148,7 @@ Json factor_summary(const FactorBracket& bracket, const Simulation& simulation) 
   for (const PairRecord& record : simulation.contacts())
     if (!record.points.empty() && (moving.contains(record.a) || moving.contains(record.b)))
       json["joints"].push_back({{"blocks", Json{name(record.a), name(record.b)}}, {"mode", mode_of(record)}});
-  json["trials"] = to_json(bracket.trials);
+  json["trials"] = trials_json(bracket.trials);
   return json;
 }
 

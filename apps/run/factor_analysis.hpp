@@ -1,13 +1,11 @@
-// analysis.type "factor-of-safety" and "capacity": the static analyses of a search for a factor, stored one by one in
-// the result folder, and the summary of their result.
+// analysis.type "factor-of-safety" and "capacity": the static analyses of a search for a factor, and the summary of
+// their result.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/run/factor_search.hpp"
 #include "apps/scene/build/build_simulation.hpp"
@@ -30,33 +28,21 @@ namespace ashlar {
 /// they come to rest, it is not their initial placement.
 [[nodiscard]] StaticStatus trial_step(Simulation& simulation, double end_time);
 
-/// One static analysis under loads of a time, from the present state. @param goes_on called before each iteration;
-/// false ends the analysis
-/// @return empty if it was ended
-[[nodiscard]] std::optional<FactorTrial> run_trial(Simulation& simulation, double factor, double end_time,
-                                                   const std::function<bool()>& goes_on);
+/// The same; an iteration that cannot be taken ends the analysis as inconclusive. @throws std::bad_alloc, as more memory
+/// may resolve it
+[[nodiscard]] StaticStatus attempted_step(Simulation& simulation, double end_time);
 
-/// Earlier trials in `factor_trials.json` of a result folder, so that an interrupted search continues after its last
-/// complete trial.
-class TrialFile {
- public:
-  /// Reads the file if it exists. @param hash of the scene (run_checkpoint.hpp). @param resume false: an existing
-  /// file is removed
-  /// @throws std::runtime_error if it is damaged or belongs to another scene
-  TrialFile(std::filesystem::path path, std::uint64_t hash, bool resume);
-  /// Trial of a factor, if it is stored.
-  [[nodiscard]] std::optional<FactorTrial> find(double factor) const;
-  /// @throws std::runtime_error with path and reason
-  void add(const FactorTrial& trial);
+/// Outcome of a static analysis that has ended.
+[[nodiscard]] TrialOutcome outcome_of(StaticStatus status, const Simulation& simulation);
 
- private:
-  std::filesystem::path path_;
-  std::uint64_t hash_;
-  std::vector<FactorTrial> trials_;
-};
+/// One static analysis under loads of a time, from the present state to its end.
+[[nodiscard]] FactorTrial run_trial(Simulation& simulation, double factor, double end_time);
 
 /// Factor of the results to show: the smallest that moves, or if none does the largest that stands.
 [[nodiscard]] double shown_factor(const FactorBracket& bracket, const SceneAnalysis::FactorSearch& search);
+
+/// An array of factor, outcome, iterations.
+[[nodiscard]] nlohmann::ordered_json trials_json(const std::vector<FactorTrial>& trials);
 
 /// "0.5 stands, 1 moves", "no factor is known to stand, 1 moves": for a search that was interrupted.
 [[nodiscard]] std::string bracket_so_far(const FactorBracket& bracket);

@@ -43,9 +43,31 @@ struct ExpectedFactor {
 /// Starts at the factor 1, or the closest allowed one. Halves until blocks stand, doubles until they move, and then
 /// halves the bracket in ratio until its width is within the tolerance. Inconclusive trials are assumed to surround
 /// the limit: the search continues below and above them, and ends unresolved once they are within a quarter of the
-/// tolerance of both ends.
-/// @param attempt its factor is within search.lower and upper; an empty result ends the search
-/// @param expected tried first: if one end stands and the other moves, within the tolerance, they are the result
+/// tolerance of both ends. Each factor depends on the earlier trials only.
+class FactorSearch {
+ public:
+  /// @param expected tried first: if one end stands and the other moves, within the tolerance, they are the result
+  explicit FactorSearch(const SceneAnalysis::FactorSearch& range,
+                        const std::optional<ExpectedFactor>& expected = {});
+
+  /// The next factor to try, within range.lower and upper; empty: the search has ended.
+  [[nodiscard]] std::optional<double> next() const;
+  /// @param trial of next()
+  void add(const FactorTrial& trial);
+  /// Result so far; resolved only if the search has ended.
+  [[nodiscard]] FactorBracket bracket() const;
+
+ private:
+  [[nodiscard]] bool resolved() const;
+  [[nodiscard]] std::optional<double> middle() const;
+
+  SceneAnalysis::FactorSearch range_;
+  double low_, high_;      ///< tried first, low_ <= high_
+  FactorBracket bracket_;  ///< resolved and interrupted are unused
+};
+
+/// Searches to the end. @param attempt its factor is within search.lower and upper; an empty result interrupts the
+/// search
 [[nodiscard]] FactorBracket find_factor(const SceneAnalysis::FactorSearch& search,
                                         const std::function<std::optional<FactorTrial>(double)>& attempt,
                                         const std::optional<ExpectedFactor>& expected = {});

@@ -1,6 +1,8 @@
 // Handling of signals during a run.
 #pragma once
 
+#include "apps/run/run_observer.hpp"
+
 namespace ashlar {
 
 /// While an object exists, SIGINT, SIGTERM and SIGHUP (a terminal that closes) are requests to stop after the present
@@ -21,6 +23,12 @@ class InterruptGuard {
 
   /// True if a stop was requested.
   [[nodiscard]] static bool interrupted();
+};
+
+/// Ends a run once a stop was requested. @pre an InterruptGuard exists during the run
+class InterruptObserver : public RunObserver {
+ public:
+  [[nodiscard]] bool goes_on() override { return !InterruptGuard::interrupted(); }
 };
 
 }  // namespace ashlar

@@ -8,18 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/run/answer.hpp"
 #include "apps/scene/build/scene_loading.hpp"
 #include "solver/run/simulation.hpp"
-#include "solver/statics/limit_analysis.hpp"
 
 namespace ashlar {
-
-/// Result of limit analysis for a scene.
-struct LimitFindings {
-  LimitAnswer answer;
-  LimitMotion released;    ///< at the smallest factor that moves; empty: none does
-  LimitMotion associated;  ///< at the smallest factor above which nothing stands; empty: unknown
-};
 
 /// Rigid model of a scene that seeks a factor or thrust. @param simulation as placed, without factors
 /// @return empty if the scene seeks neither, or limit analysis does not support its formulation

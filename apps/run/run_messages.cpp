@@ -3,52 +3,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
+#include <vector>
 
-#include "apps/results/folder/identity_json.hpp"
-#include "apps/results/text/json_text.hpp"
-#include "apps/run/scene_difference.hpp"
+#include "apps/results/folder/run_summary.hpp"
 #include "apps/scene/build/initial_state.hpp"
-#include "apps/scene/read/scene_json.hpp"
-#include "apps/scene/toml/input_file.hpp"
 
 namespace ashlar {
+namespace {
 
-std::string changes_since(const std::filesystem::path& folder, const Scene& scene,
-                          const SceneIdentity& identity) {
-  constexpr std::size_t most_shown = 5;
-  nlohmann::ordered_json summary;
-  try {
-    summary = parse_json(whole_file(folder / "summary.json"));
-  } catch (const std::runtime_error&) {
-    return {};
-  }
-  if (!summary.is_object() || !summary.contains("scene")) return {};
-  std::vector<std::string> keys = scene_differences(summary["scene"], to_json(scene));
-  if (summary.contains("identity"))
-    for (std::string& file : changed_files(summary["identity"], identity)) keys.push_back(std::move(file));
-  if (keys.empty()) return {};
-  const std::size_t hidden = keys.size() - std::min(keys.size(), most_shown);
-  keys.resize(keys.size() - hidden);
-  return fmt::format("; changed: {}{}", fmt::join(keys, ", "),
-                     hidden > 0 ? fmt::format(" and {} more", hidden) : "");
-}
-
-void tell_choices(const BuiltSimulation& built, std::ostream& err) {
-  for (const AutomaticChoice& choice : built.choices) {
-    const auto* number = std::get_if<double>(&choice.value);
-    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
-                                     : fmt::format("{}", std::get<bool>(choice.value));
-    err << fmt::format("chosen: {} = {}\n", choice.key, value);
-  }
-  if (!built.as_placed.empty())
-    err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
-                       first_names(built.as_placed));
-}
-
+/// Prints the largest displacement and stresses, and failed joints: one line.
 void tell_answers(const Simulation& simulation, const LargestValues& largest, std::ostream& err) {
   std::vector<std::string> parts;
   const auto add = [&](const char* what, const std::optional<PlacedValue>& value, double unit,
@@ -67,6 +32,7 @@ void tell_answers(const Simulation& simulation, const LargestValues& largest, st
                        broken.area, broken.of_area, broken.pairs);
 }
 
+/// Warns of blocks that penetrate deeper than rigid contact would allow.
 void warn_of_depth(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.01;
   const DeepestPoint& deepest = simulation.deepest();
@@ -79,6 +45,8 @@ void warn_of_depth(const Simulation& simulation, std::ostream& err) {
       name(deepest.blocks[0]), deepest.depth, name(deepest.blocks[1]), deepest.time, deepest.share, ordinary);
 }
 
+/// Warns of sliding blocks whose friction differed from Coulomb's law: multipliers stop impacts by impulses without
+/// friction, which the next steps make up for only if blocks stay in contact.
 void warn_of_friction(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.02;
   const double excess = simulation.sliding_friction().excess();
@@ -91,6 +59,7 @@ void warn_of_friction(const Simulation& simulation, std::ostream& err) {
       1.0 + excess);
 }
 
+/// Warns of dilating joints that slid without contact, and so without dilation.
 void warn_of_hops(const Simulation& simulation, std::ostream& err) {
   constexpr double ordinary = 0.02;
   const double share = simulation.dilating_slip().flown_share();
@@ -102,13 +71,14 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
       share);
 }
 
-void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
-  const auto& [status, message, unsaved] = end;
-  if (!unsaved.empty()) {
-    err << fmt::format("ashlar: error: {}; the last state could not be saved: {}\n", message, unsaved);
+/// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
+void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
+  const std::string& message = run.message();
+  if (!run.unsaved().empty()) {
+    err << fmt::format("ashlar: error: {}; the last state could not be saved: {}\n", message, run.unsaved());
     return;
   }
-  switch (status) {
+  switch (run.status().value_or(RunStatus::interrupted)) {
     case RunStatus::failed:
       err << fmt::format("ashlar: error: {}; the last accepted state is in {}\n", message, folder.string());
       break;
@@ -129,6 +99,29 @@ void tell_end(const RunEnd& end, const std::filesystem::path& folder, bool quiet
       if (!quiet && !message.empty()) err << message << '\n';
       break;
   }
+}
+
+}  // namespace
+
+void tell_choices(const BuiltSimulation& built, std::ostream& err) {
+  for (const AutomaticChoice& choice : built.choices) {
+    const auto* number = std::get_if<double>(&choice.value);
+    const std::string value = number ? fmt::format("{:.4g} {}", *number, choice.unit)
+                                     : fmt::format("{}", std::get<bool>(choice.value));
+    err << fmt::format("chosen: {} = {}\n", choice.key, value);
+  }
+  if (!built.as_placed.empty())
+    err << fmt::format("not settled: {} (initial_state settles blocks that their own supports hold)\n",
+                       first_names(built.as_placed));
+}
+
+void tell_results(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
+  tell_end(run, folder, quiet, err);
+  const Simulation& simulation = run.simulation();
+  if (!quiet && !run.answer().drawn_only()) tell_answers(simulation, run.largest(), err);
+  warn_of_depth(simulation, err);
+  warn_of_friction(simulation, err);
+  warn_of_hops(simulation, err);
 }
 
 }  // namespace ashlar

@@ -5,32 +5,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
+#include "apps/run/answer.hpp"
 #include "apps/scene/build/scene_loading.hpp"
 #include "solver/run/simulation.hpp"
-#include "solver/statics/support_movement.hpp"
-#include "solver/statics/thrust.hpp"
 
 namespace ashlar {
-
-/// An extreme of the thrust on one support, and its line of thrust.
-struct ThrustLine {
-  double thrust = 0.0;  ///< N
-  double gap = 0.0;
-  std::vector<JointResultant> joints;
-};
-struct SupportThrust {
-  int support = -1;  ///< block
-  ThrustLine least;
-  std::optional<ThrustLine> most;  ///< empty: no bound
-};
-
-struct ThrustFindings {
-  std::vector<SupportThrust> supports;
-  std::vector<SupportMovement> movements;  ///< of supports moved by the scene, in the order of blocks
-  std::string collapse;  ///< moving blocks, if no forces within the strengths balance the loads
-};
 
 /// @param model of limit_model. @param goes_on called during movements; false interrupts the last one
 [[nodiscard]] ThrustFindings find_thrust(const Scene& scene, RigidModel model, const Simulation& simulation,

@@ -7,7 +7,7 @@ execute_process(COMMAND "${CMAKE_COMMAND}" --install "${ASHLAR_BUILD}" --config 
 # Installed headers find each other by <ashlar/...> alone, need no library but Eigen, and none is internal.
 file(GLOB_RECURSE headers "${WORK}/prefix/include/*")
 foreach(expected ashlar/geometry.hpp ashlar/mechanics.hpp ashlar/solver.hpp ashlar/scene.hpp ashlar/results.hpp
-    ashlar/geometry/solid/polyhedron.hpp ashlar/results/folder/scene_run.hpp)
+    ashlar/run.hpp ashlar/geometry/solid/polyhedron.hpp ashlar/run/run.hpp)
   if(NOT "${WORK}/prefix/include/${expected}" IN_LIST headers)
     message(SEND_ERROR "${expected} is not installed")
   endif()

@@ -251,6 +251,53 @@ def test_a_simulation_that_has_failed_says_so_again(tmp_path):
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "failed"
 
 
+def tilted(**analysis):
+    """The cube on a floor tilted by 30 degrees, by gravity; friction of tan(phi) = 1.2 tan(30)."""
+    stone = dict(CUBE["block"][1], box={"min": [-2, -2, 0], "max": [2, 2, 1]})
+    floor = dict(CUBE["block"][0], box={"min": [-9, -9, -1], "max": [9, 9, 0]})
+    return ashlar.Scene.from_dict(dict(
+        CUBE, block=[floor, stone], contact={"friction_angle": float(np.degrees(np.arctan(1.2 * np.tan(np.pi / 6))))},
+        analysis={"gravity": [5, 0, -10 * np.cos(np.pi / 6)], **analysis}))
+
+
+@pytest.mark.parametrize("method", ["limit", "elastic"])
+def test_a_search_has_its_answer_in_the_summary(tmp_path, method):
+    searched = tilted(type="factor-of-safety", method=method)
+    sim = searched.simulation()
+    assert len(sim.history["time"]) == 0
+    seen = []
+    assert sim.run(callback=lambda s: seen.append(s.steps)) == "completed"
+    found = sim.summary["factor_of_safety"]
+    assert found["method"] == method and found["lower"] <= 1.2 <= found["upper"] <= 1.2 * 1.02
+    assert ashlar.run(searched, tmp_path / "out")["factor_of_safety"] == found
+    if method == "elastic":
+        assert len(seen) > sum(trial["iterations"] for trial in found["trials"])
+    with pytest.raises(RuntimeError, match="loads of a search"):
+        tilted(type="factor-of-safety").simulation().set_load_factor("cube", 0, 1)
+
+
+def test_a_recorded_run_is_resumed(tmp_path):
+    whole = scene(end_time=0.02).simulation()
+    whole.run()
+    first = scene(end_time=0.01).simulation()
+    first.record(tmp_path / "out")
+    assert first.run() == "completed"
+    del first
+    second = scene(end_time=0.02).simulation(resume=tmp_path / "out")
+    assert second.steps == 10 and second.run() == "completed"
+    assert np.array_equal(second.history["energy.elastic"], whole.history["energy.elastic"][10:])
+    table = np.genfromtxt(tmp_path / "out" / "history.csv", delimiter=",", names=True, deletechars="")
+    assert np.array_equal(table["energy.elastic"], whole.history["energy.elastic"])
+    # As the program does, once the folder is free.
+    del second
+    assert ashlar.run(scene(end_time=0.03), tmp_path / "out", resume=True)["steps"] == 30
+    for bad, fault in ((scene(end_time=0.02), "before the time"), (scene(time_step=2e-3), "another scene")):
+        with pytest.raises((ValueError, RuntimeError), match=fault):
+            bad.simulation(resume=tmp_path / "out")
+    with pytest.raises(RuntimeError):
+        scene().simulation(resume=tmp_path / "none")
+
+
 def test_other_threads_run_while_it_computes():
     done = threading.Event()
     sims = [scene(end_time=0.05).simulation() for _ in range(2)]

@@ -39,7 +39,7 @@ FactorBracket safety_of(const JointLaw& strength, double size, const std::functi
       scene.law->residual = {strength.residual->friction / factor, strength.residual->cohesion / factor,
                              strength.residual->tensile_strength / factor};
     Simulation simulation = scene.build();
-    return run_trial(simulation, factor, 1.0, [] { return true; });
+    return run_trial(simulation, factor, 1.0);
   });
 }
 

@@ -79,12 +79,14 @@ class Scene:
         """The scene as used: every key, with defaults."""
         return _json.loads(self._core.json())
 
-    def simulation(self, threads=1):
-        """A simulation at its start. It passes through all stages of a staged analysis.
+    def simulation(self, threads=1, resume=None):
+        """A simulation at its start. It passes through all stages of a staged analysis. The search of a scene that seeks a
+        factor, thrust or movements (analysis.type) is performed by the first steps; `summary` has the answer.
 
-        Raises ValueError for a search for a factor (analysis.type), which needs many analyses: use `run`.
+        resume: the result folder of an earlier run of this scene (`record`, `ashlar run`), which is continued from its
+        checkpoint, into the same folder; the history begins there. Raises ValueError or RuntimeError if it cannot be.
         """
-        return Simulation(self, threads)
+        return Simulation(self, threads, resume)
 
     def __getstate__(self):
         return self._text, self._file, self._overrides
@@ -122,11 +124,11 @@ class _Blocks:
 class Simulation:
     """A run, step by step, created by Scene.simulation."""
 
-    def __init__(self, scene, threads=1):
-        self._core = _core.simulation(scene._core, threads)
+    def __init__(self, scene, threads=1, resume=None):
+        self._core = _core.simulation(scene._core, threads, None if resume is None else str(resume))
 
     def step(self):
-        """Takes one step, or one iteration of a static analysis. Returns False at the end of the run.
+        """Takes one step, or one iteration of a static analysis or of a search. Returns False at the end of the run.
 
         Raises RuntimeError if the step fails: the state is then that before the step and can be read and written, the
         status is failed, and each further call raises the same again.
@@ -179,6 +181,12 @@ class Simulation:
         return self._core.message
 
     @property
+    def summary(self):
+        """The content of summary.json for the present state, a dictionary; after a search with factor_of_safety, load_factor
+        or thrust. status is interrupted before the end of the run."""
+        return _json.loads(self._core.summary())
+
+    @property
     def stage(self):
         """Number of the present stage, from 1; 0 for a scene without stages."""
         return self._core.stage
@@ -196,7 +204,8 @@ class Simulation:
         return self._core.contacts()
 
     def record(self, folder):
-        """Writes each further step into a new result folder, with frames as output asks, and the summary at the end."""
+        """Writes each further step into a new result folder, as `ashlar run` does: frames as output asks, checkpoints, and
+        the summary at the end."""
         self._core.record(str(folder))
 
     def write(self, folder):

@@ -9,10 +9,12 @@
 
 #include "apps/results/folder/contact_changes.hpp"
 #include "apps/results/folder/result_folder.hpp"
-#include "apps/results/folder/run_summary.hpp"
+#include "apps/results/folder/run_outcome.hpp"
 #include "solver/run/checkpoint.hpp"
 
 namespace ashlar {
+
+inline constexpr const char* checkpoint_name = "checkpoint";  ///< in a result folder
 
 /// A run between two steps.
 struct RunCheckpoint {

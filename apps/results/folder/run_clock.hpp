@@ -1,4 +1,4 @@
-// Wall time within the calls of a run, without the time between them.
+// Wall time within the calls of a run, without the time between them; of a continued one with its earlier sessions.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ class RunClock {
    public:
     explicit Call(RunClock& clock) : clock_(clock) { clock_.call_start_ = now(); }
     ~Call() {
-      clock_.seconds_ = clock_.seconds();
+      clock_.seconds_.total = clock_.session_total();
       clock_.call_start_.reset();
     }
     Call(const Call&) = delete;
@@ -25,16 +25,19 @@ class RunClock {
     RunClock& clock_;
   };
 
-  /// Ends the setup, which began at a time of now().
-  void note_setup(double start) { seconds_.total = seconds_.setup = now() - start; }
+  /// Adds the time since a time of now(), outside calls.
+  void add_since(double start) { seconds_.total += now() - start; }
+  /// Adds the times of earlier sessions.
+  void add_earlier(const RunSeconds& earlier) { earlier_ = earlier; }
+  /// Ends the setup.
+  void note_setup() { seconds_.setup = session_total(); }
   /// For a Stopwatch.
   [[nodiscard]] double& output() { return seconds_.output; }
 
   /// s, including the present call so far.
   [[nodiscard]] RunSeconds seconds() const {
-    RunSeconds all = seconds_;
-    if (call_start_) all.total += now() - *call_start_;
-    return all;
+    return {earlier_.total + session_total(), earlier_.setup + seconds_.setup,
+            earlier_.output + seconds_.output};
   }
 
   [[nodiscard]] static double now() {
@@ -42,7 +45,12 @@ class RunClock {
   }
 
  private:
-  RunSeconds seconds_;
+  [[nodiscard]] double session_total() const {
+    return seconds_.total + (call_start_ ? now() - *call_start_ : 0.0);
+  }
+
+  RunSeconds earlier_;
+  RunSeconds seconds_;  ///< of this session, without the present call
   std::optional<double> call_start_;
 };
 

@@ -1,5 +1,5 @@
 // A scene driven from C++: a pier under once and twice its load. Use: pier SCENE RESULT_FOLDER
-#include <ashlar/results.hpp>
+#include <ashlar/run.hpp>
 
 #include <cmath>
 #include <exception>
@@ -13,7 +13,7 @@ int main(int count, char** arguments) {
     auto scene = ashlar::load_scene(arguments[1], {}, faults);
     faults.print(std::cerr);
     if (!scene) return 2;
-    ashlar::SceneRun run(std::move(*scene), 2);
+    ashlar::Run run(std::move(*scene), 2);
     for (const double factor : {1.0, 2.0}) {
       run.set_load_factor("pier", 0, factor);
       while (run.step()) {

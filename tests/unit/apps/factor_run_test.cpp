@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/results/folder/scene_identity.hpp"
-#include "apps/run/kept_trial.hpp"
+#include "apps/run/trial_folder.hpp"
 #include "unit/apps/run_fixture.hpp"
 
 namespace ashlar {
@@ -165,12 +165,12 @@ TEST_F(FactorRun, ATrialThatWasStoppedGoesOn) {
   Diagnostics diagnostics;
   const std::optional<LoadedScene> loaded = load_scene(scene_, {}, diagnostics);
   ASSERT_TRUE(loaded);
-  KeptTrial stopped(*loaded, scene_identity(*loaded).scene, folder_ / "half", {1, std::nullopt, true});
-  std::ostringstream told;
-  int asked = 0;
-  ASSERT_FALSE(stopped.run(
-      1.0, [&] { return ++asked <= 2; }, told));
-  ASSERT_EQ(stopped.iterations(), 2);
+  TrialRun stopped(*loaded, 1.0, 1);
+  ASSERT_TRUE(stopped.iterate() && stopped.iterate());
+  {
+    const auto claim = std::make_shared<const FolderClaim>(folder_ / "half", ClaimPurpose::replacement);
+    TrialFolder(claim, scene_identity(*loaded).scene, false, std::nullopt).save(stopped);
+  }
   ASSERT_EQ(run("half", {"--resume"}), 0) << faults_;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "half" / trial_state_name));
   EXPECT_EQ(summary("half").at("factor_of_safety"), summary("whole").at("factor_of_safety"));

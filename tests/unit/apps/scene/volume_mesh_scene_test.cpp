@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "apps/results/folder/scene_run.hpp"
+#include "apps/run/run.hpp"
 #include "apps/scene/build/scene_loading.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -82,7 +82,7 @@ TEST_F(VolumeMeshScene, ABarOfTetrahedraUnderTensionStretchesByStressOverModulus
     auto scene = load(4, "split = \"tetrahedra\"", pull + fmt::format("\norder = {}", order));
     ASSERT_TRUE(scene) << faults();
     EXPECT_EQ(scene->scene.block.size(), 24U);
-    SceneRun run(std::move(*scene), 2);
+    ashlar::Run run(std::move(*scene), 2);
     while (run.step()) {
     }
     ASSERT_EQ(run.status(), RunStatus::equilibrium) << run.message();
@@ -127,7 +127,7 @@ TEST_F(VolumeMeshScene, GroupsAndSurfacesAreBlocks) {
   EXPECT_EQ(scene->scene.block[0].name, "bar.left");
   EXPECT_EQ(scene->solids[1].volume(), 2.0);
   EXPECT_EQ(scene->solids[1].faces().size(), 6U);
-  SceneRun run(std::move(*scene));
+  ashlar::Run run(std::move(*scene));
   while (run.step()) {
   }
   EXPECT_NEAR(run.motion("bar.right", {4, 0.5, 0.5}).displacement.x(), 4e-3, 2e-5);

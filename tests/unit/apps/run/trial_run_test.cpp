@@ -1,12 +1,12 @@
-#include "apps/run/kept_trial.hpp"
+#include "apps/run/trial_run.hpp"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <sstream>
+#include <memory>
 #include <string>
 
-#include "apps/results/folder/contact_changes.hpp"
+#include "apps/run/trial_folder.hpp"
 #include "apps/scene/build/build_simulation.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -39,49 +39,56 @@ load = [{ point = [0, 0.5, 0.75], force = [500, 0, 0] }]
   return std::move(*loaded);
 }
 
-TEST(KeptTrial, OneThatIsStoppedGoesOnWhereItWas) {
-  const TemporaryFolder folder;
-  const LoadedScene scene = pushed_stack(folder, "1");
-  std::ostringstream told;
-  std::filesystem::create_directories(folder / "whole");
-  std::filesystem::create_directories(folder / "stopped");
-  const auto always = [] { return true; };
-  KeptTrial whole(scene, 7, folder / "whole", {1, std::nullopt, true});
-  const std::optional<FactorTrial> answer = whole.run(1.25, always, told);
-  ASSERT_TRUE(answer);
-  ASSERT_GT(answer->iterations, 4);
-
-  KeptTrial first(scene, 7, folder / "stopped", {1, std::nullopt, true});
-  int asked = 0;
-  EXPECT_FALSE(first.run(
-      1.25, [&] { return ++asked <= 3; }, told));
-  EXPECT_EQ(first.iterations(), 3);
-  const auto state = folder / "stopped" / trial_state_name;
-  ASSERT_TRUE(std::filesystem::exists(state));
-  int iterations = 0;
-  KeptTrial second(scene, 7, folder / "stopped", {1, std::nullopt, true});
-  const auto counted = [&] {
-    ++iterations;
-    return true;
-  };
-  const std::optional<FactorTrial> resumed = second.run(1.25, counted, told);
-  ASSERT_TRUE(resumed);
-  EXPECT_EQ(resumed->outcome, answer->outcome);
-  EXPECT_EQ(resumed->iterations, answer->iterations);
-  EXPECT_EQ(iterations, answer->iterations - 3) << "those before it was stopped are not run again";
-  second.forget();
-  EXPECT_FALSE(std::filesystem::exists(state));
+/// Iterates at most some times. @return number of iterations taken
+int iterated(TrialRun& trial, int most) {
+  int taken = 0;
+  while (taken < most && !trial.result()) {
+    (void)trial.iterate();
+    ++taken;
+  }
+  return taken;
 }
 
-TEST(KeptTrial, StateOfAnotherFactorOrSceneIsOfNoUse) {
+TEST(TrialFolder, OneThatIsStoppedGoesOnWhereItWas) {
   const TemporaryFolder folder;
   const LoadedScene scene = pushed_stack(folder, "1");
-  std::ostringstream told;
-  const auto run = [&](std::uint64_t hash, double factor, int most) {
-    int asked = 0;
-    KeptTrial trial(scene, hash, folder.path(), {1, std::nullopt, true});
-    (void)trial.run(
-        factor, [&] { return ++asked <= most; }, told);
+  TrialRun whole(scene, 1.25, 1);
+  (void)iterated(whole, 1000);
+  ASSERT_TRUE(whole.result());
+  ASSERT_GT(whole.iterations(), 4);
+
+  const auto claim = std::make_shared<const FolderClaim>(folder / "out", ClaimPurpose::new_run);
+  TrialFolder stored(claim, 7, false, std::nullopt);
+  TrialRun first(scene, 1.25, 1);
+  stored.begin(first);
+  EXPECT_EQ(iterated(first, 3), 3);
+  stored.save(first);
+  ASSERT_TRUE(std::filesystem::exists(folder / "out" / trial_state_name));
+
+  TrialFolder again(claim, 7, true, std::nullopt);
+  TrialRun second(scene, 1.25, 1);
+  again.begin(second);
+  EXPECT_EQ(second.iterations(), 3);
+  EXPECT_EQ(iterated(second, 1000), whole.iterations() - 3)
+      << "those before it was stopped are not run again";
+  EXPECT_EQ(second.result()->outcome, whole.result()->outcome);
+  EXPECT_EQ(second.result()->iterations, whole.result()->iterations);
+  again.add(*second.result());
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / trial_state_name));
+  EXPECT_TRUE(TrialFolder(claim, 7, true, std::nullopt).find(1.25));
+  EXPECT_FALSE(TrialFolder(claim, 7, false, std::nullopt).find(1.25)) << "a new search forgets";
+}
+
+TEST(TrialFolder, StateOfAnotherFactorOrSceneIsOfNoUse) {
+  const TemporaryFolder folder;
+  const LoadedScene scene = pushed_stack(folder, "1");
+  const auto claim = std::make_shared<const FolderClaim>(folder / "out", ClaimPurpose::new_run);
+  const auto run = [&](std::uint64_t hash, double factor, int more) {
+    TrialFolder stored(claim, hash, true, std::nullopt);
+    TrialRun trial(scene, factor, 1);
+    stored.begin(trial);
+    (void)iterated(trial, more);
+    stored.save(trial);
     return trial.iterations();
   };
   EXPECT_EQ(run(7, 1.0, 2), 2);
@@ -90,20 +97,16 @@ TEST(KeptTrial, StateOfAnotherFactorOrSceneIsOfNoUse) {
   EXPECT_EQ(run(8, 1.5, 1), 1);
 }
 
-TEST(KeptTrial, StateThatIsDueIsKeptOnTheWay) {
+TEST(TrialFolder, StateThatIsDueIsKeptOnTheWay) {
   const TemporaryFolder folder;
   const LoadedScene scene = pushed_stack(folder, "1");
-  std::ostringstream told;
-  KeptTrial trial(scene, 7, folder.path(), {1, 0.0, true});  // after each iteration
-  bool kept = false;
-  (void)trial.run(
-      1.0,
-      [&] {
-        kept = kept || std::filesystem::exists(folder / trial_state_name);
-        return true;
-      },
-      told);
-  EXPECT_TRUE(kept);
+  const auto claim = std::make_shared<const FolderClaim>(folder / "out", ClaimPurpose::new_run);
+  TrialFolder stored(claim, 7, false, 0.0);  // after each iteration
+  TrialRun trial(scene, 1.0, 1);
+  stored.begin(trial);
+  (void)iterated(trial, 1);
+  stored.save_if_due(trial);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / trial_state_name));
 }
 
 TEST(ContactChanges, ThePairThatChangesMostIsNamed) {

@@ -1,0 +1,51 @@
+// Answers of analyses that search before they show a motion: factor of safety, load factor, thrust and movements of
+// supports.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/run/factor_search.hpp"
+#include "solver/statics/limit_analysis.hpp"
+#include "solver/statics/support_movement.hpp"
+#include "solver/statics/thrust.hpp"
+
+namespace ashlar {
+
+/// Result of limit analysis for a scene.
+struct LimitFindings {
+  LimitAnswer answer;
+  LimitMotion released;    ///< at the smallest factor that moves; empty: none does
+  LimitMotion associated;  ///< at the smallest factor above which nothing stands; empty: unknown
+};
+
+/// An extreme of the thrust on one support, and its line of thrust.
+struct ThrustLine {
+  double thrust = 0.0;  ///< N
+  double gap = 0.0;
+  std::vector<JointResultant> joints;
+};
+struct SupportThrust {
+  int support = -1;  ///< block
+  ThrustLine least;
+  std::optional<ThrustLine> most;  ///< empty: no bound
+};
+
+struct ThrustFindings {
+  std::vector<SupportThrust> supports;
+  std::vector<SupportMovement> movements;  ///< of supports moved by the scene, in the order of blocks
+  std::string collapse;  ///< moving blocks, if no forces within the strengths balance the loads
+};
+
+/// Empty of a static or dynamic analysis.
+struct Answer {
+  std::optional<FactorBracket> bracket;  ///< of a search by static analyses
+  std::optional<LimitFindings> limits;   ///< of a search by limit analysis; beside bracket: where that began
+  std::optional<ThrustFindings> thrust;
+
+  /// True if only the onset of motion is drawn, without an analysis of it.
+  [[nodiscard]] bool drawn_only() const { return (limits && !bracket) || thrust; }
+};
+
+}  // namespace ashlar

@@ -1,0 +1,60 @@
+#include "apps/run/folder_recorder.hpp"
+
+#include <utility>
+
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/run/answer_summary.hpp"
+#include "apps/run/run.hpp"
+
+namespace ashlar {
+
+FolderRecorder::FolderRecorder(std::shared_ptr<const FolderClaim> claim,
+                               std::optional<ResultFolderState> earlier)
+    : claim_(std::move(claim)), earlier_(std::move(earlier)), reserve_(claim_->folder()) {}
+
+void FolderRecorder::run_begins(const Run& run) {
+  if (earlier_)
+    files_.emplace(claim_->folder(), run.whole(), run.simulation(), *earlier_);
+  else
+    files_.emplace(claim_->folder(), run.whole(), run.simulation(), run.place());
+  earlier_.reset();
+  stage_ = run.stage();
+}
+
+void FolderRecorder::stage_begins(const Run& run) {
+  if (run.stage() == stage_) return;
+  stage_ = run.stage();
+  files_->begin_stage(run.simulation(), run.place().elapsed,
+                      run.whole().stage[static_cast<std::size_t>(stage_ - 1)].reset_displacement);
+}
+
+void FolderRecorder::step_taken(const Run& run) {
+  claim_->check();
+  files_->add_step(run.simulation());
+}
+
+void FolderRecorder::stage_ends(const Run& run) {
+  draw_answer(run.answer(), run.scene(), run.simulation(), claim_->folder());
+  files_->add_end(run.simulation());
+}
+
+void FolderRecorder::run_ends(const Run& run) {
+  write_summary(run);
+}
+
+void FolderRecorder::save_after_failure(const Run& run) {
+  reserve_.release();
+  write_summary(run);
+}
+
+ResultFolderState FolderRecorder::synced_state() {
+  return files_->synced_state();
+}
+
+void FolderRecorder::write_summary(const Run& run) const {
+  claim_->check();
+  write_file_atomically(claim_->folder() / "summary.json",
+                        run.summary(frames(), files_->largest(run.simulation())), Durability::process);
+}
+
+}  // namespace ashlar

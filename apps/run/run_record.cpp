@@ -1,0 +1,171 @@
+// Blocks, loads, records and summaries of a run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/results/folder/run_summary.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/run/answer_search.hpp"
+#include "apps/run/answer_summary.hpp"
+#include "apps/run/checkpoint_saver.hpp"
+#include "apps/run/folder_recorder.hpp"
+#include "apps/run/run.hpp"
+#include "apps/run/run_setup.hpp"
+#include "apps/run/stored_run.hpp"
+#include "geometry/index.hpp"
+#include "solver/state/step_clock.hpp"
+
+namespace ashlar {
+
+int Run::block(const std::string& name) const {
+  const std::vector<BlockModel>& blocks = simulation().blocks();
+  const auto found = std::find_if(blocks.begin(), blocks.end(),
+                                  [&](const BlockModel& block) { return block.name() == name; });
+  if (found == blocks.end()) throw std::out_of_range(fmt::format("no block is called {}", name));
+  return static_cast<int>(found - blocks.begin());
+}
+
+void Run::require_present(int index) const {
+  if (present(index)) return;
+  throw std::logic_error(fmt::format("block {} is not there in stage {} ({})",
+                                     simulation().blocks()[at(index)].name(), place_.stage,
+                                     whole().stage[at(place_.stage - 1)].name));
+}
+
+std::vector<PointMotion> Run::motions(int index, const std::vector<Vector3>& points,
+                                      OutsidePoints outside) const {
+  require_present(index);
+  const BlockModel& model = simulation().blocks()[at(index)];
+  if (outside == OutsidePoints::refused) points_->require(index, model, points);
+  return model.motions_of(simulation().states()[at(index)], points);
+}
+
+PointMotion Run::motion(const std::string& name, const Vector3& point, OutsidePoints outside) const {
+  return motions(block(name), {point}, outside).front();
+}
+
+void Run::set_load_factor(const std::string& name, int load, double factor) {
+  if (seeks_answer(whole().analysis))
+    throw std::logic_error(
+        "loads of a search (analysis.type) are those of its scene, static or dynamic is needed");
+  const int index = block(name);
+  const std::size_t loads = simulation().blocks()[at(index)].loads().size();
+  if (load < 0 || at(load) >= loads)
+    throw std::out_of_range(fmt::format("block {} has {} loads, there is no load {}", name, loads, load));
+  begin();
+  built_.simulation.set_load_factor(index, load, factor);
+  if (!is_static(scene().analysis) || status_ == RunStatus::failed) return;
+  status_.reset();
+  if (phase_ == Phase::stage_over) phase_ = Phase::in_stage;
+}
+
+std::vector<std::string> Run::columns() const {
+  return history_columns(measures_, stage() > 0);
+}
+
+void Run::observe(std::shared_ptr<RunObserver> observer) {
+  if (phase_ != Phase::preparing) observer->run_begins(*this);
+  if (phase_ == Phase::in_stage) observer->stage_begins(*this);
+  observers_.add(std::move(observer));
+}
+
+void Run::record(const std::filesystem::path& folder, ClaimPurpose purpose) {
+  if (claim_) throw std::logic_error("the run is recorded already, into " + claim_->folder().string());
+  if (status_)
+    throw std::logic_error("the run has ended, nothing is left to record: write() writes what it has");
+  record(std::make_shared<const FolderClaim>(folder, purpose), {}, false);
+}
+
+void Run::record(std::shared_ptr<const FolderClaim> claim, std::optional<double> interval, bool kept) {
+  auto recorder = std::make_shared<FolderRecorder>(
+      claim, earlier_ ? std::optional(earlier_->folder) : std::optional<ResultFolderState>());
+  auto saver = std::make_shared<CheckpointSaver>(recorder, interval, earlier_ != nullptr);
+  observe(recorder);
+  observe(saver);
+  recorder_ = std::move(recorder);
+  saver_ = std::move(saver);
+  claim_ = std::move(claim);
+  checkpoint_interval_ = interval;
+  keeps_trials_ = kept;
+}
+
+void Run::resume(const std::filesystem::path& folder) {
+  if (claim_) throw std::logic_error("the run is recorded already, into " + claim_->folder().string());
+  auto claim = std::make_shared<const FolderClaim>(folder, ClaimPurpose::resume);
+  if (!holds_open_search(folder, whole())) resume(stored_checkpoint(folder, whole(), identity_));
+  record(std::move(claim), {}, true);
+}
+
+void Run::resume(RunCheckpoint checkpoint) {
+  if (phase_ != Phase::preparing || started_)
+    throw std::logic_error("the run has begun, a new one is needed");
+  if (!checkpoint.stages.empty()) {
+    present_ = stage_scene(scene_, checkpoint.stages.size());
+    built_ = built_or_thrown(*present_, manner_.threads);
+  }
+  built_.simulation.restore(checkpoint.simulation);
+  const SceneAnalysis& analysis = scene().analysis;
+  if (simulation().time() - analysis.end_time > time_rounding(analysis.time_step, analysis.end_time))
+    throw std::invalid_argument(fmt::format(
+        "end_time ({} s) is before the time that the run has reached ({} s), a later one, or a new "
+        "folder, is needed",
+        analysis.end_time, simulation().time()));
+  finished_ = checkpoint.stages;
+  changes_ = checkpoint.changes;
+  place_ = {static_cast<int>(finished_.size()) + 1, checkpoint.folder.progress.elapsed,
+            checkpoint.folder.progress.origin};
+  clock_.add_earlier(checkpoint.seconds);
+  earlier_ = std::make_unique<RunCheckpoint>(std::move(checkpoint));
+}
+
+bool Run::saved() const {
+  return saver_ && saver_->saved();
+}
+
+RunCheckpoint Run::checkpoint() const {
+  return {built_.simulation.snapshot(), finished_, {}, clock_.seconds(), changes_};
+}
+
+LargestValues Run::largest() const {
+  if (recorder_ && recorder_->begun()) return recorder_->largest(simulation());
+  return largest_values(simulation(), drawn_blocks(simulation().blocks(), whole().output).surfaces,
+                        place_.origin.surfaces);
+}
+
+std::string Run::summary() const {
+  return summary(recorder_ ? recorder_->frames() : 0, largest());
+}
+
+std::string Run::summary(int frames, const LargestValues& largest) const {
+  const RunStatus status = status_.value_or(RunStatus::interrupted);
+  std::vector<FinishedStage> begun;
+  if (stage() > 0) {
+    begun = finished_;
+    begun.push_back(finished(phase_ == Phase::stage_over && !status_ ? stage_status_ : status));
+  }
+  auto summary = run_summary(whole(), identity_, built_,
+                             {status, message_, clock_.seconds(), frames, largest, std::move(begun)});
+  add_answer(summary, answer_, whole().analysis, simulation());
+  return json_text(summary, 2) + "\n";
+}
+
+void Run::write_summary() const {
+  if (recorder_) recorder_->write_summary(*this);
+}
+
+void Run::write(const std::filesystem::path& folder) const {
+  const FolderClaim claim(folder, ClaimPurpose::replacement);
+  const ResultFolder results(folder, whole(), simulation(), place_);
+  HistoryWriter history(folder / "history.csv", columns());
+  for (const std::vector<double>& row : rows_)
+    history.append(static_cast<std::int64_t>(row.front()), std::vector<double>(row.begin() + 1, row.end()));
+  draw_answer(answer_, whole(), simulation(), folder);
+  write_file_atomically(folder / "summary.json", summary(results.frames(), results.largest(simulation())),
+                        Durability::process);
+}
+
+}  // namespace ashlar

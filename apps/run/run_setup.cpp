@@ -1,0 +1,39 @@
+#include "apps/run/run_setup.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "apps/run/limit_run.hpp"
+#include "apps/run/movement_run.hpp"
+#include "apps/scene/check/loose_blocks.hpp"
+#include "apps/scene/expand/scene_stages.hpp"
+
+namespace ashlar {
+
+std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const LoadedScene>& whole,
+                                               std::size_t stage) {
+  if (whole->scene.stage.empty()) return whole;
+  return std::make_shared<const LoadedScene>(stage_of(*whole, stage));
+}
+
+std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,
+                                                 Diagnostics& diagnostics, Preparation* preparation) {
+  const Scene& scene = first.scene;
+  std::optional<BuiltSimulation> built = build_simulation(first, threads, diagnostics, preparation);
+  if (built && is_static(scene.analysis)) refuse_loose_blocks(scene, built->simulation, diagnostics);
+  if (!built || !diagnostics.good()) return built;
+  const std::optional<RigidModel> model = limit_model(scene, built->simulation);
+  refuse_idle_limits(scene, model, diagnostics);
+  refuse_movements(scene, model, diagnostics);
+  return built;
+}
+
+BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads, const TrialFactors& factors) {
+  Diagnostics diagnostics;
+  std::optional<BuiltSimulation> built = build_simulation(stage, threads, diagnostics, nullptr, factors);
+  if (built) return std::move(*built);
+  const std::vector<Diagnostic> faults = diagnostics.sorted();
+  throw std::runtime_error(faults.empty() ? "blocks cannot be built" : to_string(faults.front()));
+}
+
+}  // namespace ashlar

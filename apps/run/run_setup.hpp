@@ -1,0 +1,28 @@
+// Simulations that a run starts with: that of its first stage, checked, and those of later ones.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "apps/scene/build/build_simulation.hpp"
+#include "apps/scene/build/scene_loading.hpp"
+
+namespace ashlar {
+
+/// One stage of a scene, or the scene itself if it has none. @param whole not null
+[[nodiscard]] std::shared_ptr<const LoadedScene> stage_scene(const std::shared_ptr<const LoadedScene>& whole,
+                                                             std::size_t stage);
+
+/// Builds the first stage. Reports blocks that cannot be built, unsupported blocks of a static analysis, and searches
+/// with nothing to find.
+/// @param first of stage_scene(). @param threads >= 1
+/// @return empty if a block cannot be built
+[[nodiscard]] std::optional<BuiltSimulation> build_first_stage(const LoadedScene& first, int threads,
+                                                               Diagnostics& diagnostics,
+                                                               Preparation* preparation = nullptr);
+
+/// The simulation of a stage. @throws std::runtime_error if its blocks cannot be built
+[[nodiscard]] BuiltSimulation built_or_thrown(const LoadedScene& stage, int threads,
+                                              const TrialFactors& factors = {});
+
+}  // namespace ashlar

@@ -1,0 +1,42 @@
+// A static analysis of a search for a factor, iteration by iteration.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/results/folder/contact_changes.hpp"
+#include "apps/results/folder/run_checkpoint.hpp"
+#include "apps/run/factor_search.hpp"
+#include "apps/scene/build/build_simulation.hpp"
+
+namespace ashlar {
+
+class TrialRun {
+ public:
+  /// From the blocks as placed. If they cannot be built the trial has ended, inconclusive.
+  TrialRun(const LoadedScene& scene, double factor, int threads);
+
+  /// Takes an iteration of a trial that has not ended. @return true if it goes on
+  bool iterate();
+
+  [[nodiscard]] double factor() const { return factor_; }
+  [[nodiscard]] int iterations() const { return built_ ? built_->simulation.steps() : 0; }
+  /// Empty until the trial has ended.
+  [[nodiscard]] const std::optional<FactorTrial>& result() const { return result_; }
+  /// Reason for an inconclusive result; empty otherwise.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+  /// State between two iterations, for restore() of a trial of the same factor: simulation and changes of contacts.
+  [[nodiscard]] RunCheckpoint state() const;
+  void restore(const RunCheckpoint& state);
+
+ private:
+  double factor_;
+  double end_time_;  ///< s, of the loads
+  std::optional<BuiltSimulation> built_;
+  ContactChanges changes_;
+  std::optional<FactorTrial> result_;
+  std::string reason_;
+};
+
+}  // namespace ashlar
