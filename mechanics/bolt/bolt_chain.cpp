@@ -283,6 +283,7 @@ bool BoltChain::has_yielded(const BoltMemory& memory, std::size_t spring) const 
 bool BoltChain::rupture(const Eigen::VectorXd& deformation, const BoltResponse& response,
                         BoltMemory& memory) const {
   bool any = false;
+  if (law_.rupture_strain == BoltLaw::unlimited) return any;
   for (std::size_t i = 0; i < bar_.size(); ++i) {
     const double elongation = law_.anchorage == BoltAnchorage::ends
                                   ? deformation[0] - memory.installed

@@ -1,6 +1,7 @@
 #include "solver/statics/static_start.hpp"
 
 #include "solver/statics/static_step.hpp"
+#include "solver/step/accepted_bolts.hpp"
 #include "solver/step/snapshot.hpp"
 
 namespace ashlar {
@@ -26,6 +27,8 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
     record.work = 0.0;
   }
   for (auto& [blocks, pair] : state.pairs) pair.work = 0.0;
+  commit_bolts(state);
+  for (const BoltState& bolt : state.bolts) in_springs += bolt.stored;
   state.log.rejections.clear();
   state.steps = 0;
   state.remembers_statics = true;

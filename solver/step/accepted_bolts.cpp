@@ -65,8 +65,8 @@ bool rupture_bolts(const RunContext& run) {
   bool any = false;
   for (std::size_t k = 0; k < run.state.bolts.size(); ++k) {
     BoltState& state = run.state.bolts[k];
-    if (!state.installed()) continue;
     const Bolt& bolt = run.system.bolts()[k];
+    if (!state.installed() || bolt.chain.law().rupture_strain == BoltLaw::unlimited) continue;
     const Eigen::VectorXd deformation = deformation_in(bolt, run.blocks(), run.state.states);
     const BoltResponse response = bolt.chain.respond(deformation, state.memory, false);
     const double released = rupture(run, static_cast<int>(k), deformation, response);

@@ -105,6 +105,19 @@ TEST(BoltsInARun, BoltedFreeBlocksKeepTheirMomenta) {
   EXPECT_LE((simulation.angular_momentum() - spin).norm(), 1e-8 * spin.norm());
 }
 
+TEST(BoltsInARun, MotionFromEquilibriumStaysAtRest) {
+  SimulationSettings settings;
+  settings.time_step = 1e-3;
+  Simulation simulation = hanging(1, four_bars(1e7), settings);
+  ASSERT_EQ(simulation.start_from_statics(), StaticStatus::equilibrium);
+  const double share = 2500.0 * gravity / 4.0;
+  // 1/2 F^2 L / EA of each bar.
+  EXPECT_NEAR(simulation.ledger().contact, 4.0 * 0.5 * share * share / 1e7, 1e-3 * share * share / 1e7);
+  for (int k = 0; k < 100; ++k) ASSERT_EQ(simulation.step(1.0), StepStatus::accepted);
+  EXPECT_LE(std::abs(simulation.ledger().residual), 1e-9);
+  for (const BoltState& bolt : simulation.bolts()) EXPECT_NEAR(bolt.axial[0], share, 1e-4 * share);
+}
+
 TEST(BoltsInARun, AYieldingPropLetsTheBlockDown) {
   // Under the block; it yields below the weight.
   SimulationSettings settings;
