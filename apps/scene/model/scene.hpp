@@ -15,6 +15,7 @@
 #include "apps/scene/model/scene_analysis.hpp"
 #include "apps/scene/model/scene_block.hpp"
 #include "apps/scene/model/scene_contact.hpp"
+#include "apps/scene/model/scene_moving_load.hpp"
 #include "apps/scene/model/scene_places.hpp"
 #include "apps/scene/model/scene_shape.hpp"
 #include "geometry/triangle_mesh.hpp"
@@ -36,11 +37,12 @@ struct SceneMaterial {
 
 /// [[cut]]: cuts the matching blocks by parallel planes, the faces of a solid, or the cells around points.
 struct SceneCut {
-  enum class Kind { planes, solid, voronoi };
+  enum class Kind { planes, solid, voronoi, discs };
   enum class Spacing { normal, lognormal, uniform, exponential };
 
-  std::string name;                 ///< unique; required
-  std::vector<std::string> blocks;  ///< names or globs; each matches a block or its pieces; required
+  std::string name;                   ///< unique; required
+  std::vector<std::string> blocks;    ///< names or globs; each matches a block or its pieces; required
+  std::optional<SceneRegion> inside;  ///< only pieces inside, as they are before the cut
   Kind kind = Kind::planes;
   double dip = 0.0;                 ///< deg, 0 to 90
   double dip_direction = 0.0;       ///< deg from north (y) towards east (x)
@@ -57,15 +59,17 @@ struct SceneCut {
   bool glued = false;               ///< blocks on both sides are tied
   int most_blocks = 100000;         ///< >= 1, of all blocks of the scene after the cut
   SceneShape solid;                 ///< box, mesh, hull or sphere; kind solid
+  std::filesystem::path file;       ///< table of measured joints (disc_table.hpp), as written; kind discs
   int count = 0;                    ///< >= 1; kind voronoi: points in each block
 };
 
 /// [[measure]]: a material point, a block or a pair of blocks with columns in the history.
 struct SceneMeasure {
-  std::string name;                 ///< unique; required; heads columns of the history
-  std::string block;                ///< name of a [[block]]; empty: `pair` is measured
-  std::optional<Vector3> point;     ///< m, in the placed, undeformed block; empty: the block as a whole
-  std::array<std::string, 2> pair;  ///< names of two blocks whose contacts are measured; otherwise empty
+  std::string name;                   ///< unique; required; heads columns of the history
+  std::string block;                  ///< name of a [[block]]; empty: `pair` is measured
+  std::optional<SceneRegion> inside;  ///< in place of the name, which is that of the one block inside
+  std::optional<Vector3> point;       ///< m, in the placed, undeformed block; empty: the block as a whole
+  std::array<std::string, 2> pair;    ///< names of two blocks whose contacts are measured; otherwise empty
 };
 
 /// [[stage]]: changes before the run continues. Names and globs match blocks, and pieces of cut blocks.
@@ -74,10 +78,12 @@ struct SceneStage {
   struct Fix {
     std::vector<std::string> blocks;
     SceneFix fix;
+    std::optional<SceneRegion> inside = {};  ///< only those of `blocks` inside
   };
   struct Load {
     std::vector<std::string> blocks;
     SceneLoad load;
+    std::optional<SceneRegion> inside = {};
   };
 
   std::string name;        ///< unique; required
@@ -85,6 +91,7 @@ struct SceneStage {
   std::vector<std::string> remove;  ///< blocks that are removed
   /// Blocks added as they were placed. A block that is added before it is ever removed is absent until then.
   std::vector<std::string> add;
+  std::optional<SceneRegion> remove_inside, add_inside;  ///< only those of `remove` and `add` inside
   std::vector<Fix> fix;
   std::vector<Load> load;
   std::vector<SceneJoint> joint;        ///< after all earlier ones
@@ -122,6 +129,7 @@ struct Scene {
   std::vector<SceneBlock> block;        ///< in file order, then pieces of masonry; at least one
   std::vector<SceneAssign> assign;      ///< in file order; already applied in a scene that has been read
   std::vector<SceneCut> cut;            ///< in file order
+  std::vector<SceneMovingLoad> load;    ///< in file order
   std::vector<SceneMeasure> measure;    ///< in file order
   SceneOutput output;
   /// In file order; empty: a single analysis. Otherwise `analysis` is that of the first one.
@@ -140,7 +148,7 @@ struct Scene {
 void override_law(SceneJointLaw& law, const SceneJoint& joint);
 
 /// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair and does not belong to
-/// a [[cut]]. For many pairs, and for cuts, use a JointTable.
+/// a [[cut]] or a region. For many pairs, cuts and regions, use a JointTable.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
 

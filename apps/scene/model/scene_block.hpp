@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/scene/model/scene_record.hpp"
+#include "apps/scene/model/scene_region.hpp"
 #include "apps/scene/model/scene_shape.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "mechanics/supports/recorded_motion.hpp"
@@ -50,6 +51,7 @@ struct SceneLoad {
   Vector3 vector = Vector3::Zero();  ///< Pa or N
   std::vector<Factor> history;       ///< times increase; empty: factor 1 always
   std::optional<SceneRecord> file;   ///< its file, if not in the scene
+  bool of_path = false;              ///< made from a [[load]], not from the scene's block
   bool of_fill = false;              ///< weight of an arch's fill, which a fixed block ignores
 };
 
@@ -80,7 +82,8 @@ struct SceneBlock {
 /// [[assign]]: properties of the blocks matched by patterns. The last of several entries has priority, key by key;
 /// supports and loads add up.
 struct SceneAssign {
-  std::vector<std::string> blocks;  ///< names or globs, each matches at least one block
+  std::vector<std::string> blocks;    ///< names or globs, each matches at least one block
+  std::optional<SceneRegion> inside;  ///< only those of `blocks` inside
   std::optional<std::string> material;
   std::optional<int> order;
   std::optional<bool> fixed;

@@ -71,7 +71,8 @@ class TomlTableReader {
   bool read_vector(std::string_view key, Vector3& result);
   /// A vector of coordinates or lengths, m, none beyond largest_coordinate.
   bool read_place(std::string_view key, Vector3& result);
-  bool read_texts(std::string_view key, std::vector<std::string>& result);
+  /// @param form description of a table that is another value of the key
+  bool read_texts(std::string_view key, std::vector<std::string>& result, const char* form = "");
   /// An array of at least `minimum` rows of `width` finite numbers each. @param words name of a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                  std::size_t minimum, const char* words, const char* form = "");
