@@ -21,7 +21,7 @@ import tomllib
 
 DOCS = pathlib.Path(__file__).resolve().parent
 PROJECT = DOCS.parents[1]
-LISTS = ("joint", "material", "block", "masonry", "cut", "measure", "assign", "water", "stage")
+LISTS = ("joint", "material", "block", "masonry", "cut", "load", "bolt", "prop", "water", "measure", "assign", "stage")
 MASONRY_KINDS = 4
 # Stands where a key of the program is to be described by hand.
 UNSAID = "TO BE SAID"
@@ -74,7 +74,8 @@ def keys_of(schema, table=""):
     for key, value in schema.get("properties", {}).items():
         inner = value.get("items", value) if value.get("type") == "array" else value
         path = f"{table}.{key}" if table else key
-        if "properties" in inner and path != "stage.analysis" and not re.search(r"(stage|assign)\.(fix|load|joint|material|water)$", path):
+        told_once = path.endswith((".inside", "stage.remove", "stage.add")) and path != "assign.inside"
+        if "properties" in inner and path != "stage.analysis" and not told_once and not re.search(r"(stage|assign)\.(fix|load|joint|material|water|bolt|prop)$", path):
             yield from keys_of(inner, path)
         else:
             yield path

@@ -8,7 +8,7 @@
 
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/run/drawing_view.hpp"
-#include "apps/scene/model/name_pattern.hpp"
+#include "apps/scene/model/block_names.hpp"
 #include "geometry/index.hpp"
 #include "solver/statics/yielding_support.hpp"
 
@@ -83,7 +83,7 @@ std::vector<int> moved_supports(const Scene& scene, const RigidModel& model) {
   const std::vector<std::string>& patterns = scene.analysis.movement.supports;
   for (const int support : supports_of(model))
     if (std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-          return pattern_matches(pattern, scene.block[at(support)].name);
+          return pattern_names_block(scene, pattern, at(support));
         }))
       supports.push_back(support);
   return supports;
@@ -94,7 +94,7 @@ void refuse_movements(const Scene& scene, const std::optional<RigidModel>& model
   const std::vector<int> supports = supports_of(*model);
   for (const std::string& pattern : scene.analysis.movement.supports)
     if (std::none_of(supports.begin(), supports.end(),
-                     [&](int support) { return pattern_matches(pattern, scene.block[at(support)].name); }))
+                     [&](int support) { return pattern_names_block(scene, pattern, at(support)); }))
       diagnostics.error(
           scene.places.value("analysis.movement.supports"),
           fmt::format("movement names no support (\"{}\"), the name of a block that does not move and that "

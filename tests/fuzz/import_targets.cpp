@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 #include "apps/scene/meshes/dxf_reader.hpp"
 #include "apps/scene/meshes/gltf_reader.hpp"
+#include "apps/scene/meshes/height_grid.hpp"
 #include "apps/scene/meshes/threemf_reader.hpp"
 #include "fuzz/targets.hpp"
 #include "geometry/exact/coordinate_limit.hpp"
@@ -56,6 +58,21 @@ std::shared_ptr<const std::string> no_file(const std::string&) {
 }
 
 }  // namespace
+
+bool grid(std::string_view bytes) {
+  int read = 0;
+  for (TriangleMesh (*parse)(std::istream&) : {parse_esri_grid, parse_xyz_grid}) {
+    std::istringstream content{std::string(bytes)};
+    try {
+      check(parse(content));
+      ++read;
+    } catch (const MeshFileError& error) {
+      require(error.line() >= 0 && error.column() >= 0, "places are not negative");
+      require(error.what()[0] != '\0', "a refusal has a reason");
+    }
+  }
+  return read > 0;
+}
 
 bool gltf(std::string_view bytes) {
   return import([&] { return read_gltf(bytes, no_file); }, 2 * bytes.size());

@@ -6,6 +6,7 @@
 #include "apps/results/folder/scratch_folder.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/build/scene_reader.hpp"
+#include "apps/scene/read/disc_table.hpp"
 #include "apps/scene/read/record_file.hpp"
 #include "apps/scene/read/scene_json.hpp"
 #include "apps/scene/toml/formulas.hpp"
@@ -55,12 +56,14 @@ bool formula(std::string_view bytes) {
   }
 }
 
-bool record(std::string_view bytes) {
+/// Reads a record with two columns and an empty one.
+static bool check_record(std::string_view bytes, const std::string& name, const std::string& first,
+                         const std::string& second) {
   const SceneRecord record{
-      .file = "r.csv", .time = "t", .values = {"a", "", "b"}, .scale = 2.0, .sha256 = {}};
+      .file = name, .time = "t", .values = {first, "", second}, .scale = 2.0, .sha256 = {}};
   Diagnostics diagnostics;
   std::istringstream content{std::string(bytes)};
-  const auto rows = parse_record(record, content, "r.csv", diagnostics);
+  const auto rows = parse_record(record, content, name, diagnostics);
   require(rows.has_value() == diagnostics.good(), "a record that is refused has a fault");
   for (const Diagnostic& fault : diagnostics.sorted())
     require(fault.place.line >= 1 && fault.place.column >= 1, "every fault has a place");
@@ -71,6 +74,33 @@ bool record(std::string_view bytes) {
     for (const double value : row) require(std::isfinite(value), "values are finite");
     last = row[0];
   }
+  return true;
+}
+
+bool record(std::string_view bytes) {
+  return check_record(bytes, "r.csv", "a", "b");
+}
+
+bool volume2(std::string_view bytes) {
+  return check_record(bytes, "r.V2", "acceleration", "velocity");
+}
+
+bool smc(std::string_view bytes) {
+  return check_record(bytes, "r.smc", "a", "b");
+}
+
+bool joints(std::string_view bytes) {
+  Diagnostics diagnostics;
+  std::istringstream content{std::string(bytes)};
+  const auto table = parse_disc_table(content, "j.csv", diagnostics);
+  require(table.has_value() == diagnostics.good(), "a table that is refused has a fault");
+  for (const Diagnostic& fault : diagnostics.sorted())
+    require(fault.place.line >= 1 && fault.place.column >= 1, "every fault has a place");
+  if (!table) return false;
+  for (const MeasuredJoint& joint : *table)
+    require(joint.center.allFinite() &&
+                std::isfinite(joint.dip + joint.dip_direction + joint.radius.value_or(1.0)),
+            "values are finite");
   return true;
 }
 

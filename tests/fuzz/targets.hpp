@@ -23,6 +23,10 @@ bool scene(std::string_view bytes);       ///< the text of a scene, up to the ke
 bool include(std::string_view bytes);     ///< a scene, a line "# part.toml", and a file that it may include
 bool formula(std::string_view bytes);     ///< the text after the "=" of a formula of h, n and lost
 bool record(std::string_view bytes);      ///< a CSV file with columns t, a and b
+bool volume2(std::string_view bytes);     ///< a record of strong motion, its accelerations and velocities
+bool smc(std::string_view bytes);         ///< the other kind
+bool joints(std::string_view bytes);      ///< a table of measured joints
+bool grid(std::string_view bytes);        ///< terrain: an ESRI grid, or points x, y, z
 bool off(std::string_view bytes);         ///< each of the meshes: points, faces, triangles
 bool obj(std::string_view bytes);         //
 bool stl(std::string_view bytes);         //
@@ -46,10 +50,14 @@ struct Target {
   bool lasting = true;
 };
 
-inline constexpr std::array<Target, 18> targets = {{{"scene", scene},
+inline constexpr std::array<Target, 22> targets = {{{"scene", scene},
                                                     {"include", include},
                                                     {"formula", formula},
                                                     {"record", record},
+                                                    {"volume2", volume2},
+                                                    {"smc", smc},
+                                                    {"joints", joints},
+                                                    {"grid", grid},
                                                     {"off", off},
                                                     {"obj", obj},
                                                     {"stl", stl},

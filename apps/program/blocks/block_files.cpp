@@ -21,6 +21,11 @@ std::string word_of(std::string name) {
   return name;
 }
 
+/// True for a block that is not there in the stage of the scene.
+bool is_absent(const LoadedScene& loaded, std::size_t block) {
+  return !loaded.scene.absent.empty() && loaded.scene.absent[block];
+}
+
 }  // namespace
 
 UnstructuredGrid block_grid(const BlockReport& report, const std::vector<RemovableBlock>& removable) {
@@ -32,6 +37,7 @@ UnstructuredGrid block_grid(const BlockReport& report, const std::vector<Removab
   std::vector<const RemovableBlock*> looked_at(loaded.solids.size(), nullptr);
   for (const RemovableBlock& of : removable) looked_at[of.block] = &of;
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    if (!report.is_there(k)) continue;
     const TriangleMesh& mesh = loaded.solids[k].mesh();
     const int first = static_cast<int>(grid.points.size());
     grid.points.insert(grid.points.end(), mesh.points.begin(), mesh.points.end());
@@ -57,6 +63,7 @@ std::string block_obj(const LoadedScene& loaded) {
   const auto out = std::back_inserter(text);
   std::size_t first = 1;
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    if (is_absent(loaded, k)) continue;
     const TriangleMesh& mesh = loaded.solids[k].mesh();
     const std::string name = word_of(loaded.scene.block[k].name);
     fmt::format_to(out, "o {}\ng {}\n", name, name);
@@ -74,6 +81,7 @@ std::string block_stl(const LoadedScene& loaded) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    if (is_absent(loaded, k)) continue;
     const TriangleMesh& mesh = loaded.solids[k].mesh();
     const std::string name = word_of(loaded.scene.block[k].name);
     fmt::format_to(out, "solid {}\n", name);
@@ -94,6 +102,7 @@ std::string block_msh(const LoadedScene& loaded) {
   fmt::memory_buffer names, nodes, elements;
   std::size_t node = 0, element = 0;
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    if (is_absent(loaded, k)) continue;
     const TriangleMesh& mesh = loaded.solids[k].mesh();
     std::string name = loaded.scene.block[k].name;
     std::replace_if(

@@ -48,21 +48,31 @@ BlockSolid BlockReport::solid(std::size_t block) const {
   return {&*loaded_.scene.rock->solids[uncut], piece};
 }
 
+bool BlockReport::is_there(std::size_t block) const {
+  return loaded_.scene.absent.empty() || !loaded_.scene.absent[block];
+}
+
+std::size_t BlockReport::neighbour(std::size_t block, const PieceFace& face) const {
+  return block_of_.at({loaded_.scene.rock->origin[block].uncut, face.neighbour});
+}
+
+bool BlockReport::is_bare(std::size_t block, const PieceFace& face) const {
+  return face.neighbour < 0 || !is_there(neighbour(block, face));
+}
+
 void BlockReport::add_borders_of_pieces() {
   if (!loaded_.scene.rock) return;
   const CutRock& rock = *loaded_.scene.rock;
-  std::map<std::pair<std::size_t, int>, std::size_t> block_of;
   for (std::size_t k = 0; k < rock.origin.size(); ++k)
-    block_of[{rock.origin[k].uncut, rock.origin[k].piece}] = k;
+    block_of_[{rock.origin[k].uncut, rock.origin[k].piece}] = k;
   for (std::size_t k = 0; k < rock.origin.size(); ++k) {
-    if (rock.origin[k].piece < 0) continue;
+    if (rock.origin[k].piece < 0 || !is_there(k)) continue;
     const auto [of, piece] = solid(k);
     for (const PieceFace& face : of->faces(piece)) {
-      if (face.neighbour < 0) continue;
+      if (is_bare(k, face)) continue;
       std::optional<std::size_t> cut;
       if (face.mark >= 0) cut = rock.marks[static_cast<std::size_t>(face.mark)].cut;
-      blocks_[k].borders.push_back(
-          {block_of.at({rock.origin[k].uncut, face.neighbour}), of->area(face), cut, face.plane, face.below});
+      blocks_[k].borders.push_back({neighbour(k, face), of->area(face), cut, face.plane, face.below});
     }
   }
 }
@@ -76,7 +86,7 @@ void BlockReport::add_contacts() {
     const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
     const bool same = is_piece(loaded_, a) && is_piece(loaded_, b) &&
                       loaded_.scene.rock->origin[a].uncut == loaded_.scene.rock->origin[b].uncut;
-    if (!same) add_contact(a, b);
+    if (!same && is_there(a) && is_there(b)) add_contact(a, b);
   }
 }
 
@@ -110,9 +120,10 @@ void BlockReport::add_border(std::size_t block, std::size_t other, const Vector3
 double BlockReport::volume() const {
   // Neumaier's sum: rounding errors of additions are added at the end.
   double sum = 0.0, lost = 0.0;
-  for (const BlockEntry& entry : blocks_) {
-    const double next = sum + entry.volume;
-    lost += std::abs(sum) >= entry.volume ? (sum - next) + entry.volume : (entry.volume - next) + sum;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    if (!is_there(k)) continue;
+    const double volume = blocks_[k].volume, next = sum + volume;
+    lost += std::abs(sum) >= volume ? (sum - next) + volume : (volume - next) + sum;
     sum = next;
   }
   return sum + lost;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "apps/program/blocks/block_histogram.hpp"
+#include "apps/scene/expand/piece_blocks.hpp"
+#include "geometry/boxes/box.hpp"
 
 namespace ashlar {
 namespace {
@@ -15,7 +17,8 @@ using Json = nlohmann::ordered_json;
 
 std::vector<double> volumes_of(const BlockReport& report) {
   std::vector<double> volumes;
-  for (const BlockEntry& entry : report.blocks()) volumes.push_back(entry.volume);
+  for (std::size_t k = 0; k < report.blocks().size(); ++k)
+    if (report.is_there(k)) volumes.push_back(report.blocks()[k].volume);
   return volumes;
 }
 
@@ -39,6 +42,10 @@ std::string removable_text(const Scene& scene, const std::vector<RemovableBlock>
                         to_string(of.key.mode), of.factor_of_safety);
   }
   return text;
+}
+
+Json to_json(const Vector3& vector) {
+  return {vector.x(), vector.y(), vector.z()};
 }
 
 Json key_json(const RemovableBlock& of) {
@@ -76,6 +83,9 @@ std::string report_text(const BlockReport& report, const std::vector<RemovableBl
   const std::vector<double> areas = report.areas_by_cut();
   for (std::size_t k = 0; k < areas.size(); ++k) {
     text += fmt::format("cut {}: {:.10g} m^2 between blocks", scene.cut[k].name, areas[k]);
+    if (scene.rock->extended[k] > 0)
+      text +=
+          fmt::format(", {} joints that end inside a block extended to its faces", scene.rock->extended[k]);
     if (scene.cut[k].min_volume > 0.0)
       text += fmt::format(", {} pieces below {:g} m^3 glued", scene.rock->glued[k], scene.cut[k].min_volume);
     text += '\n';
@@ -87,17 +97,24 @@ std::string report_text(const BlockReport& report, const std::vector<RemovableBl
 Json report_json(const BlockReport& report, const std::vector<RemovableBlock>* removable) {
   const LoadedScene& loaded = report.loaded();
   Json blocks = Json::array();
+  std::vector<std::size_t> place(loaded.solids.size(), 0);  // of a block in the list
   for (std::size_t k = 0; k < loaded.solids.size(); ++k) {
+    if (!report.is_there(k)) continue;
+    place[k] = blocks.size();
     const SceneBlock& block = loaded.scene.block[k];
+    const Box box = box_of(loaded.solids[k].mesh().points);
     blocks.push_back({{"name", block.name},
+                      {"names", loaded.scene.rock ? Json(loaded.scene.rock->other_names[k]) : Json::array()},
                       {"volume", report.blocks()[k].volume},
+                      {"centroid", to_json(centroid_of(loaded.solids[k]))},
+                      {"box", {{"min", to_json(box.low)}, {"max", to_json(box.high)}}},
                       {"faces", loaded.solids[k].faces().size()},
                       {"material", block.material.empty() ? Json() : Json(block.material)},
                       {"neighbours", neighbours_json(loaded.scene, report.blocks()[k])}});
   }
   if (removable != nullptr)
-    for (const RemovableBlock& of : *removable) blocks[of.block]["key"] = key_json(of);
-  return {{"count", loaded.solids.size()}, {"volume", report.volume()}, {"blocks", std::move(blocks)}};
+    for (const RemovableBlock& of : *removable) blocks[place[of.block]]["key"] = key_json(of);
+  return {{"count", blocks.size()}, {"volume", report.volume()}, {"blocks", std::move(blocks)}};
 }
 
 }  // namespace ashlar

@@ -13,7 +13,8 @@ namespace ashlar {
 [[nodiscard]] std::string report_text(const BlockReport& report,
                                       const std::vector<RemovableBlock>* removable);
 
-/// { count, volume, blocks: [{ name, volume, faces, material, neighbours: [{ block, area, cut }], key }] };
+/// { count, volume, blocks: [{ name, names, volume, centroid, box: { min, max }, faces, material, neighbours: [{ block,
+/// area, cut }], key }] }, of the blocks that are there in the stage of the scene; `names` are other names of a piece;
 /// cut is null if no cut divided the two, material if a fixed block has none. `key` is present for examined blocks: {
 /// finite, removable, mode, direction, factor_of_safety }, the factor null if infinite.
 [[nodiscard]] nlohmann::ordered_json report_json(const BlockReport& report,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -17,6 +18,7 @@
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
 #include "apps/scene/build/scene_loading.hpp"
+#include "apps/scene/model/nearest_name.hpp"
 
 namespace ashlar {
 namespace {
@@ -43,7 +45,8 @@ std::string write_files(const std::filesystem::path& folder, const BlockReport& 
                         const std::vector<RemovableBlock>& removable) {
   const LoadedScene& loaded = report.loaded();
   std::vector<double> volumes;
-  for (const BlockEntry& entry : report.blocks()) volumes.push_back(entry.volume);
+  for (std::size_t k = 0; k < report.blocks().size(); ++k)
+    if (report.is_there(k)) volumes.push_back(report.blocks()[k].volume);
   const std::string svg = histogram_svg(
       fmt::format("{}: {} blocks, {:.6g} m\u00b3", loaded.scene.title, volumes.size(), report.volume()),
       size_classes(volumes));
@@ -56,6 +59,25 @@ std::string write_files(const std::filesystem::path& folder, const BlockReport& 
                      (folder / "blocks.vtu").string(), (folder / "blocks.obj").string(),
                      (folder / "sizes.svg").string(),
                      write_png(svg, folder / "sizes.png", histogram_width, histogram_height));
+}
+
+/// Replaces a scene by one of its stages. @return false after a fault
+bool choose_stage(LoadedScene& loaded, const std::string& name, std::ostream& err) {
+  std::vector<std::string> names;
+  for (const SceneStage& stage : loaded.scene.stage) names.push_back(stage.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    err << fmt::format(
+        "ashlar: error: no stage of that name (--stage {}), {}the name of a [[stage]] without faults is "
+        "needed\n",
+        name, guess(name, names, "\""));
+    return false;
+  }
+  loaded = stage_of(loaded, static_cast<std::size_t>(found - names.begin()));
+  const std::vector<bool>& absent = loaded.scene.absent;
+  if (std::find(absent.begin(), absent.end(), false) != absent.end()) return true;
+  err << fmt::format("ashlar: error: no block is there in stage \"{}\", one with a block is needed\n", name);
+  return false;
 }
 
 }  // namespace
@@ -80,6 +102,7 @@ int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream
   }
   diagnostics.print(err);
   if (!loaded) return exit_status::bad_input;
+  if (options.stage && !choose_stage(*loaded, *options.stage, err)) return exit_status::bad_input;
   std::optional<FolderClaim> claim;
   if (options.folder || !options.json) {
     try {
@@ -122,6 +145,8 @@ void declare_blocks_command(CLI::App& program, CommandContext& context) {
       ->add_option("--removable", options->force,
                    "Key-block analysis of blocks with a free face, under a force of this direction")
       ->type_name("X,Y,Z");
+  command->add_option("--stage", options->stage, "Blocks that are there in this stage (default: all blocks)")
+      ->type_name("NAME");
   declare_overrides(*command, options->overrides);
   command->callback(
       [options, &context] { context.status = blocks_command(*options, context.out, context.err); });

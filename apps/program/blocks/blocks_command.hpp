@@ -15,6 +15,7 @@ struct BlocksOptions {
   std::vector<std::string> overrides;           ///< "key.path=value" each, in order
   std::optional<std::filesystem::path> folder;  ///< default: scene name + ".blocks"; with json: none
   bool json = false;
+  std::optional<std::string> stage;  ///< name of a [[stage]]; default: all blocks, of any stage
   std::optional<std::string> force;  ///< "x,y,z" of --removable
 };
 

@@ -21,17 +21,18 @@ struct Hold {
 
 using Holds = std::map<std::pair<int, bool>, Hold>;  // by plane and side
 
-bool has_free_face(const BlockSolid& block, const Holds& holds) {
+bool has_free_face(const BlockReport& report, std::size_t index, const Holds& holds) {
+  const BlockSolid block = report.solid(index);
   std::map<std::pair<int, bool>, double> bare;
   for (const PieceFace& face : block.solid->faces(block.piece))
-    if (face.neighbour < 0) bare[{face.plane, face.below}] += block.solid->area(face);
+    if (report.is_bare(index, face)) bare[{face.plane, face.below}] += block.solid->area(face);
   return std::any_of(bare.begin(), bare.end(), [&](const auto& entry) {
     const auto& [plane, area] = entry;
     const auto hold = holds.find(plane);
     // Areas of neighbours within the solid are not on a bare face.
     double covered = hold == holds.end() ? 0.0 : hold->second.area;
     for (const PieceFace& face : block.solid->faces(block.piece))
-      if (face.neighbour >= 0 && std::pair(face.plane, face.below) == plane)
+      if (!report.is_bare(index, face) && std::pair(face.plane, face.below) == plane)
         covered -= block.solid->area(face);
     return area - covered > covered_part * area;
   });
@@ -58,7 +59,7 @@ std::vector<RemovableBlock> find_removable_blocks(const BlockReport& report, con
   const JointTable table(scene);
   std::vector<RemovableBlock> result;
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
-    if (scene.block[k].fixed || !scene.block[k].fix.empty()) continue;
+    if (!report.is_there(k) || scene.block[k].fixed || !scene.block[k].fix.empty()) continue;
     Holds holds;
     bool tied = false;
     for (const BlockBorder& border : report.blocks()[k].borders) {
@@ -69,7 +70,7 @@ std::vector<RemovableBlock> find_removable_blocks(const BlockReport& report, con
       hold.friction += border.area * std::tan(law.friction_angle * std::numbers::pi / 180.0);
     }
     const BlockSolid block = report.solid(k);
-    if (tied || !has_free_face(block, holds)) continue;
+    if (tied || !has_free_face(report, k, holds)) continue;
     std::vector<HeldFace> held;
     for (const auto& [plane, hold] : holds) held.push_back({plane.first, plane.second});
     const KeyBlock key = block.solid->key_block(block.piece, held, force);

@@ -14,6 +14,8 @@
 #include "apps/scene/check/scene_limits.hpp"
 #include "apps/scene/check/soft_blocks.hpp"
 #include "apps/scene/check/support_checks.hpp"
+#include "apps/scene/expand/moving_loads.hpp"
+#include "apps/scene/expand/region_blocks.hpp"
 #include "apps/scene/expand/scene_cuts.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
@@ -76,9 +78,14 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
       return std::nullopt;
     cut_scene(loaded.scene, diagnostics, preparation);
     if (!diagnostics.good()) return std::nullopt;
-    apply_assignments_to_pieces(loaded.scene, of_blocks);
+  }
+  if (has_regions(loaded.scene)) {
+    if (!diagnostics.good()) return std::nullopt;
+    choose_blocks_inside(loaded.scene, of_blocks, preparation);
     if (!diagnostics.good()) return std::nullopt;
   }
+  apply_later_assignments(loaded.scene, of_blocks);
+  if (!loaded.scene.cut.empty() && !diagnostics.good()) return std::nullopt;
   check_stages(loaded.scene, of_blocks);
   // Statements of stages about absent blocks have no meaning further on.
   if (!loaded.scene.stage.empty() && !diagnostics.good()) return std::nullopt;
@@ -90,6 +97,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
     return std::nullopt;
   std::vector<std::optional<Polyhedron>> solids =
       build_solids(loaded.scene, diagnostics, &loaded.shapes, preparation);
+  lay_moving_loads(loaded.scene, solids, of_blocks);
   for_each_stage(loaded.scene, [&](const Scene& stage) {
     check_placement(stage, solids, diagnostics);
     check_limits(stage, solids, diagnostics);

@@ -19,6 +19,8 @@
 #include "apps/scene/read/history_reader.hpp"
 #include "apps/scene/read/initial_stress_reader.hpp"
 #include "apps/scene/read/masonry.hpp"
+#include "apps/scene/read/moving_load_reader.hpp"
+#include "apps/scene/read/region_reader.hpp"
 #include "apps/scene/read/water_reader.hpp"
 #include "apps/scene/toml/fault_text.hpp"
 #include "apps/scene/toml/include.hpp"
@@ -81,7 +83,9 @@ void read_analysis(TomlTableReader& table, SceneAnalysis& analysis) {
   table.read_number_or_auto("memory_limit", analysis.memory_limit, range::positive);
 }
 
-bool has_history(const SceneBlock& block) {
+/// @param block a SceneBlock or a SceneAssign
+template <class Block>
+bool has_history(const Block& block) {
   return std::any_of(block.fix.begin(), block.fix.end(),
                      [](const SceneFix& fix) { return !fix.history.empty(); }) ||
          std::any_of(block.load.begin(), block.load.end(),
@@ -149,8 +153,9 @@ void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::
 SceneJoint read_joint(TomlTableReader& table) {
   SceneJoint joint;
   std::vector<std::string> blocks;
-  if (!table.read_name("cut", joint.cut)) table.require("blocks");
-  if (!joint.cut.empty()) joint.blocks = {"*", "*"};
+  joint.inside = read_inside(table);
+  if (!table.read_name("cut", joint.cut) && !table.given("inside")) table.require("blocks");
+  if (!joint.cut.empty() || table.given("inside")) joint.blocks = {"*", "*"};
   if (table.read_texts("blocks", blocks)) {
     if (blocks.size() == 2 && (blocks[0].empty() || blocks[1].empty()))
       table.error_at_value(
@@ -197,7 +202,7 @@ SceneMeasure read_measure(TomlTableReader& table) {
       table.error_at_value(
           "pair",
           fmt::format("pair has the wrong length ({} entries), two block names are needed", pair.size()));
-    for (const char* key : {"block", "point"})
+    for (const char* key : {"block", "inside", "point"})
       if (table.given(key))
         table.error_at_key(key, fmt::format("{} beside pair (both given), only one of both is allowed", key));
     return measure;
@@ -209,8 +214,10 @@ SceneMeasure read_measure(TomlTableReader& table) {
         table.error_at_key(key, fmt::format("{} beside bolt (both given), only one of both is allowed", key));
     return measure;
   }
-  table.require("block");
-  table.read_name("block", measure.block);
+  measure.inside = read_inside(table);
+  if (!table.given("inside")) table.require("block");
+  if (table.read_name("block", measure.block) && table.given("inside"))
+    table.error_at_key("inside", "inside beside block (both given), only one of both is allowed");
   if (table.given("point")) {
     // Not finite until read, so that no later check applies to a missing point.
     measure.point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -235,11 +242,13 @@ void read_output(TomlTableReader table, SceneOutput& output) {
     output.fields.*member = std::find(fields.begin(), fields.end(), name) != fields.end();
 }
 
-std::vector<std::string> read_stage_blocks(TomlTableReader& table) {
-  std::vector<std::string> blocks;
-  table.require("blocks");
-  table.read_texts("blocks", blocks);
-  return blocks;
+/// An entry of stages with the blocks that it is about.
+template <class Entry, class Of>
+Entry read_of_blocks(TomlTableReader& table, Of Entry::*member, Of (*read)(TomlTableReader&)) {
+  Entry entry;
+  read_blocks_or_inside(table, entry.blocks, entry.inside);
+  entry.*member = read(table);
+  return entry;
 }
 
 /// @param base replaced key by key by the stage's `analysis`
@@ -247,13 +256,12 @@ SceneStage read_stage(TomlTableReader& table, const SceneAnalysis& base) {
   SceneStage stage;
   table.require("name");
   table.read_name("name", stage.name);
-  table.read_texts("remove", stage.remove);
-  table.read_texts("add", stage.add);
-  stage.fix = table.read_tables("fix", [](TomlTableReader& entry) {
-    return SceneStage::Fix{read_stage_blocks(entry), read_fix(entry)};
-  });
+  read_block_list(table, "remove", stage.remove, stage.remove_inside);
+  read_block_list(table, "add", stage.add, stage.add_inside);
+  stage.fix = table.read_tables(
+      "fix", [](TomlTableReader& entry) { return read_of_blocks(entry, &SceneStage::Fix::fix, read_fix); });
   stage.load = table.read_tables("load", [](TomlTableReader& entry) {
-    return SceneStage::Load{read_stage_blocks(entry), read_load(entry)};
+    return read_of_blocks(entry, &SceneStage::Load::load, read_load);
   });
   stage.joint = table.read_tables("joint", read_joint);
   stage.material = table.read_tables("material", read_material);
@@ -288,6 +296,7 @@ void read_tables(TomlTableReader top, Scene& scene) {
   scene.cut = top.read_tables("cut", read_cut);
   scene.bolt = top.read_tables("bolt", read_bolt);
   scene.prop = top.read_tables("prop", read_prop);
+  scene.load = top.read_tables("load", read_moving_load);
   scene.measure = top.read_tables("measure", read_measure);
   scene.water = top.read_tables("water", read_water);
   const bool stressed = top.given("initial_stress");
@@ -302,8 +311,11 @@ void read_tables(TomlTableReader top, Scene& scene) {
   scene.stage =
       top.read_tables("stage", [&](TomlTableReader& table) { return read_stage(table, scene.analysis); });
   if (scene.stage.empty())
-    complete_times(analysis, scene.analysis,
-                   std::any_of(scene.block.begin(), scene.block.end(), has_history));
+    complete_times(
+        analysis, scene.analysis,
+        !scene.load.empty() || std::any_of(scene.block.begin(), scene.block.end(), has_history<SceneBlock>) ||
+            std::any_of(scene.assign.begin(), scene.assign.end(),
+                        [](const SceneAssign& later) { return later.inside && has_history(later); }));
   else
     scene.analysis = scene.stage.front().analysis;
   if (!has_blocks) top.error_at_table("no block (0), at least one [[block]] is needed");

@@ -109,12 +109,26 @@ class SchemaMaker {
       case KeyForm::Kind::record:
         return record();
       case KeyForm::Kind::table:
-        return recorder_.tables().contains(child) ? of_table(child) : Json{{"type", "object"}};
+        return of_child(child);
       case KeyForm::Kind::tables:
         return array_of(recorder_.tables().contains(child) ? of_table(child) : Json{{"type", "object"}}, 0);
     }
     return Json::object();
   }
+
+  /// A table; regions and lists of blocks are alike in all tables, and recorded in [[assign]] alone.
+  Json of_child(const std::string& child) const {
+    if (recorder_.tables().contains(child)) return of_table(child);
+    const Json inside = recorder_.tables().contains(region_table) ? of_table(region_table) : Json::object();
+    if (child.ends_with(".inside")) return inside;
+    if (child == "stage.remove" || child == "stage.add")
+      return {{"type", "object"},
+              {"properties", {{"blocks", array_of({{"type", "string"}}, 0)}, {"inside", inside}}},
+              {"additionalProperties", false}};
+    return {{"type", "object"}};
+  }
+
+  static constexpr const char* region_table = "assign.inside";
 
   const KeyRecorder& recorder_;
 };
@@ -191,6 +205,16 @@ voussoirs = 9
 
 constexpr const char* later_tables = R"([[assign]]
 blocks = ["arch.*"]
+[[assign]]
+inside = { box = { min = [0, 0, 0], max = [1, 1, 1] } }
+[[assign]]
+inside = { mesh = { file = "b.off" } }
+[[assign]]
+inside = { hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] } }
+[[assign]]
+inside = { sphere = { radius = 1 } }
+[[assign]]
+inside = { halfspace = { point = [0, 0, 0], normal = [0, 0, 1] } }
 [[cut]]
 name = "set"
 blocks = ["A"]
@@ -233,6 +257,13 @@ name = "prop"
 stiffness = 1
 from = [0, 0, 0]
 to = [0, 0, 1]
+[[cut]]
+name = "measured"
+blocks = ["A"]
+file = "joints.csv"
+[[load]]
+force = [0, 0, -1]
+path = [[0, 0, 0, 0], [1, 1, 0, 0]]
 [[measure]]
 name = "tip"
 block = "A"

@@ -79,10 +79,10 @@ BlockSupports supports_of(const Scene& scene, std::size_t block) {
   supports.at_rest = scene.block[block].fixed;
   for (const SceneFix& fix : scene.block[block].fix) add(supports, fix);
   for (const SceneStage& stage : scene.stage)
-    for (const auto& [blocks, fix] : stage.fix)
-      if (std::any_of(blocks.begin(), blocks.end(),
+    for (const SceneStage::Fix& entry : stage.fix)
+      if (std::any_of(entry.blocks.begin(), entry.blocks.end(),
                       [&](const std::string& pattern) { return means_block(scene, pattern, block); }))
-        add(supports, fix);
+        add(supports, entry.fix);
   return supports;
 }
 

@@ -11,6 +11,7 @@
 
 #include "apps/scene/check/joint_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
+#include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -128,7 +129,7 @@ void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
   if (!of_joints && scene.analysis.type != SceneAnalysis::Type::capacity) return;
   std::vector<std::string> names;
   for (const SceneBlock& block : scene.block)
-    if (of_joints || !block.load.empty()) names.push_back(block.name);
+    if (of_joints || !block.load.empty() || !scene.load.empty()) names.push_back(block.name);
   if (of_joints)
     for (const SceneCut& cut : scene.cut) names.push_back(cut.name);
   const std::string key = of_joints ? "analysis.safety.joints" : "analysis.capacity.blocks";
@@ -138,6 +139,11 @@ void check_factor_search(const Scene& scene, Diagnostics& diagnostics) {
     if (std::any_of(names.begin(), names.end(),
                     [&](const std::string& name) { return pattern_matches(pattern, name); }))
       continue;
+    bool of_piece = false;
+    for (std::size_t k = 0; k < scene.block.size() && !of_piece; ++k)
+      of_piece = (of_joints || !scene.block[k].load.empty() || !scene.load.empty()) &&
+                 pattern_names_block(scene, pattern, k);
+    if (of_piece) continue;
     diagnostics.error(
         scene.places.value(key),
         fmt::format("search for a factor names no {} (\"{}\"), {}{} or a glob that matches one "

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/scene/model/name_pattern.hpp"
+#include "apps/scene/model/block_names.hpp"
 
 namespace ashlar {
 namespace {
@@ -161,7 +161,12 @@ void warn_of_soft_blocks(const Scene& scene, const std::vector<std::optional<Pol
     warn_of_stiffness(
         scene, fmt::format("joint.{}.normal_stiffness", k), **joint.normal_stiffness, blocks,
         [&](const SceneBlock& block) {
-          return pattern_matches(joint.blocks[0], block.name) || pattern_matches(joint.blocks[1], block.name);
+          const auto index = static_cast<std::size_t>(&block - scene.block.data());
+          if (joint.inside &&
+              !std::binary_search(joint.inside->blocks.begin(), joint.inside->blocks.end(), index))
+            return false;
+          return pattern_names_block(scene, joint.blocks[0], index) ||
+                 pattern_names_block(scene, joint.blocks[1], index);
         },
         diagnostics);
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/scene/meshes/mesh_import.hpp"
+#include "apps/scene/meshes/open_terrain.hpp"
 #include "geometry/mesh/mesh_repair.hpp"
 #include "geometry/mesh/surface_repair.hpp"
 #include "geometry/mesh/volume_mesh.hpp"
@@ -28,6 +29,8 @@ class Import {
     std::vector<MeshGroup> stones = bodies();
     weld(stones);
     if (mesh_.split == SceneMesh::Split::components) stones = components_of(std::move(stones.front().mesh));
+    if (mesh_.close_below)
+      for (MeshGroup& stone : stones) close_terrain_below(stone.mesh, *mesh_.close_below / mesh_.scale);
     repair(stones);
     turn(stones);
     return stones;
@@ -41,6 +44,7 @@ class Import {
     if (mesh_.weld > 0.0)
       text += fmt::format(": {} corners welded to others within {:g} m, {} triangles that vanished left out",
                           welded_, mesh_.weld, vanished_);
+    if (mesh_.close_below) text += fmt::format(": closed by walls down to z = {:g} m", *mesh_.close_below);
     if (mesh_.repair)
       text += fmt::format(
           ": repaired: {} holes filled with {} triangles, {} triangles left out, {} surfaces turned",
@@ -147,7 +151,7 @@ bool is_imported(const SceneBlock& block) {
   const SceneMesh* mesh = std::get_if<SceneMesh>(&block.shape);
   return mesh != nullptr && !mesh->stone &&
          (mesh->split != SceneMesh::Split::none || !mesh->group.empty() || mesh->weld > 0.0 || mesh->repair ||
-          mesh->flip != SceneMesh::Flip::never);
+          mesh->close_below || mesh->flip != SceneMesh::Flip::never);
 }
 
 std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const std::string& path,
@@ -173,7 +177,9 @@ std::vector<SceneBlock> stones_of(Scene& scene, const SceneBlock& block, const s
                                          to_string(Place{file.string(), error.line(), error.column()}),
                                          error.what(), readable_mesh));
   } catch (const std::invalid_argument& error) {
-    diagnostics.error(place, fmt::format("mesh cannot be welded or repaired ({})", error.what()));
+    diagnostics.error(
+        place, fmt::format("mesh cannot be {} ({})", mesh.close_below ? "closed below" : "welded or repaired",
+                           error.what()));
   }
   return {without_shape};
 }

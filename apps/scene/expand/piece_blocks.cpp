@@ -43,16 +43,6 @@ std::vector<double> shares_of(const Pieces& pieces, const std::variant<ScenePlan
   return shares;
 }
 
-Vector3 centroid_of(const Polyhedron& solid) {
-  const std::vector<double> m = moments(solid.mesh(), 1);
-  const auto exponents = monomial_exponents(1);
-  Vector3 centroid = Vector3::Zero();
-  for (std::size_t k = 1; k < 4; ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (exponents[k][axis] == 1) centroid[static_cast<Eigen::Index>(axis)] = m[k] / m[0];
-  return centroid;
-}
-
 /// Rotation about the centroid of the whole moves the centroid of a piece.
 void set_velocity(const Pieces& pieces, const SceneBlock& whole, std::vector<PieceBlock>& blocks) {
   if (whole.angular_velocity.isZero(0.0)) return;
@@ -69,6 +59,20 @@ void set_velocity(const Pieces& pieces, const SceneBlock& whole, std::vector<Pie
 }
 
 }  // namespace
+
+Vector3 centroid_of(const Polyhedron& solid) {
+  return centroid_of(solid.mesh());
+}
+
+Vector3 centroid_of(const TriangleMesh& mesh) {
+  const std::vector<double> m = moments(mesh, 1);
+  const auto exponents = monomial_exponents(1);
+  Vector3 centroid = Vector3::Zero();
+  for (std::size_t k = 1; k < 4; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (exponents[k][axis] == 1) centroid[static_cast<Eigen::Index>(axis)] = m[k] / m[0];
+  return centroid;
+}
 
 std::size_t piece_at(const Pieces& pieces, const Vector3& point) {
   std::size_t nearest = 0;

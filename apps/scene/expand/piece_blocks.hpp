@@ -35,6 +35,10 @@ void move_measures(Scene& scene, const std::string& block,
                    const std::vector<std::shared_ptr<const Polyhedron>>& pieces,
                    const std::vector<std::string>& names);
 
+/// m, of the volume of a placed solid, and of one bounded by a mesh.
+[[nodiscard]] Vector3 centroid_of(const Polyhedron& solid);
+[[nodiscard]] Vector3 centroid_of(const TriangleMesh& mesh);
+
 /// The piece that contains a point, or is closest to it.
 [[nodiscard]] std::size_t piece_at(const std::vector<std::shared_ptr<const Polyhedron>>& pieces,
                                    const Vector3& point);

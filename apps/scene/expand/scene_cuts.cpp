@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "apps/scene/expand/piece_blocks.hpp"
+#include "apps/scene/expand/piece_names.hpp"
 #include "apps/scene/expand/scene_cutter.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
+#include "apps/scene/model/block_names.hpp"
 #include "geometry/solid/shape_loss.hpp"
 
 namespace ashlar {
@@ -23,7 +25,8 @@ std::string planes_of(const Scene& scene, const CutRock& rock, const CutSolid& s
     if (face.mark < 0) continue;
     const auto& [cut, plane] = rock.marks[static_cast<std::size_t>(face.mark)];
     const std::string of_cut = fmt::format("cut \"{}\"", scene.cut[cut].name);
-    planes.push_back(scene.cut[cut].kind == SceneCut::Kind::planes
+    planes.push_back(scene.cut[cut].kind == SceneCut::Kind::planes ||
+                             scene.cut[cut].kind == SceneCut::Kind::discs
                          ? fmt::format("plane {} of {}", plane, of_cut)
                          : of_cut);
   }
@@ -46,7 +49,7 @@ std::size_t last_cut_of(const CutRock& rock, const CutSolid& solid, int piece) {
 Pieces solids_of(const Scene& scene, const CutRock& rock, std::size_t block, double resolution,
                  Diagnostics& diagnostics) {
   const CutSolid& solid = *rock.solids[block];
-  const std::vector<std::string> names = piece_names(scene.block[block].name, solid);
+  const std::vector<std::string> names = piece_names(scene, rock, block);
   Pieces pieces;
   for (const int piece : solid.pieces()) {
     std::string fault;
@@ -95,7 +98,7 @@ void warn_of_slivers(const Scene& scene, const CutRock& rock, std::size_t block,
                                   "weight, which takes most of the "
                                   "time of a run; min_volume = {:.0e} glues {}",
                                   slivers, slivers == 1 ? "" : "s", pieces.size(), scene.block[block].name,
-                                  piece_names(scene.block[block].name, solid)[least], pieces[least]->volume(),
+                                  piece_names(scene, rock, block)[least], pieces[least]->volume(),
                                   limit / share, 10.0 * limit, slivers == 1 ? "it" : "them"));
 }
 
@@ -122,18 +125,20 @@ void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional
   ScenePlaces places = scene.places;
   places.move_list("block", uncut_blocks);
   for (std::size_t k = 0; k < scene.block.size(); ++k) {
-    if (!rock.solids[k] || piece_names(scene.block[k].name, *rock.solids[k]).size() == 1) {
+    if (!rock.solids[k] || piece_names(scene, rock, k).size() == 1) {
       record_origin(places, k, blocks.size(), nullptr);
       rock.origin.push_back({k, -1});
+      rock.other_names.emplace_back();
       blocks.push_back(scene.block[k]);
       continue;
     }
     const Pieces pieces = solids_of(scene, rock, k, resolution_of(solids[k]->mesh().points), diagnostics);
     if (!diagnostics.good()) continue;
     warn_of_slivers(scene, rock, k, pieces, diagnostics);
-    const std::vector<std::string> names = piece_names(scene.block[k].name, *rock.solids[k]);
+    const std::vector<std::string> names = piece_names(scene, rock, k);
     std::vector<PieceBlock> made = make_piece_blocks(scene, k, pieces, names, diagnostics);
     const std::vector<int> numbers = rock.solids[k]->pieces();
+    for (auto& others : other_piece_names(scene, rock, k)) rock.other_names.push_back(std::move(others));
     for (std::size_t i = 0; i < made.size(); ++i) {
       record_origin(places, k, blocks.size(), &made[i]);
       rock.origin.push_back({k, numbers[i]});
@@ -145,6 +150,22 @@ void replace_blocks(Scene& scene, CutRock& rock, const std::vector<std::optional
   scene.uncut = std::move(scene.block);
   scene.block = std::move(blocks);
   scene.places = std::move(places);
+}
+
+/// Joints cut blocks as a whole (limits.md).
+void warn_of_extended_joints(const Scene& scene, const CutRock& rock, Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < scene.cut.size(); ++k) {
+    const int count = rock.extended[k];
+    if (count == 0 || scene.cut[k].kind != SceneCut::Kind::discs) continue;
+    diagnostics.warning(
+        scene.places.value(fmt::format("cut.{}.file", k)),
+        fmt::format(
+            "{} of cut \"{}\" {}; glued = true or a larger strength of the joint may stand for the rock "
+            "between",
+            count == 1 ? "1 joint" : fmt::format("{} joints", count), scene.cut[k].name,
+            count == 1 ? "ends inside a block and is extended to its faces"
+                       : "end inside a block and are extended to its faces"));
+  }
 }
 
 /// Ties the parts divided by glued cuts.
@@ -181,8 +202,12 @@ void cut_scene(Scene& scene, Diagnostics& diagnostics, Preparation* preparation)
   if (preparation != nullptr) preparation->phase("solids of all pieces");
   replace_blocks(scene, *rock, solids, diagnostics);
   if (!diagnostics.good()) return;
+  warn_of_extended_joints(scene, *rock, diagnostics);
   rock->find_borders();
   scene.rock = std::move(rock);
+  for (SceneMeasure& measure : scene.measure)
+    for (std::string* name : {&measure.block, &measure.pair[0], &measure.pair[1]})
+      *name = own_name(scene, *name);
   add_ties(scene);
 }
 

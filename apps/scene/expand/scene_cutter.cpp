@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "apps/scene/expand/piece_blocks.hpp"
+#include "apps/scene/expand/piece_names.hpp"
 #include "apps/scene/expand/random_points.hpp"
+#include "apps/scene/expand/region_blocks.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
+#include "apps/scene/read/disc_table.hpp"
 #include "geometry/cutting/small_pieces.hpp"
 
 namespace ashlar {
@@ -56,6 +61,23 @@ double reach_of(const CutSolid& solid, const std::vector<int>& pieces) {
   return 0.5 * (high - low).norm();
 }
 
+/// m, rounded: largest distance from the point of a plane to the section of a body with it.
+double farthest_in_plane(const TriangleMesh& mesh, const CutPlane& plane) {
+  double farthest = 0.0;
+  const auto height = [&](const Vector3& x) { return plane.normal.dot(x - plane.point) - plane.offset; };
+  const Vector3 center = plane.point + plane.offset * plane.normal;
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3 &a = mesh.points[static_cast<std::size_t>(triangle[k])],
+                    &b = mesh.points[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+      const double below = height(a), above = height(b);
+      if (below == above || below * above > 0.0) continue;
+      farthest = std::max(farthest, (a + below / (below - above) * (b - a) - center).norm());
+    }
+  }
+  return farthest;
+}
+
 /// Pieces made by a cut belong to it like the initial ones.
 template <class Target>
 CutSolid::Choice choice_of(const Target& target) {
@@ -66,22 +88,12 @@ CutSolid::Choice choice_of(const Target& target) {
 
 }  // namespace
 
-std::vector<std::string> piece_names(const std::string& block, const CutSolid& solid) {
-  const std::vector<int> pieces = solid.pieces();
-  if (pieces.size() == 1 && solid.label(pieces[0]) == 0) return {block};
-  std::vector<std::string> names;
-  int outside = 0, inside = 0;
-  for (const int piece : pieces)
-    names.push_back(solid.label(piece) == 0 ? fmt::format("{}.{}", block, ++outside)
-                                            : fmt::format("{}.inside.{}", block, ++inside));
-  return names;
-}
-
 SceneCutter::SceneCutter(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                          Diagnostics& diagnostics)
     : scene_(scene), shapes_(solids), diagnostics_(diagnostics) {
   rock_.solids.resize(scene.block.size());
   rock_.glued.assign(scene.cut.size(), 0);
+  rock_.extended.assign(scene.cut.size(), 0);
 }
 
 void SceneCutter::error(std::size_t cut, const char* key, std::string message) {
@@ -94,7 +106,14 @@ CutSolid& SceneCutter::solid_of(std::size_t block) {
   return *rock_.solids[block];
 }
 
-std::vector<SceneCutter::Target> SceneCutter::targets_of(const SceneCut& cut) {
+std::vector<SceneCutter::Target> SceneCutter::targets_of(std::size_t index) {
+  const SceneCut& cut = scene_.cut[index];
+  std::optional<RegionTest> region;
+  if (cut.inside) region.emplace(scene_, *cut.inside, fmt::format("cut.{}.inside", index), diagnostics_);
+  // Names of pieces have dots; the others are computed for these alone.
+  const bool names_pieces = std::any_of(cut.blocks.begin(), cut.blocks.end(), [](const std::string& pattern) {
+    return pattern.find('.') != std::string::npos;
+  });
   std::vector<Target> targets;
   for (std::size_t k = 0; k < scene_.block.size(); ++k) {
     if (!shapes_[k]) continue;
@@ -102,11 +121,19 @@ std::vector<SceneCutter::Target> SceneCutter::targets_of(const SceneCut& cut) {
     const bool whole = matches_any(cut.blocks, name);
     if (!whole && !rock_.solids[k]) continue;
     const CutSolid& solid = solid_of(k);
-    const std::vector<std::string> names = piece_names(name, solid);
+    const std::vector<std::string> names = piece_names(scene_, rock_, k);
     const std::vector<int> pieces = solid.pieces();
+    std::vector<std::vector<std::string>> others(pieces.size());
+    if (names_pieces) others = other_piece_names(scene_, rock_, k);
     Target target{k, {}, *std::max_element(pieces.begin(), pieces.end())};
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      if (whole || matches_any(cut.blocks, names[i])) target.pieces.push_back(pieces[i]);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const bool named = whole || matches_any(cut.blocks, names[i]) ||
+                         std::any_of(others[i].begin(), others[i].end(), [&](const std::string& other) {
+                           return matches_any(cut.blocks, other);
+                         });
+      if (!named) continue;
+      if (!region || region->contains(centroid_of(solid.mesh(pieces[i])))) target.pieces.push_back(pieces[i]);
+    }
     std::sort(target.pieces.begin(), target.pieces.end());
     if (!target.pieces.empty()) targets.push_back(std::move(target));
   }
@@ -123,7 +150,10 @@ bool SceneCutter::check_number(std::size_t index, double added) {
   for (const auto& solid : rock_.solids) blocks += solid ? static_cast<double>(solid->pieces().size()) : 1.0;
   const SceneCut& cut = scene_.cut[index];
   if (blocks <= cut.most_blocks) return true;
-  error(index, cut.kind == SceneCut::Kind::voronoi ? "voronoi" : "spacing",
+  error(index,
+        cut.kind == SceneCut::Kind::voronoi ? "voronoi"
+        : cut.kind == SceneCut::Kind::discs ? "file"
+                                            : "spacing",
         fmt::format(
             "cut \"{}\" makes too many blocks (about {:.3g} in the scene), at most most_blocks = {} are "
             "allowed",
@@ -203,17 +233,64 @@ void SceneCutter::cut_by_planes(std::size_t index, const Target& target,
         random_stream(cut.seed, RandomStream::persistence, number, static_cast<int>(target.block));
     solid.cut(plane, add_mark(index, number), [&, &of_plane = plane](int piece) {
       if (!chosen(piece)) return false;
-      if (cut.radius && solid.distance_in_plane(piece, of_plane) > *cut.radius) return false;
+      if (cut.radius && !is_met(index, solid, piece, of_plane, *cut.radius)) return false;
       return cut.persistence == 1.0 || random_share(random) < cut.persistence;
     });
   }
+}
+
+void SceneCutter::cut_by_discs(std::size_t index, const std::vector<Target>& targets) {
+  const auto discs = read_disc_table(scene_.file.parent_path() / scene_.cut[index].file,
+                                     scene_.places.value(fmt::format("cut.{}.file", index)), diagnostics_);
+  if (!discs) return;
+  for (const Target& target : targets) {
+    CutSolid& solid = solid_of(target.block);
+    const CutSolid::Choice chosen = choice_of(target);
+    for (std::size_t k = 0; k < discs->size(); ++k) {
+      const auto& [center, dip, dip_direction, radius] = (*discs)[k];
+      const CutPlane plane{plane_normal(dip, dip_direction), center};
+      solid.cut(plane, add_mark(index, static_cast<int>(k) + 1), [&, &within = radius](int piece) {
+        return chosen(piece) && (!within || is_met(index, solid, piece, plane, *within));
+      });
+      if (!check_number(index, 0.0)) return;
+    }
+  }
+}
+
+bool SceneCutter::is_met(std::size_t cut, const CutSolid& solid, int piece, const CutPlane& plane,
+                         double radius) {
+  if (solid.distance_in_plane(piece, plane) > radius) return false;
+  if (farthest_in_plane(solid.mesh(piece), plane) > radius) ++rock_.extended[cut];
+  return true;
 }
 
 void SceneCutter::cut_by_solid(std::size_t index, const std::vector<Target>& targets) {
   const std::optional<Polyhedron> surface = build_cut_solid(scene_, index, diagnostics_);
   if (!surface) return;
   const int mark = add_mark(index, 0);
-  for (const Target& target : targets) solid_of(target.block).cut_along(*surface, mark, 1, choice_of(target));
+  for (const Target& target : targets) {
+    CutSolid& solid = solid_of(target.block);
+    std::set<int> labels;
+    for (const int piece : target.pieces) labels.insert(solid.label(piece));
+    // Pieces keep the solids that they are inside of: those of each label get a label of their own.
+    for (const int label : labels) {
+      const int inside = add_inside(index, label);
+      const CutSolid::Choice chosen = choice_of(target);
+      solid.cut_along(*surface, mark, inside, [&](int piece) {
+        return chosen(piece) && (solid.label(piece) == label || solid.label(piece) == inside);
+      });
+    }
+  }
+}
+
+int SceneCutter::add_inside(std::size_t cut, int label) {
+  std::vector<std::size_t> cuts;
+  if (label > 0) cuts = rock_.insides[static_cast<std::size_t>(label) - 1];
+  cuts.push_back(cut);
+  const auto known = std::find(rock_.insides.begin(), rock_.insides.end(), cuts);
+  if (known != rock_.insides.end()) return static_cast<int>(known - rock_.insides.begin()) + 1;
+  rock_.insides.push_back(std::move(cuts));
+  return static_cast<int>(rock_.insides.size());
 }
 
 void SceneCutter::cut_by_points(std::size_t index, const std::vector<Target>& targets) {
@@ -230,7 +307,14 @@ void SceneCutter::cut_by_points(std::size_t index, const std::vector<Target>& ta
 void SceneCutter::make_cut(std::size_t index) {
   const SceneCut& cut = scene_.cut[index];
   try {
-    const std::vector<Target> targets = targets_of(cut);
+    const std::vector<Target> targets = targets_of(index);
+    if (!diagnostics_.good()) return;
+    if (targets.empty() && cut.inside) {
+      error(index, "inside",
+            "cut has no block or piece of these names with its centroid inside (inside), a region "
+            "with one is needed");
+      return;
+    }
     if (targets.empty()) {
       std::vector<std::string> names;
       for (const SceneBlock& block : scene_.block) names.push_back(block.name);
@@ -243,6 +327,7 @@ void SceneCutter::make_cut(std::size_t index) {
       return;
     }
     if (cut.kind == SceneCut::Kind::planes) cut_by_set(index, targets);
+    if (cut.kind == SceneCut::Kind::discs) cut_by_discs(index, targets);
     if (cut.kind == SceneCut::Kind::solid) cut_by_solid(index, targets);
     if (cut.kind == SceneCut::Kind::voronoi) cut_by_points(index, targets);
     if (cut.min_volume == 0.0) return;

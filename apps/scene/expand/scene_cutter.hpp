@@ -13,9 +13,6 @@
 
 namespace ashlar {
 
-/// The name of each piece of a block, in order; see scene_cuts.hpp.
-[[nodiscard]] std::vector<std::string> piece_names(const std::string& block, const CutSolid& solid);
-
 class SceneCutter {
  public:
   /// @param solids placed, one per block; those without a solid are not cut
@@ -34,7 +31,7 @@ class SceneCutter {
     int newest;               ///< largest number of a piece before the cut
   };
 
-  [[nodiscard]] std::vector<Target> targets_of(const SceneCut& cut);
+  [[nodiscard]] std::vector<Target> targets_of(std::size_t cut);
   [[nodiscard]] CutSolid& solid_of(std::size_t block);
   /// Reports a cut that would make too many blocks. @return true if it is allowed
   bool check_number(std::size_t index, double added);
@@ -44,9 +41,14 @@ class SceneCutter {
   void cut_by_planes(std::size_t index, const Target& target, const std::vector<JointHeight>& heights);
   [[nodiscard]] PlaneRange range_of(const SceneCut& cut, const Target& target);
   void cut_by_set(std::size_t index, const std::vector<Target>& targets);
+  void cut_by_discs(std::size_t index, const std::vector<Target>& targets);
+  /// True if a disc about the plane's point meets the section of a piece. Counts those that do not cover it.
+  bool is_met(std::size_t cut, const CutSolid& solid, int piece, const CutPlane& plane, double radius);
   void cut_by_solid(std::size_t index, const std::vector<Target>& targets);
   void cut_by_points(std::size_t index, const std::vector<Target>& targets);
   int add_mark(std::size_t cut, int plane);
+  /// Label of the pieces inside the solid of a cut that had another label before.
+  int add_inside(std::size_t cut, int label);
   void error(std::size_t cut, const char* key, std::string message);
 
   const Scene& scene_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/scene/expand/stage_supports.hpp"
+#include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -29,26 +30,6 @@ std::string key_of(std::size_t stage, const std::string& key) {
 bool means_block(const Scene& scene, const std::vector<std::string>& patterns, std::size_t block) {
   return std::any_of(patterns.begin(), patterns.end(),
                      [&](const std::string& pattern) { return ashlar::means_block(scene, pattern, block); });
-}
-
-/// Blocks absent before the first stage: those that are added before they are ever removed.
-std::vector<bool> held_back(const Scene& scene) {
-  std::vector<bool> absent(scene.block.size(), false);
-  for (std::size_t k = 0; k < absent.size(); ++k) {
-    for (const SceneStage& stage : scene.stage) {
-      if (means_block(scene, stage.remove, k)) break;
-      absent[k] = means_block(scene, stage.add, k);
-      if (absent[k]) break;
-    }
-  }
-  return absent;
-}
-
-void change_presence(const Scene& scene, const SceneStage& stage, std::vector<bool>& absent) {
-  for (std::size_t k = 0; k < absent.size(); ++k) {
-    if (means_block(scene, stage.remove, k)) absent[k] = true;
-    if (means_block(scene, stage.add, k)) absent[k] = false;
-  }
 }
 
 /// Makes a load constant after its history has ended.
@@ -322,8 +303,27 @@ class StageCheck {
 }  // namespace
 
 bool means_block(const Scene& scene, const std::string& pattern, std::size_t block) {
-  if (pattern_matches(pattern, scene.block[block].name)) return true;
+  if (pattern_names_block(scene, pattern, block)) return true;
   return scene.rock != nullptr && pattern_matches(pattern, scene.uncut[scene.rock->origin[block].uncut].name);
+}
+
+std::vector<bool> held_back(const Scene& scene) {
+  std::vector<bool> absent(scene.block.size(), false);
+  for (std::size_t k = 0; k < absent.size(); ++k) {
+    for (const SceneStage& stage : scene.stage) {
+      if (!stage.remove_inside && means_block(scene, stage.remove, k)) break;
+      absent[k] = !stage.add_inside && means_block(scene, stage.add, k);
+      if (absent[k]) break;
+    }
+  }
+  return absent;
+}
+
+void change_presence(const Scene& scene, const SceneStage& stage, std::vector<bool>& absent) {
+  for (std::size_t k = 0; k < absent.size(); ++k) {
+    if (means_block(scene, stage.remove, k)) absent[k] = true;
+    if (means_block(scene, stage.add, k)) absent[k] = false;
+  }
 }
 
 Scene scene_of_stage(const Scene& whole, std::size_t stage) {

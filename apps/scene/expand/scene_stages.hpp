@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "apps/scene/model/diagnostics.hpp"
 #include "apps/scene/model/scene.hpp"
@@ -18,6 +19,13 @@ namespace ashlar {
 
 /// True if a name or glob of a stage matches a block: its name, or that of the block of which it is a piece.
 [[nodiscard]] bool means_block(const Scene& scene, const std::string& pattern, std::size_t block);
+
+/// True for the blocks absent before the first stage: those that are added before they are ever removed. Lists by
+/// place (SceneStage::remove_inside) are ignored.
+[[nodiscard]] std::vector<bool> held_back(const Scene& scene);
+
+/// Applies the lists of a stage to the blocks absent before it.
+void change_presence(const Scene& scene, const SceneStage& stage, std::vector<bool>& absent);
 
 /// The scene of one stage, with all stages still listed; the scene itself if it has none. Places refer to the keys of
 /// the stages.

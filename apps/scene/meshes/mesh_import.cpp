@@ -7,6 +7,7 @@
 
 #include "apps/scene/meshes/dxf_reader.hpp"
 #include "apps/scene/meshes/gltf_reader.hpp"
+#include "apps/scene/meshes/height_grid.hpp"
 #include "apps/scene/meshes/threemf_reader.hpp"
 #include "geometry/mesh/mesh_formats.hpp"
 #include "geometry/mesh/text_scanner.hpp"
@@ -50,11 +51,13 @@ ShapeLayout import(const std::filesystem::path& path, const ImportedFormat& form
 }  // namespace
 
 TriangleMesh read_mesh_file(const std::filesystem::path& path) {
+  if (is_height_grid(path)) return read_height_grid(path);
   const ImportedFormat* format = imported_format(path);
   return format == nullptr ? read_mesh(path) : import(path, *format).whole();
 }
 
 std::vector<MeshGroup> read_mesh_file_groups(const std::filesystem::path& path) {
+  if (is_height_grid(path)) return {{"1", read_height_grid(path)}};
   const ImportedFormat* format = imported_format(path);
   return format == nullptr ? read_mesh_groups(path) : import(path, *format).groups();
 }

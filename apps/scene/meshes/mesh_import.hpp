@@ -15,7 +15,8 @@
 namespace ashlar {
 
 /// Used in messages.
-inline constexpr const char* readable_mesh = "a readable OFF, OBJ, STL, PLY, MSH, 3MF, DXF or glTF file";
+inline constexpr const char* readable_mesh =
+    "a readable OFF, OBJ, STL, PLY, MSH, 3MF, DXF, glTF, ASC or XYZ file";
 
 /// read_mesh of any format. For an imported file all objects, with their transformations; equal points are merged.
 /// @throws MeshFileError as read_mesh

@@ -1,10 +1,13 @@
 #include "apps/scene/model/joint_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/name_pattern.hpp"
 
@@ -15,21 +18,29 @@ JointTable::JointTable(const Scene& scene)
   for (const SceneCut& cut : scene.cut) cut_names_.push_back(cut.name);
   std::map<std::string, std::vector<std::size_t>> by_name;
   for (std::size_t k = 0; k < scene.block.size(); ++k) by_name[scene.block[k].name].push_back(k);
-  const auto matched_by = [&](const std::string& pattern) {
-    const auto [place, is_new] = blocks_of_.emplace(pattern, std::vector<std::size_t>{});
+  const auto matched_by = [&](const std::string& pattern, const SceneJoint& joint, std::size_t index) {
+    // Patterns of joints with a region are kept apart: a name has no line break.
+    const std::string key = joint.inside ? fmt::format("{}\n{}", pattern, index) : pattern;
+    const auto [place, is_new] = blocks_of_.emplace(key, std::vector<std::size_t>{});
     if (!is_new) return &place->second;
     // A name without glob characters matches itself only.
     if (pattern.find_first_of("*?[\\") == std::string::npos) {
-      const auto found = by_name.find(pattern);
+      auto found = by_name.find(pattern);
+      if (found == by_name.end()) found = by_name.find(own_name(scene, pattern));
       if (found != by_name.end()) place->second = found->second;
     } else {
       for (std::size_t k = 0; k < scene.block.size(); ++k)
-        if (pattern_matches(pattern, scene.block[k].name)) place->second.push_back(k);
+        if (pattern_names_block(scene, pattern, k)) place->second.push_back(k);
     }
+    if (joint.inside)
+      std::erase_if(place->second, [&](std::size_t k) {
+        return !std::binary_search(joint.inside->blocks.begin(), joint.inside->blocks.end(), k);
+      });
     return &place->second;
   };
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
-    for (const std::string& pattern : scene.joint[k].blocks) matched_.push_back(matched_by(pattern));
+    for (const std::string& pattern : scene.joint[k].blocks)
+      matched_.push_back(matched_by(pattern, scene.joint[k], k));
     const std::size_t rarer = matched(k, 0).size() <= matched(k, 1).size() ? 0 : 1;
     for (const std::size_t block : matched(k, rarer)) listed_[block].push_back(k);
   }

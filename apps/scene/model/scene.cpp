@@ -26,7 +26,8 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
 SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, const std::string& block_b) {
   SceneJointLaw law = scene.contact.law;
   for (const SceneJoint& joint : scene.joint) {
-    if (joint.cut.empty() && pattern_matches_pair(joint.blocks, block_a, block_b)) override_law(law, joint);
+    if (joint.cut.empty() && !joint.inside && pattern_matches_pair(joint.blocks, block_a, block_b))
+      override_law(law, joint);
   }
   return law;
 }

@@ -17,6 +17,7 @@
 #include "apps/scene/model/scene_bolt.hpp"
 #include "apps/scene/model/scene_contact.hpp"
 #include "apps/scene/model/scene_initial_stress.hpp"
+#include "apps/scene/model/scene_moving_load.hpp"
 #include "apps/scene/model/scene_places.hpp"
 #include "apps/scene/model/scene_shape.hpp"
 #include "apps/scene/model/scene_water.hpp"
@@ -39,11 +40,12 @@ struct SceneMaterial {
 
 /// [[cut]]: cuts the matching blocks by parallel planes, the faces of a solid, or the cells around points.
 struct SceneCut {
-  enum class Kind { planes, solid, voronoi };
+  enum class Kind { planes, solid, voronoi, discs };
   enum class Spacing { normal, lognormal, uniform, exponential };
 
-  std::string name;                 ///< unique; required
-  std::vector<std::string> blocks;  ///< names or globs; each matches a block or its pieces; required
+  std::string name;                   ///< unique; required
+  std::vector<std::string> blocks;    ///< names or globs; each matches a block or its pieces; required
+  std::optional<SceneRegion> inside;  ///< only pieces inside, as they are before the cut
   Kind kind = Kind::planes;
   double dip = 0.0;                 ///< deg, 0 to 90
   double dip_direction = 0.0;       ///< deg from north (y) towards east (x)
@@ -60,16 +62,18 @@ struct SceneCut {
   bool glued = false;               ///< blocks on both sides are tied
   int most_blocks = 100000;         ///< >= 1, of all blocks of the scene after the cut
   SceneShape solid;                 ///< box, mesh, hull or sphere; kind solid
+  std::filesystem::path file;       ///< table of measured joints (disc_table.hpp), as written; kind discs
   int count = 0;                    ///< >= 1; kind voronoi: points in each block
 };
 
 /// [[measure]]: a material point, a block or a pair of blocks with columns in the history.
 struct SceneMeasure {
-  std::string name;                 ///< unique; required; heads columns of the history
-  std::string block;                ///< name of a [[block]]; empty: `pair` is measured
-  std::optional<Vector3> point;     ///< m, in the placed, undeformed block; empty: the block as a whole
-  std::array<std::string, 2> pair;  ///< names of two blocks whose contacts are measured; otherwise empty
-  std::string bolt;                 ///< name of a bolt or prop that is measured; otherwise empty
+  std::string name;                   ///< unique; required; heads columns of the history
+  std::string block;                  ///< name of a [[block]]; empty: `pair` is measured
+  std::optional<SceneRegion> inside;  ///< in place of the name, which is that of the one block inside
+  std::optional<Vector3> point;       ///< m, in the placed, undeformed block; empty: the block as a whole
+  std::array<std::string, 2> pair;    ///< names of two blocks whose contacts are measured; otherwise empty
+  std::string bolt;                   ///< name of a bolt or prop that is measured; otherwise empty
 };
 
 /// [[stage]]: changes before the run continues. Names and globs match blocks, and pieces of cut blocks.
@@ -78,10 +82,12 @@ struct SceneStage {
   struct Fix {
     std::vector<std::string> blocks;
     SceneFix fix;
+    std::optional<SceneRegion> inside = {};  ///< only those of `blocks` inside
   };
   struct Load {
     std::vector<std::string> blocks;
     SceneLoad load;
+    std::optional<SceneRegion> inside = {};
   };
 
   std::string name;        ///< unique; required
@@ -89,6 +95,7 @@ struct SceneStage {
   std::vector<std::string> remove;  ///< blocks that are removed
   /// Blocks added as they were placed. A block that is added before it is ever removed is absent until then.
   std::vector<std::string> add;
+  std::optional<SceneRegion> remove_inside, add_inside;  ///< only those of `remove` and `add` inside
   std::vector<Fix> fix;
   std::vector<Load> load;
   std::vector<SceneJoint> joint;        ///< after all earlier ones
@@ -132,6 +139,7 @@ struct Scene {
   std::vector<SceneCut> cut;            ///< in file order
   std::vector<SceneBolt> bolt;          ///< in file order; of one stage: those of all stages
   std::vector<SceneProp> prop;          ///< the same
+  std::vector<SceneMovingLoad> load;    ///< in file order
   std::vector<SceneMeasure> measure;    ///< in file order
   std::vector<SceneWater> water;        ///< in file order
   SceneInitialStress initial_stress;
@@ -152,7 +160,7 @@ struct Scene {
 void override_law(SceneJointLaw& law, const SceneJoint& joint);
 
 /// The law between two blocks: [contact], overridden by every [[joint]] that matches the pair and does not belong to
-/// a [[cut]]. For many pairs, and for cuts, use a JointTable.
+/// a [[cut]] or a region. For many pairs, cuts and regions, use a JointTable.
 [[nodiscard]] SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a,
                                               const std::string& block_b);
 

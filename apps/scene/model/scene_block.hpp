@@ -9,6 +9,7 @@
 
 #include "apps/scene/model/scene_field.hpp"
 #include "apps/scene/model/scene_record.hpp"
+#include "apps/scene/model/scene_region.hpp"
 #include "apps/scene/model/scene_shape.hpp"
 #include "geometry/triangle_mesh.hpp"
 #include "mechanics/supports/recorded_motion.hpp"
@@ -52,6 +53,7 @@ struct SceneLoad {
   SceneField field;                  ///< a traction that varies, Pa, in place of vector
   std::vector<Factor> history;       ///< times increase; empty: factor 1 always
   std::optional<SceneRecord> file;   ///< its file, if not in the scene
+  bool of_path = false;              ///< made from a [[load]], not from the scene's block
   bool of_fill = false;              ///< weight of an arch's fill, which a fixed block ignores
 };
 
@@ -82,7 +84,8 @@ struct SceneBlock {
 /// [[assign]]: properties of the blocks matched by patterns. The last of several entries has priority, key by key;
 /// supports and loads add up.
 struct SceneAssign {
-  std::vector<std::string> blocks;  ///< names or globs, each matches at least one block
+  std::vector<std::string> blocks;    ///< names or globs, each matches at least one block
+  std::optional<SceneRegion> inside;  ///< only those of `blocks` inside
   std::optional<std::string> material;
   std::optional<int> order;
   std::optional<bool> fixed;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/scene/model/scene_region.hpp"
+
 namespace ashlar {
 
 /// The law between the faces of two blocks. Default strengths are zero: a joint's strength must be stated.
@@ -46,6 +48,7 @@ struct SceneContact {
 struct SceneJoint {
   std::array<std::string, 2> blocks;  ///< names or globs (* ? [...]), in any order; match at least one pair
   std::string cut;  ///< if not empty, only pairs divided by this [[cut]]; blocks are then "*" by default
+  std::optional<SceneRegion> inside;  ///< only pairs with both blocks inside; blocks are then "*" by default
   bool of_glued_cut = false;  ///< made by the program, not by the scene: a [[cut]] with `glued` ties the
                               ///< parts
   /// Outer optional empty: not given. Inner optional empty: given as "auto".

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -18,7 +19,7 @@ struct SceneBox {
   Vector3 max = Vector3::Zero();  ///< m
 };
 
-/// mesh = { file, scale, split, group, weld, flip, repair }
+/// mesh = { file, scale, split, group, weld, close_below, flip, repair }
 struct SceneMesh {
   enum class Split {
     none,        ///< "none": the file is one block
@@ -37,6 +38,7 @@ struct SceneMesh {
   Split split = Split::none;
   std::string group;  ///< of an MSH file: the only physical group that is read, by name or number; empty: all
   double weld = 0.0;  ///< m, >= 0: closer corners are merged
+  std::optional<double> close_below;  ///< m, before rotate: z of the bottom of a body below an open surface
   Flip flip = Flip::never;
   bool repair = false;  ///< true: holes are filled and other defects repaired (surface_repair.hpp)
   /// Part of a split file for a block, in the file's units, and its 1-based number there.

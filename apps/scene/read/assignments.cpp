@@ -12,6 +12,7 @@
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/read/block_arrays.hpp"
 #include "apps/scene/read/block_reader.hpp"
+#include "apps/scene/read/region_reader.hpp"
 
 namespace ashlar {
 namespace {
@@ -35,7 +36,9 @@ bool choose_pieces(const Scene& scene, const std::string& pattern, std::vector<b
   bool matched = false;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const bool of_block = matches(scene.uncut[scene.rock->origin[k].uncut].name);
-    const bool of_piece = !of_block && matches(scene.block[k].name);
+    const std::vector<std::string>& others = scene.rock->other_names[k];
+    const bool of_piece =
+        !of_block && (matches(scene.block[k].name) || std::any_of(others.begin(), others.end(), matches));
     chosen[k] = chosen[k] || of_piece;
     matched = matched || of_block || of_piece;
   }
@@ -52,7 +55,10 @@ class Assigner {
   bool apply(std::size_t index) {
     const SceneAssign& given = scene_.assign[index];
     std::vector<bool> chosen(scene_.block.size(), false);
+    if (given.inside)
+      for (const std::size_t k : given.inside->blocks) chosen[k] = true;
     for (const std::string& pattern : given.blocks) {
+      if (given.inside) break;
       tests_ += static_cast<double>(chosen.size());
       if (tests_ > most_tests) return refuse_size(index);
       const bool matched = scene_.rock ? choose_pieces(scene_, pattern, chosen) : choose(pattern, chosen);
@@ -161,8 +167,7 @@ class Assigner {
 
 SceneAssign read_assignment(TomlTableReader& table) {
   SceneAssign assign;
-  table.require("blocks");
-  table.read_texts("blocks", assign.blocks);
+  read_blocks_or_inside(table, assign.blocks, assign.inside);
   const auto read = [](auto& result, auto value, auto reader) {
     if (reader(value)) result = std::move(value);
   };
@@ -181,17 +186,23 @@ SceneAssign read_assignment(TomlTableReader& table) {
 void apply_assignments(Scene& scene, Diagnostics& diagnostics) {
   Assigner assigner(scene, diagnostics);
   for (std::size_t index = 0; index < scene.assign.size(); ++index)
-    if (!assigner.apply(index)) return;
+    if (!scene.assign[index].inside && !assigner.apply(index)) return;
 }
 
-void apply_assignments_to_pieces(Scene& scene, Diagnostics& diagnostics) {
-  if (scene.rock) apply_assignments(scene, diagnostics);
+void apply_later_assignments(Scene& scene, Diagnostics& diagnostics) {
+  Assigner assigner(scene, diagnostics);
+  for (std::size_t index = 0; index < scene.assign.size(); ++index)
+    if ((scene.rock || scene.assign[index].inside) && !assigner.apply(index)) return;
 }
 
 std::vector<std::vector<std::size_t>> assigned_pieces(const Scene& scene) {
   std::vector<std::vector<std::size_t>> pieces(scene.assign.size());
   if (!scene.rock) return pieces;
   for (std::size_t index = 0; index < scene.assign.size(); ++index) {
+    if (scene.assign[index].inside) {
+      pieces[index] = scene.assign[index].inside->blocks;
+      continue;
+    }
     std::vector<bool> chosen(scene.block.size(), false);
     for (const std::string& pattern : scene.assign[index].blocks) (void)choose_pieces(scene, pattern, chosen);
     for (std::size_t k = 0; k < chosen.size(); ++k)

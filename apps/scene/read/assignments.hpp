@@ -11,7 +11,7 @@ namespace ashlar {
 
 [[nodiscard]] SceneAssign read_assignment(TomlTableReader& table);
 
-/// Applies the scene's assignments to blocks: the last matching one has priority, key by key. Supports and loads are
+/// Applies the scene's assignments without a region to blocks: the last matching one has priority, key by key. Supports and loads are
 /// added to those of a block. An arch's fill does not load a fixed voussoir. Places of assigned values are those of
 /// the assignment.
 /// @param diagnostics reports a pattern that matches no block, unless there are cuts, whose pieces it may match;
@@ -19,11 +19,11 @@ namespace ashlar {
 /// a block that becomes fixed.
 void apply_assignments(Scene& scene, Diagnostics& diagnostics);
 
-/// To be called after the cuts: applies assignments to the pieces that patterns match, except those of a block
-/// matched by the same pattern, which have inherited everything from it.
-void apply_assignments_to_pieces(Scene& scene, Diagnostics& diagnostics);
+/// To be called after the cuts and choose_blocks_inside: applies assignments to the pieces that patterns match, except
+/// those of a block matched by the same pattern, which have inherited everything from it, and to the blocks of regions.
+void apply_later_assignments(Scene& scene, Diagnostics& diagnostics);
 
-/// The pieces changed by apply_assignments_to_pieces, by assignment, as indices of blocks.
+/// The pieces changed by apply_later_assignments, by assignment, as indices of blocks.
 [[nodiscard]] std::vector<std::vector<std::size_t>> assigned_pieces(const Scene& scene);
 
 }  // namespace ashlar

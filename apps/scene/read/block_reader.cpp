@@ -65,12 +65,16 @@ SceneShape read_stones(TomlTableReader table) {
   SceneMesh mends;
   const bool split_good = table.read_choice("split", mends.split, split_names) || !table.given("split");
   const bool weld_good = table.read_number("weld", mends.weld, range::not_negative) || !table.given("weld");
+  const bool closed_good =
+      table.read_number("close_below", mends.close_below, range::any_number) || !table.given("close_below");
   const bool flip_good = read_flip(table, mends.flip);
   const bool repair_good = table.read_bool("repair", mends.repair) || !table.given("repair");
   const bool group_good = table.read_name("group", mends.group) || !table.given("group");
   SceneShape shape = read_mesh_as_it_is(table);
   auto* mesh = std::get_if<SceneMesh>(&shape);
-  if (mesh == nullptr || !split_good || !group_good || !weld_good || !flip_good || !repair_good) return {};
+  if (mesh == nullptr || !split_good || !group_good || !weld_good || !closed_good || !flip_good ||
+      !repair_good)
+    return {};
   mends.file = std::move(mesh->file);
   mends.scale = mesh->scale;
   return mends;

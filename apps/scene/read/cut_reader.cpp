@@ -7,6 +7,7 @@
 
 #include "apps/scene/model/scene_names.hpp"
 #include "apps/scene/read/block_reader.hpp"
+#include "apps/scene/read/region_reader.hpp"
 
 namespace ashlar {
 namespace {
@@ -75,6 +76,13 @@ void read_planes(TomlTableReader& table, SceneCut& cut, bool needed) {
         fmt::format("number of planes without their spacing ({}), a spacing is needed", *cut.number));
 }
 
+void read_discs(TomlTableReader& table, SceneCut& cut) {
+  cut.kind = SceneCut::Kind::discs;
+  std::string file;
+  table.read_name("file", file);
+  cut.file = file;
+}
+
 /// Refuses keys that apply to planes only.
 void refuse_plane_keys(TomlTableReader& table, const char* kind) {
   for (const char* key :
@@ -88,12 +96,19 @@ void refuse_plane_keys(TomlTableReader& table, const char* kind) {
 SceneCut read_cut(TomlTableReader& table) {
   SceneCut cut;
   table.require("name");
-  table.require("blocks");
   table.read_name("name", cut.name);
-  if (table.read_texts("blocks", cut.blocks) && cut.blocks.empty())
+  read_blocks_or_inside(table, cut.blocks, cut.inside);
+  if (table.given("blocks") && cut.blocks.empty())
     table.error_at_value("blocks", "blocks is empty ([]), at least one name or glob is needed");
-  const bool solid = table.given("solid"), voronoi = table.given("voronoi");
-  read_planes(table, cut, !solid && !voronoi);
+  const bool solid = table.given("solid"), voronoi = table.given("voronoi"), discs = table.given("file");
+  read_planes(table, cut, !solid && !voronoi && !discs);
+  if (discs) {
+    read_discs(table, cut);
+    refuse_plane_keys(table, "file");
+    for (const char* key : {"solid", "voronoi"})
+      if (table.given(key))
+        table.error_at_key(key, fmt::format("{} beside file (both given), only one of both is allowed", key));
+  }
   if (solid) {
     cut.kind = SceneCut::Kind::solid;
     if (auto shape = table.table("solid")) cut.solid = read_shape(*shape, "solid", MeshKeys::as_it_is);

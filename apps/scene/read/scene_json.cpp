@@ -107,8 +107,11 @@ Json to_json(const SceneContact& contact, bool augmented) {
   return json;
 }
 
+Json to_json(const SceneRegion& region);
+
 Json to_json(const SceneJoint& joint) {
   Json json = {{"blocks", joint.blocks}};
+  if (joint.inside) json["inside"] = to_json(*joint.inside);
   if (!joint.cut.empty()) json["cut"] = joint.cut;
   if (joint.normal_stiffness) json["normal_stiffness"] = or_auto(*joint.normal_stiffness);
   if (joint.shear_stiffness) json["shear_stiffness"] = or_auto(*joint.shear_stiffness);
@@ -146,6 +149,7 @@ struct ShapeToJson {
       keys["flip"] = "auto";
     else
       keys["flip"] = mesh.flip == SceneMesh::Flip::always;
+    if (mesh.close_below) keys["close_below"] = *mesh.close_below;
     keys["repair"] = mesh.repair;
     if (!mesh.group.empty()) keys["group"] = mesh.group;
     if (mesh.number > 0) keys["number"] = mesh.number;
@@ -162,6 +166,15 @@ struct ShapeToJson {
   }
   void operator()(const ScenePiece&) const {}
 };
+
+Json to_json(const SceneRegion& region) {
+  Json json = Json::object();
+  if (const auto* half = std::get_if<SceneHalfspace>(&region.space))
+    json["halfspace"] = {{"point", to_json(half->point)}, {"normal", to_json(half->normal)}};
+  else
+    std::visit(ShapeToJson{json}, std::get<SceneShape>(region.space));
+  return json;
+}
 
 void add_where(Json& json, const std::variant<ScenePlane, Vector3>& where) {
   if (const Vector3* point = std::get_if<Vector3>(&where)) {
@@ -209,6 +222,7 @@ Json to_json(const SceneLoad& load) {
 Json to_json(const SceneBlock& block);
 Json to_json(const SceneCut& cut);
 Json to_json(const SceneMeasure& measure);
+Json to_json(const SceneMovingLoad& load);
 Json to_json(const SceneStage::Fix& entry);
 Json to_json(const SceneStage::Load& entry);
 Json to_json(const SceneStage& stage);
@@ -235,7 +249,9 @@ Json to_json(const SceneBlock& block) {
   json["angular_velocity"] = to_json(block.angular_velocity);
   json["fixed"] = block.fixed;
   if (!block.fix.empty()) json["fix"] = list_to_json(block.fix);
-  if (!block.load.empty()) json["load"] = list_to_json(block.load);
+  std::vector<SceneLoad> loads = block.load;
+  std::erase_if(loads, [](const SceneLoad& load) { return load.of_path; });
+  if (!loads.empty()) json["load"] = list_to_json(loads);
   return json;
 }
 
@@ -255,7 +271,9 @@ void add_planes(Json& json, const SceneCut& cut) {
 
 Json to_json(const SceneCut& cut) {
   Json json = {{"name", cut.name}, {"blocks", cut.blocks}};
+  if (cut.inside) json["inside"] = to_json(*cut.inside);
   if (cut.kind == SceneCut::Kind::planes) add_planes(json, cut);
+  if (cut.kind == SceneCut::Kind::discs) json["file"] = cut.file.string();
   if (cut.kind == SceneCut::Kind::solid) {
     json["solid"] = Json::object();
     std::visit(ShapeToJson{json["solid"]}, cut.solid);
@@ -267,6 +285,18 @@ Json to_json(const SceneCut& cut) {
   json["min_volume"] = cut.min_volume;
   json["glued"] = cut.glued;
   json["most_blocks"] = cut.most_blocks;
+  return json;
+}
+
+Json to_json(const SceneMovingLoad& load) {
+  Json json = {{"blocks", load.blocks}, {"force", to_json(load.force)}};
+  if (load.spacing) json["spacing"] = *load.spacing;
+  if (load.file) {
+    json["path"] = to_json(*load.file);
+    return json;
+  }
+  json["path"] = Json::array();
+  for (const auto& [time, place] : load.path) json["path"].push_back({time, place.x(), place.y(), place.z()});
   return json;
 }
 
@@ -396,6 +426,7 @@ nlohmann::ordered_json to_json(const Scene& scene) {
   json["material"] = list_to_json(scene.material);
   json["block"] = blocks_to_json(scene.rock ? scene.uncut : scene.block);
   if (!scene.cut.empty()) json["cut"] = list_to_json(scene.cut);
+  add_list(json, "load", scene.load);
   if (const Json assignments = assignments_to_pieces(scene); !assignments.empty())
     json["assign"] = assignments;
   add_supports(json, scene.bolt, scene.prop);

@@ -280,9 +280,10 @@ bool TomlTableReader::read_row(std::string_view key, std::vector<double>& result
   return row.has_value();
 }
 
-bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result) {
+bool TomlTableReader::read_texts(std::string_view key, std::vector<std::string>& result, const char* form) {
   note(key, {.kind = KeyForm::Kind::texts});
-  const toml::array* array = find_array(key, "an array of texts");
+  if (*form != '\0') note(key, {.kind = KeyForm::Kind::table});
+  const toml::array* array = find_array(key, fmt::format("an array of texts{}", form));
   if (!array) return false;
   std::vector<std::string> texts;
   for (const toml::node& entry : *array) {

@@ -78,7 +78,8 @@ class TomlTableReader {
   [[nodiscard]] bool varies(std::string_view key);
   /// Some finite numbers. @param words name of them all: "[a, b]"
   bool read_row(std::string_view key, std::vector<double>& result, std::size_t width, const char* words);
-  bool read_texts(std::string_view key, std::vector<std::string>& result);
+  /// @param form description of a table that is another value of the key
+  bool read_texts(std::string_view key, std::vector<std::string>& result, const char* form = "");
   /// An array of at least `minimum` rows of `width` finite numbers each. @param words name of a row.
   bool read_rows(std::string_view key, std::vector<std::vector<double>>& result, std::size_t width,
                  std::size_t minimum, const char* words, const char* form = "");
