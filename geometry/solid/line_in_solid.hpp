@@ -2,8 +2,8 @@
 //
 // A line enters and leaves a solid only where it crosses planes of triangles. Where it does is rounded; whether the
 // part between two such places is inside is decided exactly, for its middle (solid_location.hpp), so that a line
-// through edges and corners has the right parts all the same. A line that lies in a face is on neither side: its part
-// there may be found or not.
+// through edges and corners has the right parts all the same. Of two
+// solids that share a face, one has the part of a line that lies in it.
 #pragma once
 
 #include <array>

@@ -3,8 +3,8 @@
 //
 // The grout of a piece is divided into equal cells of at most an eighth of the transfer length 1/lambda,
 // lambda = sqrt(k/EA), with a station in the middle of each; the error of the bar's force is then (lambda h)^2 / 8 =
-// 0.2 %. The bar is a spring between neighbouring stations, across joints too: its length there is half a cell on each
-// side and the gap between the blocks.
+// 0.2 %. A piece has at most 1000 cells. The bar is a spring between neighbouring stations, across joints too: its
+// length there is half a cell on each side and the gap between the blocks.
 //
 // Along a straight line a block of order p moves as a polynomial of degree p: its motion at the p + 1 points of a piece
 // gives that at all stations exactly.

@@ -59,8 +59,8 @@ class StepBolt {
 
   /// Size of the rounding errors of the forces, in the norm of a block's unknowns.
   [[nodiscard]] double force_rounding(const StepBoltResponse& response) const;
-  /// True if rows that are not updated cause an error of the deformation above a tolerance, or if the bar turns, so that
-  /// its force would have a torque. @param tolerance m
+  /// True if rows that are not updated cause an error of the deformation above a tolerance, or if the bar turns: its
+  /// force would have a torque. @param tolerance m
   [[nodiscard]] bool needs_following(const PositionOfBlock& middle, const PositionOfBlock& end,
                                      const std::vector<const Eigen::VectorXd*>& changes,
                                      double tolerance) const;

@@ -254,10 +254,11 @@ std::vector<std::vector<int>> loose_blocks(const RunContext& run) {
   const std::vector<ContactPair> pairs = run.contacts.pairs(
       run.system, run.state, run.contacts.detect(run.system, run.state, 0.0), PairUse::statics);
   std::vector<std::vector<int>> loose;
-  const std::vector<StepBolt> bolts = step_bolts(run.system.bolts(), run.state.bolts, run.blocks(),
-                                                 run.state.states, run.system.moving());
+  const std::vector<StepBolt> bolts =
+      step_bolts(run.system.bolts(), run.state.bolts, run.blocks(), run.state.states, run.system.moving());
   for (const Island& island : find_islands(run.system.moving(), pairs, bolts)) {
-    bool held = island.pairs.empty() && island.bodies.size() == 1 && run.blocks()[at(island.bodies.front())].space().held();
+    bool held = island.pairs.empty() && island.bodies.size() == 1 &&
+                run.blocks()[at(island.bodies.front())].space().held();
     for (const int index : island.pairs) {
       const ContactPair& pair = pairs[at(index)];
       for (const int block : {pair.a(), pair.b()}) {

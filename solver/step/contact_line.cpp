@@ -38,10 +38,8 @@ double ContactLine::work(double share) const {
   });
   double of_bolts = 0.0;
   for (std::size_t k = 0; k < bolts_.size(); ++k)
-    of_bolts -= problem_.bolts()
-                    .bolt(k)
-                    .force(bolts_[k].start + share * bolts_[k].way, averaged)
-                    .dot(bolts_[k].way);
+    of_bolts -=
+        problem_.bolts().bolt(k).force(bolts_[k].start + share * bolts_[k].way, averaged).dot(bolts_[k].way);
   return std::accumulate(by_pair.begin(), by_pair.end(), of_bolts);
 }
 

@@ -14,7 +14,7 @@ class ContactLine {
   /// @param change of the unknowns in the island's equations. @param share of the change in the present guess
   ContactLine(const IslandProblem& problem, const Eigen::VectorXd& change, double share);
 
-  /// Work of all points per share, J. Includes bolts, excludes forces of blocks, inertia and shifts to common points. The sum does
+  /// Work of all points and bolts per share, J, without forces of blocks, inertia and shifts to common points. It does
   /// not depend on the number of threads.
   [[nodiscard]] double work(double share) const;
 

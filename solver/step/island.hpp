@@ -123,8 +123,8 @@ class IslandSolvers {
 
 /// An island: indices into the step's bodies and pairs.
 struct Island {
-  std::vector<int> bodies;  ///< increasing block indices
-  std::vector<int> pairs;   ///< indices of contact pairs
+  std::vector<int> bodies;                  ///< increasing block indices
+  std::vector<int> pairs;                   ///< indices of contact pairs
   std::vector<const StepBolt*> bolts = {};  ///< of the step
 };
 

@@ -74,8 +74,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   for (IslandResult& result : problem.results) swap_followed(result);
   problem.results.clear();
   const SimulationSettings& settings = system.settings();
-  problem.bolts =
-      step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
+  problem.bolts = step_bolts(system.bolts(), state.bolts, system.blocks(), state.states, system.moving());
   problem.islands = find_islands(system.moving(), problem.pairs, problem.bolts);
   validate(problem.islands, system.moving(), problem.pairs);
   problem.bodies = prepare_bodies(system, state, scheme);

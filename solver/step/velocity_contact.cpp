@@ -54,9 +54,11 @@ bool is_free(const BlockSystem& system, const Island& island, const std::vector<
                        });
   };
   return std::all_of(island.bodies.begin(), island.bodies.end(), in_free_body) &&
-         std::all_of(island.pairs.begin(), island.pairs.end(), [&](int index) {
-           return system.moving()[at(pairs[at(index)].a())] && system.moving()[at(pairs[at(index)].b())];
-         }) &&
+         std::all_of(island.pairs.begin(), island.pairs.end(),
+                     [&](int index) {
+                       return system.moving()[at(pairs[at(index)].a())] &&
+                              system.moving()[at(pairs[at(index)].b())];
+                     }) &&
          std::all_of(island.bolts.begin(), island.bolts.end(), [&](const StepBolt* bolt) {
            return std::all_of(bolt->blocks().begin(), bolt->blocks().end(),
                               [&](int block) { return system.moving()[at(block)]; });

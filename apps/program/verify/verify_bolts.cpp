@@ -105,8 +105,8 @@ std::vector<VerificationCheck> hung_block() {
   return checks;
 }
 
-/// The yield force T of a bolt at an angle beta with the plane, up the slope, acts on a sliding block along the plane by T
-/// cos(beta) and on the plane by T sin(beta):
+/// The yield force T of a bolt at an angle beta with the plane, up the slope, acts on a sliding block along the plane
+/// by T cos(beta) and on the plane by T sin(beta):
 ///   F = (W cos(alpha) + T sin(beta)) tan(phi) / (W sin(alpha) - T cos(beta))
 std::vector<VerificationCheck> bolted_slope() {
   std::vector<VerificationCheck> checks;

@@ -6,7 +6,7 @@
 
 namespace ashlar {
 
-/// A line for each spring of a bar, between stations at their present places. Those that are not installed are left out.
+/// A line for each spring of a bar, between stations at their present places, of all that are installed.
 /// Cell data:
 ///   axial_force  N, tension positive
 ///   shear_force  N, length of the force across the bar where it crosses a joint, 0 elsewhere

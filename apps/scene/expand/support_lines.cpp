@@ -101,54 +101,37 @@ void find_blocks(const LinesInBlocks& blocks, SupportLine& line) {
                              line.name, in_words(line.from), in_words(line.to));
     return;
   }
-  if (line.law.anchorage == BoltAnchorage::ends) {
-    const double allowed = end_share * length;
-    const bool at_start = spans.front().start <= allowed;
-    const bool at_end = spans.back().end >= length - allowed;
-    if (!at_start || !at_end) {
-      line.fault = fmt::format(
-          "the end `{}` of bolt \"{}\" is in no block ({}), an end in a block is needed; the bar {} the "
-          "nearest one "
-          "{:.4g} m from there",
-          at_start ? "to" : "from", line.name, in_words(at_start ? line.to : line.from),
-          at_start ? "leaves" : "enters", at_start ? length - spans.back().end : spans.front().start);
-      return;
-    }
-    spans = {{spans.front().block, spans.front().order, 0.0, 0.0},
-             {spans.back().block, spans.back().order, length, length}};
-    if (spans.front().block == spans.back().block) {
-      line.fault = fmt::format("both ends of bolt \"{}\" are in one block, two blocks are needed", line.name);
-      return;
-    }
-  }
   line.spans = std::move(spans);
 }
 
-/// The block that bears the end of a prop. @param behind parts of the line beyond that end and before it, measured from
-/// the end, the prop on the positive side
-std::optional<BoltSpan> bearing_block(const std::vector<BoltSpan>& spans, double allowed) {
-  std::optional<BoltSpan> ahead;
+/// The block that holds an end.
+/// @param spans parts of the line in blocks, measured from the end, the bar on the positive side
+/// @param behind true: of two that meet there the one behind the end, false: the one that the bar goes into
+std::optional<BoltSpan> block_at_end(const std::vector<BoltSpan>& spans, double allowed, bool behind) {
+  std::optional<BoltSpan> back, ahead;
   for (const BoltSpan& span : spans) {
-    if (span.start < -allowed && span.end >= -allowed) return span;
-    if (!ahead && std::abs(span.start) <= allowed) ahead = span;
+    if (!back && span.start < -allowed && span.end >= -allowed) back = span;
+    if (!ahead && span.start <= allowed && span.end > allowed) ahead = span;
   }
-  return ahead;
+  return (behind ? back : ahead) ? (behind ? back : ahead) : (behind ? ahead : back);
 }
 
-void find_ends(const LinesInBlocks& blocks, SupportLine& line) {
+/// Finds the blocks at both ends. @param what bolt or prop
+void find_ends(const LinesInBlocks& blocks, const char* what, SupportLine& line) {
   const Vector3 way = line.to - line.from;
   const double length = way.norm();
-  const double allowed = end_share * length;
+  const bool is_prop = line.thickness == 0.0;
   const auto find = [&](const Vector3& end, const Vector3& along) {
-    return bearing_block(blocks.spans(end, along, -length, length), allowed);
+    return block_at_end(blocks.spans(end, along, -length, length), end_share * length, is_prop);
   };
   const std::optional<BoltSpan> first = find(line.from, way / length), last = find(line.to, -way / length);
   if (!first || !last) {
     line.fault =
-        fmt::format("the end `{}` of prop \"{}\" is at no block ({}), a point on or in a block is needed",
-                    first ? "to" : "from", line.name, in_words(first ? line.to : line.from));
+        fmt::format("the end `{}` of {} \"{}\" is at no block ({}), a point on or in a block is needed",
+                    first ? "to" : "from", what, line.name, in_words(first ? line.to : line.from));
   } else if (first->block == last->block) {
-    line.fault = fmt::format("both ends of prop \"{}\" are at one block, two blocks are needed", line.name);
+    line.fault =
+        fmt::format("both ends of {} \"{}\" are at one block, two blocks are needed", what, line.name);
   } else {
     line.spans = {{first->block, first->order, 0.0, 0.0}, {last->block, last->order, length, length}};
   }
@@ -229,7 +212,10 @@ void add_bolt(const SceneBolt& bolt, const std::string& path, const LinesInBlock
                                                        {},
                                                        bolt.installed && !is_removed(bolt.removed, name),
                                                        {}});
-    find_blocks(blocks, line);
+    if (line.law.anchorage == BoltAnchorage::grouted)
+      find_blocks(blocks, line);
+    else
+      find_ends(blocks, "bolt", line);
   };
   if (!bolt.pattern) {
     if (bolt.from.allFinite() && bolt.to.allFinite()) add(bolt.name, bolt.from, bolt.to);
@@ -279,7 +265,7 @@ std::vector<SupportLine> support_lines(const Scene& scene, const std::vector<con
                                                        {},
                                                        prop.installed && !is_removed(prop.removed, prop.name),
                                                        {}});
-    find_ends(blocks, line);
+    find_ends(blocks, "prop", line);
   }
   return lines;
 }

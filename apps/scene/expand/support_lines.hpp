@@ -1,8 +1,9 @@
 // Bolts and props of a scene as lines through its blocks as placed.
 //
 // A bolt is where its line is inside blocks (geometry/solid/line_in_solid.hpp). Pieces shorter than a tenth of the bar
-// are left out; where blocks overlap, the piece of the first one along the line ends where it does. A prop's end is on
-// the block behind it, seen along the prop, or else on the one it goes into.
+// are left out; where blocks overlap, the piece of the first one along the line ends where it does. A bar
+// that is anchored at its ends is held by the blocks there: where two meet by the one that it goes into, a prop by the
+// one behind. Ends may be on faces.
 #pragma once
 
 #include <string>

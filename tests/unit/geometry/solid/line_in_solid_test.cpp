@@ -25,6 +25,16 @@ TEST(LineInSolid, GoesThroughEdgesAndCorners) {
   EXPECT_TRUE(parts_inside(box, {-1, 1, 1}, {1, 0, -1}, -10.0, 0.5).empty());
 }
 
+TEST(LineInSolid, OneOfTwoSolidsHasALineInTheirCommonFace) {
+  const TriangleMesh left = make_box({0, 0, 0}, {1, 1, 1}), right = make_box({1, 0, 0}, {2, 1, 1});
+  const TriangleMesh below = make_box({0, 0, -1}, {1, 1, 0});
+  const auto count = [](const TriangleMesh& solid, const Vector3& start, const Vector3& direction) {
+    return parts_inside(solid, start, direction, 0.0, 10.0).size();
+  };
+  EXPECT_EQ(count(left, {1, 0.3, -2}, {0, 0, 1}) + count(right, {1, 0.3, -2}, {0, 0, 1}), 1U);
+  EXPECT_EQ(count(left, {0.3, -2, 0}, {0, 1, 0}) + count(below, {0.3, -2, 0}, {0, 1, 0}), 1U);
+}
+
 TEST(LineInSolid, LeavesANotch) {
   // Two boxes with a gap as one surface.
   TriangleMesh both = make_box({0, 0, 0}, {1, 1, 1});

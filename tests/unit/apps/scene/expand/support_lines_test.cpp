@@ -98,6 +98,20 @@ TEST(SupportLines, APropStandsBetweenTheBlocksBehindItsEnds) {
   EXPECT_DOUBLE_EQ(lines[0].law.axial_stiffness, 5e6);
 }
 
+TEST(SupportLines, ATieIsHeldByTheBlocksAtItsEnds) {
+  const std::string tie = "[[bolt]]\nname = \"t\"\narea = 1e-3\nanchored = \"ends\"\n";
+  const auto blocks_of = [&](const std::string& ends) {
+    const Found found = loaded(tie + ends);
+    EXPECT_TRUE(found.scene) << found.first_fault;
+    const SupportLine line = found.scene ? lines_of(*found.scene).at(0) : SupportLine{};
+    return line.spans.empty() ? std::array{-1, -1} : std::array{line.spans[0].block, line.spans[1].block};
+  };
+  // Between faces, with plates on outer faces, and inside.
+  EXPECT_EQ(blocks_of("from = [0.5, 0.5, 1]\nto = [0.5, 0.5, 1.5]\n"), (std::array{1, 2}));
+  EXPECT_EQ(blocks_of("from = [0.5, 0.5, 0]\nto = [0.5, 0.5, 2]\n"), (std::array{1, 2}));
+  EXPECT_EQ(blocks_of("from = [0.5, 0.5, -0.5]\nto = [0.5, 0.5, 1.7]\n"), (std::array{0, 2}));
+}
+
 TEST(SupportLines, StagesInstallAndRemove) {
   const Found found =
       loaded("[[bolt]]\nname = \"b1\"\nfrom = [0.5, 0.5, 1.8]\nto = [0.5, 0.5, -0.5]\n" + steel +
@@ -129,9 +143,8 @@ TEST(SupportLines, FaultsNameTheEndAndThePlace) {
               HasSubstr("bolt \"b1\" meets no block"));
   EXPECT_THAT(fault("[[bolt]]\nname = \"b1\"\nfrom = [0.5, 0.5, 2.5]\nto = [0.5, 0.5, 0.5]\narea = "
                     "1e-3\nanchored = \"ends\"\n"),
-              HasSubstr("the end `from` of bolt \"b1\" is in no block ([0.5, 0.5, 2.5]), an end in a block "
-                        "is needed; the bar "
-                        "enters the nearest one 0.5 m from there"));
+              HasSubstr("the end `from` of bolt \"b1\" is at no block ([0.5, 0.5, 2.5]), a point on or in a "
+                        "block is needed"));
   EXPECT_THAT(fault("[[prop]]\nname = \"p\"\nstiffness = 1e7\nfrom = [0.5, 0.5, 1]\nto = [0.5, 0.5, 1.4]\n"),
               HasSubstr("the end `to` of prop \"p\" is at no block"));
   EXPECT_THAT(fault("[[bolt]]\nname = \"b1\"\nfrom = [0, 0, 0]\nto = [0, 0, 0]\n" + steel),
