@@ -84,8 +84,7 @@ std::string report_text(const BlockReport& report, const std::vector<RemovableBl
   for (std::size_t k = 0; k < areas.size(); ++k) {
     text += fmt::format("cut {}: {:.10g} m^2 between blocks", scene.cut[k].name, areas[k]);
     if (scene.rock->extended[k] > 0)
-      text +=
-          fmt::format(", {} joints that end inside a block extended to its faces", scene.rock->extended[k]);
+      text += fmt::format(", {} pieces divided by joints that end inside", scene.rock->extended[k]);
     if (scene.cut[k].min_volume > 0.0)
       text += fmt::format(", {} pieces below {:g} m^3 glued", scene.rock->glued[k], scene.cut[k].min_volume);
     text += '\n';

@@ -159,12 +159,9 @@ void warn_of_extended_joints(const Scene& scene, const CutRock& rock, Diagnostic
     if (count == 0 || scene.cut[k].kind != SceneCut::Kind::discs) continue;
     diagnostics.warning(
         scene.places.value(fmt::format("cut.{}.file", k)),
-        fmt::format(
-            "{} of cut \"{}\" {}; glued = true or a larger strength of the joint may stand for the rock "
-            "between",
-            count == 1 ? "1 joint" : fmt::format("{} joints", count), scene.cut[k].name,
-            count == 1 ? "ends inside a block and is extended to its faces"
-                       : "end inside a block and are extended to its faces"));
+        fmt::format("cut \"{}\" divides {} by joints that end inside, which are extended to the "
+                    "faces; more strength of its joints may stand for the rock between",
+                    scene.cut[k].name, count == 1 ? "1 piece" : fmt::format("{} pieces", count)));
   }
 }
 

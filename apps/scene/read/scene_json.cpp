@@ -20,10 +20,10 @@ Json or_auto(const std::optional<Number>& number) {
 }
 
 Json to_json(const SceneRecord& record) {
-  Json json = {{"file", record.file.string()},
-               {"time", record.time},
-               {"values", record.values},
-               {"scale", record.scale}};
+  Json json = {{"file", record.file.string()}};
+  if (!record.time.empty()) json["time"] = record.time;
+  json["values"] = record.values;
+  json["scale"] = record.scale;
   if (record.baseline) json["baseline"] = *record.baseline;
   if (record.resample) json["resample"] = *record.resample;
   json["sha256"] = record.sha256;

@@ -50,6 +50,43 @@ class BlocksCommand : public ::testing::Test {
   std::ostringstream out_, err_;
 };
 
+TEST_F(BlocksCommand, JsonHasPlacesAndOtherNames) {
+  BlocksOptions options;
+  options.json = true;
+  ASSERT_EQ(run(options), exit_status::done) << err_.str();
+  const auto blocks = nlohmann::json::parse(out_.str()).at("blocks");
+  EXPECT_EQ(blocks.at(0).at("centroid"), (nlohmann::json{1.0, 0.5, -0.5}));
+  EXPECT_EQ(blocks.at(0).at("names"), nlohmann::json::array());
+  EXPECT_EQ(blocks.at(2).at("names"), (nlohmann::json{"bar.middle.2"}));
+  EXPECT_EQ(blocks.at(2).at("box"), nlohmann::json::parse(R"({ "min": [1, 0, 0], "max": [2, 1, 1] })"));
+}
+
+// With its neighbour gone, a cube is free to move along x; the end of the bar was free before.
+TEST_F(BlocksCommand, BlocksOfAStage) {
+  const std::string stages =
+      "[[stage]]\nname = \"all\"\n[[stage]]\nname = \"one\"\nremove = [\"bar.1\"]\nreset_displacement = "
+      "true\n";
+  BlocksOptions options;
+  options.json = true;
+  options.stage = "one";
+  options.force = "-1,0,0";
+  ASSERT_EQ(run(options, stages), exit_status::done) << err_.str();
+  const auto one = nlohmann::json::parse(out_.str());
+  EXPECT_EQ(one.at("count"), 2);
+  EXPECT_EQ(one.at("volume"), 13.0);
+  EXPECT_EQ(one.at("blocks").at(1).at("name"), "bar.2");
+  EXPECT_EQ(one.at("blocks").at(1).at("neighbours").size(), 1U);
+  EXPECT_EQ(one.at("blocks").at(1).at("key").at("direction"), (nlohmann::json{-1.0, 0.0, 0.0}));
+  options.stage = "all";
+  ASSERT_EQ(run(options, stages), exit_status::done) << err_.str();
+  const auto all = nlohmann::json::parse(out_.str());
+  EXPECT_EQ(all.at("count"), 3);
+  EXPECT_NE(all.at("blocks").at(2).at("key").at("direction"), (nlohmann::json{-1.0, 0.0, 0.0}));
+  options.stage = "on";
+  EXPECT_EQ(run(options, stages), exit_status::bad_input);
+  EXPECT_THAT(err_.str(), HasSubstr("no stage of that name (--stage on), did you mean \"one\"?"));
+}
+
 TEST_F(BlocksCommand, JsonHasTheContract) {
   BlocksOptions options;
   options.json = true;
