@@ -262,9 +262,10 @@ class StageCheck {
     for (std::size_t j = 0; j < stage.load.size(); ++j)
       check_moving(fmt::format("load.{}", j), stage.load[j].blocks);
     for (std::size_t j = 0; j < stage.joint.size(); ++j) {
-      if (stage.joint[j].tied.value_or(false))
+      if (stage.joint[j].tied.value_or(false) || stage.joint[j].tie)
         error(s, fmt::format("joint.{}.tied", j),
-              "tied in a stage (true), blocks can only be tied from the beginning, as they are placed");
+              "tied in a stage (true or a strength), blocks can only be tied from the beginning, as they are "
+              "placed");
     }
     std::vector<std::string> materials;
     for (const SceneMaterial& material : scene_.material) materials.push_back(material.name);
