@@ -64,7 +64,7 @@ std::vector<RemovableBlock> find_removable_blocks(const BlockReport& report, con
     bool tied = false;
     for (const BlockBorder& border : report.blocks()[k].borders) {
       const SceneJointLaw law = table.law_between(k, border.block);
-      tied = tied || law.tied;
+      tied = tied || law.tied || law.tie;
       Hold& hold = holds[{border.plane, border.below}];
       hold.area += border.area;
       hold.friction += border.area * std::tan(law.friction_angle * std::numbers::pi / 180.0);

@@ -192,6 +192,7 @@ class JointLaws {
     result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
+    if (given.tie || given.fracture_energy) set_springs_of_bond(a, b, given, result);
     const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
     result.friction = tangent(given.friction_angle);
     result.cohesion = given.cohesion;
@@ -204,7 +205,26 @@ class JointLaws {
     // Several entries together must not generate energy either.
     result.dilation = std::min(tangent(given.dilation_angle), result.residual->friction);
     result.damping = given.damping;
+    result.restitution = given.restitution;
+    result.fracture = given.fracture_energy.value_or(FractureEnergy{});
     return result;
+  }
+
+  /// Stiffnesses that are not given: of a tie, and as much as the fracture energy needs. Such joints have springs in any
+  /// scene.
+  void set_springs_of_bond(std::size_t a, std::size_t b, const SceneJointLaw& given, JointLaw& law) const {
+    law.gives_way = multipliers_;
+    const auto stiffness = [&](double automatic, double strength, double energy) {
+      const double least = energy > 0.0 ? least_bond_stiffness(strength, energy) : 0.0;
+      return std::max(automatic, automatic_bond_stiffness * least);
+    };
+    const FractureEnergy energy = given.fracture_energy.value_or(FractureEnergy{});
+    const double tie = given.tie ? automatic_tie_stiffness(source_[a], source_[b], ratios_) : 0.0;
+    if (!given.normal_stiffness)
+      law.normal_stiffness =
+          stiffness(std::max(tie, law.normal_stiffness), given.tensile_strength, energy.tension);
+    if (!given.shear_stiffness)
+      law.shear_stiffness = stiffness(std::max(tie, law.shear_stiffness), given.cohesion, energy.shear);
   }
 
   /// Two blocks, or one, of each kind: equal blocks matched by the same globs have the same joints.

@@ -113,6 +113,13 @@ void read_more_of_joint(TomlTableReader& table, Law& law) {
   table.read_number("tensile_strength_residual", law.tensile_strength_residual, range::not_negative);
   table.read_number("dilation_angle", law.dilation_angle, range::zero_to_below_90);
   table.read_number("damping", law.damping, range::zero_to_one);
+  table.read_number("restitution", law.restitution, range::zero_to_one);
+  const bool fracture = table.given("fracture_energy");
+  TomlTableReader energy = table.table_or_empty("fracture_energy");
+  FractureEnergy read;
+  energy.read_number("tension", read.tension, range::positive);
+  energy.read_number("shear", read.shear, range::positive);
+  if (fracture) law.fracture_energy = read;
 }
 
 void read_contact(TomlTableReader table, SceneContact& contact) {
@@ -150,6 +157,22 @@ void read_stiffness(TomlTableReader& table, const char* key, std::optional<std::
   if (table.read_number_or_auto(key, stiffness, range::positive)) result.emplace(stiffness);
 }
 
+/// `tied = true`, or a table with the strength of a tie that breaks.
+void read_tie(TomlTableReader& table, SceneJoint& joint) {
+  const toml::table* strength = table.table_at("tied");
+  if (strength == nullptr || !(strength->contains("tension") || strength->contains("shear"))) {
+    bool tied = false;
+    if (table.read_bool("tied", tied, " or { tension, shear }")) joint.tied = tied;
+    return;
+  }
+  TomlTableReader reader = *table.table("tied");
+  for (const char* key : {"tension", "shear"}) reader.require(key);
+  SceneTie tie;
+  reader.read_number("tension", tie.tension, range::positive);
+  reader.read_number("shear", tie.shear, range::positive);
+  joint.tie = tie;
+}
+
 SceneJoint read_joint(TomlTableReader& table) {
   SceneJoint joint;
   std::vector<std::string> blocks;
@@ -174,8 +197,7 @@ SceneJoint read_joint(TomlTableReader& table) {
   table.read_number("cohesion", joint.cohesion, range::not_negative);
   table.read_number("tensile_strength", joint.tensile_strength, range::not_negative);
   read_more_of_joint(table, joint);
-  bool tied = false;
-  if (table.read_bool("tied", tied)) joint.tied = tied;
+  read_tie(table, joint);
   return joint;
 }
 

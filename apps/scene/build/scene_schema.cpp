@@ -138,10 +138,13 @@ constexpr const char* block_tables = R"([analysis]
 end_time = 1
 time_step = 1
 [contact]
+fracture_energy = { tension = 1, shear = 1 }
 [[joint]]
 blocks = ["A", "B"]
 [[joint]]
 cut = "set"
+tied = { tension = 1, shear = 1 }
+fracture_energy = { tension = 1, shear = 1 }
 [[material]]
 name = "rock"
 density = 1

@@ -42,11 +42,28 @@ std::vector<std::pair<std::size_t, std::size_t>> tied_pairs(const Scene& scene, 
   return {pairs.begin(), pairs.end()};
 }
 
+/// True if a joint ties two blocks over a common face by a bond that breaks.
+bool bonds_any(const JointTable& table, std::size_t joint, const BlockSystem& system) {
+  bool bonds = false;
+  const std::vector<BlockModel>& blocks = system.blocks();
+  for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
+    if (!table.law_between(a, b).tie) return true;
+    const Box first = box_of(blocks[a].solid().mesh().points),
+              second = box_of(blocks[b].solid().mesh().points);
+    if (!first.meets(second)) return true;
+    bonds =
+        tie_between(blocks[a].solid(), blocks[a].basis(), blocks[b].solid(), blocks[b].basis()).area > 0.0;
+    return !bonds;
+  });
+  return bonds;
+}
+
 /// True if later [[joint]]s untie all pairs tied by a joint.
 bool is_untied(const JointTable& table, std::size_t joint) {
   bool left_any = false;
   for_each_pair(table, joint, [&](std::size_t a, std::size_t b) {
-    left_any = table.law_between(a, b).tied;
+    const SceneJointLaw law = table.law_between(a, b);
+    left_any = law.tied || law.tie;
     return !left_any;
   });
   return table.matches_a_pair(joint) && !left_any;
@@ -82,7 +99,8 @@ void check_ties(const Scene& scene, const JointTable& table, const BlockSystem& 
   }
   for (std::size_t k = 0; k < scene.joint.size(); ++k) {
     const SceneJoint& joint = scene.joint[k];
-    if (!joint.tied.value_or(false) || ties[k] || waits(table, k, system)) continue;
+    if (!(joint.tied.value_or(false) || joint.tie) || ties[k] || waits(table, k, system)) continue;
+    if (joint.tie && bonds_any(table, k, system)) continue;
     if (is_untied(table, k)) {
       diagnostics.warning(scene.places.key(fmt::format("joint.{}.tied", k)),
                           "tied has no effect: a later [[joint]] of the same blocks unties them");

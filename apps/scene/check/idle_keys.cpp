@@ -72,6 +72,14 @@ void warn_of_blocks(const Scene& scene, IdleKeys& keys) {
   }
 }
 
+void warn_of_restitution(const Scene& scene, IdleKeys& keys) {
+  if (!is_static(scene.analysis)) return;
+  constexpr const char* reason = "a static analysis has no motion in time";
+  keys.warn("contact.restitution", reason);
+  for (std::size_t k = 0; k < scene.joint.size(); ++k)
+    keys.warn(fmt::format("joint.{}.restitution", k), reason);
+}
+
 /// Only springs have dashpots, and only in dynamics.
 void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
   const auto check = [&](const std::string& path, const SceneJointLaw& law, bool gives_way) {
@@ -105,9 +113,10 @@ void warn_of_ties(const Scene& scene, IdleKeys& keys) {
       return name.find_first_of("*?[") != std::string::npos;
     };
     if (!joint.tied.value_or(false) || is_glob(joint.blocks[0]) || is_glob(joint.blocks[1])) continue;
-    for (const char* key : {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion",
-                            "tensile_strength", "friction_angle_residual", "cohesion_residual",
-                            "tensile_strength_residual", "dilation_angle", "damping"})
+    for (const char* key :
+         {"normal_stiffness", "shear_stiffness", "friction_angle", "cohesion", "tensile_strength",
+          "friction_angle_residual", "cohesion_residual", "tensile_strength_residual", "dilation_angle",
+          "damping", "restitution", "fracture_energy"})
       keys.warn(fmt::format("joint.{}.{}", k, key), "tied blocks neither open nor slide");
   }
 }
@@ -121,6 +130,7 @@ void warn_of_idle_keys(const Scene& scene, Diagnostics& diagnostics) {
   warn_of_blocks(scene, keys);
   warn_of_ties(scene, keys);
   warn_of_joint_damping(scene, keys);
+  warn_of_restitution(scene, keys);
 }
 
 }  // namespace ashlar

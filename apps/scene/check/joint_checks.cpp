@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/scene/check/fracture_checks.hpp"
+
 namespace ashlar {
 namespace {
 
@@ -51,8 +53,10 @@ void check_dilation(const Scene& scene, const SceneJointLaw& law, const std::str
 void check_joint_laws(const Scene& scene, Diagnostics& diagnostics) {
   check_residuals(scene, scene.contact.law, "contact", diagnostics);
   check_dilation(scene, scene.contact.law, "contact", diagnostics);
+  check_fracture(scene, scene.contact.law, "contact", diagnostics);
   for (std::size_t i = 0; i < scene.joint.size(); ++i) {
     const std::string path = fmt::format("joint.{}", i);
+    check_joint_fracture(scene, i, diagnostics);
     const bool given = std::any_of(strength_keys.begin(), strength_keys.end(), [&](const char* key) {
       return scene.places.contains(fmt::format("{}.{}", path, key)) ||
              scene.places.contains(fmt::format("{}.{}_residual", path, key));

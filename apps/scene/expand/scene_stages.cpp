@@ -260,9 +260,9 @@ class StageCheck {
     for (std::size_t j = 0; j < stage.load.size(); ++j)
       check_moving(fmt::format("load.{}", j), stage.load[j].blocks);
     for (std::size_t j = 0; j < stage.joint.size(); ++j) {
-      if (stage.joint[j].tied.value_or(false))
+      if (stage.joint[j].tied.value_or(false) || stage.joint[j].tie)
         error(s, fmt::format("joint.{}.tied", j),
-              "blocks cannot be tied in a stage (true); tie them by a [[joint]] of the scene");
+              "blocks cannot be tied in a stage (true or a strength); tie them by a [[joint]] of the scene");
     }
     std::vector<std::string> materials;
     for (const SceneMaterial& material : scene_.material) materials.push_back(material.name);

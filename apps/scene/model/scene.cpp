@@ -20,7 +20,15 @@ void override_law(SceneJointLaw& law, const SceneJoint& joint) {
   replace(law.tensile_strength_residual, joint.tensile_strength_residual);
   law.dilation_angle = joint.dilation_angle.value_or(law.dilation_angle);
   law.damping = joint.damping.value_or(law.damping);
-  law.tied = joint.tied.value_or(law.tied);
+  replace(law.restitution, joint.restitution);
+  if (joint.fracture_energy) law.fracture_energy = joint.fracture_energy;
+  if (!joint.tied && !joint.tie) return;
+  law.tied = joint.tied.value_or(false);
+  law.tie = joint.tie;
+  if (!law.tie) return;
+  law.cohesion = law.tie->shear;
+  law.tensile_strength = law.tie->tension;
+  law.cohesion_residual = law.tensile_strength_residual = std::nullopt;
 }
 
 SceneJointLaw joint_law_between(const Scene& scene, const std::string& block_a, const std::string& block_b) {

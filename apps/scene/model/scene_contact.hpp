@@ -6,8 +6,15 @@
 #include <string>
 
 #include "apps/scene/model/scene_region.hpp"
+#include "mechanics/contact/bond_damage.hpp"
 
 namespace ashlar {
+
+/// Strength of a tie that breaks: the cohesion and the tensile strength of a bond with the springs of a tie.
+struct SceneTie {
+  double tension = 0.0;  ///< Pa, > 0
+  double shear = 0.0;    ///< Pa, > 0
+};
 
 /// The law between the faces of two blocks. Default strengths are zero: a joint's strength must be stated.
 struct SceneJointLaw {
@@ -18,9 +25,12 @@ struct SceneJointLaw {
   double tensile_strength = 0.0;           ///< Pa, >= 0
   /// Strength of failed or later contacts; at most the values above. Empty: friction_angle, no cohesion, no tensile strength
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
-  double dilation_angle = 0.0;  ///< deg, 0 to friction_angle and its residual value
-  double damping = 0.0;         ///< share of critical, of the joint's springs, 0 to 1
-  bool tied = false;            ///< bonded over the common face; a key of [[joint]] only
+  double dilation_angle = 0.0;                    ///< deg, 0 to friction_angle and its residual value
+  double damping = 0.0;                           ///< share of critical, of the joint's springs, 0 to 1
+  std::optional<double> restitution;              ///< 0 to 1
+  std::optional<FractureEnergy> fracture_energy;  ///< J/m^2
+  bool tied = false;            ///< bonded without limit over the common face; a key of [[joint]] only
+  std::optional<SceneTie> tie;  ///< bonded up to a strength, which cohesion and tensile_strength hold too
 
   [[nodiscard]] bool gives_stiffness() const { return normal_stiffness || shear_stiffness; }
 };
@@ -59,7 +69,10 @@ struct SceneJoint {
   std::optional<double> tensile_strength;
   std::optional<double> friction_angle_residual, cohesion_residual, tensile_strength_residual;
   std::optional<double> dilation_angle, damping;
+  std::optional<double> restitution;
+  std::optional<FractureEnergy> fracture_energy;
   std::optional<bool> tied;
+  std::optional<SceneTie> tie;  ///< `tied` given as a table
 };
 
 }  // namespace ashlar

@@ -83,6 +83,20 @@ void add_residuals(Json& json, const Law& law) {
   if (law.tensile_strength_residual) json["tensile_strength_residual"] = *law.tensile_strength_residual;
 }
 
+Json to_json(const FractureEnergy& energy) {
+  Json json = Json::object();
+  if (energy.tension > 0.0) json["tension"] = energy.tension;
+  if (energy.shear > 0.0) json["shear"] = energy.shear;
+  return json;
+}
+
+/// @param law a SceneJointLaw or a SceneJoint
+template <class Law>
+void add_impact_and_fracture(Json& json, const Law& law) {
+  if (law.restitution) json["restitution"] = *law.restitution;
+  if (law.fracture_energy) json["fracture_energy"] = to_json(*law.fracture_energy);
+}
+
 Json to_json(const SceneContact& contact, bool augmented) {
   Json json = {{"springs", name_of(springs_names, contact.springs)},
                {"surface", name_of(surface_names, contact.surface)},
@@ -96,6 +110,7 @@ Json to_json(const SceneContact& contact, bool augmented) {
   add_residuals(json, contact.law);
   json["dilation_angle"] = contact.law.dilation_angle;
   json["damping"] = contact.law.damping;
+  add_impact_and_fracture(json, contact.law);
   if (contact.subdivisions)
     json["subdivisions"] = *contact.subdivisions;
   else
@@ -121,7 +136,9 @@ Json to_json(const SceneJoint& joint) {
   add_residuals(json, joint);
   if (joint.dilation_angle) json["dilation_angle"] = *joint.dilation_angle;
   if (joint.damping) json["damping"] = *joint.damping;
+  add_impact_and_fracture(json, joint);
   if (joint.tied) json["tied"] = *joint.tied;
+  if (joint.tie) json["tied"] = {{"tension", joint.tie->tension}, {"shear", joint.tie->shear}};
   return json;
 }
 
