@@ -1,7 +1,9 @@
 #include "solver/run/initial_stress.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "geometry/index.hpp"
 #include "solver/step/step_contacts.hpp"
@@ -20,11 +22,11 @@ std::optional<Eigen::Matrix3d> stress_at(const BlockModel& a, const BlockModel& 
   return std::nullopt;
 }
 
-/// @param force on a, N. @param per_area true: multipliers are remembered per area. @param energy is added to
-void load_point(const PointLaw& law, const ContactPoint& point, const Vector3& force, bool per_area,
-                PointMemory& memory, SpringEnergy& energy) {
+/// @return the force that the point begins with. @param force on a, N. @param per_area true: multipliers are remembered per area. @param energy is added to
+Vector3 load_point(const PointLaw& law, const ContactPoint& point, const Vector3& force, bool per_area,
+                   PointMemory& memory, SpringEnergy& energy) {
   const double normal = point.normal.dot(force);
-  if (!(normal > 0.0)) return;
+  if (!(normal > 0.0)) return Vector3::Zero();
   const Vector3 shear = force - normal * point.normal;
   memory.in_level = true;
   memory.state = ContactState::locked;
@@ -32,19 +34,53 @@ void load_point(const PointLaw& law, const ContactPoint& point, const Vector3& f
     const double scale = per_area ? point.area : 1.0;
     memory.normal_multiplier = normal / scale;
     memory.shear_multiplier = shear / scale;
-    return;
+    return force;
   }
   memory.dilation = memory.level_dilation = normal / law.normal_stiffness;
   memory.compression = memory.dilation - point.gap;
   memory.slip = memory.level_slip = -shear / law.shear_stiffness;
   energy.normal += 0.5 * normal * memory.dilation;
   energy.shear += 0.5 * shear.squaredNorm() / law.shear_stiffness;
+  return force;
 }
+
+/// Sums of the forces on each block.
+class BlockForces {
+ public:
+  BlockForces(const BlockSystem& system, double time)
+      : sum_(static_cast<std::size_t>(system.count()), Vector3::Zero()), size_(sum_.size(), 0.0) {
+    for (int k = 0; k < system.count(); ++k) {
+      const BlockModel& block = system.blocks()[at(k)];
+      if (block.fixed()) continue;
+      const Vector3 own = block.external_force(system.settings().gravity_at(time), time).row(0).transpose();
+      add(k, std::sqrt(block.basis().volume()) * own);
+    }
+  }
+  void add(int block, const Vector3& force) {
+    sum_[at(block)] += force;
+    size_[at(block)] += force.norm();
+  }
+  [[nodiscard]] std::optional<StressImbalance> worst(const BlockSystem& system) const {
+    std::optional<StressImbalance> result;
+    for (int k = 0; k < system.count(); ++k) {
+      if (!system.moving()[at(k)] || system.blocks()[at(k)].supported() || system.is_tied(k)) continue;
+      if (size_[at(k)] == 0.0) continue;
+      const double share = sum_[at(k)].norm() / size_[at(k)];
+      if (!result || share > result->share) result = StressImbalance{k, sum_[at(k)].norm(), share};
+    }
+    return result;
+  }
+
+ private:
+  std::vector<Vector3> sum_;  ///< (#blocks), N
+  std::vector<double> size_;  ///< (#blocks), sum of their sizes, N
+};
 
 }  // namespace
 
-std::map<PairKey, ContactMemory> contacts_under_stress(const BlockSystem& system, RunState& state) {
-  std::map<PairKey, ContactMemory> result;
+StressedContacts contacts_under_stress(const BlockSystem& system, RunState& state) {
+  StressedContacts result;
+  BlockForces forces(system, state.time());
   StepContacts contacts(system);
   const std::vector<FoundContacts> found = contacts.detect(system, state, 0.0);
   for (const ContactPair& pair : contacts.pairs(system, state, found, PairUse::statics)) {
@@ -57,13 +93,16 @@ std::map<PairKey, ContactMemory> contacts_under_stress(const BlockSystem& system
       const auto stress = stress_at(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())], point);
       if (!stress) continue;
       any = true;
-      load_point(pair.laws()[k], point, -point.area * (*stress * point.normal),
-                 system.settings().area_springs, memory[k], energy);
+      const Vector3 force = load_point(pair.laws()[k], point, -point.area * (*stress * point.normal),
+                                       system.settings().area_springs, memory[k], energy);
+      forces.add(pair.a(), force);
+      forces.add(pair.b(), -force);
     }
     if (!any) continue;
-    ContactMemory& of_pair = result[{pair.a(), pair.b()}];
+    ContactMemory& of_pair = result.contacts[{pair.a(), pair.b()}];
     of_pair.store(pair.points(), std::move(memory), pair.depth_found(), energy);
   }
+  result.worst = forces.worst(system);
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "solver/contact/pair_history.hpp"
 #include "solver/state/block_system.hpp"
@@ -9,13 +10,26 @@
 
 namespace ashlar {
 
+/// A block whose contacts, loads and weight do not add up to zero.
+struct StressImbalance {
+  int block;
+  double force;  ///< N, of the sum
+  double share;  ///< of the sum of their sizes
+};
+
+/// Contacts at the start of a run under stress.
+struct StressedContacts {
+  std::map<PairKey, ContactMemory> contacts;  ///< those with stress
+  /// The block with the largest share. Blocks with supports or ties, whose forces are not known yet, are not considered
+  std::optional<StressImbalance> worst;
+};
+
 /// What contacts of the blocks as placed remember, so that each point has the traction of its blocks' initial stress
 /// (BlockDefinition::initial_stress; the mean of both, or that of the one that has any):
 ///   N = -n . s n A,  shear force on a = -(s n - n (n . s n)) A,   n out of b
 /// A spring gets a rest gap N / kn above the surface and a slip, a point with multipliers the forces themselves. A point
 /// that the stress pulls begins without force, as does its shear.
-/// @param state at its start, with blocks as placed. @return by pair, only those with stress
-[[nodiscard]] std::map<PairKey, ContactMemory> contacts_under_stress(const BlockSystem& system,
-                                                                     RunState& state);
+/// @param state at its start, with blocks as placed.
+[[nodiscard]] StressedContacts contacts_under_stress(const BlockSystem& system, RunState& state);
 
 }  // namespace ashlar

@@ -10,7 +10,6 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "solver/run/checkpoint.hpp"
 #include "solver/run/contact_explanation.hpp"
-#include "solver/run/initial_stress.hpp"
 #include "solver/run/stage_start.hpp"
 #include "solver/statics/rigid_model.hpp"
 #include "solver/statics/rigid_verdict.hpp"
@@ -87,9 +86,10 @@ void Simulation::start_overlapping(const std::map<PairKey, double>& depths) {
     if (deepest > 0.0) state_.pairs[blocks].overlap = deepest;
 }
 
-void Simulation::start_stressed() {
-  for (auto& [blocks, memory] : contacts_under_stress(system_, state_))
-    state_.pairs[blocks].memory = std::move(memory);
+std::optional<StressImbalance> Simulation::start_stressed() {
+  StressedContacts start = contacts_under_stress(system_, state_);
+  for (auto& [blocks, memory] : start.contacts) state_.pairs[blocks].memory = std::move(memory);
+  return start.worst;
 }
 
 void Simulation::add_bolts(std::vector<Bolt> bolts) {

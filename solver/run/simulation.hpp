@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/run/initial_stress.hpp"
 #include "solver/statics/static_analysis.hpp"
 #include "solver/step/block_changes.hpp"
 #include "solver/step/dynamic_step.hpp"
@@ -58,7 +59,8 @@ class Simulation {
 
   /// Contacts of blocks with initial stress begin with its forces (initial_stress.hpp), before the first step and after
   /// start_overlapping().
-  void start_stressed();
+  /// @return the block that is farthest from balance
+  std::optional<StressImbalance> start_stressed();
   /// Lets pairs of blocks with an initial overlap touch without force (notes/known_overlaps.md). To be called before
   /// the first step.
   /// @param depths by pair, m, >= 0. @throws std::invalid_argument if a block is incremental: its material points do

@@ -291,6 +291,19 @@ std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
   return depths;
 }
 
+/// Warns of a stress that neither joints nor boundaries hold.
+void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
+  constexpr double reported_from = 0.01;
+  const std::optional<StressImbalance> worst = simulation.start_stressed();
+  if (!worst || worst->share < reported_from) return;
+  diagnostics.warning(
+      scene.places.key("initial_stress"),
+      fmt::format(
+          "initial stress is not in balance with weight, loads and boundaries: block \"{}\" lacks {:.3g} N "
+          "({:.1f} % of the forces on it) and moves until they balance; check tractions, supports and k0",
+          scene.block[static_cast<std::size_t>(worst->block)].name, worst->force, 100 * worst->share));
+}
+
 }  // namespace
 
 std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int threads,
@@ -348,7 +361,7 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {
       return water->in_joint(static_cast<std::size_t>(a), static_cast<std::size_t>(b), place);
     });
-  if (scene.initial_stress.given()) built.simulation.start_stressed();
+  if (scene.initial_stress.given()) start_under_stress(scene, built.simulation, diagnostics);
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {
