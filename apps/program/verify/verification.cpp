@@ -17,8 +17,8 @@ std::vector<VerificationCase> all_verification_cases() {
   std::vector<VerificationCase> cases;
   for (const auto& group :
        {kinematics_cases(), one_block_cases(), contact_spring_cases(), slope_cases(), joint_cases(),
-        safety_cases(), limit_cases(), stack_cases(), non_convex_cases(), hertz_cases(), impact_cases(),
-        support_cases(), cutting_cases(), falling_block_cases()})
+        bond_cases(), restitution_cases(), safety_cases(), limit_cases(), stack_cases(), non_convex_cases(),
+        hertz_cases(), impact_cases(), support_cases(), cutting_cases(), falling_block_cases()})
     cases.insert(cases.end(), group.begin(), group.end());
   return cases;
 }
