@@ -65,6 +65,10 @@ class VerificationCase {
 [[nodiscard]] std::span<const VerificationCase> slope_cases();
 /// Properties of joints besides friction.
 [[nodiscard]] std::span<const VerificationCase> joint_cases();
+/// Bonds with fracture energy, and ties that break.
+[[nodiscard]] std::span<const VerificationCase> bond_cases();
+/// Coefficients of restitution.
+[[nodiscard]] std::span<const VerificationCase> restitution_cases();
 /// Factors of safety.
 [[nodiscard]] std::span<const VerificationCase> safety_cases();
 /// Limit analysis.
