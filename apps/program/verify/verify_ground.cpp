@@ -46,7 +46,7 @@ VerificationCheck check_safety(const std::string& what, const std::string& scene
     TrialFactors factors;
     factors.strength = factor;
     Simulation simulation = simulation_of(scene, factors);
-    return run_trial(simulation, factor, 1.0, [] { return true; });
+    return run_trial(simulation, factor, 1.0);
   });
   const double found =
       bracket.lower && bracket.upper ? std::sqrt(*bracket.lower * *bracket.upper) : std::nan("");
