@@ -246,7 +246,8 @@ its motion and stress raise RuntimeError; its shape, volume and mass stay availa
                              "kg; 0 if fixed.")
       .def_property_readonly("coefficients", &CoreBlock::coefficients,
                              "Coefficients of the position, (p, 3), m^5/2.")
-      .def_property_readonly("vertices", &CoreBlock::vertices, "Corners of the placed, undeformed block, (n, 3), m.")
+      .def_property_readonly("vertices", &CoreBlock::vertices,
+                             "Corners of the placed, undeformed block, (n, 3), m.")
       .def_property_readonly("triangles", &CoreBlock::triangles,
                              "Triangles of the surface, (m, 3), indices of vertices.")
       .def("positions", vectors_of(&PointMotion::place), points, extrapolate,

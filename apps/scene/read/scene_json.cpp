@@ -2,78 +2,16 @@
 
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/scene_names.hpp"
+#include "apps/scene/read/analysis_json.hpp"
 #include "apps/scene/read/assignments.hpp"
 #include "apps/scene/read/bolt_json.hpp"
+#include "apps/scene/read/ground_json.hpp"
 
 namespace ashlar {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Vector3& vector) {
-  return {vector.x(), vector.y(), vector.z()};
-}
-
-template <typename Number>
-Json or_auto(const std::optional<Number>& number) {
-  return number ? Json(*number) : Json("auto");
-}
-
-Json to_json(const SceneRecord& record) {
-  Json json = {{"file", record.file.string()}};
-  if (!record.time.empty()) json["time"] = record.time;
-  json["values"] = record.values;
-  json["scale"] = record.scale;
-  if (record.baseline) json["baseline"] = *record.baseline;
-  if (record.resample) json["resample"] = *record.resample;
-  json["sha256"] = record.sha256;
-  return json;
-}
-
-void add_gravity(Json& json, const SceneAnalysis& analysis) {
-  if (analysis.gravity_history.empty()) {
-    json["gravity"] = to_json(analysis.gravity);
-  } else if (analysis.gravity_file) {
-    json["gravity_history"] = to_json(*analysis.gravity_file);
-  } else {
-    json["gravity_history"] = Json::array();
-    for (const auto& [time, value] : analysis.gravity_history)
-      json["gravity_history"].push_back({time, value.x(), value.y(), value.z()});
-  }
-}
-
-Json to_json(const SceneAnalysis::FactorSearch& search, const char* of) {
-  return {{of, search.of}, {"tolerance", search.tolerance}, {"lower", search.lower}, {"upper", search.upper}};
-}
-
-Json to_json(const SceneAnalysis::SupportSearch& search) {
-  Json json = {{"supports", search.supports}};
-  if (search.direction) json["direction"] = to_json(*search.direction);
-  json["limit"] = or_auto(search.limit);
-  json["tolerance"] = or_auto(search.tolerance);
-  return json;
-}
-
-Json to_json(const SceneAnalysis& analysis) {
-  Json json = {{"type", name_of(analysis_type_names, analysis.type)},
-               {"end_time", analysis.end_time},
-               {"time_step", analysis.time_step},
-               {"integrator", name_of(integrator_names, analysis.integrator)},
-               {"spectral_radius", analysis.spectral_radius},
-               {"formulation", name_of(formulation_names, analysis.formulation)},
-               {"initial_state", name_of(initial_state_names, analysis.initial_state)}};
-  add_gravity(json, analysis);
-  json["solver"] = name_of(solver_names, analysis.solver);
-  json["mass_damping"] = analysis.mass_damping;
-  json["stiffness_damping"] = analysis.stiffness_damping;
-  json["method"] = name_of(method_names, analysis.method);
-  json["safety"] = to_json(analysis.safety, "joints");
-  json["capacity"] = to_json(analysis.capacity, "blocks");
-  json["movement"] = to_json(analysis.movement);
-  json["sleeping"] = analysis.sleeping;
-  json["memory_limit"] = or_auto(analysis.memory_limit);
-  return json;
-}
+using ashlar::to_json;  // beside those below
 
 /// @param law a SceneJointLaw or a SceneJoint
 template <class Law>
@@ -219,8 +157,6 @@ Json to_json(const SceneFix& fix) {
   return json;
 }
 
-Json to_json(const SceneField& field);
-
 Json to_json(const SceneLoad& load) {
   Json json = Json::object();
   add_where(json, load.where);
@@ -243,7 +179,6 @@ Json to_json(const SceneMovingLoad& load);
 Json to_json(const SceneStage::Fix& entry);
 Json to_json(const SceneStage::Load& entry);
 Json to_json(const SceneStage& stage);
-Json to_json(const SceneWater& water);
 
 template <typename Entry>
 Json list_to_json(const std::vector<Entry>& entries) {
@@ -327,37 +262,6 @@ Json to_json(const SceneMeasure& measure) {
     json["block"] = measure.block;
   if (measure.point) json["point"] = to_json(*measure.point);
   return json;
-}
-
-Json to_json(const SceneField& field) {
-  Json json = Json::array();
-  for (const auto& component : field.written)
-    std::visit([&](const auto& value) { json.push_back(value); }, component);
-  return json;
-}
-
-Json to_json(const SceneInitialStress& initial) {
-  Json json = Json::object();
-  if (initial.stress.given()) {
-    json["stress"] = to_json(initial.stress);
-  } else {
-    json["k0"] = *initial.k0;
-    json["surface"] = initial.surface;
-    if (initial.unit_weight) json["unit_weight"] = *initial.unit_weight;
-  }
-  json["blocks"] = initial.blocks;
-  return json;
-}
-
-Json to_json(const SceneWater& water) {
-  Json level = water.file
-                   ? Json{{"file", water.file->file.string()}, {"sha256", water.file->sha256}}
-                   : Json{{"point", to_json(water.level.point)}, {"normal", to_json(water.level.normal)}};
-  return {{"name", water.name},
-          {"level", std::move(level)},
-          {"unit_weight", water.unit_weight},
-          {"joints", water.joints},
-          {"faces", water.faces}};
 }
 
 template <typename Entry>

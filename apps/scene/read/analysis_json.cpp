@@ -1,0 +1,75 @@
+#include "apps/scene/read/analysis_json.hpp"
+
+#include "apps/scene/model/scene_names.hpp"
+
+namespace ashlar {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Vector3& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+Json to_json(const SceneRecord& record) {
+  Json json = {{"file", record.file.string()}};
+  if (!record.time.empty()) json["time"] = record.time;
+  json["values"] = record.values;
+  json["scale"] = record.scale;
+  if (record.baseline) json["baseline"] = *record.baseline;
+  if (record.resample) json["resample"] = *record.resample;
+  json["sha256"] = record.sha256;
+  return json;
+}
+
+namespace {
+
+using ashlar::to_json;  // beside those below
+
+void add_gravity(Json& json, const SceneAnalysis& analysis) {
+  if (analysis.gravity_history.empty()) {
+    json["gravity"] = to_json(analysis.gravity);
+  } else if (analysis.gravity_file) {
+    json["gravity_history"] = to_json(*analysis.gravity_file);
+  } else {
+    json["gravity_history"] = Json::array();
+    for (const auto& [time, value] : analysis.gravity_history)
+      json["gravity_history"].push_back({time, value.x(), value.y(), value.z()});
+  }
+}
+
+Json to_json(const SceneAnalysis::FactorSearch& search, const char* of) {
+  return {{of, search.of}, {"tolerance", search.tolerance}, {"lower", search.lower}, {"upper", search.upper}};
+}
+
+Json to_json(const SceneAnalysis::SupportSearch& search) {
+  Json json = {{"supports", search.supports}};
+  if (search.direction) json["direction"] = to_json(*search.direction);
+  json["limit"] = or_auto(search.limit);
+  json["tolerance"] = or_auto(search.tolerance);
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const SceneAnalysis& analysis) {
+  Json json = {{"type", name_of(analysis_type_names, analysis.type)},
+               {"end_time", analysis.end_time},
+               {"time_step", analysis.time_step},
+               {"integrator", name_of(integrator_names, analysis.integrator)},
+               {"spectral_radius", analysis.spectral_radius},
+               {"formulation", name_of(formulation_names, analysis.formulation)},
+               {"initial_state", name_of(initial_state_names, analysis.initial_state)}};
+  add_gravity(json, analysis);
+  json["solver"] = name_of(solver_names, analysis.solver);
+  json["mass_damping"] = analysis.mass_damping;
+  json["stiffness_damping"] = analysis.stiffness_damping;
+  json["method"] = name_of(method_names, analysis.method);
+  json["safety"] = to_json(analysis.safety, "joints");
+  json["capacity"] = to_json(analysis.capacity, "blocks");
+  json["movement"] = to_json(analysis.movement);
+  json["sleeping"] = analysis.sleeping;
+  json["memory_limit"] = or_auto(analysis.memory_limit);
+  return json;
+}
+
+}  // namespace ashlar

@@ -1,0 +1,43 @@
+#include "apps/scene/read/ground_json.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "apps/scene/read/analysis_json.hpp"
+
+namespace ashlar {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const SceneField& field) {
+  Json json = Json::array();
+  for (const auto& component : field.written)
+    std::visit([&](const auto& value) { json.push_back(value); }, component);
+  return json;
+}
+
+Json to_json(const SceneInitialStress& initial) {
+  Json json = Json::object();
+  if (initial.stress.given()) {
+    json["stress"] = to_json(initial.stress);
+  } else {
+    json["k0"] = *initial.k0;
+    json["surface"] = initial.surface;
+    if (initial.unit_weight) json["unit_weight"] = *initial.unit_weight;
+  }
+  json["blocks"] = initial.blocks;
+  return json;
+}
+
+Json to_json(const SceneWater& water) {
+  Json level = water.file
+                   ? Json{{"file", water.file->file.string()}, {"sha256", water.file->sha256}}
+                   : Json{{"point", to_json(water.level.point)}, {"normal", to_json(water.level.normal)}};
+  return {{"name", water.name},
+          {"level", std::move(level)},
+          {"unit_weight", water.unit_weight},
+          {"joints", water.joints},
+          {"faces", water.faces}};
+}
+
+}  // namespace ashlar

@@ -1,0 +1,16 @@
+// [[water]], [initial_stress] and fields as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "apps/scene/model/scene_initial_stress.hpp"
+#include "apps/scene/model/scene_water.hpp"
+
+namespace ashlar {
+
+/// Formulas as text, with the values of parameters in place of their names.
+[[nodiscard]] nlohmann::ordered_json to_json(const SceneField& field);
+[[nodiscard]] nlohmann::ordered_json to_json(const SceneInitialStress& initial);
+[[nodiscard]] nlohmann::ordered_json to_json(const SceneWater& water);
+
+}  // namespace ashlar
