@@ -63,10 +63,14 @@ class BlockForces {
   [[nodiscard]] std::optional<StressImbalance> worst(const BlockSystem& system) const {
     std::optional<StressImbalance> result;
     for (int k = 0; k < system.count(); ++k) {
-      if (!system.moving()[at(k)] || system.blocks()[at(k)].supported() || system.is_tied(k)) continue;
+      if (!system.moving()[at(k)] || system.is_tied(k)) continue;
       if (size_[at(k)] == 0.0) continue;
-      const double share = sum_[at(k)].norm() / size_[at(k)];
-      if (!result || share > result->share) result = StressImbalance{k, sum_[at(k)].norm(), share};
+      // Supports give what is missing along the axes that they hold.
+      Vector3 missing = sum_[at(k)];
+      for (int axis = 0; axis < 3; ++axis)
+        if (!system.blocks()[at(k)].space().free_along(axis)) missing[axis] = 0.0;
+      const double share = missing.norm() / size_[at(k)];
+      if (!result || share > result->share) result = StressImbalance{k, missing.norm(), share};
     }
     return result;
   }

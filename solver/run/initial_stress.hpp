@@ -20,7 +20,8 @@ struct StressImbalance {
 /// Contacts at the start of a run under stress.
 struct StressedContacts {
   std::map<PairKey, ContactMemory> contacts;  ///< those with stress
-  /// The block with the largest share. Blocks with supports or ties, whose forces are not known yet, are not considered
+  /// The block with the largest share. Directions in which supports hold a block, and blocks with ties,
+  /// whose forces are not known yet, are not considered
   std::optional<StressImbalance> worst;
 };
 
