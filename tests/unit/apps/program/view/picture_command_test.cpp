@@ -78,15 +78,18 @@ TEST_F(PictureCommand, RefusesPointsAndSizesThatAreNone) {
 TEST_F(PictureCommand, RefusesSectionsRangesAndNamesThatAreNone) {
   for (const char* section : {"x", "x,", "w,0.5", "x,0.5,1", "--x,1", "x,inf", ",1"}) {
     EXPECT_EQ(picture({std::string("--section=") + section}), exit_status::bad_input) << section;
-    EXPECT_THAT(err.str(), HasSubstr(std::string("section (") + section + "), an axis and a place"));
+    EXPECT_THAT(err.str(),
+                HasSubstr(std::string("malformed section (") + section + "); give an axis and a place"));
   }
   for (const char* range : {"1", "1,1", "2,1", "0,inf", "a,b", "0,1,2"})
     EXPECT_EQ(picture({std::string("--range=") + range}), exit_status::bad_input) << range;
   EXPECT_EQ(picture({"--hide", "A&x=1"}), exit_status::bad_input);
   EXPECT_EQ(picture({"--joints", "gap"}), exit_status::bad_input);
   EXPECT_EQ(picture({"--from", "above"}), exit_status::bad_input);
-  EXPECT_THAT(err.str(),
-              HasSubstr("direction (above), x,y,z, not all zero, or front, back, left, right, top, iso"));
+  EXPECT_THAT(
+      err.str(),
+      HasSubstr(
+          "malformed direction (above); give x,y,z, not all zero, or front, back, left, right, top, iso"));
 }
 
 TEST_F(PictureCommand, RefusesUnknownColoursAndFrames) {

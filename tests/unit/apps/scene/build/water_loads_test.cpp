@@ -14,6 +14,8 @@ namespace {
 /// Two boxes of 2 x 1 x 3 m side by side, divided at x = 2, on a fixed floor.
 const std::string two_boxes = R"([analysis]
 type = "static"
+[contact]
+friction_angle = 30
 [[material]]
 name = "rock"
 density = 2500

@@ -153,7 +153,7 @@ TEST(RecordFile, ColumnsWithoutNamesAreNamedByTheirNumbers) {
             "a.csv:1:1: error: record has 3 columns without names, none is \"a\"; a number from 1 to 3 is "
             "needed\n");
   EXPECT_EQ(read("a.csv", "0 1\n0.5\n", {"a"}).faults,
-            "a.csv:2:4: error: row is too short (1 fields), 2 are needed\n");
+            "a.csv:2:4: error: row has 1 fields, at least 2 are needed\n");
   EXPECT_EQ(
       read("a.csv", "t,a\n0,1\n", {"a"}).faults,
       "a.csv:1:1: error: record has a line of column names (t, a); time, the name of its column of times, is "

@@ -57,7 +57,7 @@ TEST(Formulas, FaultsHaveTheirPlace) {
   EXPECT_EQ(fault_of("= 2*(h + 1").substr(0, 31), "10: formula cannot be read (a p");
   EXPECT_EQ(fault_of("= 2 h").substr(0, 31), "4: formula cannot be read (a na");
   EXPECT_EQ(fault_of("= 2 *").substr(0, 44), "5: formula cannot be read (it ends too early");
-  EXPECT_EQ(fault_of("=").substr(0, 30), "1: formula cannot be read (it ");
+  EXPECT_EQ(fault_of("=").substr(0, 31), "1: formula cannot be read (the ");
   EXPECT_EQ(fault_of("= h = 2"), "4: = within a formula; use == to compare");
   EXPECT_EQ(fault_of("= 1, 2"), "0: formula has several values (a comma), one is needed");
   EXPECT_EQ(fault_of("= sin()").substr(0, 30), "6: formula cannot be read (a f");
