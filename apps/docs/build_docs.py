@@ -79,7 +79,7 @@ def write_doxygen(project, output):
     """The XML that Breathe reads, of the headers that are installed."""
     headers = output / "headers"
     subprocess.run(["cmake", f"-DSOURCE={project}", f"-DOUTPUT={headers}", "-DUMBRELLAS=" + ";".join(UMBRELLAS), "-P",
-                    project / "solver" / "cmake" / "CollectPublicHeaders.cmake"], check=True)
+                    project / "apps" / "package" / "cmake" / "CollectPublicHeaders.cmake"], check=True)
     for header in headers.rglob("*.hpp"):
         text = header.read_text(encoding="utf-8")
         # Breathe has one name for each exception, and cannot read a lambda as a default value.

@@ -7,7 +7,7 @@
 
 namespace ashlar {
 
-/// Major, minor and patch number, as "0.2.0".
+/// Major, minor and patch number, as "0.3.0".
 [[nodiscard]] std::string program_version();
 
 /// Name and version: the compiler first, then the libraries.
