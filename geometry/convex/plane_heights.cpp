@@ -28,7 +28,8 @@ void PlaneHeights::compute(int f) {
     *value++ = height;
   }
   row[0] = reach_ * n.bound;
-  row[1] = 3.0 * row[0];  // the bounds of both, and the rounding of the difference, which is less than one of them
+  row[1] =
+      3.0 * row[0];  // the bounds of both, and the rounding of the difference, which is less than one of them
   row[2] = lowest;
   row[3] = highest;
 }

@@ -30,11 +30,11 @@ struct CutRock {
     friend auto operator<=>(const Side&, const Side&) = default;
   };
 
-  std::vector<std::optional<CutSolid>> solids;    ///< by uncut block; empty where no cut matched
-  std::vector<Origin> origin;                     ///< by block
-  std::vector<Mark> marks;                        ///< by mark
-  std::vector<int> glued;                         ///< by cut: number of pieces glued to others
-  std::vector<int> extended;                      ///< by cut: number of pieces divided by a joint that ends inside
+  std::vector<std::optional<CutSolid>> solids;  ///< by uncut block; empty where no cut matched
+  std::vector<Origin> origin;                   ///< by block
+  std::vector<Mark> marks;                      ///< by mark
+  std::vector<int> glued;                       ///< by cut: number of pieces glued to others
+  std::vector<int> extended;  ///< by cut: number of pieces divided by a joint that ends inside
   std::vector<std::vector<std::size_t>> insides;  ///< by label of a piece - 1: cuts by solids that contain it
   std::vector<std::vector<std::string>> other_names;  ///< by block: names of a piece beside its own
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> common;  ///< see cuts_between
