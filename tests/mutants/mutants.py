@@ -265,7 +265,7 @@ def self_test():
     assert other_number("0.0") == "1.0" and other_number("1e-3") == "0.002" and other_number("7") == "8"
     assert test_filter(ROOT, "geometry", "geometry/exact/double_double.cpp").startswith("DoubleDouble.*:")
     assert test_filter(ROOT, "apps", "apps/program/sweep/variants.cpp").startswith("Variants")
-    for folder in ("scene", "results", "sweep", "run"):
+    for folder in ("scene", "results", "program/sweep", "run"):
         files = {mutant.file for mutant in choose("apps", f"apps/{folder}/*", 1, 10 ** 6)}
         assert files and all(test_filter(ROOT, "apps", file) for file in files), folder
     assert not choose("apps", "apps/python/*", 1, 1) and not choose("apps", "apps/program/main.cpp", 1, 1)
