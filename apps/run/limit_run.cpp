@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/run/factor_analysis.hpp"
+#include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
 #include "solver/state/automatic.hpp"
 
@@ -160,7 +161,7 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
 LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
                           const std::function<bool()>& goes_on) {
   LimitFindings findings;
-  const ReducedJoints reduced(scene);
+  const JointSelection reduced(scene, scene.analysis.safety.of);
   LimitAnalysis analysis(
       std::move(model),
       [&](int a, int b) {

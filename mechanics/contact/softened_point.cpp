@@ -7,7 +7,7 @@
 namespace ashlar {
 namespace {
 
-/// What raises the damage of a point in a step.
+/// Cause of damage of a point in a step.
 enum class DamageCause { nothing, opening, slip };
 
 struct DamageState {

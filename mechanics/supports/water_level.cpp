@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -95,6 +96,24 @@ bool WaterLevel::has_neighbour(std::size_t index, std::size_t side) const {
   });
 }
 
+bool WaterLevel::misses(std::size_t index, const std::vector<Vector3>& polygon) const {
+  const HeightField& field = std::get<HeightField>(level_);
+  for (int axis = 0; axis < 2; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vector3& corner : polygon) {
+      low = std::min(low, corner[axis]);
+      high = std::max(high, corner[axis]);
+    }
+    const auto beside = [&](int corner) { return field.points[at(corner)][axis] < low; };
+    const auto beyond = [&](int corner) { return field.points[at(corner)][axis] > high; };
+    const std::array<int, 3>& corners = field.triangles[index];
+    if (std::all_of(corners.begin(), corners.end(), beside) ||
+        std::all_of(corners.begin(), corners.end(), beyond))
+      return true;
+  }
+  return false;
+}
+
 std::vector<LinearPatch> WaterLevel::below(const std::vector<Vector3>& polygon) const {
   std::vector<LinearPatch> parts;
   if (const auto* plane = std::get_if<Inclined>(&level_)) {
@@ -102,6 +121,7 @@ std::vector<LinearPatch> WaterLevel::below(const std::vector<Vector3>& polygon) 
     return parts;
   }
   for (std::size_t k = 0; k < std::get<HeightField>(level_).triangles.size(); ++k) {
+    if (misses(k, polygon)) continue;
     std::vector<Vector3> inside = polygon;
     // A vertical polygon on a side of two triangles belongs to the one whose side runs to a higher point.
     bool of_other = false;

@@ -42,6 +42,8 @@ class WaterLevel {
   [[nodiscard]] std::array<double, 3> shares(std::size_t index, const Vector3& point) const;
   /// True if another triangle has this side. @param side 0 to 2: from this corner to the next
   [[nodiscard]] bool has_neighbour(std::size_t index, std::size_t side) const;
+  /// True if the box of a triangle in plan does not meet that of a polygon.
+  [[nodiscard]] bool misses(std::size_t index, const std::vector<Vector3>& polygon) const;
   static void add_below(const Inclined& level, std::vector<Vector3> polygon, std::vector<LinearPatch>& parts);
 
   std::variant<Inclined, HeightField> level_;

@@ -22,7 +22,8 @@ std::optional<Eigen::Matrix3d> stress_at(const BlockModel& a, const BlockModel& 
   return std::nullopt;
 }
 
-/// @return the force that the point begins with. @param force on a, N. @param per_area true: multipliers are remembered per area. @param energy is added to
+/// @param force on a, N. @param per_area true: multipliers are remembered per area. @param energy is added to
+/// @return the force that the point begins with
 Vector3 load_point(const PointLaw& law, const ContactPoint& point, const Vector3& force, bool per_area,
                    PointMemory& memory, SpringEnergy& energy) {
   const double normal = point.normal.dot(force);

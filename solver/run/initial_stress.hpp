@@ -25,7 +25,7 @@ struct StressedContacts {
   std::optional<StressImbalance> worst;
 };
 
-/// What contacts of the blocks as placed remember, so that each point has the traction of its blocks' initial stress
+/// Memory of the contacts of blocks as placed, with which each point has the traction of its blocks' initial stress
 /// (BlockDefinition::initial_stress; the mean of both, or that of the one that has any):
 ///   N = -n . s n A,  shear force on a = -(s n - n (n . s n)) A,   n out of b
 /// A spring gets a rest gap N / kn above the surface and a slip, a point with multipliers the forces themselves. A point

@@ -1,16 +1,18 @@
 #include "solver/step/accepted_bolts.hpp"
 
+#include <optional>
+
 #include "geometry/index.hpp"
 
 namespace ashlar {
 namespace {
 
-/// Breaks bars at their rupture strain. @return energy released, J; -1: none broke
-double rupture(const RunContext& run, int index, const Eigen::VectorXd& deformation,
-               const BoltResponse& response) {
+/// Breaks bars at their rupture strain. @return energy released, J; empty: none broke
+std::optional<double> rupture(const RunContext& run, int index, const Eigen::VectorXd& deformation,
+                              const BoltResponse& response) {
   const Bolt& bolt = run.system.bolts()[at(index)];
   BoltState& state = run.state.bolts[at(index)];
-  if (!bolt.chain.rupture(deformation, response, state.reached)) return -1.0;
+  if (!bolt.chain.rupture(deformation, response, state.reached)) return std::nullopt;
   const double before = state.stored;
   state.memory = state.reached;
   take_forces(bolt.chain.respond(deformation, state.memory, false), state);
@@ -41,10 +43,9 @@ BoltEnergies take_over_bolts(const RunContext& run, const TimeScheme& scheme, co
       if (!scheme.from_rest) {
         state.memory = state.reached;
         state.dissipated = 0.0;
-        if (const double released = rupture(run, bolt.index(), one.response.deformation, one.response.end);
-            released >= 0.0) {
-          sum.gained -= released;
-          sum.dissipated += released;
+        if (const auto released = rupture(run, bolt.index(), one.response.deformation, one.response.end)) {
+          sum.gained -= *released;
+          sum.dissipated += *released;
         }
       }
       sum.held += state.stored;
@@ -69,11 +70,11 @@ bool rupture_bolts(const RunContext& run) {
     if (!state.installed() || bolt.chain.law().rupture_strain == BoltLaw::unlimited) continue;
     const Eigen::VectorXd deformation = deformation_in(bolt, run.blocks(), run.state.states);
     const BoltResponse response = bolt.chain.respond(deformation, state.memory, false);
-    const double released = rupture(run, static_cast<int>(k), deformation, response);
-    if (released < 0.0) continue;
+    const std::optional<double> released = rupture(run, static_cast<int>(k), deformation, response);
+    if (!released) continue;
     any = true;
-    run.state.ledger.sliding_took(released);
-    run.state.ledger.springs_hold(run.state.ledger.ledger().contact - released);
+    run.state.ledger.sliding_took(*released);
+    run.state.ledger.springs_hold(run.state.ledger.ledger().contact - *released);
   }
   return any;
 }

@@ -32,7 +32,7 @@ struct ImpactPoint {
   bool bonded = false;
 };
 
-/// What an impact does.
+/// Result of an impact.
 struct ImpactResult {
   std::vector<Eigen::VectorXd> changes;   ///< z, by body
   std::vector<Eigen::Vector3d> impulses;  ///< j, by point, N s on a along (n, t1, t2)

@@ -12,6 +12,7 @@
 
 #include "apps/scene/build/bolts_of_scene.hpp"
 #include "apps/scene/build/initial_state.hpp"
+#include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
 #include "apps/scene/build/stress_field.hpp"
 #include "apps/scene/build/tied_joints.hpp"
@@ -20,6 +21,7 @@
 #include "apps/scene/model/cut_rock.hpp"
 #include "apps/scene/model/joint_table.hpp"
 #include "apps/scene/model/support_history.hpp"
+#include "apps/scene/toml/formulas.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "solver/state/automatic.hpp"
 
@@ -74,7 +76,7 @@ BlockDefinition define_block(const LoadedScene& loaded, std::size_t index, doubl
         return Vector3(load_factor * Vector3(value[0], value[1], value[2]));
       };
   }
-  if (!block.fixed) definition.initial_stress = initial_stress_of(scene, index);
+  if (!block.fixed) definition.initial_stress = initial_stress_of(scene, index, loaded.stage);
   // After those of the scene, whose numbers stay.
   if (Load pressure = water.of_block(index); !pressure.parts.empty())
     definition.loads.push_back(std::move(pressure));
@@ -167,7 +169,7 @@ class JointLaws {
         asked_for_(scene.contact.augmented.value_or(false)),
         table_(std::move(table)),
         strength_factor_(strength_factor),
-        reduced_(scene) {
+        reduced_(scene, scene.analysis.safety.of) {
     source_.reserve(blocks.size());
     for (const BlockModel& block : blocks) source_.push_back(stiffness_source(block));
     if (!multipliers_ || asked_for_) note_choices(kinds_of_blocks(scene), choices);
@@ -276,7 +278,7 @@ class JointLaws {
   AutomaticRatios ratios_;
   std::shared_ptr<const JointTable> table_;
   double strength_factor_;
-  ReducedJoints reduced_;
+  JointSelection reduced_;
   std::vector<StiffnessSource> source_;  ///< (#blocks)
 };
 
@@ -294,7 +296,13 @@ std::map<PairKey, double> depths_without_force(const LoadedScene& loaded) {
 /// Warns of a stress that neither joints nor boundaries hold.
 void start_under_stress(const Scene& scene, Simulation& simulation, Diagnostics& diagnostics) {
   constexpr double reported_from = 0.01;
-  const std::optional<StressImbalance> worst = simulation.start_stressed();
+  std::optional<StressImbalance> worst;
+  try {
+    worst = simulation.start_stressed();
+  } catch (const FormulaError& error) {
+    diagnostics.error(scene.places.key("initial_stress"),
+                      fmt::format("initial stress has no value on a joint ({})", error.what()));
+  }
   if (!worst || worst->share < reported_from) return;
   diagnostics.warning(
       scene.places.key("initial_stress"),
@@ -361,7 +369,9 @@ std::optional<BuiltSimulation> build_simulation(const LoadedScene& loaded, int t
     built.simulation.set_joint_pressure([water](int a, int b, const Vector3& place) {
       return water->in_joint(static_cast<std::size_t>(a), static_cast<std::size_t>(b), place);
     });
-  if (scene.initial_stress.given()) start_under_stress(scene, built.simulation, diagnostics);
+  // Later stages begin with the contacts of the one before.
+  if (scene.initial_stress.given() && loaded.stage == 0)
+    start_under_stress(scene, built.simulation, diagnostics);
   check_ties(scene, *table, built.simulation.system(), diagnostics);
   if (!diagnostics.good()) return std::nullopt;
   if (scene.analysis.initial_state == SceneAnalysis::InitialState::equilibrium) {

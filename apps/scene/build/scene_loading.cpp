@@ -70,7 +70,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   // Faults of names of blocks.
   Diagnostics of_names;
   Diagnostics& of_blocks = purpose == LoadPurpose::blocks ? of_names : diagnostics;
-  LoadedScene loaded{std::move(scene), {}, {}, {}, {}};
+  LoadedScene loaded{std::move(scene), {}, {}, {}, {}, 0};
   check_cuts(loaded.scene, diagnostics);
   if (!loaded.scene.cut.empty()) {
     // Names of pieces are known after the cuts, which need a valid scene.
@@ -136,7 +136,7 @@ std::optional<LoadedScene> load_scene_text(std::string_view text, const std::fil
 }
 
 LoadedScene stage_of(const LoadedScene& whole, std::size_t stage) {
-  return {scene_of_stage(whole.scene, stage), whole.solids, whole.shapes, whole.cost, whole.overlaps};
+  return {scene_of_stage(whole.scene, stage), whole.solids, whole.shapes, whole.cost, whole.overlaps, stage};
 }
 
 }  // namespace ashlar

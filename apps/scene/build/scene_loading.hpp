@@ -24,6 +24,7 @@ struct LoadedScene {
   std::vector<std::shared_ptr<const Polyhedron>> shapes;
   CostEstimate cost;                   ///< of all blocks of all stages
   std::vector<KnownOverlap> overlaps;  ///< accepted by contact.allowed_overlap, by pair
+  std::size_t stage = 0;               ///< of one stage: its index in scene.stage
 };
 
 /// One stage of a scene (scene_stages.hpp), or the scene itself if it has none.

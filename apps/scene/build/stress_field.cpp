@@ -7,16 +7,12 @@
 
 namespace ashlar {
 
-StressField initial_stress_of(const Scene& scene, std::size_t block) {
+StressField initial_stress_of(const Scene& scene, std::size_t block, std::size_t stage) {
   const SceneInitialStress& initial = scene.initial_stress;
-  const auto among = [&](const std::vector<std::string>& names) {
-    return std::any_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return means_block(scene, name, block); });
-  };
-  // Blocks that are placed later were not in the ground.
-  const bool placed_later = std::any_of(scene.stage.begin(), scene.stage.end(),
-                                        [&](const SceneStage& stage) { return among(stage.add); });
-  if (!initial.given() || placed_later || !among(initial.blocks)) return nullptr;
+  if (!initial.given() || !means_block(scene, initial.blocks, block)) return nullptr;
+  // Blocks that have been added were not in the ground.
+  for (std::size_t s = 0; s <= stage && s < scene.stage.size(); ++s)
+    if (means_block(scene, scene.stage[s].add, block)) return nullptr;
   if (initial.stress.given())
     return [at = initial.stress.at](const Vector3& place) -> Eigen::Matrix3d {
       const std::vector<double> s = at(place);

@@ -8,7 +8,8 @@ namespace ashlar {
 
 /// Stress at places of a block (Pa, tension positive); empty: none. With k0 the vertical stress is minus the weight
 /// above, unit_weight times the height up to the surface, along gravity, and the stress across is k0 times it; none
-/// above the surface. Blocks that a stage adds have none. @param block index
-[[nodiscard]] StressField initial_stress_of(const Scene& scene, std::size_t block);
+/// above the surface. None in blocks that the stage, or one before it, has
+/// added. @param block,stage indices
+[[nodiscard]] StressField initial_stress_of(const Scene& scene, std::size_t block, std::size_t stage);
 
 }  // namespace ashlar

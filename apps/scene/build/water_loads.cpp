@@ -8,26 +8,11 @@
 
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
-#include "apps/scene/model/cut_rock.hpp"
-#include "apps/scene/model/name_pattern.hpp"
 #include "geometry/boxes/box_pairs.hpp"
 #include "mechanics/contact/common_faces.hpp"
 
 namespace ashlar {
 namespace {
-
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const std::string& pattern) { return pattern_matches(pattern, name); });
-}
-
-std::vector<bool> blocks_among(const Scene& scene, const std::vector<std::string>& patterns) {
-  std::vector<bool> result(scene.block.size(), false);
-  for (std::size_t k = 0; k < result.size(); ++k)
-    result[k] = std::any_of(patterns.begin(), patterns.end(),
-                            [&](const std::string& pattern) { return means_block(scene, pattern, k); });
-  return result;
-}
 
 bool present(const Scene& scene, std::size_t block) {
   return scene.absent.empty() || !scene.absent[block];
@@ -36,19 +21,17 @@ bool present(const Scene& scene, std::size_t block) {
 }  // namespace
 
 WaterLoads::WaterLoads(const LoadedScene& loaded, Diagnostics& diagnostics)
-    : rock_(loaded.scene.rock), faces_(loaded.scene.block.size(), -1), parts_(loaded.scene.block.size()) {
+    : faces_(loaded.scene.block.size(), -1), parts_(loaded.scene.block.size()) {
   const Scene& scene = loaded.scene;
   const Vector3 up = up_of(scene);
   for (const SceneWater& water : scene.water) {
-    waters_.push_back({water.file ? WaterLevel(height_field(water.surface))
+    const int index = static_cast<int>(waters_.size());
+    waters_.push_back({JointSelection(scene, water.joints),
+                       water.file ? WaterLevel(height_field(water.surface))
                                   : WaterLevel(Plane{water.level.point, water.level.normal}, up),
                        water.unit_weight});
-    block_.push_back(blocks_among(scene, water.joints));
-    cut_.emplace_back();
-    for (const SceneCut& cut : scene.cut) cut_.back().push_back(matches_any(water.joints, cut.name));
-    const std::vector<bool> faces = blocks_among(scene, water.faces);
-    for (std::size_t k = 0; k < faces.size(); ++k)
-      if (faces[k]) faces_[k] = static_cast<int>(waters_.size()) - 1;
+    for (std::size_t k = 0; k < faces_.size(); ++k)
+      if (means_block(scene, water.faces, k)) faces_[k] = index;
   }
   if (waters_.empty()) return;
   add_free_faces(loaded, diagnostics);
@@ -62,14 +45,9 @@ Load WaterLoads::of_block(std::size_t block) const {
 }
 
 int WaterLoads::water_of_joint(std::size_t a, std::size_t b) const {
-  for (int w = static_cast<int>(waters_.size()) - 1; w >= 0; --w) {
-    const auto index = static_cast<std::size_t>(w);
-    if (block_[index][a] || block_[index][b]) return w;
-    if (!rock_) continue;
-    for (const std::size_t cut : rock_->cuts_between(a, b))
-      if (cut_[index][cut]) return w;
-  }
-  return -1;
+  int water = static_cast<int>(waters_.size()) - 1;
+  while (water >= 0 && !waters_[static_cast<std::size_t>(water)].joints.contains(a, b)) --water;
+  return water;
 }
 
 double WaterLoads::in_joint(std::size_t a, std::size_t b, const Vector3& place) const {

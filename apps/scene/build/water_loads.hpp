@@ -5,10 +5,9 @@
 // they are placed: neither areas nor directions change with the motion.
 #pragma once
 
-#include <map>
-#include <memory>
 #include <vector>
 
+#include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/scene_loading.hpp"
 #include "mechanics/supports/loads.hpp"
 #include "mechanics/supports/water_level.hpp"
@@ -27,6 +26,7 @@ class WaterLoads {
 
  private:
   struct Water {
+    JointSelection joints;
     WaterLevel level;
     double unit_weight;
   };
@@ -38,10 +38,8 @@ class WaterLoads {
   void press(const LoadedScene& loaded, int water, std::size_t block, const std::vector<Vector3>& polygon,
              const Vector3& inward, double sign, Diagnostics& diagnostics);
 
-  std::shared_ptr<const CutRock> rock_;
   std::vector<Water> waters_;
   std::vector<int> faces_;                       ///< (#blocks) the last [[water]] of its free faces; -1: none
-  std::vector<std::vector<bool>> block_, cut_;   ///< by water: blocks and cuts among its joints
   std::vector<std::vector<PressedPart>> parts_;  ///< (#blocks)
 };
 

@@ -80,9 +80,7 @@ BlockSupports supports_of(const Scene& scene, std::size_t block) {
   for (const SceneFix& fix : scene.block[block].fix) add(supports, fix);
   for (const SceneStage& stage : scene.stage)
     for (const SceneStage::Fix& entry : stage.fix)
-      if (std::any_of(entry.blocks.begin(), entry.blocks.end(),
-                      [&](const std::string& pattern) { return means_block(scene, pattern, block); }))
-        add(supports, entry.fix);
+      if (means_block(scene, entry.blocks, block)) add(supports, entry.fix);
   return supports;
 }
 

@@ -80,9 +80,7 @@ void check_initial_stress(const Scene& scene, Diagnostics& diagnostics, Diagnost
     if (block.fixed || block.order == 0 || material == nullptr ||
         material->elasticity == SceneMaterial::Elasticity::linear)
       continue;
-    if (!std::any_of(initial.blocks.begin(), initial.blocks.end(),
-                     [&](const std::string& pattern) { return means_block(scene, pattern, k); }))
-      continue;
+    if (!means_block(scene, initial.blocks, k)) continue;
     diagnostics.error(scene.places.key("initial_stress"),
                       fmt::format("initial stress in a block of elasticity \"st-venant-kirchhoff\" (\"{}\"), "
                                   "\"linear\" is needed",

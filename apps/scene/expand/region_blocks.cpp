@@ -78,9 +78,7 @@ class Chooser {
   std::vector<std::size_t> named(const std::vector<std::string>& names, const SceneRegion& region,
                                  const std::string& path, const std::vector<bool>& among) {
     const auto wanted = [&](std::size_t k) {
-      return (among.empty() || among[k]) &&
-             std::any_of(names.begin(), names.end(),
-                         [&](const std::string& pattern) { return means_block(scene_, pattern, k); });
+      return (among.empty() || among[k]) && means_block(scene_, names, k);
     };
     return chosen(region, path, wanted,
                   among.empty() ? " of these names" : " of these names that can be chosen");

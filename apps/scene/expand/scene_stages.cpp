@@ -27,11 +27,6 @@ std::string key_of(std::size_t stage, const std::string& key) {
   return fmt::format("stage.{}.{}", stage, key);
 }
 
-bool means_block(const Scene& scene, const std::vector<std::string>& patterns, std::size_t block) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const std::string& pattern) { return ashlar::means_block(scene, pattern, block); });
-}
-
 /// Makes a load constant after its history has ended.
 void stay(SceneLoad& load, double end_time) {
   History history;
@@ -305,6 +300,11 @@ class StageCheck {
 bool means_block(const Scene& scene, const std::string& pattern, std::size_t block) {
   if (pattern_names_block(scene, pattern, block)) return true;
   return scene.rock != nullptr && pattern_matches(pattern, scene.uncut[scene.rock->origin[block].uncut].name);
+}
+
+bool means_block(const Scene& scene, const std::vector<std::string>& patterns, std::size_t block) {
+  return std::any_of(patterns.begin(), patterns.end(),
+                     [&](const std::string& pattern) { return ashlar::means_block(scene, pattern, block); });
 }
 
 std::vector<bool> held_back(const Scene& scene) {

@@ -19,6 +19,9 @@ namespace ashlar {
 
 /// True if a name or glob of a stage matches a block: its name, or that of the block of which it is a piece.
 [[nodiscard]] bool means_block(const Scene& scene, const std::string& pattern, std::size_t block);
+/// The same for any of some patterns.
+[[nodiscard]] bool means_block(const Scene& scene, const std::vector<std::string>& patterns,
+                               std::size_t block);
 
 /// True for the blocks absent before the first stage: those that are added before they are ever removed. Lists by
 /// place (SceneStage::remove_inside) are ignored.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cfenv>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 #include <set>
 
@@ -271,7 +272,9 @@ std::function<double(const Vector3&)> Formulas::of_place(const std::string& text
   formulas->parser_->left_out = parser_->left_out;
   for (const char* axis : {"x", "y", "z"}) formulas->define(axis, 0.0);
   formulas->check(text);
-  return [formulas, text](const Vector3& place) {
+  // Simulations of one scene may be built by several threads.
+  return [formulas, text, alone = std::make_shared<std::mutex>()](const Vector3& place) {
+    const std::lock_guard<std::mutex> lock(*alone);
     formulas->define("x", place.x());
     formulas->define("y", place.y());
     formulas->define("z", place.z());

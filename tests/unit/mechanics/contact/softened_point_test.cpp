@@ -99,7 +99,7 @@ TEST(SoftenedPoint, TangentAndCouplingAreTheJacobian) {
   }
 }
 
-/// What a point does on a straight way in some steps under mean forces.
+/// Work and damage of a point moved along a straight line in some steps, by mean forces.
 struct PulledPoint {
   double work = 0.0;        ///< against its forces, J
   double dissipated = 0.0;  ///< J

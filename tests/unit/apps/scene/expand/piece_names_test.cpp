@@ -11,31 +11,13 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
+#include "unit/apps/scene/expand/sample_rock.hpp"
 
 namespace ashlar::test {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-/// A cube of 2 m on a slab; what a test adds starts at line 17.
-const std::string rock_scene = R"(analysis = { end_time = 0.01, time_step = 1e-3 }
-contact = { friction_angle = 30 }
-[[material]]
-name = "rock"
-density = 2700
-young_modulus = 1e9
-poisson_ratio = 0.2
-[[block]]
-name = "ground"
-fixed = true
-box = { min = [-1, -1, -1], max = [3, 3, 0] }
-[[block]]
-name = "rock"
-material = "rock"
-box = { min = [0, 0, 0], max = [2, 2, 2] }
-velocity = [1, 0, 0]
-)";
 
 struct Outcome {
   std::optional<LoadedScene> loaded;

@@ -10,6 +10,7 @@
 #include "apps/scene/read/scene_json.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/apps/sample_scene.hpp"
+#include "unit/apps/scene/expand/sample_rock.hpp"
 
 namespace ashlar::test {
 namespace {
@@ -17,25 +18,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-/// A cube of 2 m on a slab; additions of a test start at line 17.
-const std::string rock_scene = R"(analysis = { end_time = 0.01, time_step = 1e-3 }
-contact = { friction_angle = 30 }
-[[material]]
-name = "rock"
-density = 2700
-young_modulus = 1e9
-poisson_ratio = 0.2
-[[block]]
-name = "ground"
-fixed = true
-box = { min = [-1, -1, -1], max = [3, 3, 0] }
-[[block]]
-name = "rock"
-material = "rock"
-box = { min = [0, 0, 0], max = [2, 2, 2] }
-velocity = [1, 0, 0]
-)";
 
 const std::string along_x = "[[cut]]\nname = \"x\"\nblocks = [\"rock\"]\ndip = 90\ndip_direction = 90\n";
 const std::string along_z = "[[cut]]\nname = \"z\"\nblocks = [\"rock\"]\ndip = 0\ndip_direction = 0\n";
