@@ -38,8 +38,8 @@ struct SearchSettings {
   /// exceeds it is cut to the first touch
   static constexpr double passing_share = 0.01;
   /// >= 0, of contact_distance: relative motion of two blocks up to which cached contacts are valid
-  /// (notes/lasting_contacts.md); 0: contacts are detected in each step
-  double lasting_share = 1e-3;
+  /// (notes/contact_cache.md); 0: contacts are detected in each step
+  double cache_share = 1e-3;
   /// of a step: blocks that would pass earlier than this are stopped by a contact, not by a shorter step
   static constexpr double smallest_cut = 0.01;
 };
@@ -136,7 +136,7 @@ struct StaticSettings {
   double tolerance = 1e-10;  ///< residual of equilibrium, relative to a block's largest force
   /// of the largest force of a block: largest residual of an iteration whose friction does not converge. The next one
   /// continues from it, and is in balance only if its residual is within `tolerance` (notes/when_statics_end.md)
-  static constexpr double unsettled_share = 1e-3;
+  static constexpr double unconverged_share = 1e-3;
   /// largest motion of a block in one iteration, as a share of its size: larger values need fewer iterations, smaller
   /// ones follow contacts more accurately
   double motion = 0.05;
@@ -148,10 +148,10 @@ struct StaticSettings {
   static constexpr double multiplier_tolerance = 1e-6;
   /// balanced iterations at one load level for multipliers to converge; then they are left as they are
   static constexpr int multiplier_iterations = 15;
-  double travel = 1.0;             ///< in block sizes: blocks that go farther without halving their residual
-                                   ///< are moving
-  int iterations = 500;            ///< at one load level; more: not converged
-  static constexpr int cuts = 60;  ///< of one iteration; more: not converged
+  double displacement_limit = 1.0;  ///< in block sizes: blocks that go farther without halving their residual
+                                    ///< are moving
+  int iterations = 500;             ///< at one load level; more: not converged
+  static constexpr int cuts = 60;   ///< of one iteration; more: not converged
   /// of the stiffest block: inertia that replaces stiffness where a block has none. Smaller values converge in fewer
   /// iterations, larger ones reduce the motion of a free block by rounding errors
   static constexpr double inertia_share = 1e-9;
@@ -196,7 +196,7 @@ struct SimulationSettings {
   /// Largest opening of a point without pressure that preserves its cohesion, m.
   [[nodiscard]] double tearing_gap() const { return tearing_share * contact_distance; }
   /// Relative motion of two blocks up to which cached contacts are valid, m.
-  [[nodiscard]] double lasting_motion() const { return search.lasting_share * contact_distance; }
+  [[nodiscard]] double cached_motion() const { return search.cache_share * contact_distance; }
   /// Largest error of the gap at the end of a step due to rows at its start, m; beyond it the rows are updated
   /// (notes/contact_at_the_end_of_a_step.md). With springs it is the allowed undetected penetration, which is less
   /// than their deformation.

@@ -68,12 +68,12 @@ struct JointLaw {
   double cohesion = 0.0;          ///< Pa
   double tensile_strength = 0.0;  ///< Pa
   bool area_springs = true;
-  bool augmented = false;  ///< multipliers replace springs until penetration is within a tolerance
-  double rounding = 0.0;   ///< m, >= 0: rounding error of gaps and slips of the pair
-  bool rigid = false;      ///< true: the springs represent rigid contact, not a joint of given stiffness
-  bool gives_way = false;  ///< true: a compliant joint with springs, also if other joints have multipliers
-  double dilation = 0.0;   ///< tan(psi), 0 to the smallest friction: more would generate energy
-  double damping = 0.0;    ///< >= 0, share of critical, of springs (ContactPair::damp)
+  bool augmented = false;     ///< multipliers replace springs until penetration is within a tolerance
+  double rounding = 0.0;      ///< m, >= 0: rounding error of gaps and slips of the pair
+  bool rigid = false;         ///< true: the springs represent rigid contact, not a joint of given stiffness
+  bool is_compliant = false;  ///< true: a compliant joint with springs, also if other joints have multipliers
+  double dilation = 0.0;      ///< tan(psi), 0 to the smallest friction: more would generate energy
+  double damping = 0.0;       ///< >= 0, share of critical, of springs (ContactPair::damp)
   /// Strength of failed or never bonded surfaces; each value at most that above. Empty: `friction` only
   std::optional<ResidualStrength> residual = std::nullopt;
   /// Of each strength that is not zero, or of none. With it: area springs, without dilation, damping and multipliers,

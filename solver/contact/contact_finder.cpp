@@ -104,7 +104,7 @@ std::vector<Box> ContactFinder::near_boxes(const std::vector<BlockState>& states
   }
   std::vector<Box> boxes(surfaces_.size());
   // Positions need not be known more accurately than this.
-  const double enough = settings_.lasting_motion();
+  const double enough = settings_.cached_motion();
   for (std::size_t k = 0; k < surfaces_.size(); ++k) {
     BlockTrack& track = tracks_[k];
     track.motion = 0.0;
@@ -364,7 +364,7 @@ void ContactFinder::renew(int block, const BlockModel& model, PairHistories& his
   for (auto& [blocks, pair] : histories) {
     if (blocks[0] != block && blocks[1] != block) continue;
     pair.clearance.reset();
-    pair.lasting.reset();
+    pair.cache.reset();
   }
 }
 

@@ -29,7 +29,7 @@ ContactPair::ContactPair(const PairBodies& bodies, const JointLaw& law, ContactP
                   false) {
   cuts_ = std::move(patch.cuts);
   turning_ = std::move(patch.turning);
-  lasting_ = std::move(patch.lasting);
+  cache_ = std::move(patch.cache);
   kind_.goes_on = start.continues;
   if (start.continues && !law.augmented) continue_springs();
   if (start.touch_within > 0.0) touch_within(start.touch_within);
@@ -217,15 +217,15 @@ double ContactPair::force_rounding(const Eigen::VectorXd& ya, const Eigen::Vecto
 
 double ContactPair::force_in_doubt(const Eigen::VectorXd& ya, const Eigen::VectorXd& yb,
                                    const std::vector<PointLaw>& laws, const PairResponse& response) const {
-  const auto in_doubt = [](const PointResponse& point) {
+  const auto within_rounding = [](const PointResponse& point) {
     return point.force[0] == 0.0 && point.tangent(0, 0) > 0.0;
   };
-  if (std::none_of(response.points.begin(), response.points.end(), in_doubt)) return 0.0;
+  if (std::none_of(response.points.begin(), response.points.end(), within_rounding)) return 0.0;
   const Eigen::Matrix3Xd place = places(ya, yb);
   double sum = 0.0;
   for (std::size_t k = 0; k < laws.size(); ++k) {
     const double gap = place(0, static_cast<Eigen::Index>(k));
-    if (in_doubt(response.points[k]))
+    if (within_rounding(response.points[k]))
       sum += std::max(0.0, -trial_normal(laws[k], gap - response.points[k].dilation));
   }
   return std::max(rows_.longest_of_a(), rows_.longest_of_b()) * sum;

@@ -82,7 +82,7 @@ class ContactPair {
   /// Faces with friction torque in the step before.
   [[nodiscard]] const std::vector<FacePair>& turning() const { return turning_; }
   /// Data of its contacts for the contact cache; null: none.
-  [[nodiscard]] const std::shared_ptr<const LastingContacts>& lasting() const { return lasting_; }
+  [[nodiscard]] const std::shared_ptr<const ContactCache>& cache() const { return cache_; }
   /// True if its springs continue from the last step, false if they were detected again.
   [[nodiscard]] bool goes_on() const { return kind_.goes_on; }
 
@@ -259,7 +259,7 @@ class ContactPair {
   std::vector<PointMemory> memory_;
   std::vector<PressureCut> cuts_ = {};
   std::vector<FacePair> turning_ = {};
-  std::shared_ptr<const LastingContacts> lasting_;
+  std::shared_ptr<const ContactCache> cache_;
   std::vector<PointLaw> laws_;
   std::vector<PointResponse> start_responses_;
   std::vector<double> rests_;  ///< rest gap of each normal spring, m, <= 0 except for bonds

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mechanics/contact/contact_points.hpp"
-#include "solver/contact/lasting_contacts.hpp"
+#include "solver/contact/contact_cache.hpp"
 #include "solver/contact/pair_rows.hpp"
 
 namespace ashlar {
@@ -17,8 +17,8 @@ struct ContactPatch {
   std::vector<ContactPoint> points;
   std::vector<PressureCut> cuts = {};  ///< where pressure ends, to be remembered
   std::vector<FacePair> turning = {};  ///< faces over which friction turned in the step before
-  std::shared_ptr<const PairRows::Values> rows = nullptr;    ///< of the points; null: to be made
-  std::shared_ptr<const LastingContacts> lasting = nullptr;  ///< reused by later steps; null: none
+  std::shared_ptr<const PairRows::Values> rows = nullptr;  ///< of the points; null: to be made
+  std::shared_ptr<const ContactCache> cache = nullptr;     ///< reused by later steps; null: none
 };
 
 /// Start of the springs and multipliers of a patch in a step, besides the memory of their points.

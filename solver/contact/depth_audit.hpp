@@ -6,7 +6,7 @@
 // shape: a layer below a face is thinner where the block is compressed. It is exact to rounding for blocks of order
 // 1, and to the change of the deformation within the depth for others.
 //
-// Pairs without motion are not measured again (notes/lasting_contacts.md): their depth is that of the same two
+// Pairs without motion are not measured again (notes/contact_cache.md): their depth is that of the same two
 // material points.
 #pragma once
 

@@ -15,7 +15,7 @@ const PairHistory& history_of(const PairHistories& histories, const PairKey& pai
 void drop_empty(PairHistories& histories) {
   std::erase_if(histories, [](const auto& entry) {
     const PairHistory& pair = entry.second;
-    return pair.memory.empty() && !pair.lasting && !pair.clearance && !pair.entrance && pair.work == 0.0 &&
+    return pair.memory.empty() && !pair.cache && !pair.clearance && !pair.entrance && pair.work == 0.0 &&
            pair.taken == 0.0 && pair.depth == 0.0 && pair.bonded == 0.0 && pair.overlap == 0.0;
   });
 }
@@ -35,8 +35,8 @@ void validate(const PairHistories& histories, int blocks) {
     demand(is_size(pair.depth) && is_size(pair.overlap), "depth is negative or not finite");
     demand(is_size(pair.memory.deepest()) && is_size(pair.memory.bulge()),
            "depth of contacts is negative or not finite");
-    demand(!pair.lasting || pair.lasting->found.points.empty() ||
-               pair.lasting->found.points.size() == pair.memory.entries().size(),
+    demand(!pair.cache || pair.cache->found.points.empty() ||
+               pair.cache->found.points.size() == pair.memory.entries().size(),
            "cached points are not those of the memory");
     demand(!pair.clearance || !std::isnan(pair.clearance->distance + pair.clearance->path),
            "clearance is not a number");

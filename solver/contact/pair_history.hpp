@@ -10,7 +10,7 @@
 
 #include "geometry/contacts/convex_search.hpp"
 #include "mechanics/contact/contact_memory.hpp"
-#include "solver/contact/lasting_contacts.hpp"
+#include "solver/contact/contact_cache.hpp"
 
 namespace ashlar {
 
@@ -27,7 +27,7 @@ struct Clearance {
 struct PairHistory {
   ContactMemory memory;  ///< contacts of the last step; empty: there were none
   /// Cached result of the last search. If it has points, the memory belongs to them; null: none
-  std::shared_ptr<const LastingContacts> lasting;
+  std::shared_ptr<const ContactCache> cache;
   std::optional<Clearance> clearance;    ///< unless the last search found contacts
   std::optional<EntranceName> entrance;  ///< of convex pairs that were near each other at the last search
   double work = 0.0;     ///< of the contact forces on both blocks since the start of the run, J

@@ -130,7 +130,7 @@ RunState copy_for_search(const RunState& state) {
   copy.states = state.states;
   copy.pairs = state.pairs;
   for (auto& [blocks, pair] : copy.pairs) {
-    pair.lasting.reset();
+    pair.cache.reset();
     pair.clearance.reset();
   }
   return copy;

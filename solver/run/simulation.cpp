@@ -143,7 +143,7 @@ StepStatus Simulation::step(double end_time) {
 }
 
 StaticStatus Simulation::static_step(double end_time) {
-  return static_step(end_time, system_.settings().statics.travel);
+  return static_step(end_time, system_.settings().statics.displacement_limit);
 }
 
 StaticStatus Simulation::static_step(double end_time, double far) {

@@ -43,7 +43,7 @@ void start_stage(const RunContext& run, const SimulationSnapshot& end, const std
     PairHistory& kept = state.pairs.emplace(blocks, pair).first->second;
     // It counts paths of blocks, which start at zero again.
     kept.clearance.reset();
-    kept.lasting.reset();
+    kept.cache.reset();
     kept.work = 0.0;
   }
   state.records.clear();

@@ -1,5 +1,5 @@
 // The energy ledger of a run (theory.md section 9). The positive terms add up to the energy input:
-//   kinetic + elastic + gravity + contact + friction + damping + numerical - applied - refound
+//   kinetic + elastic + gravity + contact + friction + damping + numerical - applied - redetection_energy
 //     = constant + residual.
 //
 // Refound: contacts are re-detected in each step. The energy of a pair's springs may then differ from that at the end
@@ -23,16 +23,17 @@ struct Ledger {
   double damping = 0.0;  ///< dissipated by damping of mass, of stiffness and of joints, and by impacts with a
                          ///< coefficient of restitution so far
   double applied = 0.0;  ///< work of loads, moving supports, and gravity with a history, so far
-  double numerical = 0.0;       ///< dissipated by the time integrator so far
-  double refound_gained = 0.0;  ///< gained by springs of re-detected contacts so far, >= 0
-  double refound_lost = 0.0;    ///< lost by springs of re-detected contacts so far, >= 0
-  double residual = 0.0;        ///< error of the energy balance so far: residual forces, rounding
+  double numerical = 0.0;           ///< dissipated by the time integrator so far
+  double redetection_gained = 0.0;  ///< gained by springs of re-detected contacts so far, >= 0
+  double redetection_lost = 0.0;    ///< lost by springs of re-detected contacts so far, >= 0
+  double residual = 0.0;            ///< error of the energy balance so far: residual forces, rounding
 
-  [[nodiscard]] double refound() const { return refound_gained - refound_lost; }
+  [[nodiscard]] double redetection_energy() const { return redetection_gained - redetection_lost; }
 
   /// The conserved sum, without the residual.
   [[nodiscard]] double balance() const {
-    return kinetic + elastic + gravity + contact + friction + damping + numerical - applied - refound();
+    return kinetic + elastic + gravity + contact + friction + damping + numerical - applied -
+           redetection_energy();
   }
 };
 

@@ -8,11 +8,11 @@
 namespace ashlar {
 
 void LedgerKeeper::found_anew(double change) {
-  (change > 0.0 ? ledger_.refound_gained : ledger_.refound_lost) += std::abs(change);
+  (change > 0.0 ? ledger_.redetection_gained : ledger_.redetection_lost) += std::abs(change);
 }
 
 void LedgerKeeper::multipliers_gave(double beyond) {
-  ledger_.refound_gained += beyond;
+  ledger_.redetection_gained += beyond;
   ledger_.numerical += beyond;
 }
 

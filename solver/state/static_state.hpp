@@ -14,9 +14,9 @@ namespace ashlar {
 /// Displacement of blocks since the last halving of their residual. By block.
 struct StaticProgress {
   /// Position at the last halving of its residual, (p, 3), and the residual there, N m^-3/2
-  std::vector<Eigen::MatrixX3d> milestones;
+  std::vector<Eigen::MatrixX3d> positions;
   std::vector<double> forces;
-  std::vector<double> travels;  ///< displacement from there, in block sizes
+  std::vector<double> displacements;  ///< displacement from there, in block sizes
   /// Residual of the last iteration, (p, 3), N m^-3/2; empty before the first
   std::vector<Eigen::MatrixX3d> residuals;
 };
@@ -28,8 +28,9 @@ struct StaticOnset {
   double least_residual = 0.0;               ///< smallest sum of squared residuals of blocks, N^2
   std::vector<Eigen::MatrixX3d> unbalanced;  ///< accelerations in that iteration, (p, 3); empty: none
   bool rigid = false;                        ///< true if these are those of rigid blocks
-  std::vector<int> gives_way;  ///< by block: not 0 if it moves by compliance only and rigid blocks would stay
-                               ///< (rigid_onset.hpp)
+  std::vector<int>
+      is_compliant;  ///< by block: not 0 if it moves by compliance only and rigid blocks would stay
+                     ///< (rigid_onset.hpp)
   std::vector<Eigen::MatrixX3d> starts;  ///< by block, positions at that time
 };
 

@@ -148,7 +148,7 @@ void note_certain_motion(const RunContext& run, const CertainMotion& motion) {
   if (motion.displacements.empty()) return;
   statics.moving = true;
   for (std::size_t k = 0; k < motion.displacements.size(); ++k)
-    statics.progress.travels[k] = std::max(statics.progress.travels[k], motion.displacements[k]);
+    statics.progress.displacements[k] = std::max(statics.progress.displacements[k], motion.displacements[k]);
 }
 
 void note_residuals(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {

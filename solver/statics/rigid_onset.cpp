@@ -45,7 +45,7 @@ Onset prepare(const RunContext& run, const Island& island, const StepProblem& pr
               std::vector<BlockState>& states, std::vector<BodyStep>& bodies) {
   Onset onset;
   for (const int k : island.bodies) {
-    onset.farthest = std::max(onset.farthest, travel(run, k));
+    onset.farthest = std::max(onset.farthest, displacement_since_onset(run, k));
     onset.smallest = std::min(onset.smallest, block_size(run.blocks()[at(k)]));
     onset.stiffer = std::max(onset.stiffer, stiffening(problem.bodies[at(k)]));
   }
@@ -80,7 +80,7 @@ bool take_over(const RunContext& run, const Island& island, const std::vector<Bo
     largest = std::max(largest, mean_motion(block, rigid_ones.back()));
   }
   if (own < least_share * least_share * given) {
-    for (const int k : island.bodies) run.state.statics.onset.gives_way[at(k)] = 1;
+    for (const int k : island.bodies) run.state.statics.onset.is_compliant[at(k)] = 1;
     return false;
   }
   // Rigid blocks would only undo penetration and gaps of the deformable ones.
@@ -95,8 +95,8 @@ bool take_over(const RunContext& run, const Island& island, const std::vector<Bo
 
 }  // namespace
 
-bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
-             std::vector<Eigen::MatrixX3d>& accelerations) {
+bool starts_rigidly(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
+                    std::vector<Eigen::MatrixX3d>& accelerations) {
   const Stopwatch watch(run.state.log.seconds.solve);
   SimulationSettings settings = run.settings();
   settings.augmented = true;
@@ -110,10 +110,10 @@ bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem&
     const IslandResult& result = problem.results[i];
     const double motion = largest_motion(island, problem.bodies);
     if (island.pairs.empty() || motion == 0.0) continue;
-    const bool gives_way = std::any_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
-      return run.state.statics.onset.gives_way[at(block)] != 0;
+    const bool is_compliant = std::any_of(island.bodies.begin(), island.bodies.end(), [&](int block) {
+      return run.state.statics.onset.is_compliant[at(block)] != 0;
     });
-    if (!is_rigid(island, pairs) || gives_way) {
+    if (!is_rigid(island, pairs) || is_compliant) {
       all = false;
       continue;
     }

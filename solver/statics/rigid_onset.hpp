@@ -16,7 +16,7 @@ namespace ashlar {
 /// Removes the effect of compliance from the accelerations of an iteration of a static analysis. To be called before
 /// the problem is accepted.
 /// @param accelerations (p, 3) of each moving block. @return true if all are those of rigid blocks now
-[[nodiscard]] bool set_off(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
-                           std::vector<Eigen::MatrixX3d>& accelerations);
+[[nodiscard]] bool starts_rigidly(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
+                                  std::vector<Eigen::MatrixX3d>& accelerations);
 
 }  // namespace ashlar

@@ -44,14 +44,14 @@ void note_motion(const RunContext& run, const LimitMotion& motion) {
   const std::size_t count = run.blocks().size();
   statics.moving = true;
   statics.balanced = false;
-  statics.progress.travels.assign(count, 0.0);
+  statics.progress.displacements.assign(count, 0.0);
   statics.onset.unbalanced.assign(count, Eigen::MatrixX3d());
   for (std::size_t k = 0; k < count; ++k)
     statics.onset.unbalanced[k].setZero(run.state.states[k].position.rows(), 3);
   statics.onset.rigid = true;
   for (const LimitMotion::Block& block : motion.blocks) {
     const std::size_t k = at(block.block);
-    statics.progress.travels[k] = run.settings().statics.travel;
+    statics.progress.displacements[k] = run.settings().statics.displacement_limit;
     statics.onset.unbalanced[k] =
         rigid_velocity(run.state.states[k].position, run.blocks()[k].basis().volume(), block.about,
                        block.acceleration, block.angular_acceleration);

@@ -6,7 +6,7 @@
 // the scene's time step. It decreases tenfold with each iteration that converges, and increases if an iteration does
 // not converge or a block would move too far at once. So the analysis begins as a motion that contacts can follow and
 // ends as a Newton iteration of the static equations. rho m D, plus the residual of the equations if friction did not
-// converge (settings.statics.unsettled_share), is the residual of equilibrium.
+// converge (settings.statics.unconverged_share), is the residual of equilibrium.
 //
 // Slip counts from the positions at the start of the load level. Sliding, uplift and failure in between, while
 // inertia carried a part of the load, have no effect on the result. Bonds hold until the level has been in balance
@@ -15,10 +15,10 @@
 // 1. Equilibrium: m has reached its minimum, and rho m D is below settings.statics.tolerance of the largest force on
 // every block. No contact has changed its state or no block has moved. Both hold twice in a row, as soft motions may
 // not have ended the first time. Multipliers have converged too.
-// 2. Moving: a block has travelled settings.statics.travel of its size without halving its residual, or a tenth of
-// that when no iterations or cuts are left. An early stop applies to a block with constant residual that would meet
-// nothing on its way so far (certain_motion.hpp). All blocks that have gone a thousandth of settings.statics.travel are
-// listed as moving.
+// 2. Moving: a block has moved settings.statics.displacement_limit of its size without halving its residual, or a
+// tenth of that when no iterations or cuts are left. An early stop applies to a block with constant residual that
+// would meet nothing on its way so far (certain_motion.hpp). All blocks that have moved a thousandth of
+// settings.statics.displacement_limit are listed as moving.
 // 3. Accelerations: m D is the acceleration of the blocks from rest for any m, except for the compliance of contacts
 // and blocks, which is removed unless the stiffness of a joint was given (rigid_onset.cpp). Reported is the iteration
 // of smallest total residual since the last equilibrium or failure of a joint, excluding iterations in which contacts

@@ -11,7 +11,7 @@ StaticStatus start_from_statics(const RunContext& run, const std::function<bool(
   for (const std::vector<int>& blocks : loose_blocks(run)) run.system.hold(blocks);
   StaticStatus status = StaticStatus::balancing;
   while (status == StaticStatus::balancing && goes_on())
-    status = static_step(run, run.state.time(), run.settings().statics.travel);
+    status = static_step(run, run.state.time(), run.settings().statics.displacement_limit);
   run.system.let_go();
   if (status != StaticStatus::equilibrium) {
     restore(run, as_placed);

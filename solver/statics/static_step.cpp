@@ -22,7 +22,7 @@ namespace {
 TimeScheme static_scheme(double inertia) {
   TimeScheme scheme;
   scheme.inertia = inertia;
-  scheme.from_rest = true;
+  scheme.kind = StepKind::statics;
   return scheme;
 }
 
@@ -71,11 +71,11 @@ void start_load_level(const RunContext& run, double end_time) {
     BlockState& state = run.state.states[k];
     if (run.system.moving()[k]) run.state.ledger.integrator_took(run.blocks()[k].kinetic_energy(state));
     state.velocity.setZero();
-    statics.progress.milestones.push_back(state.position);
+    statics.progress.positions.push_back(state.position);
     statics.level_start.push_back(state.position);
   }
   statics.progress.forces.assign(run.blocks().size(), std::numeric_limits<double>::infinity());
-  statics.progress.travels.assign(run.blocks().size(), 0.0);
+  statics.progress.displacements.assign(run.blocks().size(), 0.0);
   for (auto& [blocks, pair] : run.state.pairs) pair.memory.start_level();
   commit_bolts(run.state);
   statics.freezes_failure = true;
@@ -181,7 +181,7 @@ class StaticIteration {
     StaticState& statics = run_.state.statics;
     const std::array<int, 3> before = contact_states(run_.state.report);
     const bool balanced = note_balance(run_, scheme, problem_);
-    if (is_settled(problem_)) note_certain_motion(run_, certain_motion_);
+    if (has_converged(problem_)) note_certain_motion(run_, certain_motion_);
     if (balanced) {
       forget_accelerations(run_);
     } else {
@@ -192,7 +192,7 @@ class StaticIteration {
     accept(run_, scheme, problem_);
     run_.state.report.step = step_of(scheme);
     if (statics.freezes_failure && (balanced || has_set_off(run_))) let_bonds_go(run_);
-    if (!is_settled(problem_)) {
+    if (!has_converged(problem_)) {
       statics.inertia = 10.0 * scheme.inertia;
     } else if (!cut_) {
       statics.inertia = std::max(0.1 * scheme.inertia, least_);

@@ -13,10 +13,11 @@
 namespace ashlar {
 namespace {
 
-/// Share of settings.statics.travel: blocks with this displacement at the last iteration are moving slowly.
+/// Share of settings.statics.displacement_limit: blocks with this displacement at the last iteration are moving
+/// slowly.
 constexpr double slow_share = 0.1;
-/// Share of settings.statics.travel: least displacement of blocks moved along by others, or sinking due to their
-/// motion. Blocks with merely increased contact forces have moved less.
+/// Share of settings.statics.displacement_limit: least displacement of blocks moved along by others, or sinking due
+/// to their motion. Blocks with merely increased contact forces have moved less.
 constexpr double taken_along_share = 1e-3;
 
 /// Changes of joints in an iteration.
@@ -87,12 +88,13 @@ bool multipliers_repeat(const RunContext& run, const StepProblem& problem) {
 }
 
 bool has_set_off(const RunContext& run) {
-  return std::any_of(
-      run.state.statics.progress.travels.begin(), run.state.statics.progress.travels.end(),
-      [&](double travel) { return travel > taken_along_share * run.settings().statics.travel; });
+  return std::any_of(run.state.statics.progress.displacements.begin(),
+                     run.state.statics.progress.displacements.end(), [&](double displacement) {
+                       return displacement > taken_along_share * run.settings().statics.displacement_limit;
+                     });
 }
 
-bool is_settled(const StepProblem& problem) {
+bool has_converged(const StepProblem& problem) {
   return std::none_of(problem.bodies.begin(), problem.bodies.end(),
                       [](const BodyStep& body) { return body.residual > 0.0; });
 }
@@ -107,19 +109,19 @@ bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepPro
     const double lacking = block.material().density * scheme.inertia * body.change.norm() + body.residual;
     const Eigen::MatrixX3d position = run.state.states[k].position + body.motion();
     if (lacking <= run.settings().statics.tolerance * body.largest_force + body.roundoff_force) {
-      run.state.statics.progress.travels[k] = 0.0;
-      run.state.statics.progress.milestones[k] = position;
+      run.state.statics.progress.displacements[k] = 0.0;
+      run.state.statics.progress.positions[k] = position;
       run.state.statics.progress.forces[k] = lacking;
       continue;
     }
     balanced = false;
     if (lacking < 0.5 * run.state.statics.progress.forces[k]) {
-      run.state.statics.progress.milestones[k] = position;
+      run.state.statics.progress.positions[k] = position;
       run.state.statics.progress.forces[k] = lacking;
     }
-    run.state.statics.progress.travels[k] =
-        mean_motion(block, position - run.state.statics.progress.milestones[k]) / block_size(block);
-    if (run.state.statics.progress.travels[k] > run.settings().statics.travel && !held[k])
+    run.state.statics.progress.displacements[k] =
+        mean_motion(block, position - run.state.statics.progress.positions[k]) / block_size(block);
+    if (run.state.statics.progress.displacements[k] > run.settings().statics.displacement_limit && !held[k])
       run.state.statics.moving = true;
   }
   return balanced;
@@ -129,12 +131,12 @@ void forget_accelerations(const RunContext& run) {
   run.state.statics.onset.least_residual = std::numeric_limits<double>::infinity();
   run.state.statics.onset.unbalanced.clear();
   run.state.statics.onset.rigid = false;
-  run.state.statics.onset.gives_way.assign(run.blocks().size(), 0);
+  run.state.statics.onset.is_compliant.assign(run.blocks().size(), 0);
   run.state.statics.onset.starts.clear();
   for (const BlockState& state : run.state.states) run.state.statics.onset.starts.push_back(state.position);
 }
 
-double travel(const RunContext& run, int block) {
+double displacement_since_onset(const RunContext& run, int block) {
   return mean_motion(run.blocks()[at(block)],
                      run.state.states[at(block)].position - run.state.statics.onset.starts[at(block)]);
 }
@@ -142,22 +144,23 @@ double travel(const RunContext& run, int block) {
 void note_accelerations(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
   auto [sliding, fail] = joints_of(run, problem);
   if (fail) forget_accelerations(run);
-  const bool settled = is_settled(problem) && sliding == run.state.statics.onset.sliding;
+  const bool settled = has_converged(problem) && sliding == run.state.statics.onset.sliding;
   run.state.statics.onset.sliding = std::move(sliding);
   // Until the same joints slide twice, the last iteration is the best: in the first ones inertia carries most of the
   // weight.
   if (!settled && std::isfinite(run.state.statics.onset.least_residual)) return;
   bool near_start = true;
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
-    near_start = near_start && !(run.system.moving()[k] &&
-                                 travel(run, static_cast<int>(k)) > run.settings().contact_distance);
+    near_start =
+        near_start && !(run.system.moving()[k] &&
+                        displacement_since_onset(run, static_cast<int>(k)) > run.settings().contact_distance);
   if (!near_start && run.state.statics.onset.rigid) return;
   std::vector<Eigen::MatrixX3d> accelerations(run.blocks().size());
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     if (run.system.moving()[k])
       accelerations[k] = scheme.inertia * run.blocks()[k].space().expand(problem.bodies[k].change);
   if (settled) {
-    const bool rigid = set_off(run, scheme, problem, accelerations);
+    const bool rigid = starts_rigidly(run, scheme, problem, accelerations);
     double lacking = 0.0;
     for (std::size_t k = 0; k < run.blocks().size(); ++k)
       lacking += std::pow(run.blocks()[k].material().density * accelerations[k].norm(), 2);
@@ -173,8 +176,8 @@ StaticStatus give_up(const RunContext& run) {
   const std::vector<bool> held = run.system.held_without_contacts();
   for (std::size_t k = 0; k < run.blocks().size(); ++k)
     run.state.statics.moving =
-        run.state.statics.moving ||
-        (!held[k] && run.state.statics.progress.travels[k] > slow_share * run.settings().statics.travel);
+        run.state.statics.moving || (!held[k] && run.state.statics.progress.displacements[k] >
+                                                     slow_share * run.settings().statics.displacement_limit);
   return run.state.statics.moving ? StaticStatus::moving : StaticStatus::not_converged;
 }
 
@@ -182,10 +185,11 @@ std::vector<MovingBlock> moving_blocks(const BlockSystem& system, const RunState
   const std::vector<bool> held = system.held_without_contacts();
   std::vector<MovingBlock> result;
   std::vector<MovingBlock> later;
-  for (std::size_t k = 0; k < state.statics.progress.travels.size(); ++k) {
+  for (std::size_t k = 0; k < state.statics.progress.displacements.size(); ++k) {
     const BlockModel& block = system.blocks()[k];
     if (!system.moving()[k] || held[k] ||
-        state.statics.progress.travels[k] <= taken_along_share * system.settings().statics.travel)
+        state.statics.progress.displacements[k] <=
+            taken_along_share * system.settings().statics.displacement_limit)
       continue;
     const Eigen::MatrixX3d& a = state.statics.onset.unbalanced[k];
     const Eigen::Matrix3d gradient = a.transpose() * block.basis().gradients(block.basis().centroid());

@@ -14,10 +14,10 @@ namespace ashlar {
 [[nodiscard]] double largest_motion(const Island& island, const std::vector<BodyStep>& bodies);
 [[nodiscard]] double largest_motion(const StepProblem& problem);
 /// Displacement of a block since its onset of motion, m.
-[[nodiscard]] double travel(const RunContext& run, int block);
+[[nodiscard]] double displacement_since_onset(const RunContext& run, int block);
 
-/// True if the open-close iteration left no residual in any body (settings.statics.unsettled_share).
-[[nodiscard]] bool is_settled(const StepProblem& problem);
+/// True if the open-close iteration left no residual in any body (settings.statics.unconverged_share).
+[[nodiscard]] bool has_converged(const StepProblem& problem);
 /// Records the residual of each block. @return true if all are within the tolerance
 [[nodiscard]] bool note_balance(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem);
 /// Records the accelerations to be reported for moving blocks. To be called before the problem is accepted.

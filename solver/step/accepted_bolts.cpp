@@ -33,14 +33,14 @@ BoltEnergies take_over_bolts(const RunContext& run, const TimeScheme& scheme, co
       const StepBolt& bolt = *problem.islands[i].bolts[n];
       BoltState& state = run.state.bolts[at(bolt.index())];
       found += bolt.start_energy() - state.stored;
-      const double dissipated_before = scheme.from_rest ? state.dissipated : 0.0;
+      const double dissipated_before = scheme.is_static() ? state.dissipated : 0.0;
       state.reached = bolt.bolt().chain.memory_after(one.response.end, bolt.memory());
       take_forces(one.response.end, state);
       sum.work += one.work;
       sum.dissipated += state.dissipated - dissipated_before;
       sum.gained += state.stored - bolt.start_energy();
       ledger.loads_did(-one.prescribed_work);
-      if (!scheme.from_rest) {
+      if (!scheme.is_static()) {
         state.memory = state.reached;
         state.dissipated = 0.0;
         if (const auto released = rupture(run, bolt.index(), one.response.deformation, one.response.end)) {

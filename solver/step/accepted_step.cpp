@@ -56,8 +56,8 @@ double move_block(const RunContext& run, std::size_t k, const TimeScheme& scheme
     Eigen::MatrixX3d rate = Eigen::MatrixX3d::Zero(change.rows(), 3);
     // In statics time parametrises the loads.
     if (scheme.step > 0.0)
-      rate = scheme.from_rest ? Eigen::MatrixX3d(body.prescribed / scheme.step)
-                              : block.prescribed_velocity(body.prescribed, clock.time(), scheme.step);
+      rate = scheme.is_static() ? Eigen::MatrixX3d(body.prescribed / scheme.step)
+                                : block.prescribed_velocity(body.prescribed, clock.time(), scheme.step);
     // Supports act against inertia and all forces but those of contacts, which are booked by pair.
     const Eigen::MatrixX3d external = external_force(run.system, clock, static_cast<int>(k), scheme);
     ledger.loads_did(0.5 * density * (rate.squaredNorm() - (state.velocity - velocity).squaredNorm()) +
@@ -159,7 +159,7 @@ bool is_live(const RunContext& run, int a, int b) {
 }
 
 /// Books the change of spring energy due to re-detected contacts since the end of the last step.
-void book_refound(const RunContext& run, const std::vector<ContactPair>& pairs) {
+void book_redetection(const RunContext& run, const std::vector<ContactPair>& pairs) {
   // Springs of one pair may replace those of another one.
   double change = 0.0;
   std::set<PairKey> going_on;  // their springs, like ties, are the same as before
@@ -245,7 +245,7 @@ void keep_sleeping_pairs(const RunContext& run) {
   for (auto& [blocks, pair] : run.state.pairs)
     if (is_live(run, blocks[0], blocks[1])) {
       pair.memory = ContactMemory();
-      if (pair.lasting && !pair.lasting->found.points.empty()) pair.lasting.reset();
+      if (pair.cache && !pair.cache->found.points.empty()) pair.cache.reset();
     }
   std::erase_if(run.state.records,
                 [&run](const PairRecord& record) { return is_live(run, record.a, record.b); });
@@ -281,7 +281,7 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
   const BondedArea bonds = pair.bonded_area(remembered);
   history.broken += bonds.lost;
   history.bonded = std::max(history.bonded, history.broken + bonds.left);
-  history.lasting = pair.lasting();
+  history.cache = pair.cache();
   history.memory.store(pair.points(), std::move(remembered), deepest, ContactPair::energies(response), bulge,
                        pair.cuts(), pair.turning());
   // Forces that acted: with average-acceleration not those at the end, with multipliers impulses too.
@@ -290,9 +290,9 @@ void remember(const RunContext& run, const AcceptedPair& accepted, const TimeSch
     acted[k].force = response.means[k].force;
     if (!stopped.forces.empty()) acted[k].force += stopped.forces[k];
   }
-  if (settings.augmented && !scheme.from_rest)
+  if (settings.augmented && !scheme.is_static())
     tally_friction(acted, laws, scheme.step, run.state.extremes.sliding_friction);
-  if (pair.dilates() && !scheme.from_rest)
+  if (pair.dilates() && !scheme.is_static())
     tally_slip(pair, response, ya, yb, run.state.extremes.dilating_slip);
 
   history.work += work + stopped.work;
@@ -320,7 +320,7 @@ class Bulges {
 void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem,
                      PotentialSum potential) {
   const std::vector<StoppedPair> stopped = stop_at_contacts(run, scheme, problem);
-  book_refound(run, problem.pairs);
+  book_redetection(run, problem.pairs);
   LedgerKeeper& ledger = run.state.ledger;
   StepReport& report = run.state.report = StepReport{};
   report.step = scheme.step;
@@ -349,7 +349,7 @@ void take_over_pairs(const RunContext& run, const TimeScheme& scheme, const Step
       const double slid = pair.friction_work(response, result.laws[n], ya, yb) + pair.fracture_work(response);
       friction += slid;
       damped += ContactPair::damped(response);
-      if (run.settings().augmented && scheme.from_rest)
+      if (run.settings().augmented && scheme.is_static())
         run.state.pairs[{pair.a(), pair.b()}].taken = taken_in_statics(pair, response);
       else if (run.settings().augmented)
         take_for_multipliers(run, pair, -pair.spring_work(response, ya, yb) - slid);
@@ -376,7 +376,7 @@ void accept(const RunContext& run, const TimeScheme& scheme, StepProblem& proble
   run.factors.drop_unused();
   run.contacts.finder().accept_motion();
   const bool gives_spin_back =
-      !scheme.mean_contacts && !scheme.from_rest && !run.system.free_bodies().empty();
+      !scheme.mean_contacts && !scheme.is_static() && !run.system.free_bodies().empty();
   std::vector<BlockState> before;
   if (gives_spin_back) before = run.state.states;
   PotentialSum potential;

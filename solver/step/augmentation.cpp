@@ -48,7 +48,7 @@ bool Augmentation::stiffen() {
 }
 
 bool Augmentation::lower_multipliers() {
-  if (problem_.scheme().from_rest) return false;
+  if (problem_.scheme().is_static()) return false;
   const MultiplierSettings& multipliers = problem_.settings().multipliers;
   const double accuracy = multipliers.accuracy * multipliers.penetration_tolerance;
   bool lowered = false;

@@ -32,7 +32,7 @@ class DynamicStep {
       const IslandStatus status = solve(run_.system, run_.state, scheme, run_.factors, problem_);
       if (status != IslandStatus::converged) {
         reject_unsettled(run_, step_, status, problem_);
-        unsettled_ = true;
+        unconverged_ = true;
         cut(0.5);
       } else if (const auto share = share_until_impact(run_, step_, problem_);
                  share && cuts_ < settings.max_step_cuts) {
@@ -45,7 +45,7 @@ class DynamicStep {
       } else if (can_end()) {
         accept(run_, scheme, problem_);
         double& next = run_.state.next_step;
-        next = std::min(settings.time_step, unsettled_ ? step_ : 2.0 * next);
+        next = std::min(settings.time_step, unconverged_ ? step_ : 2.0 * next);
         return StepStatus::accepted;
       }
     }
@@ -141,7 +141,7 @@ class DynamicStep {
   int moves_ = 0;
   int cuts_ = 0;
   int additions_ = 0;
-  bool unsettled_ = false;
+  bool unconverged_ = false;
 };
 
 }  // namespace

@@ -40,7 +40,7 @@ Audit measure_depths(const RunContext& run, const std::vector<BlockState>& state
                          run.system.moving(),
                          (fine ? settings.search.passing_share : 1.0) * settings.contact_distance,
                          settings.threads,
-                         settings.lasting_motion(),
+                         settings.cached_motion(),
                          fine};
   return run.audit.run(run.blocks(), states, run.contacts.finder().surfaces(), scope, known);
 }

@@ -56,7 +56,7 @@ void IslandProblem::predict(Predictor guess) {
     const double mass = scheme_.inertia * body.model->material().density;
     body.change = body.free_change;
     if (guess == Predictor::at_rest) body.change.setZero();
-    if (guess != Predictor::free_motion || scheme_.from_rest) continue;
+    if (guess != Predictor::free_motion || scheme_.is_static()) continue;
     body.change += scheme_.force_weight / mass * body.external_force;
   }
   follow_rigid_bodies();
@@ -101,7 +101,7 @@ void IslandProblem::add_contacts(Residual& residual, std::vector<ForceErrors>& e
     for (const int body : {a, b}) {
       if (body < 0) continue;
       errors[at(body)].rounding += of_pairs[k].rounding;
-      errors[at(body)].in_doubt += of_pairs[k].in_doubt;
+      errors[at(body)].within_rounding += of_pairs[k].within_rounding;
     }
   }
 }
@@ -120,12 +120,12 @@ void IslandProblem::add_bolts(Residual& residual, std::vector<ForceErrors>& erro
 
 void IslandProblem::judge(Residual& residual, const std::vector<ForceErrors>& errors) const {
   const double tolerance =
-      scheme_.from_rest ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
+      scheme_.is_static() ? settings_.statics.residual_tolerance : settings_.iteration.residual_tolerance;
   for (std::size_t k = 0; k < island_.bodies.size(); ++k) {
     BodyStep& body = bodies_[at(island_.bodies[k])];
     const double scale = residual.scales[k];
     const double rounding = body.roundoff_force + errors[k].rounding +
-                            std::min(errors[k].in_doubt, settings_.iteration.doubt_share * scale) +
+                            std::min(errors[k].within_rounding, settings_.iteration.doubt_share * scale) +
                             8.0 * std::numeric_limits<double>::epsilon() * body.model->material().density *
                                 scheme_.inertia * (body.change.norm() + body.free_change.norm());
     const double left =

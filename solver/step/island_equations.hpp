@@ -26,7 +26,7 @@ struct Residual {
 /// Uncertainty of the contact forces on a body, N.
 struct ForceErrors {
   double rounding = 0.0;
-  double in_doubt = 0.0;  ///< of points that are closed only within rounding error
+  double within_rounding = 0.0;  ///< of points that are closed only within rounding error
 };
 
 /// A guess with its responses.

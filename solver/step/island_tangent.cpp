@@ -88,11 +88,11 @@ FactorStatus IslandTangent::factorize() {
 
 FactorStatus IslandTangent::update_factor() {
   const TimeScheme& scheme = problem_.scheme();
-  factor_is_old_ = !scheme.from_rest && solver_.inertia == scheme.inertia;
+  factor_is_old_ = !scheme.is_static() && solver_.inertia == scheme.inertia;
   assembled_ = false;
   if (factor_is_old_ && products_pay()) return FactorStatus::success;
   assemble(false);
-  return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme.from_rest);
+  return factor_is_old_ ? FactorStatus::success : factorize_assembled(!scheme.is_static());
 }
 
 bool IslandTangent::products_pay() const {

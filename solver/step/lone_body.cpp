@@ -54,10 +54,10 @@ std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& sc
   if (!shares_factors(block)) return std::nullopt;
   const double mass = scheme.inertia * block.material().density;
   const double tolerance =
-      scheme.from_rest ? settings.statics.residual_tolerance : settings.iteration.residual_tolerance;
+      scheme.is_static() ? settings.statics.residual_tolerance : settings.iteration.residual_tolerance;
   const Eigen::VectorXd external = scheme.force_weight * body.external_force;
   body.change = body.free_change;
-  if (!scheme.from_rest) body.change += external / mass;
+  if (!scheme.is_static()) body.change += external / mass;
   IslandResult result;
   for (int k = 0; k <= settings.iteration.newton_iterations; ++k) {
     ++result.iterations;
@@ -72,7 +72,7 @@ std::optional<IslandResult> solve_lone_body(BodyStep& body, const TimeScheme& sc
     if (!std::isfinite(body.largest_force)) return std::nullopt;
     // From rest, the residual of the initial guess is within the last iteration's bound of rounding errors, which is
     // wide.
-    if (left.norm() <= tolerance * body.largest_force + rounding && !(scheme.from_rest && k == 0))
+    if (left.norm() <= tolerance * body.largest_force + rounding && !(scheme.is_static() && k == 0))
       return result;
     const double stiffness_weight = scheme.force_weight * scheme.end_share * (1.0 + scheme.stiffness_share);
     const auto& factor = factors.find(block, stiffness_weight, mass);

@@ -33,7 +33,7 @@ class OpenClose {
         augmentation_(problem),
         settings_(problem.settings()),
         result_(result),
-        may_split_(!problem.scheme().from_rest && problem.pairs() >= many_pairs) {}
+        may_split_(!problem.scheme().is_static() && problem.pairs() >= many_pairs) {}
 
   /// Blocks of the pair whose points have changed state most often; -1: none did.
   [[nodiscard]] std::array<int, 2> alternating() const {
@@ -87,7 +87,7 @@ class OpenClose {
 
   /// Updates rows of contact points to where they act. @return true if any has changed
   bool follow() {
-    return followed_ = !problem_.scheme().from_rest && problem_.follow_contacts(settings_.followed_gap());
+    return followed_ = !problem_.scheme().is_static() && problem_.follow_contacts(settings_.followed_gap());
   }
 
   /// Residual of the present guess, evaluated unless it is known.
@@ -126,7 +126,7 @@ class OpenClose {
       // From rest, the residual of the initial guess is within the last iteration's bound of rounding errors, which
       // is wide.
       if (residual.converged() &&
-          (residual.force.size() == 0 || !(problem_.scheme().from_rest && result_.iterations == 1))) {
+          (residual.force.size() == 0 || !(problem_.scheme().is_static() && result_.iterations == 1))) {
         known_residual_ = std::move(residual);
         return Outcome::converged;
       }
@@ -141,7 +141,7 @@ class OpenClose {
         least_ = residual.largest;
         if (!closing) best_ = problem_.guess();
       }
-      if (problem_.scheme().from_rest && residual.sum < nearest_.sum)
+      if (problem_.scheme().is_static() && residual.sum < nearest_.sum)
         nearest_ = {residual.sum, residual.largest_by_force, problem_.guess()};
       std::vector<ContactState> states = problem_.states();
       const bool as_before = !seen.empty() && states == seen.back();
@@ -213,7 +213,7 @@ class OpenClose {
   /// it.
   /// @return false unless its residual is small enough
   bool take_nearest() {
-    if (nearest_.largest_by_force > settings_.statics.unsettled_share) return false;
+    if (nearest_.largest_by_force > settings_.statics.unconverged_share) return false;
     problem_.set_guess(nearest_.guess);
     respond();
     known_residual_ = problem_.residual();

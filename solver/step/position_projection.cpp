@@ -93,7 +93,7 @@ std::vector<MovedIsland> solve_deep(const RunContext& run, double step,
                                     const std::vector<const Island*>& deep, StepProblem& problem,
                                     IslandFunds& funds) {
   TimeScheme scheme;
-  scheme.from_rest = true;
+  scheme.kind = StepKind::statics;
   scheme.inertia = inertia_share * 2.0 / (step * step);
   SimulationSettings settings = run.settings();
   settings.statics.residual_tolerance = run.settings().multipliers.apart_residual;

@@ -24,7 +24,7 @@ std::optional<Residual> take_best_predictor(IslandProblem& problem) {
   // Relative to the largest force on each body: from a smaller residual Newton's iteration converges as from the best
   // predictor.
   constexpr double little = 0.1;
-  if (problem.scheme().from_rest || problem.pairs() == 0) {
+  if (problem.scheme().is_static() || problem.pairs() == 0) {
     problem.predict(Predictor::free_motion);
     problem.respond();
     return std::nullopt;

@@ -46,7 +46,7 @@ struct PairStiffness {
   }
 };
 
-/// Balance of a law and a penalty spring:  F(v) - f = H (v - y).  Normal forces decrease with the gap, so that one
+/// Equilibrium of a law and a penalty spring:  F(v) - f = H (v - y).  Normal forces decrease with the gap, so that one
 /// gap solves it. Shear springs are linear up to the limit set by the normal force, as long as the gap does not
 /// depend on slip. Dilation is evaluated with the slip of the last pass.
 /// @param law_at (place, law of the point) -> MeanResponse

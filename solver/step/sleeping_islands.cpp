@@ -117,7 +117,7 @@ void wake_all(const RunContext& run) {
 void note_rest(const RunContext& run, const TimeScheme& scheme, const StepProblem& problem) {
   const RestSettings& settings = run.settings().rest;
   Sleep& sleep = run.state.sleep;
-  if (!settings.sleeps || scheme.from_rest || !dissipates(run.settings())) return;
+  if (!settings.sleeps || scheme.is_static() || !dissipates(run.settings())) return;
   run.state.log.counts.sleeping_block_steps += static_cast<std::uint64_t>(sleep.sleeping_blocks());
   std::vector<Eigen::MatrixX3d> velocities(run.blocks().size());
   for (const Island& island : problem.islands) {

@@ -81,9 +81,9 @@ void restore(const RunContext& run, const SimulationSnapshot& snapshot) {
   for (auto& [blocks, pair] : run.state.pairs) {
     const auto [a, b] = blocks;
     const std::vector<BlockSurface>& surfaces = run.contacts.finder().surfaces();
-    if (pair.lasting != nullptr && pair.lasting->rows == nullptr)
-      pair.lasting = with_rows(*pair.lasting, run.blocks().at(at(a)), run.blocks().at(at(b)),
-                               surfaces.at(at(a)), surfaces.at(at(b)));
+    if (pair.cache != nullptr && pair.cache->rows == nullptr)
+      pair.cache = with_rows(*pair.cache, run.blocks().at(at(a)), run.blocks().at(at(b)), surfaces.at(at(a)),
+                             surfaces.at(at(b)));
   }
   run.factors = std::move(factors);
   run.state.ledger.measure_elastic(run.system, run.state.states);

@@ -41,14 +41,14 @@ ContactBody body_at_start(const BlockSystem& system, const RunState& state, int 
 /// The law of a pair as its points use it, less the rounding of coordinates.
 JointLaw law_of(const BlockSystem& system, const PairKey& blocks) {
   JointLaw law = system.law(blocks[0], blocks[1]);
-  law.augmented = system.settings().augmented && !law.gives_way;
+  law.augmented = system.settings().augmented && !law.is_compliant;
   return law;
 }
 
 /// Contacts at the present state, without points. An empty result may be cached too.
-LastingContacts as_found(const ContactFinder& finder, const RunState& state, const NearPair& pair,
-                         const JointLaw& law, PairContacts contacts) {
-  LastingContacts found;
+ContactCache as_found(const ContactFinder& finder, const RunState& state, const NearPair& pair,
+                      const JointLaw& law, PairContacts contacts) {
+  ContactCache found;
   found.contacts = std::move(contacts);
   for (std::size_t k = 0; k < 2; ++k) {
     found.positions[k] = state.states[at(pair.blocks[k])].position;
@@ -75,7 +75,7 @@ void forget_far_pairs(PairHistories& histories, const std::vector<NearPair>& nea
   for (auto& [blocks, pair] : histories) {
     while (next != near.end() && next->blocks < blocks) ++next;
     if (next != near.end() && next->blocks == blocks) continue;
-    if (moving[at(blocks[0])] || moving[at(blocks[1])]) pair.lasting.reset();
+    if (moving[at(blocks[0])] || moving[at(blocks[1])]) pair.cache.reset();
   }
 }
 
@@ -152,23 +152,23 @@ std::vector<std::shared_ptr<const KeptContacts>> StepContacts::kept(const BlockS
   std::vector<std::optional<JointLaw>> laws(near.size());
   // Laws are user functions, which need not be thread-safe.
   for (std::size_t n = 0; n < near.size(); ++n)
-    if (history_of(state.pairs, near[n].blocks).lasting != nullptr) laws[n] = law_of(system, near[n].blocks);
+    if (history_of(state.pairs, near[n].blocks).cache != nullptr) laws[n] = law_of(system, near[n].blocks);
   parallel_for(settings.threads, near.size(), [&](std::size_t n) {
     if (!laws[n]) return;
     const auto& [blocks, reach] = near[n];
     const PairHistory& history = history_of(state.pairs, blocks);
-    const std::shared_ptr<const LastingContacts>& lasting = history.lasting;
+    const std::shared_ptr<const ContactCache>& cache = history.cache;
     // Blocks that were apart have no points.
-    if (!lasting->found.points.empty() && lasting->found.turning != history.memory.turning()) return;
+    if (!cache->found.points.empty() && cache->found.turning != history.memory.turning()) return;
     for (std::size_t k = 0; k < 2; ++k)
-      if (finder_.surfaces()[at(blocks[k])].wanted() != lasting->divisions[k]) return;
+      if (finder_.surfaces()[at(blocks[k])].wanted() != cache->divisions[k]) return;
     const auto bound_of = [this](int block) {
       return [this, block](const Eigen::MatrixX3d& change) { return finder_.motion_bound(block, change); };
     };
     std::optional<KeptContacts> found =
-        kept_contacts(lasting, body_at_start(system, state, blocks[0], nullptr),
+        kept_contacts(cache, body_at_start(system, state, blocks[0], nullptr),
                       body_at_start(system, state, blocks[1], nullptr), *laws[n],
-                      {settings.lasting_motion(), reach}, {bound_of(blocks[0]), bound_of(blocks[1])});
+                      {settings.cached_motion(), reach}, {bound_of(blocks[0]), bound_of(blocks[1])});
     if (found) result[n] = std::make_shared<const KeptContacts>(std::move(*found));
   });
   return result;
@@ -188,7 +188,7 @@ std::vector<FoundContacts> StepContacts::detect(const BlockSystem& system, RunSt
   KnownContacts known(near.size(), nullptr);
   for (std::size_t n = 0; n < near.size(); ++n) {
     if (kept[n] == nullptr) continue;
-    known_contacts[n] = shifted(kept[n]->lasting->contacts, kept[n]->shift);
+    known_contacts[n] = shifted(kept[n]->cache->contacts, kept[n]->shift);
     known[n] = &known_contacts[n];
   }
   std::vector<FoundContacts> found = finder_.find(state.states, known, state.pairs);
@@ -214,7 +214,7 @@ void StepContacts::note_apart(const BlockSystem& system, RunState& state, const 
     if (next != found.end() && next->blocks == near[n].blocks) {
       ++next;
     } else if (may_last(system, near[n].blocks)) {
-      state.pairs[near[n].blocks].lasting = std::make_shared<const LastingContacts>(
+      state.pairs[near[n].blocks].cache = std::make_shared<const ContactCache>(
           as_found(finder_, state, near[n], law_of(system, near[n].blocks), {}));
     }
   }
@@ -253,14 +253,14 @@ ContactPair StepContacts::kept_pair(const BlockSystem& system, const RunState& s
   const auto [a, b] = found.blocks;
   const PairHistory& known = history_of(state.pairs, found.blocks);
   const KeptContacts& kept = *found.kept;
-  law.rounding = kept.lasting->law.rounding;
+  law.rounding = kept.cache->law.rounding;
   PatchStart start;
   start.continues = true;
   if (law.augmented) start.frozen = known.taken;
   return {
       PairBodies{a, b, body_at_start(system, state, a, nullptr), body_at_start(system, state, b, nullptr)},
       law,
-      {kept.points, kept.lasting->found.cuts, kept.lasting->found.turning, kept.lasting->rows, kept.lasting},
+      {kept.points, kept.cache->found.cuts, kept.cache->found.turning, kept.cache->rows, kept.cache},
       known.memory.of_same(kept.points),
       start};
 }
@@ -305,10 +305,10 @@ std::optional<ContactPair> StepContacts::pair_of(const BlockSystem& system, cons
   ContactPatch patch{std::move(points), made.cuts, made.turning};
   if (may_last(system, found, use)) {
     patch.rows = PairRows::values_of(*body_a.model, *body_b.model, patch.points);
-    LastingContacts lasting = as_found(finder_, state, {blocks, found.reach}, law, contacts);
-    lasting.found = std::move(made);
-    lasting.rows = patch.rows;
-    patch.lasting = std::make_shared<const LastingContacts>(std::move(lasting));
+    ContactCache cache = as_found(finder_, state, {blocks, found.reach}, law, contacts);
+    cache.found = std::move(made);
+    cache.rows = patch.rows;
+    patch.cache = std::make_shared<const ContactCache>(std::move(cache));
   }
   return ContactPair(PairBodies{a, b, body_a, body_b}, law, std::move(patch), std::move(memory), start);
 }
@@ -338,7 +338,7 @@ std::vector<ContactPair> StepContacts::pairs(const BlockSystem& system, RunState
   });
   for (std::size_t n = 0; n < found.size(); ++n) {
     if (made[n] || found[n].kept != nullptr || !may_last(system, found[n], use)) continue;
-    state.pairs[found[n].blocks].lasting = std::make_shared<const LastingContacts>(
+    state.pairs[found[n].blocks].cache = std::make_shared<const ContactCache>(
         as_found(finder_, state, {found[n].blocks, found[n].reach}, laws[n], found[n].contacts));
   }
   for (std::optional<ContactPair>& pair : made) {

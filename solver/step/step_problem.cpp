@@ -81,7 +81,7 @@ IslandStatus solve(const BlockSystem& system, RunState& state, const TimeScheme&
   for (ContactPair& pair : problem.pairs) {
     pair.begin_step(system.blocks()[at(pair.a())], system.blocks()[at(pair.b())],
                     {problem.bodies[at(pair.a())].prescribed, problem.bodies[at(pair.b())].prescribed,
-                     scheme.from_rest ? 0.0 : scheme.step, settings.augmented});
+                     scheme.is_static() ? 0.0 : scheme.step, settings.augmented});
   }
   for (StepBolt& bolt : problem.bolts)
     bolt.prescribe([&](int block) { return problem.bodies[at(block)].prescribed; });

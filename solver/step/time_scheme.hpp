@@ -31,6 +31,9 @@
 
 namespace ashlar {
 
+/// Steps of a motion, and iterations of a static analysis, in which blocks are released from rest.
+enum class StepKind { motion, statics };
+
 /// Coefficients of D, v and a in a quantity linear in them.
 struct StepCombination {
   double change = 0.0;        ///< of D
@@ -53,8 +56,8 @@ struct TimeScheme {
                               ///< its end
   double force_weight = 1.0;  ///< w
   double inertia = 0.0;       ///< m, 1/s^2
-  bool from_rest = false;     ///< an iteration of a static analysis
-  bool impulsive = false;     ///< changes are velocities times dt at the end of a step
+  StepKind kind = StepKind::motion;
+  bool impulsive = false;  ///< changes are velocities times dt at the end of a step
   bool mean_contacts =
       false;                  ///< contact forces are means over the step (MeanResponse), not those at its end
   double mass_damping = 0.0;  ///< alpha, 1/s
@@ -63,6 +66,8 @@ struct TimeScheme {
   StepCombination end_velocity;      ///< v'
   StepCombination damped_velocity;   ///< v_f: the damping force is -alpha M v_f
   double acceleration_memory = 0.0;  ///< alpha_m
+
+  [[nodiscard]] bool is_static() const { return kind == StepKind::statics; }
 
   /// F_external. @param force of a time (s), (p, 3). @param start,end of the step, s
   template <class Force>

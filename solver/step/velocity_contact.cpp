@@ -68,11 +68,11 @@ bool is_free(const BlockSystem& system, const Island& island, const std::vector<
 namespace {
 
 /// The impulses of one island.
-class IslandStop {
+class IslandImpulses {
  public:
   /// @param of_step the step that has ended. @param bodies models, states and zero changes
-  IslandStop(const RunContext& run, const TimeScheme& of_step, const StepProblem& step_problem,
-             std::size_t island, std::vector<BodyStep>& bodies)
+  IslandImpulses(const RunContext& run, const TimeScheme& of_step, const StepProblem& step_problem,
+                 std::size_t island, std::vector<BodyStep>& bodies)
       : run_(run),
         step_(of_step.step),
         island_(step_problem.islands[island]),
@@ -201,7 +201,7 @@ std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeSchem
                                           const StepProblem& problem) {
   const Stopwatch watch(run.state.log.seconds.solve);
   std::vector<StoppedPair> stopped(problem.pairs.size());
-  if (!run.settings().augmented || scheme.from_rest) return stopped;
+  if (!run.settings().augmented || scheme.is_static()) return stopped;
   std::vector<BodyStep> bodies(run.blocks().size());
   for (std::size_t k = 0; k < run.blocks().size(); ++k) {
     bodies[k].model = &run.blocks()[k];
@@ -216,7 +216,7 @@ std::vector<StoppedPair> stop_at_contacts(const RunContext& run, const TimeSchem
     for (std::size_t k = 0; k < island.pairs.size() && !pushes; ++k)
       pushes = problem.pairs[at(island.pairs[k])].pushes(result.responses[k], result.laws[k]);
     if (!pushes) continue;
-    IslandStop stop(run, scheme, problem, n, bodies);
+    IslandImpulses stop(run, scheme, problem, n, bodies);
     if (stop.find()) stop.apply(stopped);
   }
   return stopped;

@@ -98,7 +98,7 @@ VerificationCheck check_status(std::string what, Simulation& simulation, StaticS
 }
 
 VerificationCheck check_energy(std::string what, const Simulation& simulation) {
-  const double most = std::max(simulation.largest_step_residual(), simulation.ledger().refound_gained);
+  const double most = std::max(simulation.largest_step_residual(), simulation.ledger().redetection_gained);
   return check_absolute(std::move(what), most / simulation.largest_energy(), 0.0, 1e-8);
 }
 

@@ -37,7 +37,7 @@ Impact run(const FallingBlock& example, const Placement& placement) {
     const Vector3 motion = simulation.blocks()[1].motion_of(simulation.states()[1], tip).displacement;
     impact.deepest = std::min(impact.deepest, placement.direction_back(motion).z());
   }
-  impact.energy_error = std::max(simulation.largest_step_residual(), simulation.ledger().refound_gained) /
+  impact.energy_error = std::max(simulation.largest_step_residual(), simulation.ledger().redetection_gained) /
                         simulation.largest_energy();
   return impact;
 }

@@ -143,8 +143,8 @@ std::vector<double> history_row(const Simulation& simulation, const std::vector<
   for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
   values.push_back(report.depth);
   values.push_back(report.iterations);
-  values.push_back(ledger.refound_gained);
-  values.push_back(ledger.refound_lost);
+  values.push_back(ledger.redetection_gained);
+  values.push_back(ledger.redetection_lost);
   for (const PointMotion& motion : motions) append_stress(values, motion.stress);
   if (stage > 0) values.push_back(stage);
   return values;

@@ -202,8 +202,8 @@ nlohmann::ordered_json run_summary(const Scene& scene, const SceneIdentity& iden
     summary["sliding_friction"] = {{"coulomb", tally.due}, {"acted", tally.acted}};
   if (const DilatingSlip& slip = simulation.dilating_slip(); slip.all > 0.0)
     summary["dilating_slip"] = {{"all", slip.all}, {"in_flight", slip.in_flight}};
-  summary["energy_refound"] = {{"gained", simulation.ledger().refound_gained},
-                               {"lost", simulation.ledger().refound_lost}};
+  summary["energy_refound"] = {{"gained", simulation.ledger().redetection_gained},
+                               {"lost", simulation.ledger().redetection_lost}};
   summary["energy_residual"] = simulation.ledger().residual;
   summary["energy_residual_of_a_step_max"] = simulation.largest_step_residual();
   summary["energy_max"] = simulation.largest_energy();

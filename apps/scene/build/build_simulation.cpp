@@ -191,7 +191,7 @@ class JointLaws {
                                   ? *given.normal_stiffness
                                   : automatic_normal_stiffness(source_[a], source_[b], area_, ratios_);
     result.rigid = !given.normal_stiffness;
-    result.gives_way = multipliers_ && !asked_for_ && given.gives_stiffness();
+    result.is_compliant = multipliers_ && !asked_for_ && given.gives_stiffness();
     result.shear_stiffness =
         given.shear_stiffness.value_or(ratios_.shear_to_normal_stiffness * result.normal_stiffness);
     if (given.tie || given.fracture_energy) set_springs_of_bond(a, b, given, result);
@@ -215,7 +215,7 @@ class JointLaws {
   /// Stiffnesses that are not given: of a tie, and as much as the fracture energy needs. Such joints have springs in any
   /// scene.
   void set_springs_of_bond(std::size_t a, std::size_t b, const SceneJointLaw& given, JointLaw& law) const {
-    law.gives_way = multipliers_;
+    law.is_compliant = multipliers_;
     const auto stiffness = [&](double automatic, double strength, double energy) {
       const double least = energy > 0.0 ? least_bond_stiffness(strength, energy) : 0.0;
       return std::max(automatic, automatic_bond_stiffness * least);

@@ -7,8 +7,8 @@
 
 #include "apps/scene/build/scene_reader.hpp"
 #include "apps/scene/check/base_motion.hpp"
-#include "apps/scene/check/doubtful_keys.hpp"
 #include "apps/scene/check/idle_keys.hpp"
+#include "apps/scene/check/implausible_keys.hpp"
 #include "apps/scene/check/initial_overlap.hpp"
 #include "apps/scene/check/scene_checks.hpp"
 #include "apps/scene/check/scene_limits.hpp"
@@ -113,7 +113,7 @@ std::optional<LoadedScene> loaded(Scene scene, Diagnostics& diagnostics, Prepara
   if (purpose == LoadPurpose::run && !check_cost(loaded.scene, loaded.cost, diagnostics)) return std::nullopt;
   warn_of_keys_idle_in_all(loaded.scene, diagnostics);
   for_each_stage(loaded.scene, [&](const Scene& stage) {
-    warn_of_doubtful_keys(stage, diagnostics);
+    warn_of_implausible_keys(stage, diagnostics);
     warn_of_jumping_supports(stage, diagnostics);
     warn_of_soft_blocks(stage, solids, diagnostics);
   });

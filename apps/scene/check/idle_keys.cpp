@@ -82,7 +82,7 @@ void warn_of_restitution(const Scene& scene, IdleKeys& keys) {
 
 /// Only springs have dashpots, and only in dynamics.
 void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
-  const auto check = [&](const std::string& path, const SceneJointLaw& law, bool gives_way) {
+  const auto check = [&](const std::string& path, const SceneJointLaw& law, bool is_compliant) {
     if (law.damping == 0.0) return;
     const std::string key = path + ".damping";
     if (is_static(scene.analysis))
@@ -90,7 +90,7 @@ void warn_of_joint_damping(const Scene& scene, IdleKeys& keys) {
     else if (scene.contact.augmented.value_or(false))
       keys.warn(key,
                 "multipliers hold joints here, and only springs are damped: augmented = false has springs");
-    else if (has_multipliers(scene) && !gives_way)
+    else if (has_multipliers(scene) && !is_compliant)
       keys.warn(key,
                 "multipliers hold this joint, and only springs are damped: normal_stiffness gives it some");
   };

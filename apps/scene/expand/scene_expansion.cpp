@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/scene/expand/mesh_stones.hpp"
+#include "apps/scene/expand/mesh_blocks.hpp"
 #include "apps/scene/expand/piece_blocks.hpp"
 #include "apps/scene/expand/scene_solids.hpp"
 #include "apps/scene/read/assignments.hpp"

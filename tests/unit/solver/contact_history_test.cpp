@@ -220,8 +220,8 @@ TEST(ContactHistory, ContactsFoundAnewNeverBringEnergyIn) {
       EXPECT_LE(energy(), last + 1e-10 * simulation.largest_energy()) << turn << " at " << simulation.time();
       last = energy();
     }
-    EXPECT_LT(simulation.ledger().refound_gained, 1e-12 * simulation.largest_energy()) << turn;
-    EXPECT_GT(simulation.ledger().refound_lost, 0.0) << turn;
+    EXPECT_LT(simulation.ledger().redetection_gained, 1e-12 * simulation.largest_energy()) << turn;
+    EXPECT_GT(simulation.ledger().redetection_lost, 0.0) << turn;
     EXPECT_LT(simulation.largest_step_residual(), 1e-8 * simulation.largest_energy()) << turn;
   }
 }

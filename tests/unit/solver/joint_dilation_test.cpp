@@ -78,7 +78,7 @@ TEST_P(SlidingUp, UnderConstantLoadRisesBySlipTimesTangent) {
   const double taken = normal * (friction - dilation) * slip;
   EXPECT_NEAR(ledger.friction, taken, 0.02 * taken);
   EXPECT_LT(simulation.largest_step_residual(), 1e-9 * simulation.largest_energy());
-  EXPECT_LT(ledger.refound_gained, 1e-8 * simulation.largest_energy());
+  EXPECT_LT(ledger.redetection_gained, 1e-8 * simulation.largest_energy());
   EXPECT_LT(std::abs(ledger.numerical) + ledger.damping, 0.03 * taken);
 }
 

@@ -93,7 +93,7 @@ TEST(Restitution, ARestingStackIsNotShakenAndTransmitsTheImpact) {
     EXPECT_NEAR(speed_up(simulation, 3), 0.5 * std::sqrt(2.0 * 9.81 * 0.05), 0.011);
     EXPECT_LT(std::abs(speed_up(simulation, 2)), 1e-2);
     EXPECT_LT(std::abs(place_of(simulation, 1, {0, 0, 0}).z()), 1e-6);
-    EXPECT_LT(simulation.ledger().refound_gained, 1e-9 * simulation.largest_energy());
+    EXPECT_LT(simulation.ledger().redetection_gained, 1e-9 * simulation.largest_energy());
   }
 }
 

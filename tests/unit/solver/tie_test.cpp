@@ -146,7 +146,7 @@ TEST(Tie, FreeChainSpinsAsOneBody) {
   EXPECT_LT((simulation.angular_momentum() - angular_momentum).norm(), 1e-6 * angular_momentum.norm());
   EXPECT_LT(simulation.momentum().norm(), 1e-9 * 6000.0);
   EXPECT_LT(simulation.largest_step_residual(), 1e-7 * energy);
-  EXPECT_EQ(simulation.ledger().refound(), 0.0);
+  EXPECT_EQ(simulation.ledger().redetection_energy(), 0.0);
   // Both ends still in one line through the middle, at their distance but for the stretch rho w^2 l^2 / E.
   const Vector3 one = place_of(simulation, 0, {-1.5, 0, 0}), other = place_of(simulation, 2, {1.5, 0, 0});
   EXPECT_LT((one + other).norm(), 1e-6);

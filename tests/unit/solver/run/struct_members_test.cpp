@@ -90,11 +90,11 @@ JointLaw unusual_law() {
 // Contacts last only as long as their law is the same.
 TEST(StructMembers, TheLawOfContactsThatLastComesBackAsItWas) {
   SimulationSnapshot snapshot;
-  auto lasting = std::make_shared<LastingContacts>();
-  lasting->law = unusual_law();
-  snapshot.run.pairs[{0, 1}].lasting = lasting;
+  auto cache = std::make_shared<ContactCache>();
+  cache->law = unusual_law();
+  snapshot.run.pairs[{0, 1}].cache = cache;
   const SimulationSnapshot back = snapshot_from_bytes(to_bytes(snapshot));
-  EXPECT_TRUE(back.run.pairs.at({0, 1}).lasting->law == unusual_law());
+  EXPECT_TRUE(back.run.pairs.at({0, 1}).cache->law == unusual_law());
 }
 
 TEST(StructMembers, ResponsesOfContactPointsComeBackAsTheyWere) {

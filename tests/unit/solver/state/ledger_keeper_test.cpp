@@ -47,8 +47,8 @@ TEST(LedgerKeeper, BooksEachEnergyOnceInItsPlace) {
   EXPECT_EQ(ledger.numerical, 2.03125);
   EXPECT_EQ(ledger.friction, 0.5);
   EXPECT_EQ(ledger.contact, 0.25);
-  EXPECT_EQ(ledger.refound_gained, 0.15625);
-  EXPECT_EQ(ledger.refound_lost, 0.0625);
+  EXPECT_EQ(ledger.redetection_gained, 0.15625);
+  EXPECT_EQ(ledger.redetection_lost, 0.0625);
 }
 
 TEST(LedgerKeeper, WhatTheBalanceLacksIsTheResidual) {

@@ -51,7 +51,7 @@ TEST_P(MovedApartBy, NothingIsDeeperThanTheToleranceAndNothingIsGained) {
     EXPECT_LT(test_support::place_of(simulation, 3, {1.7, 0, 2}).z(), 1.9);
     for (const Rejection& rejection : simulation.rejections())
       EXPECT_EQ(rejection.reason, RejectionReason::passing) << rejection.time;
-    EXPECT_LE(simulation.ledger().refound_gained, 1e-9 * simulation.largest_energy());
+    EXPECT_LE(simulation.ledger().redetection_gained, 1e-9 * simulation.largest_energy());
     EXPECT_LE(simulation.largest_step_residual(), 1e-9 * simulation.largest_energy());
   }
 }
@@ -113,7 +113,7 @@ TEST(MovedApart, ABarSlidesOverARimAsLongAsItsFaceTurns) {
     const auto [x, z] = speed_of_a_sliding_bar(time);
     EXPECT_NEAR(simulation.momentum().x() / 800.0, x, error * std::hypot(x, z));
     EXPECT_NEAR(simulation.momentum().z() / 800.0, z, error * std::hypot(x, z));
-    EXPECT_LE(simulation.ledger().refound_gained, 1e-8 * simulation.largest_energy());
+    EXPECT_LE(simulation.ledger().redetection_gained, 1e-8 * simulation.largest_energy());
     EXPECT_LE(simulation.largest_step_residual(), 1e-11 * simulation.largest_energy());
   };
   check(2e-3, 0.5, 4e-3);

@@ -225,7 +225,7 @@ std::vector<Vector3> fallen_dominoes(bool augmented, const Placement& placement)
   }
   Simulation simulation = scene.build();
   for (int step = 0; step < 40; ++step) take_step(simulation, 1.0);
-  EXPECT_LE(simulation.ledger().refound_gained, 1e-8 * simulation.largest_energy()) << augmented;
+  EXPECT_LE(simulation.ledger().redetection_gained, 1e-8 * simulation.largest_energy()) << augmented;
   return corner_displacements(simulation, placement);
 }
 

@@ -1,4 +1,4 @@
-#include "apps/scene/check/doubtful_keys.hpp"
+#include "apps/scene/check/implausible_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -56,7 +56,7 @@ double width_of(const Polyhedron& solid) {
 
 }  // namespace
 
-void warn_of_doubtful_keys(const Scene& scene, Diagnostics& diagnostics) {
+void warn_of_implausible_keys(const Scene& scene, Diagnostics& diagnostics) {
   warn_of_small_angle(scene, "contact.friction_angle", scene.contact.law.friction_angle, diagnostics);
   for (std::size_t k = 0; k < scene.joint.size(); ++k)
     warn_of_small_angle(scene, fmt::format("joint.{}.friction_angle", k),

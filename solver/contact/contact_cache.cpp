@@ -1,4 +1,4 @@
-#include "solver/contact/lasting_contacts.hpp"
+#include "solver/contact/contact_cache.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,9 +27,9 @@ Vector3 displacement(const ContactBody& body, const Vector3& material, const Eig
 }
 
 /// True if pressure ends in each overlap where it did. @param points of the pair, at the present state
-bool ends_as_before(const LastingContacts& lasting, const ContactBody& a, const ContactBody& b,
+bool ends_as_before(const ContactCache& cache, const ContactBody& a, const ContactBody& b,
                     const RelativeMotion& motion, const std::vector<ContactPoint>& points) {
-  for (const RuledOverlap& overlap : lasting.found.overlaps) {
+  for (const RuledOverlap& overlap : cache.found.overlaps) {
     std::vector<double> gaps;
     gaps.reserve(overlap.count);
     if (!overlap.end) {
@@ -39,15 +39,15 @@ bool ends_as_before(const LastingContacts& lasting, const ContactBody& a, const 
         gaps.push_back(point.gap + point.normal.dot(displacement(a, point.material_a, motion.changes[0]) -
                                                     displacement(b, point.material_b, motion.changes[1])));
     }
-    if (!pressure_ends_as_before(overlap, gaps, lasting.law.rounding)) return false;
+    if (!pressure_ends_as_before(overlap, gaps, cache.law.rounding)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a, const ContactBody& b) {
-  RelativeMotion motion{{change_since(lasting.positions[0], a), change_since(lasting.positions[1], b)}};
+RelativeMotion motion_since(const ContactCache& cache, const ContactBody& a, const ContactBody& b) {
+  RelativeMotion motion{{change_since(cache.positions[0], a), change_since(cache.positions[1], b)}};
   if (a.model->fixed() || b.model->fixed()) return motion;
   motion.shift = 0.5 * (constant_function(*a.model) * motion.changes[0].row(0).transpose() +
                         constant_function(*b.model) * motion.changes[1].row(0).transpose());
@@ -55,10 +55,10 @@ RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a
 }
 
 std::optional<KeptContacts> kept_contacts(
-    const std::shared_ptr<const LastingContacts>& lasting, const ContactBody& a, const ContactBody& b,
+    const std::shared_ptr<const ContactCache>& cache, const ContactBody& a, const ContactBody& b,
     const JointLaw& law, const LastingLimits& limits,
     const std::array<std::function<double(const Eigen::MatrixX3d&)>, 2>& bounds) {
-  const RelativeMotion motion = motion_since(*lasting, a, b);
+  const RelativeMotion motion = motion_since(*cache, a, b);
   double moved = 0.0;
   for (std::size_t k = 0; k < 2; ++k) {
     Eigen::MatrixX3d change = motion.changes[k];
@@ -66,14 +66,14 @@ std::optional<KeptContacts> kept_contacts(
     moved += bounds[k](change);
   }
   JointLaw known = law;
-  known.rounding = lasting->law.rounding;
-  if (!(moved <= limits.motion) || !(limits.reach + moved - lasting->reach <= limits.motion) ||
-      !(known == lasting->law))
+  known.rounding = cache->law.rounding;
+  if (!(moved <= limits.motion) || !(limits.reach + moved - cache->reach <= limits.motion) ||
+      !(known == cache->law))
     return std::nullopt;
-  KeptContacts kept{lasting, motion.shift, lasting->found.points};
+  KeptContacts kept{cache, motion.shift, cache->found.points};
   if (kept.points.empty()) return kept;
-  const Eigen::Matrix3Xd of_a = lasting->rows->a.displacements(motion.changes[0]);
-  const Eigen::Matrix3Xd of_b = lasting->rows->b.displacements(motion.changes[1]);
+  const Eigen::Matrix3Xd of_a = cache->rows->a.displacements(motion.changes[0]);
+  const Eigen::Matrix3Xd of_b = cache->rows->b.displacements(motion.changes[1]);
   for (std::size_t k = 0; k < kept.points.size(); ++k) {
     ContactPoint& point = kept.points[k];
     const auto column = static_cast<Eigen::Index>(k);
@@ -88,7 +88,7 @@ std::optional<KeptContacts> kept_contacts(
     }
     point.gap += point.normal.dot(apart);
   }
-  if (!ends_as_before(*lasting, a, b, motion, kept.points)) return std::nullopt;
+  if (!ends_as_before(*cache, a, b, motion, kept.points)) return std::nullopt;
   return kept;
 }
 
@@ -140,19 +140,19 @@ bool fits(const ContactPoints& found) {
 
 }  // namespace
 
-std::shared_ptr<const LastingContacts> with_rows(const LastingContacts& lasting, const BlockModel& a,
-                                                 const BlockModel& b, const BlockSurface& surface_a,
-                                                 const BlockSurface& surface_b) {
+std::shared_ptr<const ContactCache> with_rows(const ContactCache& cache, const BlockModel& a,
+                                              const BlockModel& b, const BlockSurface& surface_a,
+                                              const BlockSurface& surface_b) {
   const bool sizes_fit =
-      lasting.positions[0].rows() == a.basis().size() && lasting.positions[1].rows() == b.basis().size();
+      cache.positions[0].rows() == a.basis().size() && cache.positions[1].rows() == b.basis().size();
   // Curved surfaces are divided before their contacts are evaluated.
   const bool divided = surface_a.curves() || surface_b.curves();
-  if (!sizes_fit || (!divided && !fits(lasting.contacts, surface_a.surface(), surface_b.surface())) ||
-      !fits(lasting.found.points, a, b) || !fits(lasting.found))
+  if (!sizes_fit || (!divided && !fits(cache.contacts, surface_a.surface(), surface_b.surface())) ||
+      !fits(cache.found.points, a, b) || !fits(cache.found))
     throw std::invalid_argument("cached contacts belong to other blocks");
-  LastingContacts completed = lasting;
+  ContactCache completed = cache;
   if (!completed.found.points.empty()) completed.rows = PairRows::values_of(a, b, completed.found.points);
-  return std::make_shared<const LastingContacts>(std::move(completed));
+  return std::make_shared<const ContactCache>(std::move(completed));
 }
 
 PairContacts shifted(PairContacts contacts, const Vector3& shift) {

@@ -1,5 +1,5 @@
 // Contact cache: the contacts of two blocks are not detected again while their relative motion is small
-// (notes/lasting_contacts.md).
+// (notes/contact_cache.md).
 //
 // Material points, normals, areas and rows are those of the detection. Gaps are those of the present state along
 // these normals:
@@ -26,7 +26,7 @@
 namespace ashlar {
 
 /// Result of a search for two blocks. Constant, so that it can be shared.
-struct LastingContacts {
+struct ContactCache {
   PairContacts contacts;                      ///< without those at internal edges; empty: no contact
   std::array<Eigen::MatrixX3d, 2> positions;  ///< of both blocks at the detection, (p, 3)
   /// Divisions of both surfaces (BlockSurface::wanted).
@@ -41,14 +41,14 @@ struct LastingContacts {
 
 /// Lists what a checkpoint stores (run/byte_archive.hpp); rows follow from it, see with_rows().
 template <class Archive>
-void visit_members(Archive& archive, LastingContacts& lasting) {
-  auto& [contacts, positions, divisions, reach, law, found, rows] = lasting;
+void visit_members(Archive& archive, ContactCache& cache) {
+  auto& [contacts, positions, divisions, reach, law, found, rows] = cache;
   archive(contacts, positions, divisions, reach, law, found);
 }
 
 /// Contacts evaluated at a later state.
 struct KeptContacts {
-  std::shared_ptr<const LastingContacts> lasting;
+  std::shared_ptr<const ContactCache> cache;
   Vector3 shift;                     ///< common translation of both blocks since the detection, m
   std::vector<ContactPoint> points;  ///< with the present places and gaps
 };
@@ -58,7 +58,7 @@ struct RelativeMotion {
   std::array<Eigen::MatrixX3d, 2> changes;  ///< of the positions, (p, 3)
   Vector3 shift = Vector3::Zero();          ///< mean translation of both centroids, m; 0 if a block is fixed
 };
-[[nodiscard]] RelativeMotion motion_since(const LastingContacts& lasting, const ContactBody& a,
+[[nodiscard]] RelativeMotion motion_since(const ContactCache& cache, const ContactBody& a,
                                           const ContactBody& b);
 
 /// Limits of validity of cached contacts.
@@ -72,16 +72,16 @@ struct LastingLimits {
 /// @param bounds of the motion of each block's points when its position changes, m
 /// @param law of the pair at present, without rounding
 [[nodiscard]] std::optional<KeptContacts> kept_contacts(
-    const std::shared_ptr<const LastingContacts>& lasting, const ContactBody& a, const ContactBody& b,
+    const std::shared_ptr<const ContactCache>& cache, const ContactBody& a, const ContactBody& b,
     const JointLaw& law, const LastingLimits& limits,
     const std::array<std::function<double(const Eigen::MatrixX3d&)>, 2>& bounds);
 
 /// Adds the rows of its points, which a checkpoint does not store.
 /// @throws std::invalid_argument if it does not belong to two such blocks, or has cells that their surfaces lack
-[[nodiscard]] std::shared_ptr<const LastingContacts> with_rows(const LastingContacts& lasting,
-                                                               const BlockModel& a, const BlockModel& b,
-                                                               const BlockSurface& surface_a,
-                                                               const BlockSurface& surface_b);
+[[nodiscard]] std::shared_ptr<const ContactCache> with_rows(const ContactCache& cache, const BlockModel& a,
+                                                            const BlockModel& b,
+                                                            const BlockSurface& surface_a,
+                                                            const BlockSurface& surface_b);
 
 /// Contacts moved by a shift of both blocks.
 [[nodiscard]] PairContacts shifted(PairContacts contacts, const Vector3& shift);

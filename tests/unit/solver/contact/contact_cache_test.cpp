@@ -1,4 +1,4 @@
-#include "solver/contact/lasting_contacts.hpp"
+#include "solver/contact/contact_cache.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,13 +30,13 @@ class TwoCubes : public ::testing::Test {
         below_(block_of("below", Polyhedron(make_box({0, 0, 0}, {1, 1, 1})), rock, 1)),
         of_a_(above_.initial_state()),
         of_b_(below_.initial_state()) {
-    LastingContacts found;
+    ContactCache found;
     found.positions = {of_a_.position, of_b_.position};
     found.reach = 1e-3;
     found.law.normal_stiffness = 1e9;
     found.found.points = {test_support::level_point({0.5, 0.5, 1.0}, -1e-7)};
     found.rows = PairRows::values_of(above_, below_, found.found.points);
-    lasting_ = std::make_shared<const LastingContacts>(std::move(found));
+    lasting_ = std::make_shared<const ContactCache>(std::move(found));
   }
 
   static void move(const BlockModel& model, BlockState& state, const Vector3& by,
@@ -58,7 +58,7 @@ class TwoCubes : public ::testing::Test {
   BlockState of_a_;
   BlockState of_b_;
   JointLaw law_{1e9};
-  std::shared_ptr<const LastingContacts> lasting_;
+  std::shared_ptr<const ContactCache> lasting_;
 };
 
 TEST_F(TwoCubes, AGapFollowsTheMotionAlongTheNormal) {
@@ -131,7 +131,7 @@ Neighbours neighbours() {
   return scene;
 }
 
-TEST(LastingContacts, ANeighbourNearToBothIsFoundAnewWithAPair) {
+TEST(ContactCache, ANeighbourNearToBothIsFoundAnewWithAPair) {
   const Neighbours scene = neighbours();
   SimulationSettings settings;
   settings.contact_distance = 1e-3;
@@ -165,7 +165,7 @@ Simulation column(double share, bool augmented, int threads = 1) {
   settings.time_step = 1.0 / 240.0;
   settings.contact_distance = 5e-4;
   settings.augmented = augmented;
-  settings.search.lasting_share = share;
+  settings.search.cache_share = share;
   settings.rest.sleeps = false;
   settings.threads = threads;
   const JointLaw law{4e11, 2e11, 0.5, 0.0, 0.0, true};
@@ -176,7 +176,7 @@ void take_steps(Simulation& simulation, int count) {
   for (int k = 0; k < count; ++k) ASSERT_EQ(simulation.step(100.0), StepStatus::accepted);
 }
 
-TEST(LastingContacts, NothingIsFoundAnewAtRest) {
+TEST(ContactCache, NothingIsFoundAnewAtRest) {
   for (const bool augmented : {false, true}) {
     Simulation simulation = column(1e-3, augmented);
     take_steps(simulation, 150);
@@ -189,12 +189,12 @@ TEST(LastingContacts, NothingIsFoundAnewAtRest) {
     EXPECT_GE(after.finder.block_pairs_kept, before.finder.block_pairs_kept + 90) << augmented;
     // Rounding of what springs hold.
     const double rounding = 1e-13 * now.contact;
-    EXPECT_NEAR(now.refound_gained, ledger.refound_gained, rounding);
-    EXPECT_NEAR(now.refound_lost, ledger.refound_lost, rounding);
+    EXPECT_NEAR(now.redetection_gained, ledger.redetection_gained, rounding);
+    EXPECT_NEAR(now.redetection_lost, ledger.redetection_lost, rounding);
   }
 }
 
-TEST(LastingContacts, ComeToRestWhereContactsFoundInEachStepDo) {
+TEST(ContactCache, ComeToRestWhereContactsFoundInEachStepDo) {
   for (const bool augmented : {false, true}) {
     Simulation lasting = column(1e-3, augmented);
     Simulation anew = column(0.0, augmented);
@@ -207,7 +207,7 @@ TEST(LastingContacts, ComeToRestWhereContactsFoundInEachStepDo) {
   }
 }
 
-TEST(LastingContacts, ResumedRunsKeepEveryBitWhateverTheThreads) {
+TEST(ContactCache, ResumedRunsKeepEveryBitWhateverTheThreads) {
   for (const bool augmented : {false, true}) {
     Simulation straight = column(1e-3, augmented);
     take_steps(straight, 60);
@@ -225,17 +225,17 @@ TEST(LastingContacts, ResumedRunsKeepEveryBitWhateverTheThreads) {
   }
 }
 
-TEST(LastingContacts, ContactsOfOtherBlocksAreRefused) {
+TEST(ContactCache, ContactsOfOtherBlocksAreRefused) {
   Simulation straight = column(1e-3, false);
   take_steps(straight, 60);
   SimulationSnapshot snapshot = snapshot_from_bytes(to_bytes(straight.snapshot()));
   const auto pair = snapshot.run.pairs.find({0, 1});
   ASSERT_NE(pair, snapshot.run.pairs.end());
-  ASSERT_NE(pair->second.lasting, nullptr);
-  LastingContacts wrong = *pair->second.lasting;
+  ASSERT_NE(pair->second.cache, nullptr);
+  ContactCache wrong = *pair->second.cache;
   ASSERT_FALSE(wrong.contacts.overlaps.empty());
   wrong.contacts.overlaps[0].cell_b = 6;
-  pair->second.lasting = std::make_shared<const LastingContacts>(std::move(wrong));
+  pair->second.cache = std::make_shared<const ContactCache>(std::move(wrong));
   Simulation other = column(1e-3, false);
   EXPECT_THROW(other.restore(snapshot), std::invalid_argument);
 }

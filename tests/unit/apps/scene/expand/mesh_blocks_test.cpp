@@ -1,4 +1,4 @@
-#include "apps/scene/expand/mesh_stones.hpp"
+#include "apps/scene/expand/mesh_blocks.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
