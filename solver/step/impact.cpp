@@ -4,18 +4,20 @@
 #include <cmath>
 
 #include "geometry/index.hpp"
+#include "solver/step/impact_splitting.hpp"
 
 namespace ashlar {
 namespace {
 
-constexpr int most_sweeps = 20000;
+constexpr int most_sweeps = 500, most_splittings = 20000;
 constexpr double accuracy = 1e-13;  ///< of the velocities: change in a sweep that ends the iteration
+constexpr double split_accuracy = 1e-10;
 
 class Impact {
  public:
   Impact(const std::vector<double>& inertia, const std::vector<int>& sizes,
          const std::vector<ImpactPoint>& points)
-      : inertia_(inertia), points_(points), impulses_(points.size(), Eigen::Vector3d::Zero()) {
+      : inertia_(inertia), sizes_(sizes), points_(points), impulses_(points.size(), Eigen::Vector3d::Zero()) {
     for (const int size : sizes) changes_.emplace_back(Eigen::VectorXd::Zero(size));
     for (const ImpactPoint& point : points) {
       Eigen::Matrix3d mobility = Eigen::Matrix3d::Zero();
@@ -32,6 +34,10 @@ class Impact {
       for (std::size_t k = 0; k < points_.size(); ++k) most = std::max(most, update(k));
       if (!(most > accuracy * fastest_)) return;
     }
+    const double of_sweeps = impact_residual(inertia_, sizes_, points_, impulses_);
+    const SplitImpulses split = split_impulses(inertia_, sizes_, points_, split_accuracy, most_splittings);
+    if (split.residual < of_sweeps) set_impulses(split.impulses);
+    residual_ = std::min(of_sweeps, split.residual);
   }
 
   /// Work of the impulses, J: half of them acts on the velocity before, half on that after.
@@ -47,7 +53,8 @@ class Impact {
     impulses_.assign(points_.size(), Eigen::Vector3d::Zero());
     for (std::size_t k = 0; k < points_.size(); ++k) add(k, impulses[k]);
   }
-  [[nodiscard]] ImpactResult result() const { return {changes_, impulses_, work()}; }
+  [[nodiscard]] double residual() const { return residual_; }
+  [[nodiscard]] ImpactResult result() const { return {changes_, impulses_, work(), residual_}; }
 
  private:
   [[nodiscard]] Eigen::Vector3d change_at(std::size_t k) const {
@@ -100,11 +107,13 @@ class Impact {
   }
 
   const std::vector<double>& inertia_;
+  const std::vector<int>& sizes_;
   const std::vector<ImpactPoint>& points_;
   std::vector<Eigen::Vector3d> impulses_;
   std::vector<Eigen::VectorXd> changes_;
   std::vector<Eigen::Matrix3d> mobilities_;
   double fastest_ = 0.0;
+  double residual_ = 0.0;  ///< 0: the sweeps converged
 };
 
 /// Impulses between two solutions, as near to the second one as the energy allows.
@@ -142,7 +151,9 @@ ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<
     (impact.work() <= 0.0 ? low : high) = share;
   }
   impact.set_impulses(between(stopped.impulses(), elastic, low));
-  return impact.result();
+  ImpactResult result = impact.result();
+  result.residual = std::max(result.residual, stopped.residual());
+  return result;
 }
 
 }  // namespace ashlar

@@ -10,8 +10,8 @@
 // energy; with several, or with friction, it may: then the impulses are those between e = 0, which dissipate, and e,
 // that keep the energy.
 //
-// Gauss-Seidel over the points in their order, so that results do not depend on threads. Redundant points (four corners
-// of a face) share the impulse; the motion is the same.
+// Gauss-Seidel over the points in their order, so that results do not depend on threads; where it is slow, splitting
+// (impact_splitting.hpp). Redundant points (four corners of a face) share the impulse; the motion is the same.
 #pragma once
 
 #include <Eigen/Dense>
@@ -37,6 +37,11 @@ struct ImpactResult {
   std::vector<Eigen::VectorXd> changes;   ///< z, by body
   std::vector<Eigen::Vector3d> impulses;  ///< j, by point, N s on a along (n, t1, t2)
   double work = 0.0;                      ///< of the impulses, on given motion too, J, <= 0
+  /// Of the largest velocity before: error of a point's velocity against its law (impact_splitting.hpp); before the
+  /// energy bounds the impulses. Momentum and the ledger are exact whatever it is
+  double residual = 0.0;
+  /// Residual up to which an impact is converged.
+  static constexpr double tolerance = 1e-8;
 };
 
 /// @param inertia of each body: a multiple of the unit matrix, kg/m^3 in mass-orthonormal functions
