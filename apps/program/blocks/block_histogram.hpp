@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/program/plot/plot.hpp"
+
 namespace ashlar {
 
 /// Size classes with bounds 1, 2 and 5 times powers of ten, or powers of ten alone if these would be too many,
@@ -17,10 +19,8 @@ struct SizeClass {
 /// @param volumes m^3, > 0
 [[nodiscard]] std::vector<SizeClass> size_classes(const std::vector<double>& volumes);
 
-inline constexpr int histogram_width = 800;
-inline constexpr int histogram_height = 480;
-
-/// A self-contained SVG: bars of the number of blocks, and the share of volume in blocks of up to a size.
-[[nodiscard]] std::string histogram_svg(const std::string& title, const std::vector<SizeClass>& classes);
+/// Size distribution: shares of volume and of number, in %, in blocks up to a size. Each block is a step.
+/// @param volumes m^3, > 0
+[[nodiscard]] Plot size_plot(const std::string& title, std::vector<double> volumes);
 
 }  // namespace ashlar

@@ -12,8 +12,8 @@
 #include "apps/program/blocks/block_files.hpp"
 #include "apps/program/blocks/block_histogram.hpp"
 #include "apps/program/blocks/block_text.hpp"
+#include "apps/program/plot/plot_script.hpp"
 #include "apps/program/run/override_option.hpp"
-#include "apps/program/view/svg_picture.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/results/text/json_text.hpp"
@@ -47,18 +47,15 @@ std::string write_files(const std::filesystem::path& folder, const BlockReport& 
   std::vector<double> volumes;
   for (std::size_t k = 0; k < report.blocks().size(); ++k)
     if (report.is_there(k)) volumes.push_back(report.blocks()[k].volume);
-  const std::string svg = histogram_svg(
+  const Plot sizes = size_plot(
       fmt::format("{}: {} blocks, {:.6g} m\u00b3", loaded.scene.title, volumes.size(), report.volume()),
-      size_classes(volumes));
+      volumes);
   write_vtu(folder / "blocks.vtu", block_grid(report, removable));
   write_file_atomically(folder / "blocks.obj", block_obj(loaded), Durability::process);
   write_file_atomically(folder / "blocks.stl", block_stl(loaded), Durability::process);
   write_file_atomically(folder / "blocks.msh", block_msh(loaded), Durability::process);
-  write_file_atomically(folder / "sizes.svg", svg, Durability::process);
-  return fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\npicture: {}\n{}\n",
-                     (folder / "blocks.vtu").string(), (folder / "blocks.obj").string(),
-                     (folder / "sizes.svg").string(),
-                     write_png(svg, folder / "sizes.png", histogram_width, histogram_height));
+  return fmt::format("blocks: {}\nmodel: {} (.stl, .msh)\n{}", (folder / "blocks.vtu").string(),
+                     (folder / "blocks.obj").string(), write_plot(sizes, folder / "sizes.svg", true));
 }
 
 /// Replaces a scene by one of its stages. @return false after a fault

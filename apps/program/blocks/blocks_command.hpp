@@ -22,7 +22,8 @@ struct BlocksOptions {
 /// Declares `ashlar blocks`.
 void declare_blocks_command(CLI::App& program, CommandContext& context);
 
-/// Prints a table or JSON on out and writes blocks.vtu, .obj, .stl, .msh and sizes.svg (and .png, with a browser).
+/// Prints a table or JSON on out and writes blocks.vtu, .obj, .stl, .msh and sizes.py, which draws
+/// sizes.svg and .png (plot_script.hpp).
 /// @return exit_status::done or exit_status::bad_input.
 [[nodiscard]] int blocks_command(const BlocksOptions& options, std::ostream& out, std::ostream& err);
 

@@ -10,8 +10,7 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "apps/program/study/log_log_plot.hpp"
-#include "apps/program/view/svg_picture.hpp"
+#include "apps/program/plot/plot_script.hpp"
 #include "apps/results/tables/history_table.hpp"
 #include "apps/results/tables/response_spectrum.hpp"
 #include "apps/results/text/atomic_file.hpp"
@@ -116,8 +115,8 @@ std::string table_of(const std::vector<SpectrumPoint>& spectrum) {
   return table;
 }
 
-std::string picture_of(const SpectrumOptions& options, const std::vector<SpectrumPoint>& spectrum) {
-  LogLogPlot plot;
+Plot plot_of(const SpectrumOptions& options, const std::vector<SpectrumPoint>& spectrum) {
+  Plot plot;
   plot.title = fmt::format("Response spectrum of {}{}{}, {:g} % damping", options.input.filename().string(),
                            options.column.empty() ? "" : ", ", options.column, options.damping);
   plot.x_label = "period, s";
@@ -130,7 +129,7 @@ std::string picture_of(const SpectrumOptions& options, const std::vector<Spectru
     series.x.push_back(point.period);
     series.y.push_back(point.pseudo_acceleration);
   }
-  return to_svg(plot);
+  return plot;
 }
 
 }  // namespace
@@ -150,13 +149,9 @@ int spectrum_command(const SpectrumOptions& options, std::ostream& out, std::ost
       out << table;
       return exit_status::done;
     }
-    const std::string svg = picture_of(options, spectrum);
-    const std::filesystem::path picture = std::filesystem::path(*options.out).replace_extension(".svg");
     write_file_atomically(*options.out, table, Durability::process);
-    write_file_atomically(picture, svg, Durability::process);
-    const std::string drawn =
-        write_png(svg, std::filesystem::path(picture).replace_extension(".png"), plot_width, plot_height);
-    out << fmt::format("table: {}\npicture: {}\n{}\n", options.out->string(), picture.string(), drawn);
+    out << fmt::format("table: {}\n{}", options.out->string(),
+                       write_plot(plot_of(options, spectrum), *options.out, true));
     return exit_status::done;
   } catch (const SpectrumError& fault) {
     err << fault.what();

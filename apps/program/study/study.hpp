@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/program/study/log_log_plot.hpp"
+#include "apps/program/plot/plot.hpp"
 
 namespace ashlar {
 
@@ -14,7 +14,7 @@ namespace ashlar {
 struct StudyResult {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;  ///< (#rows, #columns)
-  LogLogPlot plot;
+  Plot plot;
   std::vector<std::string> findings;  ///< sentences
   bool holds = true;                  ///< false if a finding violates a requirement
 };

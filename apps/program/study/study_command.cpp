@@ -10,6 +10,7 @@
 #include <optional>
 #include <ostream>
 
+#include "apps/program/plot/plot_script.hpp"
 #include "apps/program/study/conditioning_study.hpp"
 #include "apps/program/study/contact_study.hpp"
 #include "apps/program/study/cost_study.hpp"
@@ -17,7 +18,6 @@
 #include "apps/program/study/orders_study.hpp"
 #include "apps/program/study/stability_study.hpp"
 #include "apps/program/study/sub_face_study.hpp"
-#include "apps/program/view/svg_picture.hpp"
 #include "apps/results/folder/folder_claim.hpp"
 #include "apps/results/text/atomic_file.hpp"
 #include "apps/scene/model/nearest_name.hpp"
@@ -73,14 +73,11 @@ int study_command(const StudyOptions& options, std::ostream& out, std::ostream& 
   }
   const StudyResult result = study->run([&err](const std::string& line) { err << line << std::endl; });
   const std::filesystem::path table = folder / (options.name + ".csv");
-  const std::filesystem::path picture = folder / (options.name + ".svg");
   write_file_atomically(table, table_csv(result), Durability::process);
-  const std::string svg = to_svg(result.plot);
-  write_file_atomically(picture, svg, Durability::process);
   out << table_text(result);
   for (const std::string& finding : result.findings) out << finding << '\n';
-  out << fmt::format("table: {}\npicture: {}\n", table.string(), picture.string());
-  out << write_png(svg, folder / (options.name + ".png"), plot_width, plot_height) << '\n';
+  out << fmt::format("table: {}\n", table.string());
+  out << write_plot(result.plot, folder / (options.name + ".svg"), true);
   return result.holds ? exit_status::done : exit_status::failed;
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "apps/program/study/log_log_plot.hpp"
 #include "apps/results/text/csv_text.hpp"
 
 namespace ashlar {
@@ -87,13 +86,13 @@ std::string to_string(const SampleStatistics& statistics, const std::string& val
   return text;
 }
 
-std::string histogram_svg(const std::vector<SampleGroup>& groups, const std::string& value) {
+Plot histogram_of(const std::vector<SampleGroup>& groups, const std::string& value) {
   std::vector<std::optional<double>> all;
   for (const SampleGroup& group : groups) all.insert(all.end(), group.values.begin(), group.values.end());
   const std::vector<double> sorted = sorted_numbers(all);
-  LogLogPlot plot{value, value, "samples", {}, false};
-  plot.linear = true;
-  if (sorted.empty()) return to_svg(plot);
+  Plot plot{value, value, "samples", {}, false};
+  plot.axes = PlotAxes::linear;
+  if (sorted.empty()) return plot;
   const std::size_t bins = bins_for(sorted);
   const double width = (sorted.back() - sorted.front()) / static_cast<double>(bins);
   for (const SampleGroup& group : groups) {
@@ -118,7 +117,7 @@ std::string histogram_svg(const std::vector<SampleGroup>& groups, const std::str
     corner(bins, 0.0);
     plot.series.push_back(std::move(outline));
   }
-  return to_svg(plot);
+  return plot;
 }
 
 }  // namespace ashlar

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/program/plot/plot.hpp"
 #include "apps/program/sweep/sweep_table.hpp"
 
 namespace ashlar {
@@ -39,8 +40,8 @@ struct SampleGroup {
 [[nodiscard]] std::string to_string(const SampleStatistics& statistics, const std::string& value,
                                     double limit);
 
-/// Histograms as an SVG document, a line for each group. The width of bins is by the rule of Freedman and Diaconis
+/// Histograms, a line for each group. The width of bins is by the rule of Freedman and Diaconis
 /// for all samples, with 5 to 60 of them.
-[[nodiscard]] std::string histogram_svg(const std::vector<SampleGroup>& groups, const std::string& value);
+[[nodiscard]] Plot histogram_of(const std::vector<SampleGroup>& groups, const std::string& value);
 
 }  // namespace ashlar

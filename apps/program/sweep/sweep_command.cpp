@@ -12,14 +12,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/program/plot/plot_script.hpp"
 #include "apps/program/run/override_option.hpp"
-#include "apps/program/study/log_log_plot.hpp"
 #include "apps/program/sweep/sample_statistics.hpp"
 #include "apps/program/sweep/sweep_plot.hpp"
 #include "apps/program/sweep/sweep_runs.hpp"
 #include "apps/program/sweep/sweep_table.hpp"
 #include "apps/program/sweep/variants.hpp"
-#include "apps/program/view/svg_picture.hpp"
 #include "apps/results/text/atomic_file.hpp"
 
 namespace ashlar {
@@ -58,10 +57,11 @@ std::vector<SweepRun> runs_of(const SweepOptions& options, const std::vector<Var
   return runs;
 }
 
-/// @throws std::invalid_argument if a file with the name of a picture is not a picture
+/// @throws std::invalid_argument if a file with the name of a picture, or of its script, is another one
 void refuse_other_pictures(std::filesystem::path picture) {
   if (picture.extension() == ".png") refuse_other_file(picture, "PNG picture", {png_mark});
   refuse_other_file(picture.replace_extension(".svg"), "SVG picture", {svg_mark});
+  refuse_other_file(picture.replace_extension(".py"), "script of a plot", {plot_script_mark});
 }
 
 /// The first requested value, or else the first default one besides the time.
@@ -72,13 +72,9 @@ std::string first_value(const SweepOptions& options, const std::vector<VariedKey
   return table.columns.size() > first + 1 ? table.columns[first + 1] : table.columns.at(first);
 }
 
-void write_picture(const SweepOptions& options, const std::string& svg, std::ostream& err) {
-  std::filesystem::path file = *options.picture;
-  file.replace_extension(".svg");
-  write_file_atomically(file, svg, Durability::process);
-  if (!options.quiet) err << fmt::format("picture: {}\n", file.string());
-  if (options.picture->extension() == ".png")
-    err << write_png(svg, *options.picture, plot_width, plot_height) << '\n';
+void write_picture(const SweepOptions& options, const Plot& plot, std::ostream& err) {
+  const std::string told = write_plot(plot, *options.picture, options.picture->extension() == ".png");
+  if (!options.quiet || told.starts_with("no picture")) err << told;
 }
 
 /// Statistics of the first value over the samples, and its histogram.
@@ -90,7 +86,7 @@ void tell_samples(const SweepOptions& options, const std::vector<VariedKey>& key
   for (const SampleGroup& group : groups)
     err << fmt::format("{}{}{}\n", group.name, group.name.empty() ? "" : ": ",
                        to_string(statistics_of(group.values, unit_factor), value, unit_factor));
-  if (options.picture) write_picture(options, histogram_svg(groups, value), err);
+  if (options.picture) write_picture(options, histogram_of(groups, value), err);
 }
 
 }  // namespace
@@ -109,7 +105,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
     for (const std::string& text : options.varied) keys.push_back(parse_varied_key(text));
     variants = variants_of(keys, options.samples);
     // Faults are reported before the runs.
-    if (options.picture && options.samples.count == 0) (void)sweep_svg(keys, {{"value"}, {}}, "value");
+    if (options.picture && options.samples.count == 0) (void)sweep_plot(keys, {{"value"}, {}}, "value");
     if (options.picture && !options.force) refuse_other_pictures(*options.picture);
   } catch (const std::invalid_argument& fault) {
     return refuse(fault.what());
@@ -142,7 +138,7 @@ int sweep_command(const SweepOptions& options, std::ostream& out, std::ostream& 
   if (options.samples.count > 0)
     tell_samples(options, keys, table, err);
   else if (options.picture)
-    write_picture(options, sweep_svg(keys, table, first_value(options, keys, table)), err);
+    write_picture(options, sweep_plot(keys, table, first_value(options, keys, table)), err);
   return status;
 }
 
@@ -185,7 +181,8 @@ void declare_sweep_command(CLI::App& program, CommandContext& context) {
       ->type_name("FILE");
   command
       ->add_option("--picture", options->picture,
-                   "A picture too, of the first value against the keys: .svg, or .png with an .svg beside it")
+                   "A picture too, of the first value against the keys: .svg, or .png with an .svg beside it; a "
+                   "script beside them draws it (Python with matplotlib)")
       ->type_name("FILE");
   command->add_option("-j,--jobs", options->jobs, "Runs at a time (default: one for each processor)")
       ->check(CLI::PositiveNumber)

@@ -6,7 +6,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "apps/program/study/log_log_plot.hpp"
 #include "apps/results/text/csv_text.hpp"
 
 namespace ashlar {
@@ -38,15 +37,15 @@ std::string name_of_line(const std::vector<VariedKey>& keys, const std::vector<s
 
 }  // namespace
 
-std::string sweep_svg(const std::vector<VariedKey>& keys, const SweepTable& table, const std::string& value) {
+Plot sweep_plot(const std::vector<VariedKey>& keys, const SweepTable& table, const std::string& value) {
   const std::size_t along_x = key_along_x(keys);
   const std::optional<std::size_t> of_value = column_of(table, value);
   if (!of_value)
     throw std::invalid_argument(
         fmt::format("the table has no value of that name for the picture ({})", value));
   std::map<std::string, std::size_t> places;
-  LogLogPlot plot{value, keys[along_x].key, value, {}, false};
-  plot.linear = true;
+  Plot plot{value, keys[along_x].key, value, {}, false};
+  plot.axes = PlotAxes::linear;
   std::vector<std::vector<std::pair<double, double>>> points;
   for (const std::vector<std::string>& row : table.rows) {
     const auto [place, is_new] = places.emplace(name_of_line(keys, row, along_x), plot.series.size());
@@ -64,7 +63,7 @@ std::string sweep_svg(const std::vector<VariedKey>& keys, const SweepTable& tabl
       plot.series[k].y.push_back(y);
     }
   }
-  return to_svg(plot);
+  return plot;
 }
 
 }  // namespace ashlar

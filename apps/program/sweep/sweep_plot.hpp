@@ -4,14 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "apps/program/plot/plot.hpp"
 #include "apps/program/sweep/sweep_table.hpp"
 
 namespace ashlar {
 
-/// An SVG document of plot_width by plot_height pixels (log_log_plot.hpp). Runs without the value are omitted.
+/// With linear axes. Runs without the value are omitted.
 /// @param value a column of the table. The x axis is the first key whose values are all numbers
 /// @throws std::invalid_argument with the fault and the requirement: there is no such key, or no such column
-[[nodiscard]] std::string sweep_svg(const std::vector<VariedKey>& keys, const SweepTable& table,
-                                    const std::string& value);
+[[nodiscard]] Plot sweep_plot(const std::vector<VariedKey>& keys, const SweepTable& table,
+                              const std::string& value);
 
 }  // namespace ashlar

@@ -178,7 +178,7 @@ TEST_F(BlocksCommand, WritesItsFiles) {
   EXPECT_EQ(back[1].name, "bar.1");
   EXPECT_NEAR(rounded_volume(back[0].mesh), 12.0, 1e-14);
   EXPECT_NEAR(rounded_volume(back[2].mesh), 1.0, 1e-15);
-  EXPECT_THAT(read_text(folder_ / "out" / "sizes.svg"), HasSubstr("</svg>"));
+  EXPECT_THAT(read_text(folder_ / "out" / "sizes.py"), HasSubstr("share in blocks up to this volume"));
 }
 
 TEST_F(BlocksCommand, RefusesWhatIsNoDirection) {
@@ -189,6 +189,13 @@ TEST_F(BlocksCommand, RefusesWhatIsNoDirection) {
     EXPECT_THAT(err_.str(),
                 HasSubstr("--removable is not a direction (" + std::string(force) + "), three numbers"));
   }
+}
+
+TEST(BlockHistogram, SharesRiseAtEachVolume) {
+  const Plot plot = size_plot("t", {3.0, 1.0});
+  EXPECT_EQ(plot.series.at(0).x, (std::vector<double>{1.0, 1.0, 3.0, 3.0}));
+  EXPECT_EQ(plot.series.at(0).y, (std::vector<double>{0.0, 25.0, 25.0, 100.0}));
+  EXPECT_EQ(plot.series.at(1).y, (std::vector<double>{0.0, 50.0, 50.0, 100.0}));
 }
 
 TEST(BlockHistogram, ClassesAreOneTwoFive) {

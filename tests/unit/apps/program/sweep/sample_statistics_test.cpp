@@ -51,10 +51,13 @@ TEST(SampleStatistics, SamplesAreGroupedByListedValues) {
 }
 
 TEST(SampleStatistics, AHistogramCountsEachSampleOnce) {
-  const std::string svg = histogram_svg({{"", {1.0, 1.0, 1.0}}, {"b", {1.0, {}, 2.0}}}, "f");
-  EXPECT_THAT(svg, HasSubstr("3 samples"));
-  EXPECT_THAT(svg, HasSubstr("b: 2 samples"));
-  EXPECT_THAT(histogram_svg({}, "f"), HasSubstr("<svg"));
+  const Plot plot = histogram_of({{"", {1.0, 1.0, 1.0}}, {"b", {1.0, {}, 2.0}}}, "f");
+  ASSERT_EQ(plot.series.size(), 2U);
+  EXPECT_THAT(plot.series[0].name, HasSubstr("3 samples"));
+  EXPECT_EQ(*std::max_element(plot.series[0].y.begin(), plot.series[0].y.end()), 3.0);
+  EXPECT_THAT(plot.series[1].name, HasSubstr("b: 2 samples"));
+  EXPECT_EQ(*std::max_element(plot.series[1].y.begin(), plot.series[1].y.end()), 1.0);
+  EXPECT_TRUE(histogram_of({}, "f").series.empty());
 }
 
 }  // namespace

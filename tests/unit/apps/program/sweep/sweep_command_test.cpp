@@ -96,14 +96,13 @@ TEST_F(Sweep, DrawsOneValueAgainstTheKeys) {
                    "middle.z", "--picture", picture.string()}),
             exit_status::done)
       << faults_;
-  // From the left to the right end of the axis, a line for each of the two times. The cube falls g t^2 / 2 in t.
+  if (faults_.find("no picture: ") != std::string::npos) GTEST_SKIP() << faults_;
+  // A line for each of the two times. The cube falls g t^2 / 2 in t.
   const std::string svg = read_text(picture);
   EXPECT_THAT(svg, AllOf(HasSubstr(">contact.friction_angle<"), HasSubstr(">middle.z<"),
                          HasSubstr(">end_time = 0.1<"), HasSubstr(">end_time = 0.2<"), HasSubstr(">20<")));
-  std::size_t marks = 0;
-  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1))
-    ++marks;
-  EXPECT_EQ(marks, 4U);
+  // Two points on each line.
+  EXPECT_THAT(read_text(folder_ / "p.py"), HasSubstr(R"(\"x\":[20.0,30.0])"));
   EXPECT_EQ(sweep({"--vary", "material.rock.elasticity=linear", "--picture", picture.string()}),
             exit_status::bad_input);
   EXPECT_THAT(faults_, HasSubstr("one such key is needed"));
@@ -129,7 +128,7 @@ TEST_F(Sweep, SamplesHaveStatisticsAndAHistogram) {
     mean += way / 5.0;
   }
   EXPECT_THAT(faults_, HasSubstr(fmt::format("middle.uz: 5 samples, mean {:.4g}", mean)));
-  EXPECT_THAT(text("p.svg"), HasSubstr("5 samples"));
+  EXPECT_THAT(text("p.py"), HasSubstr("5 samples"));
 }
 
 TEST_F(Sweep, TheShareOfFailuresIsThatOfFactorsBelowOne) {

@@ -1,0 +1,173 @@
+#include "apps/program/plot/plot_script.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "apps/program/view/child_program.hpp"
+#include "apps/results/folder/scratch_folder.hpp"
+#include "apps/results/text/atomic_file.hpp"
+#include "apps/results/text/json_text.hpp"
+#include "apps/scene/toml/fault_text.hpp"
+#include "apps/scene/toml/input_file.hpp"
+
+namespace ashlar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* script_head = R"(#!/usr/bin/env python3
+"""Draws a plot by matplotlib: python3 THIS_FILE [PICTURE.svg|.png|.pdf]..."""
+import io
+import json
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot
+
+)";
+
+constexpr const char* script_tail = R"(
+# Distinguishable without colour vision (Okabe and Ito), then darker ones.
+COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#7f3c8d", "#6b6b00", "#a02c2c"]
+
+
+def plain(text):
+    """Text in which a dollar sign begins no formula."""
+    return text.replace("$", r"\$")
+
+
+def draw():
+    figure, axes = pyplot.subplots(figsize=(10, 6), layout="constrained")
+    color = -1
+    for series in plot["series"]:
+        if color < 0 or not series["same_color_as_last"]:
+            color += 1
+        style = {"color": COLORS[color % len(COLORS)], "linestyle": "--" if series["dashed"] else "-"}
+        if series["marks"]:
+            style.update(marker="o", markersize=5, markerfacecolor="white" if series["dashed"] else style["color"])
+        axes.plot(series["x"], series["y"], label=plain(series["name"]), **style)
+    if any(series["x"] for series in plot["series"]):
+        for axis, logarithmic in zip("xy", plot["logarithmic"]):
+            if logarithmic:
+                axes.set(**{axis + "scale": "log"})
+    axes.set(title=plain(plot["title"]), xlabel=plain(plot["x_label"]), ylabel=plain(plot["y_label"]))
+    axes.grid(True, which="major", color="#cccccc")
+    axes.grid(True, which="minor", color="#eeeeee")
+    if plot["series"]:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, title=plot["note"])
+    return figure
+
+
+# Text remains text, and equal plots make equal files.
+matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "ashlar"})
+for name in sys.argv[1:] or [pathlib.Path(__file__).with_suffix(".svg")]:
+    file = pathlib.Path(name)
+    if file.suffix == ".svg":
+        text = io.StringIO()
+        draw().savefig(text, format="svg", metadata={"Date": None})
+        file.write_text(text.getvalue()[text.getvalue().index("<svg"):], encoding="utf-8")
+    else:
+        draw().savefig(file, dpi=100)
+)";
+
+bool is_drawn(const Plot& plot, double x, double y) {
+  return std::isfinite(x) && std::isfinite(y) && (plot.axes == PlotAxes::linear || x > 0.0) &&
+         (plot.axes != PlotAxes::logarithmic || y > 0.0);
+}
+
+Json to_json(const PlotSeries& series, const Plot& plot) {
+  const double slope = plot.slopes ? last_slope(series) : std::nan("");
+  Json x = Json::array(), y = Json::array();
+  for (std::size_t k = 0; k < std::min(series.x.size(), series.y.size()); ++k) {
+    if (!is_drawn(plot, series.x[k], series.y[k])) continue;
+    x.push_back(series.x[k]);
+    y.push_back(series.y[k]);
+  }
+  return {{"name", series.name + (std::isfinite(slope) ? fmt::format(", slope {:.2f}", slope) : "")},
+          {"x", std::move(x)},
+          {"y", std::move(y)},
+          {"dashed", series.dashed},
+          {"marks", series.marks},
+          {"same_color_as_last", series.same_color_as_last}};
+}
+
+/// Interpreters to try, in order.
+std::vector<std::string> interpreters() {
+  if (const char* chosen = std::getenv("ASHLAR_PYTHON")) return {chosen};
+  std::vector<std::string> found;
+  if (const auto first = find_program("python3")) found.push_back(first->string());
+  constexpr const char* of_system = "/usr/bin/python3";
+  if (::access(of_system, X_OK) == 0) found.emplace_back(of_system);
+  return found;
+}
+
+/// @return empty if the command ends well; otherwise the last line of its errors, or another reason
+std::string failure_of(const std::vector<std::string>& command) {
+  constexpr std::chrono::seconds limit(60);
+  const ScratchFolder scratch;
+  const std::filesystem::path errors = scratch.path() / "errors";
+  const std::optional<int> status = run_program(command, scratch.path() / "out", errors, limit);
+  if (!status) return fmt::format("did not finish within {} s", limit.count());
+  if (WIFEXITED(*status) && WEXITSTATUS(*status) == 0) return {};
+  std::string text = whole_file(errors);
+  while (text.ends_with('\n')) text.pop_back();
+  const std::string last = text.substr(text.rfind('\n') + 1);
+  return last.empty() ? "failed" : last;
+}
+
+}  // namespace
+
+std::string plot_script(const Plot& plot) {
+  Json series = Json::array();
+  for (const PlotSeries& one : plot.series) series.push_back(to_json(one, plot));
+  const Json all = {{"title", plot.title},
+                    {"x_label", plot.x_label},
+                    {"y_label", plot.y_label},
+                    {"logarithmic", {plot.axes != PlotAxes::linear, plot.axes == PlotAxes::logarithmic}},
+                    {"note", plot.slopes ? "slopes of the last three points" : ""},
+                    {"series", std::move(series)}};
+  // A text of JSON is one of Python too.
+  return fmt::format("{}plot = json.loads({})\n{}", script_head, json_text(Json(json_text(all))),
+                     script_tail);
+}
+
+std::string write_plot(const Plot& plot, const std::filesystem::path& picture, bool png) {
+  const auto named = [&](const char* extension) {
+    return std::filesystem::path(picture).replace_extension(extension).string();
+  };
+  const std::string script = named(".py");
+  write_file_atomically(script, plot_script(plot), Durability::process);
+  std::vector<std::string> files = {named(".svg")};
+  if (png) files.push_back(named(".png"));
+  std::string reason = "there is no python3";
+  for (const std::string& interpreter : interpreters()) {
+    std::vector<std::string> command = {interpreter, script};
+    command.insert(command.end(), files.begin(), files.end());
+    try {
+      reason = failure_of(command);
+    } catch (const std::exception& error) {
+      reason = fault_text(error);
+    }
+    if (reason.empty()) {
+      std::string text;
+      for (const std::string& file : files) text += fmt::format("picture: {}\n", file);
+      return text;
+    }
+    reason = fmt::format("{}: {}", interpreter, reason);
+  }
+  return fmt::format("no picture: {}; python3 with matplotlib draws it by {}\n", reason, script);
+}
+
+}  // namespace ashlar
