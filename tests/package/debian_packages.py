@@ -75,6 +75,26 @@ class Packages(unittest.TestCase):
         self.assertIn("--resume", complete("run", "--re"))
         self.assertIn("error-time", complete("study", "e"))
 
+    @unittest.skipUnless(shutil.which("zsh"), "no zsh")
+    def test_zsh_completes(self):
+        def complete(*words):
+            script = ('words=("$@"); CURRENT=$#; compadd() { shift; print -l -- "$@"; }; _files() { :; }; '
+                      f'source {self.root}/usr/share/zsh/vendor-completions/_ashlar')
+            return output_of(["zsh", "-f", "-c", script, "zsh", self.program, *words]).split()
+        self.assertLessEqual(set(self.commands), set(complete("")))
+        self.assertIn("--resume", complete("run", "--re"))
+        self.assertIn("error-time", complete("study", "e"))
+
+    @unittest.skipUnless(shutil.which("fish"), "no fish")
+    def test_fish_completes(self):
+        def complete(line):
+            place = f"{self.root}/usr/share/fish/vendor_completions.d/ashlar.fish"
+            script = f'set -gx PATH {self.program.parent} $PATH; source {place}; complete -C "{line}"'
+            return output_of(["fish", "--no-config", "-c", script]).split()
+        self.assertLessEqual(set(self.commands), set(complete("ashlar ")))
+        self.assertIn("--resume", complete("ashlar run --re"))
+        self.assertIn("error-time", complete("ashlar study e"))
+
     @unittest.skipUnless(options.python, "built without Python")
     def test_the_module_is_found(self):
         place = self.root / "usr/lib/python3/dist-packages"

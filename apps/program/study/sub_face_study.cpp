@@ -75,7 +75,7 @@ StudyResult study_sub_faces() {
   bool below = false;
   for (int order = least_order; order <= most_order; ++order) {
     PlotSeries errors{fmt::format("n = {}", order), {}, {}};
-    PlotSeries bounds{"bound", {}, {}, true, true};
+    PlotSeries bounds{"bound", {}, {}, true, true, true};
     for (const double tolerance : {0.3, 0.1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4}) {
       AdaptiveSurface surface(solid, order, 0);
       Eigen::Matrix3Xd values(3, static_cast<Eigen::Index>(surface.domain_points().size()));

@@ -48,7 +48,7 @@ TEST(CommandLine, VersionNamesProgramCompilerAndLibraries) {
 
 TEST(CommandLine, UsageFaultsGoToErrAndEndWithTwo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{}, "subcommand is required"},
+      {{"--quiet"}, "subcommand is required"},
       {{"chek", "a.toml"}, "unknown command (chek), did you mean check?"},
       {{"check"}, "SCENE is required"},
       {{"contacts", "a.off"}, "a second mesh B is required"},
@@ -64,6 +64,12 @@ TEST(CommandLine, UsageFaultsGoToErrAndEndWithTwo) {
     EXPECT_THAT(outcome.err, AllOf(StartsWith("ashlar: error: "), HasSubstr(expected)));
     EXPECT_EQ(outcome.out, "");
   }
+}
+
+TEST(CommandLine, WithoutACommandItListsThem) {
+  const Outcome outcome = run({});
+  EXPECT_EQ(outcome.status, exit_status::bad_input);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("\n  run "), HasSubstr("\n  new ")));
 }
 
 TEST(CommandLine, CheckSaysWhatAGoodSceneHolds) {
