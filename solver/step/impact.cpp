@@ -9,7 +9,6 @@
 namespace ashlar {
 namespace {
 
-constexpr int most_sweeps = 500, most_splittings = 20000;
 constexpr double accuracy = 1e-13;  ///< of the velocities: change in a sweep that ends the iteration
 constexpr double split_accuracy = 1e-10;
 
@@ -28,16 +27,18 @@ class Impact {
     }
   }
 
-  void solve() {
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  /// @return residual
+  double solve(const ImpactEffort& effort) {
+    for (int sweep = 0; sweep < effort.sweeps; ++sweep) {
       double most = 0.0;
       for (std::size_t k = 0; k < points_.size(); ++k) most = std::max(most, update(k));
-      if (!(most > accuracy * fastest_)) return;
+      if (!(most > accuracy * fastest_)) return 0.0;
     }
     const double of_sweeps = impact_residual(inertia_, sizes_, points_, impulses_);
-    const SplitImpulses split = split_impulses(inertia_, sizes_, points_, split_accuracy, most_splittings);
+    const SplitImpulses split =
+        split_impulses(inertia_, sizes_, points_, split_accuracy, effort.splitting_iterations);
     if (split.residual < of_sweeps) set_impulses(split.impulses);
-    residual_ = std::min(of_sweeps, split.residual);
+    return std::min(of_sweeps, split.residual);
   }
 
   /// Work of the impulses, J: half of them acts on the velocity before, half on that after.
@@ -53,8 +54,7 @@ class Impact {
     impulses_.assign(points_.size(), Eigen::Vector3d::Zero());
     for (std::size_t k = 0; k < points_.size(); ++k) add(k, impulses[k]);
   }
-  [[nodiscard]] double residual() const { return residual_; }
-  [[nodiscard]] ImpactResult result() const { return {changes_, impulses_, work(), residual_}; }
+  [[nodiscard]] ImpactResult result(double residual) const { return {changes_, impulses_, work(), residual}; }
 
  private:
   [[nodiscard]] Eigen::Vector3d change_at(std::size_t k) const {
@@ -113,7 +113,6 @@ class Impact {
   std::vector<Eigen::VectorXd> changes_;
   std::vector<Eigen::Matrix3d> mobilities_;
   double fastest_ = 0.0;
-  double residual_ = 0.0;  ///< 0: the sweeps converged
 };
 
 /// Impulses between two solutions, as near to the second one as the energy allows.
@@ -128,20 +127,20 @@ std::vector<Eigen::Vector3d> between(const std::vector<Eigen::Vector3d>& first,
 }  // namespace
 
 ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<int>& sizes,
-                          const std::vector<ImpactPoint>& points) {
+                          const std::vector<ImpactPoint>& points, const ImpactEffort& effort) {
   Impact impact(inertia, sizes, points);
-  impact.solve();
+  double residual = impact.solve(effort);
   double speed = 0.0, impulse = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     speed = std::max(speed, points[k].velocity.norm());
     impulse += impact.impulses()[k].norm();
   }
   const double rounding = 1e-12 * impulse * speed;
-  if (impact.work() <= rounding) return impact.result();
+  if (impact.work() <= rounding) return impact.result(residual);
   std::vector<ImpactPoint> plastic = points;
   for (ImpactPoint& point : plastic) point.target = std::min(point.target, 0.0);
   Impact stopped(inertia, sizes, plastic);
-  stopped.solve();
+  residual = std::max(residual, stopped.solve(effort));
   const std::vector<Eigen::Vector3d> elastic = impact.impulses();
   double low = 0.0, high = 1.0;
   constexpr int halvings = 60;  // to the last bit
@@ -151,9 +150,7 @@ ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<
     (impact.work() <= 0.0 ? low : high) = share;
   }
   impact.set_impulses(between(stopped.impulses(), elastic, low));
-  ImpactResult result = impact.result();
-  result.residual = std::max(result.residual, stopped.residual());
-  return result;
+  return impact.result(residual);
 }
 
 }  // namespace ashlar

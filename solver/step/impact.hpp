@@ -37,16 +37,23 @@ struct ImpactResult {
   std::vector<Eigen::VectorXd> changes;   ///< z, by body
   std::vector<Eigen::Vector3d> impulses;  ///< j, by point, N s on a along (n, t1, t2)
   double work = 0.0;                      ///< of the impulses, on given motion too, J, <= 0
-  /// Of the largest velocity before: error of a point's velocity against its law (impact_splitting.hpp); before the
-  /// energy bounds the impulses. Momentum and the ledger are exact whatever it is
+  /// Error of a point's velocity against its law (impact_splitting.hpp), over the largest velocity before; that of the
+  /// solutions between which the energy chooses. Above impact_accuracy the impulses are not those of the law
   double residual = 0.0;
-  /// Residual up to which an impact is converged.
-  static constexpr double tolerance = 1e-8;
+};
+
+/// Residual of a solution that is as good as exact.
+inline constexpr double impact_accuracy = 1e-6;
+
+struct ImpactEffort {
+  int sweeps = 500;                  ///< of Gauss-Seidel over the points, > 0
+  int splitting_iterations = 20000;  ///< after sweeps that do not converge
 };
 
 /// @param inertia of each body: a multiple of the unit matrix, kg/m^3 in mass-orthonormal functions
-/// @param sizes number of velocities of each body
+/// @param sizes number of velocities of each body.
 [[nodiscard]] ImpactResult solve_impact(const std::vector<double>& inertia, const std::vector<int>& sizes,
-                                        const std::vector<ImpactPoint>& points);
+                                        const std::vector<ImpactPoint>& points,
+                                        const ImpactEffort& effort = {});
 
 }  // namespace ashlar
