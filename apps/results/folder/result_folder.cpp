@@ -22,7 +22,7 @@ namespace {
 
 /// "blocks_0000010.vtu" and the like, or an incomplete one of a killed run
 bool is_frame_name(std::string_view name) {
-  for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_", "bolts_"}) {
+  for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_", "bolts_", "loads_"}) {
     if (!name.starts_with(start)) continue;
     const std::string_view rest = name.substr(start.size());
     const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
@@ -51,7 +51,7 @@ std::filesystem::path emptied(std::filesystem::path folder) {
   }
   // Removed, not emptied: other names of these files keep their content.
   for (const char* name :
-       {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd", "bolts.pvd"})
+       {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd", "bolts.pvd", "loads.pvd"})
     std::filesystem::remove(folder / name);
   remove_frames_but(folder, {});
   return folder;
@@ -91,6 +91,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
+      supports_(drawn_supports(scene, simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
@@ -101,6 +102,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   progress_.origin = place.origin;
   if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd");
   if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd");
+  if (has_loads_or_supports(scene)) loads_.emplace(folder_ / "loads.pvd");
   if (progress_.stage == 1 && scene.stage.front().reset_displacement)
     progress_.origin = origin_of(simulation, measures_, drawn_);
   contact_rows_.write(contact_columns);
@@ -115,6 +117,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
+      supports_(drawn_supports(scene, simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      history_columns(measures_, !scene.stage.empty()),
                                      state.progress.last_row_step)),
@@ -125,6 +128,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       progress_(state.progress) {
   if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd", state.surface_frames);
   if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd", state.bolt_frames);
+  if (has_loads_or_supports(scene)) loads_.emplace(folder_ / "loads.pvd", state.load_frames);
   if (contact_rows_.size() < state.contact_bytes) {
     throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
                                          contact_rows_.path().string(), contact_rows_.size(),
@@ -133,7 +137,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   contact_rows_.truncate(state.contact_bytes);
   std::set<std::filesystem::path> kept;
   for (const auto* frames : {&state.block_frames, &state.surface_frames, &state.contact_frames,
-                             &state.joint_frames, &state.bolt_frames}) {
+                             &state.joint_frames, &state.bolt_frames, &state.load_frames}) {
     for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
   }
   remove_frames_but(folder_, kept);
@@ -149,6 +153,7 @@ ResultFolderState ResultFolder::synced_state() {
           .contact_frames = contacts_.frames(),
           .joint_frames = joints_.frames(),
           .bolt_frames = bolts_ ? bolts_->frames() : std::vector<PvdFrame>(),
+          .load_frames = loads_ ? loads_->frames() : std::vector<PvdFrame>(),
           .contact_bytes = contact_rows_.size(),
           .progress = progress_};
 }
@@ -223,6 +228,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   add(contacts_, "contacts", contact_frame(simulation));
   add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
   if (bolts_) add(*bolts_, "bolts", bolt_frame(simulation));
+  if (loads_) add(*loads_, "loads", load_frame(simulation, supports_, progress_.stage));
   // After a failure none of them remains.
   std::vector<PvdWriter*> added;
   try {

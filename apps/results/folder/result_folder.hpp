@@ -12,6 +12,7 @@
 #include "apps/results/frames/contact_frame.hpp"
 #include "apps/results/frames/joint_faces.hpp"
 #include "apps/results/frames/largest_values.hpp"
+#include "apps/results/frames/load_frames.hpp"
 #include "apps/results/frames/pvd_writer.hpp"
 #include "apps/results/frames/vtu_writer.hpp"
 #include "apps/results/tables/history_row.hpp"
@@ -51,6 +52,7 @@ struct ResultFolderState {
   std::vector<PvdFrame> contact_frames;
   std::vector<PvdFrame> joint_frames;
   std::vector<PvdFrame> bolt_frames;  ///< empty without bolts and props
+  std::vector<PvdFrame> load_frames;  ///< empty without loads and supports
   std::uint64_t contact_bytes = 0;    ///< in contacts.csv
   ResultProgress progress;
 };
@@ -105,12 +107,14 @@ class ResultFolder {
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;
+  std::vector<DrawnSupport> supports_;
   HistoryWriter history_;
   PvdWriter blocks_;
   std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page
   PvdWriter contacts_;
   PvdWriter joints_;
   std::optional<PvdWriter> bolts_;  ///< if the run has bolts or props
+  std::optional<PvdWriter> loads_;  ///< if the scene has loads or supports
   OutputFile contact_rows_;
   ResultProgress progress_;
 };
