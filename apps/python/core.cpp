@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/program/blocks/block_text.hpp"
+#include "apps/program/command_line.hpp"
 #include "apps/program/contacts/contacts_command.hpp"
 #include "apps/program/contacts/integrate_command.hpp"
 #include "apps/program/run/run_command.hpp"
@@ -102,6 +103,15 @@ void bind_scene(py::module_& module) {
 
 void bind_commands(py::module_& module) {
   module.def("run", &run_scene);
+  module.def("command", [](const std::vector<std::string>& arguments) {
+    std::ostringstream out, err;
+    int status = 0;
+    {
+      const py::gil_scoped_release released;
+      status = run_command_line(arguments, out, err);
+    }
+    return py::make_tuple(status, err.str());
+  });
   module.def("schema", [] { return json_text(scene_schema()); });
   module.def("contacts", [](const std::string& a, const std::string& b) {
     ContactsOptions options;

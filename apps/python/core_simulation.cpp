@@ -11,9 +11,11 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "apps/python/core_scene.hpp"
+#include "apps/results/tables/contact_state.hpp"
 #include "apps/run/answer_search.hpp"
 #include "apps/run/run.hpp"
 #include "geometry/index.hpp"
@@ -58,7 +60,7 @@ struct ContactRow {
   std::int32_t type, state;
 };
 
-ContactRow row_of(const PairRecord& pair, std::size_t k) {
+ContactRow row_of(const PairRecord& pair, std::size_t k, ContactState state) {
   const ContactPoint& point = pair.points[k];
   const PointResponse& response = pair.responses[k];
   const Vector3 place = 0.5 * (point.place_a + point.place_b);
@@ -74,7 +76,7 @@ ContactRow row_of(const PairRecord& pair, std::size_t k) {
   row.gap = pair.gaps[k];
   row.area = point.area;
   row.type = static_cast<std::int32_t>(point.type);
-  row.state = static_cast<std::int32_t>(response.state);
+  row.state = static_cast<std::int32_t>(state);
   return row;
 }
 
@@ -121,11 +123,26 @@ class CoreSimulation {
   [[nodiscard]] py::array_t<ContactRow> contacts() {
     const std::vector<ContactRow> rows = without_interpreter([](const Run& run) {
       std::vector<ContactRow> found;
-      for (const PairRecord& pair : run.simulation().contacts())
-        for (std::size_t k = 0; k < pair.points.size(); ++k) found.push_back(row_of(pair, k));
+      for (const PairRecord& pair : run.simulation().contacts()) {
+        const std::vector<ContactState> states = shown_states(run.simulation(), pair);
+        for (std::size_t k = 0; k < pair.points.size(); ++k) found.push_back(row_of(pair, k, states[k]));
+      }
       return found;
     });
     return py::array_t<ContactRow>(static_cast<py::ssize_t>(rows.size()), rows.data());
+  }
+
+  /// Name, largest axial and shear force (N; nan: not installed) and state of each bolt and prop.
+  [[nodiscard]] std::vector<std::tuple<std::string, double, double, std::string>> bolts() {
+    return without_interpreter([](const Run& run) {
+      std::vector<std::tuple<std::string, double, double, std::string>> rows;
+      for (const Bolt& bolt : run.simulation().system().bolts()) {
+        const BoltMeasure found = measured_bolt(
+            run.simulation(), {.name = bolt.name, .kind = Measure::Kind::bolt, .bolt = bolt.name});
+        rows.emplace_back(bolt.name, found.axial_force, found.shear_force, to_string(found.condition));
+      }
+      return rows;
+    });
   }
 
   [[nodiscard]] int index_of(const std::string& name) {
@@ -295,6 +312,7 @@ void bind_simulation(py::module_& module) {
            })
       .def("history", &CoreSimulation::history)
       .def("contacts", &CoreSimulation::contacts)
+      .def("bolts", &CoreSimulation::bolts)
       .def("set_load_factor",
            [](CoreSimulation& s, const std::string& block, int load, double factor) {
              (void)s.index_of(block);

@@ -36,9 +36,10 @@ AnsweredEnd drawn_end(const Answer& answer, const SceneAnalysis& analysis, const
           describe(*answer.limits, analysis, simulation)};
 }
 
-AnsweredEnd bracket_end(const FactorBracket& bracket, const SceneAnalysis& analysis, AnsweredEnd shown) {
+AnsweredEnd bracket_end(const FactorBracket& bracket, const SceneAnalysis& analysis,
+                        const Simulation& simulation, AnsweredEnd shown) {
   if (shown.status == RunStatus::interrupted) return shown;
-  const std::string motion = shown.status == RunStatus::moving ? "; " + shown.message : "";
+  const std::string motion = shown.status == RunStatus::moving ? ": " + motion_in_words(simulation) : "";
   return {bracket.resolved ? RunStatus::completed : RunStatus::not_converged,
           describe(bracket, analysis) + motion};
 }

@@ -27,7 +27,7 @@ struct AnsweredEnd {
                                     const Simulation& simulation);
 /// End of a search by static analyses whose motion was shown. @param shown its end: interrupts remain as they are
 [[nodiscard]] AnsweredEnd bracket_end(const FactorBracket& bracket, const SceneAnalysis& analysis,
-                                      AnsweredEnd shown);
+                                      const Simulation& simulation, AnsweredEnd shown);
 
 /// Draws lines of thrust (thrust.svg) and the first support's movement (movement.svg) into a folder. Does nothing
 /// without them. @throws std::runtime_error with path and reason

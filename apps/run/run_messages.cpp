@@ -93,7 +93,7 @@ void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, s
       if (!quiet) err << message << '\n';
       break;
     case RunStatus::equilibrium:
-      if (!quiet) err << (message.empty() ? "equilibrium" : message) << '\n';
+      if (!quiet) err << (message.empty() ? "stands: static equilibrium" : message) << '\n';
       break;
     case RunStatus::completed:
       if (!quiet && !message.empty()) err << message << '\n';

@@ -21,6 +21,7 @@ class Pages:
                                   ("curved", falling, curved),
                                   ("slope", HERE / "slope.toml", []), ("column", HERE / "column.toml", []),
                                   ("moved", HERE / "moved_base.toml", []), ("rigid", HERE / "rigid_arch.toml", []),
+                                  ("acted", HERE / "acted_on.toml", []),
                                   ("arch", scenes / "arch_stands.toml", stress),
                                   ("wall", scenes / "wall.toml", ["--set", "analysis.end_time=0.02", *stress])):
             out = folder / name

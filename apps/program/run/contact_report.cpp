@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/results/tables/contact_state.hpp"
 #include "geometry/index.hpp"
 #include "solver/run/contact_explanation.hpp"
 #include "solver/run/simulation.hpp"
@@ -101,7 +102,8 @@ std::string forces_of(const Simulation& simulation, const PairKey& blocks, const
   });
   if (record == records.end()) return "  the last step had no contact points between them\n";
   std::array<int, 3> states = {0, 0, 0};
-  for (const PointResponse& response : record->responses) ++states[static_cast<std::size_t>(response.state)];
+  for (const ContactState state : shown_states(simulation, *record))
+    ++states[static_cast<std::size_t>(state)];
   return fmt::format(
       "  the last step had {} contact points: {} open, {} sticking, {} sliding; force on {}: {} N\n",
       record->points.size(), states[0], states[1], states[2], names.a, text_of(force_on_a(*record)));

@@ -124,6 +124,7 @@ std::string wishes(const PictureOptions& options, const std::string& frames) {
   if (parts.force_chain) text += "&chain=yes";
   if (parts.thrust_line) text += "&thrust=yes";
   if (parts.crosses) text += "&crosses=yes";
+  for (const std::string& part : parts.without) text += "&" + part + "=no";
   if (parts.si) text += "&units=si";
   text += fmt::format("&joints={}&vectors={}", parts.joints, parts.vectors);
   if (parts.section) text += "&section=" + *parts.section;
@@ -276,20 +277,27 @@ namespace {
 void declare_parts(CLI::App& command, PictureParts& parts) {
   command
       .add_option("--contacts", parts.contacts,
-                  "Points by state, type or none (default: state, up to 500 of them)")
+                  "Points by state, type or none (default: state, up to 60 of them)")
       ->type_name("WORD")
       ->check(CLI::IsMember({"auto", "state", "type", "none"}));
   command.add_flag("--no-arrows", parts.no_arrows,
                    "Contacts without their forces, as where there are more than 500");
   command
-      .add_option("--joints", parts.joints, "Joint faces by opening, slip, state, normal or shear (stress)")
+      .add_option("--joints", parts.joints,
+                  "Joint faces by opening, slip, state, normal or shear (stress) or water (pressure)")
       ->type_name("WORD")
-      ->check(CLI::IsMember({"none", "opening", "slip", "state", "normal", "shear"}));
+      ->check(CLI::IsMember({"none", "opening", "slip", "state", "normal", "shear", "water"}));
   command.add_flag("--force-chain", parts.force_chain, "A bar for the force in each joint");
   command.add_flag("--thrust-line", parts.thrust_line, "The line through the forces in the joints");
   command.add_option("--vectors", parts.vectors, "Arrows of displacement or velocity")
       ->type_name("WORD")
       ->check(CLI::IsMember({"none", "displacement", "velocity"}));
+  command
+      .add_option("--without", parts.without,
+                  "Items that are not drawn: loads, supports, bolts, water, marks")
+      ->type_name("WORD,...")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"loads", "supports", "bolts", "water", "marks"}));
   command.add_flag("--crosses", parts.crosses, "Crosses of principal stresses");
   command.add_option("--section", parts.section, "Cut at x = 0.5: x,0.5; keeping the other side: -x,0.5")
       ->type_name("AXIS,M");

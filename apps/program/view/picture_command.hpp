@@ -15,13 +15,14 @@ namespace ashlar {
 struct PictureParts {
   std::string contacts =
       "auto";  ///< colours of contact points: state, type, or none for no points and no forces; auto: state,
-               ///< none if there are more than most_few_points
+               ///< none if there are many
   bool no_arrows = false;       ///< no forces
-  std::string joints = "none";  ///< colours of joint faces: opening, slip, state, normal, shear
+  std::string joints = "none";  ///< colours of joint faces: opening, slip, state, normal, shear, water
   bool force_chain = false;     ///< a bar a joint, also with many contacts
   bool thrust_line = false;
-  std::string vectors = "none";  ///< displacement, velocity
-  bool crosses = false;          ///< of principal stresses
+  std::string vectors = "none";      ///< displacement, velocity
+  std::vector<std::string> without;  ///< some of loads, supports, bolts, water, marks
+  bool crosses = false;              ///< of principal stresses
   std::optional<std::string>
       section;  ///< "x,0.5": section at x = 0.5 m, the part beyond is hidden; "-x,0.5": the part before
   std::optional<std::string> range;  ///< "low,high" of colours, SI

@@ -58,18 +58,44 @@ Json analysis_of(const Json& scene) {
   return type_in(scene["stage"].front());
 }
 
-/// The entries of `block` of a scene.
-std::vector<Json> blocks_of(const Json& scene) {
-  std::vector<Json> blocks;
-  if (!scene.is_object() || !scene.contains("block") || !scene["block"].is_array()) return blocks;
-  for (const Json& block : scene["block"]) blocks.push_back(block.is_object() ? block : Json::object());
-  return blocks;
-}
-
 /// A text of a block, empty if there is none.
 std::string text_of(const Json& block, const char* key) {
   const auto value = block.find(key);
   return value != block.end() && value->is_string() ? value->get<std::string>() : "";
+}
+
+/// The entries of a list of a table; none if there is no list.
+std::vector<Json> list_in(const Json& table, const char* key) {
+  std::vector<Json> entries;
+  if (!table.is_object() || !table.contains(key) || !table[key].is_array()) return entries;
+  for (const Json& entry : table[key]) entries.push_back(entry.is_object() ? entry : Json::object());
+  return entries;
+}
+
+/// Plane levels of water: name, stage (0: from the start; the last one of a name that has begun counts), point, normal.
+/// Levels from files have no plane.
+Json water_levels(const Json& scene) {
+  Json levels = Json::array();
+  const auto add = [&](const Json& table, std::size_t stage) {
+    for (const Json& water : list_in(table, "water")) {
+      const Json level = water.value("level", Json::object());
+      Json entry = {
+          {"name", text_of(water, "name")}, {"stage", stage}, {"point", nullptr}, {"normal", nullptr}};
+      for (const char* key : {"point", "normal"})
+        if (level.contains(key)) entry[key] = level[key];
+      levels.push_back(std::move(entry));
+    }
+  };
+  add(scene, 0);
+  const std::vector<Json> stages = list_in(scene, "stage");
+  for (std::size_t k = 0; k < stages.size(); ++k) add(stages[k], k + 1);
+  return levels;
+}
+
+/// Type of the analysis of a stage. @param otherwise if it gives none
+Json analysis_type(const Json& stage, const Json& otherwise) {
+  const auto analysis = stage.find("analysis");
+  return analysis != stage.end() && analysis->is_object() ? analysis->value("type", otherwise) : otherwise;
 }
 
 /// Materials of the blocks of a scene by name. A piece NAME.3 of a cut block has that of NAME.
@@ -102,7 +128,12 @@ void move_scene(Json& summary, std::vector<std::string> names, Json& page) {
     summary.erase("scene");
   }
   page["analysis"] = scene.is_object() ? analysis_of(scene) : Json(nullptr);
-  const std::vector<Json> blocks = blocks_of(scene);
+  page["water"] = water_levels(scene);
+  page["stages"] = Json::array();
+  for (const Json& stage : list_in(scene, "stage"))
+    page["stages"].push_back(
+        {{"name", text_of(stage, "name")}, {"analysis", analysis_type(stage, page["analysis"])}});
+  const std::vector<Json> blocks = list_in(scene, "block");
   if (names.empty())
     for (const Json& block : blocks) names.push_back(text_of(block, "name"));
   const Materials materials(blocks);
@@ -154,6 +185,7 @@ Json scene_json(const std::filesystem::path& folder, const ViewFrames& reader, c
                {"fixed", surface.fixed},
                {"velocity", surface.velocity},
                {"stress", surface.stress},
+               {"water_pressure", surface.water},
                {"few_points", most_few_points},
                {"history", history_json(folder)}};
   Json summary = summary_json(folder);
@@ -219,7 +251,7 @@ ViewReport write_view_file(const std::filesystem::path& folder, const std::files
   const std::string libraries = libraries_text(assets);
   const std::size_t fixed_bytes = assets.page.size() + assets.style.size() + assets.script.size() +
                                   libraries.size() + script_safe(scene).size();
-  constexpr std::size_t head_bytes = 100;
+  constexpr std::size_t head_bytes = 200;
   ThinnedSeries<ViewFrameData> frames(options.most_bytes - std::min(fixed_bytes, options.most_bytes),
                                       {reader.count() - 1, options.frame.value_or(0)});
   for (std::size_t index = 0; index < reader.count(); ++index) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/program/view/joint_resultants.hpp"
+#include "apps/program/view/pack_marks.hpp"
 #include "apps/program/view/packed_numbers.hpp"
 #include "apps/results/frames/grid_arrays.hpp"
 #include "apps/results/frames/vtu_reader.hpp"
@@ -89,7 +90,7 @@ void pack_blocks(PackedNumbers& numbers, const UnstructuredGrid& grid, const Vie
   if (surface.stress) numbers.add_reals(required_values<double>(grid.point_data, "stress", 6), 6);
 }
 
-void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, Json& head) {
+void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, bool water, Json& head) {
   const auto& data = grid.cell_data;
   std::vector<std::int32_t> corners;
   for (std::size_t c = 0; c < grid.offsets.size(); ++c)
@@ -112,6 +113,7 @@ void pack_joints(PackedNumbers& numbers, const UnstructuredGrid& grid, Json& hea
   numbers.add_reals(lengths, 1);
   for (const char* name : {"normal_traction", "shear_traction", "area"})
     numbers.add_reals(required_values<double>(data, name, 1), 1);
+  if (water) numbers.add_reals(required_values<double>(data, "water_pressure", 1), 1);
   std::vector<Vector3> places;
   for (const int point : grid.connectivity) places.push_back(grid.points[at(point)]);
   numbers.add_points(places);
@@ -184,8 +186,8 @@ bool has_stages(const std::filesystem::path& folder) {
   return std::find(columns.begin(), columns.end(), "stage") != columns.end();
 }
 
-std::vector<PvdFrame> joint_frames(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / "joints.pvd";
+/// None without the file.
+std::vector<PvdFrame> optional_frames(const std::filesystem::path& path) {
   return std::filesystem::exists(path) ? read_pvd(path) : std::vector<PvdFrame>{};
 }
 
@@ -196,10 +198,13 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
       points_(points),
       blocks_(read_pvd(folder / surface_series(folder))),
       contacts_(read_pvd(folder / "contacts.pvd")),
-      joints_(joint_frames(folder)) {
+      joints_(optional_frames(folder / "joints.pvd")),
+      bolts_(optional_frames(folder / "bolts.pvd")),
+      loads_(optional_frames(folder / "loads.pvd")) {
   // A run in progress has written some of them first.
   count_ = std::min(blocks_.size(), contacts_.size());
-  if (!joints_.empty()) count_ = std::min(count_, joints_.size());
+  for (const auto* frames : {&joints_, &bolts_, &loads_})
+    if (!frames->empty()) count_ = std::min(count_, frames->size());
   if (count_ == 0) throw std::runtime_error(fmt::format("{} has no frames", folder.string()));
   const std::filesystem::path path = folder_ / blocks_.front().file;
   UnstructuredGrid first = read_vtu(path);
@@ -218,6 +223,10 @@ ViewFrames::ViewFrames(const std::filesystem::path& folder, ViewPoints points)
     curved_ = std::make_unique<CurvedCells>(first);
     surface_ = surface_of(curved_->divided(std::move(first)));
   });
+  if (!joints_.empty()) {
+    const std::filesystem::path joints = folder_ / joints_.front().file;
+    surface_.water = find_values<double>(read_vtu(joints).cell_data, "water_pressure", 1) != nullptr;
+  }
   surface_.fixed = fixed ? *std::move(fixed) : blocks_that_never_move();
 }
 
@@ -252,13 +261,22 @@ ViewFrameData ViewFrames::read(std::size_t index) const {
   if (!joints_.empty()) {
     const std::filesystem::path of_joints = folder_ / joints_[index].file;
     const UnstructuredGrid joints = read_vtu(of_joints);
-    naming_the_file(of_joints, [&] { pack_joints(numbers, joints, head); });
+    naming_the_file(of_joints, [&] { pack_joints(numbers, joints, surface_.water, head); });
   }
   const std::filesystem::path of_contacts = folder_ / contacts_[index].file;
   const UnstructuredGrid contacts = read_vtu(of_contacts);
   const bool kept = points_ == ViewPoints::all || contacts.points.size() <= most_few_points;
+  naming_the_file(of_contacts, [&] { pack_links(numbers, contacts, head); });
+  head["bolts"] = head["loads"] = head["supports"] = head["support_corners"] = 0;
+  const auto pack = [&](const std::vector<PvdFrame>& frames, auto function) {
+    if (frames.empty()) return;
+    const std::filesystem::path path = folder_ / frames[index].file;
+    const UnstructuredGrid grid = read_vtu(path);
+    naming_the_file(path, [&] { function(numbers, grid, head); });
+  };
+  pack(bolts_, pack_bolts);
+  pack(loads_, pack_loads_and_supports);
   naming_the_file(of_contacts, [&] {
-    pack_links(numbers, contacts, head);
     if (kept) pack_points(numbers, contacts);
   });
   head["points"] = kept ? contacts.points.size() : 0;

@@ -23,6 +23,7 @@ struct ViewSurface {
   std::vector<std::int32_t> fixed;  ///< numbers of fixed blocks, increasing
   bool velocity = false;
   bool stress = false;
+  bool water = false;  ///< pressure of water in joints
 };
 
 struct ViewFrameData {
@@ -52,11 +53,16 @@ class ViewFrames {
   /// Packed one after the other, #p points of the surface:
   ///   displacements; velocities and stresses (xx, yy, zz, xy, yz, xz) if the run has them
   ///   joints, faces of joints.pvd: numbers of corners, states (3 more: broken), blocks a, blocks b; opening, slip (its
-  ///   length), normal_traction, shear_traction, area; places of the corners, face after face
+  ///   length), normal_traction, shear_traction, area, water_pressure if the run has it; places of the corners, face
+  ///   after face
   ///   links, joint_resultants: blocks a, b, states; forces; places
+  ///   bolts, lines of bolts.pvd: states, bolts; axial forces; places of both ends
+  ///   loads, points of loads.pvd: blocks; forces; places
+  ///   supports, cells of it: held components, blocks, corners (1 or 3); places of the corners, cell after cell
   ///   points, contact points: types, states, blocks a, blocks b; forces, normals, gaps, areas; places
-  /// An empty part (joints, links or points) needs no bytes.
-  /// head: joints (faces), corners (of all of them), links, points (in the data), contacts (all points)
+  /// An empty part (joints and those after it) needs no bytes.
+  /// head: joints (faces), corners (of all of them), links, bolts, loads, supports, support_corners, points (in the data),
+  /// contacts (all points)
   [[nodiscard]] ViewFrameData read(std::size_t index) const;
 
  private:
@@ -68,6 +74,9 @@ class ViewFrames {
   std::vector<PvdFrame> blocks_;
   std::vector<PvdFrame> contacts_;
   std::vector<PvdFrame> joints_;  ///< none: of a version that wrote no joints.pvd
+  std::vector<PvdFrame> bolts_;   ///< none: the run has no bolts
+  std::vector<PvdFrame>
+      loads_;  ///< none: the run has no loads and supports, or is of a version without the file
   std::size_t count_ = 0;
   BlockUnion all_blocks_;  ///< empty unless blocks are added or removed
   std::unique_ptr<const CurvedCells> curved_;

@@ -10,6 +10,7 @@ Units are SI, angles degrees, arrays are numpy's. Points of a block are those of
 threads run while Ashlar computes, and Ctrl-C ends a run between two steps.
 """
 
+import collections as _collections
 import json as _json
 import os as _os
 import pathlib as _pathlib
@@ -18,13 +19,20 @@ import tempfile as _tempfile
 import numpy as _numpy
 
 from . import _core
+from ._history import History
+from ._pictures import Page, page, picture
 from ._toml import to_toml as _to_toml
 
 __version__ = _core.version.split()[1] if len(_core.version.split()) > 1 else _core.version
-__all__ = ["Block", "Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate", "run", "schema"]
+__all__ = ["Block", "Bolt", "History", "Page", "Scene", "SceneError", "Simulation", "blocks", "contacts", "integrate",
+           "page", "picture", "run", "schema"]
 
 
 Block = _core.Block
+
+Bolt = _collections.namedtuple("Bolt", ["axial_force", "shear_force", "state"])
+Bolt.__doc__ = """A bolt or prop: its largest axial force by amount (N, tension positive), its largest shear force at a joint (N),
+and its worst state so far, a word as in summary.json. Forces are nan before it is installed."""
 
 
 class SceneError(ValueError):
@@ -125,6 +133,7 @@ class Simulation:
     """A run, step by step, created by Scene.simulation."""
 
     def __init__(self, scene, threads=1, resume=None):
+        self._scene = scene
         self._core = _core.simulation(scene._core, threads, None if resume is None else str(resume))
 
     def step(self):
@@ -167,13 +176,19 @@ class Simulation:
 
     @property
     def history(self):
-        """The columns of history.csv by name: numpy arrays with a value for the start and each step."""
-        return self._core.history()
+        """The columns of history.csv by name: a History, numpy arrays with a value for the start and each step. Its `units`
+        and to_pandas() name their units."""
+        return History(self._core.history())
 
     @property
     def blocks(self):
         """Blocks by name: simulation.blocks["name"]; those of all stages (see Block.present)."""
         return _Blocks(self._core)
+
+    @property
+    def bolts(self):
+        """Bolts and props by name: {"bolt.1": Bolt(axial_force, shear_force, state)}; those of all stages."""
+        return {name: Bolt(*values) for name, *values in self._core.bolts()}
 
     @property
     def message(self):
@@ -211,6 +226,28 @@ class Simulation:
     def write(self, folder):
         """Writes the history, the present state and a summary as a result folder; replaces an existing one."""
         self._core.write(str(folder))
+
+
+    def picture(self, path=None, **options):
+        """Draws the present state: see ashlar.picture. Returns the PNG as bytes, or the path it is written to."""
+        with _tempfile.TemporaryDirectory() as folder:
+            self.write(folder)
+            return picture(folder, path, **options)
+
+    def show(self, height=640, relative_to=None):
+        """The page of the present state and the history, which a notebook shows: see ashlar.page."""
+        with _tempfile.TemporaryDirectory() as folder:
+            self.write(folder)
+            return page(folder, height, relative_to)
+
+    def _repr_html_(self):
+        return self.show()._repr_html_()
+
+    def __repr__(self):
+        count = len(self.blocks)
+        stage = f" of stage {self.stage}" if self.stage else ""
+        return (f"<ashlar.Simulation {self._scene._file}: {self.status} after {self.steps} steps, t = {self.time:.6g} s{stage}, "
+                f"{count} block{'' if count == 1 else 's'}>")
 
 
 def run(scene, out, overrides=(), threads=1, resume=False, force=False):
@@ -263,11 +300,17 @@ def integrate(mesh, degree):
     return {(entry["a"], entry["b"], entry["c"]): entry["value"] for entry in moments}
 
 
-def blocks(scene):
-    """The blocks of a scene (a path or a Scene): volumes, neighbours, areas, as by `ashlar blocks --json`."""
+def blocks(scene, places=True):
+    """The blocks of a scene (a path or a Scene): volumes, neighbours, areas, as by `ashlar blocks --json`.
+
+    places: True adds centroid ([x, y, z], m) and box ({"min", "max"}, m) of each block.
+    """
     if not isinstance(scene, Scene):
         scene = Scene.load(scene)
-    return _json.loads(scene._core.blocks_json())
+    report = _json.loads(scene._core.blocks_json())
+    for block in [] if places else report["blocks"]:
+        del block["centroid"], block["box"]
+    return report
 
 
 def schema():

@@ -22,7 +22,7 @@ namespace {
 
 /// "blocks_0000010.vtu" and the like, or an incomplete one of a killed run
 bool is_frame_name(std::string_view name) {
-  for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_"}) {
+  for (const std::string_view start : {"blocks_", "surfaces_", "contacts_", "joints_", "bolts_", "loads_"}) {
     if (!name.starts_with(start)) continue;
     const std::string_view rest = name.substr(start.size());
     const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
@@ -51,24 +51,10 @@ std::filesystem::path emptied(std::filesystem::path folder) {
   }
   // Removed, not emptied: other names of these files keep their content.
   for (const char* name :
-       {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd", "bolts.pvd"})
+       {"history.csv", "contacts.csv", "summary.json", "view.html", "surfaces.pvd", "bolts.pvd", "loads.pvd"})
     std::filesystem::remove(folder / name);
   remove_frames_but(folder, {});
   return folder;
-}
-
-void append(std::vector<double>& values, const Vector3& vector) {
-  values.insert(values.end(), {vector.x(), vector.y(), vector.z()});
-}
-
-/// xx, yy, zz, xy, yz, xz
-void append_stress(std::vector<double>& values, const Eigen::Matrix3d& s) {
-  values.insert(values.end(), {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)});
-}
-
-/// True if a point of a block is measured.
-bool has_motion(const Measure& measure) {
-  return measure.kind == Measure::Kind::point || measure.kind == Measure::Kind::block;
 }
 
 constexpr const char* contact_columns =
@@ -78,127 +64,13 @@ constexpr const char* contact_columns =
 
 }  // namespace
 
-std::vector<std::string> history_columns(const std::vector<Measure>& measures, bool in_stages) {
-  std::vector<std::string> columns = {"step", "time", "dt"};
-  const auto add = [&](const Measure& measure, std::initializer_list<const char*> parts) {
-    for (const char* part : parts) columns.push_back(measure.name + part);
-  };
-  for (const Measure& measure : measures) {
-    if (measure.kind == Measure::Kind::bolt) {
-      add(measure, {".axial_force", ".shear_force", ".state"});
-      continue;
-    }
-    if (measure.kind == Measure::Kind::pair) {
-      add(measure, {".normal_force", ".shear_force", ".opening", ".slip", ".area"});
-      continue;
-    }
-    add(measure, {".x", ".y", ".z", ".ux", ".uy", ".uz", ".vx", ".vy", ".vz"});
-    if (measure.kind == Measure::Kind::block) add(measure, {".rx", ".ry", ".rz"});
-  }
-  for (const char* name :
-       {"energy.kinetic",        "energy.elastic",     "energy.gravity",     "energy.contact",
-        "energy.friction",       "energy.damping",     "energy.applied",     "energy.numerical",
-        "energy.residual",       "momentum.x",         "momentum.y",         "momentum.z",
-        "angular_momentum.x",    "angular_momentum.y", "angular_momentum.z", "contacts.open",
-        "contacts.locked",       "contacts.sliding",   "penetration.max",    "open_close.iterations",
-        "energy.refound_gained", "energy.refound_lost"}) {
-    columns.emplace_back(name);
-  }
-  for (const Measure& measure : measures)
-    if (has_motion(measure)) add(measure, {".sxx", ".syy", ".szz", ".sxy", ".syz", ".sxz"});
-  if (in_stages) columns.emplace_back("stage");
-  return columns;
-}
-
-std::vector<double> history_row(const Simulation& simulation, const std::vector<Measure>& measures,
-                                const DisplacementOrigin& origin, int stage) {
-  const StepReport& report = simulation.report();
-  std::vector<double> values = {simulation.time(), report.step};
-  std::vector<PointMotion> motions;
-  for (std::size_t k = 0; k < measures.size(); ++k) {
-    if (measures[k].kind == Measure::Kind::bolt) {
-      const BoltMeasure bolt = measured_bolt(simulation, measures[k]);
-      values.insert(values.end(), {bolt.axial_force, bolt.shear_force,
-                                   static_cast<double>(static_cast<int>(bolt.condition))});
-      continue;
-    }
-    if (measures[k].kind == Measure::Kind::pair) {
-      const PairMeasure pair = measured_pair(simulation, measures[k]);
-      values.insert(values.end(), {pair.normal_force, pair.shear_force, pair.opening, pair.slip, pair.area});
-      continue;
-    }
-    const PointMotion motion = motions.emplace_back(measured_motion(simulation, measures[k]));
-    append(values, motion.place);
-    append(values,
-           origin.measures.empty() ? motion.displacement : Vector3(motion.displacement - origin.measures[k]));
-    append(values, motion.velocity);
-    if (measures[k].kind == Measure::Kind::block) append(values, measured_turn(simulation, measures[k]));
-  }
-  const Ledger& ledger = simulation.ledger();
-  values.insert(values.end(),
-                {ledger.kinetic, ledger.elastic, ledger.gravity, ledger.contact, ledger.friction,
-                 ledger.damping, ledger.applied, ledger.numerical, ledger.residual});
-  append(values, simulation.momentum());
-  append(values, simulation.angular_momentum());
-  for (const int count : {report.open, report.locked, report.sliding}) values.push_back(count);
-  values.push_back(report.depth);
-  values.push_back(report.iterations);
-  values.push_back(ledger.redetection_gained);
-  values.push_back(ledger.redetection_lost);
-  for (const PointMotion& motion : motions) append_stress(values, motion.stress);
-  if (stage > 0) values.push_back(stage);
-  return values;
-}
-
-UnstructuredGrid contact_frame(const Simulation& simulation) {
-  UnstructuredGrid grid;
-  std::vector<double> gap;
-  std::vector<double> area;
-  std::vector<double> normal;
-  std::vector<double> force;
-  std::vector<double> traction;
-  std::array<std::vector<std::int32_t>, 4> numbers;  // type, state, block_a, block_b
-  for (const PairRecord& pair : simulation.contacts()) {
-    for (std::size_t k = 0; k < pair.points.size(); ++k) {
-      const ContactPoint& point = pair.points[k];
-      const PointResponse& response = pair.responses[k];
-      const int index = static_cast<int>(grid.points.size());
-      grid.points.emplace_back(0.5 * (point.place_a + point.place_b));
-      grid.add_cell(VtkCellType::vertex, std::array{index});
-      gap.push_back(pair.gaps[k]);
-      area.push_back(point.area);
-      append(normal, point.normal);
-      const Vector3 whole = response.force[0] * point.normal + response.force[1] * point.tangent_1 +
-                            response.force[2] * point.tangent_2;
-      append(force, whole);
-      append(traction, whole / point.area);
-      numbers[0].push_back(static_cast<std::int32_t>(point.type));
-      numbers[1].push_back(static_cast<std::int32_t>(response.state));
-      numbers[2].push_back(pair.a);
-      numbers[3].push_back(pair.b);
-    }
-  }
-  grid.point_data.push_back({"gap", 1, {}, std::move(gap)});
-  grid.point_data.push_back({"area", 1, {}, std::move(area)});
-  grid.point_data.push_back({"normal", 3, {"x", "y", "z"}, std::move(normal)});
-  grid.point_data.push_back({"force", 3, {"x", "y", "z"}, std::move(force)});
-  grid.point_data.push_back({"traction", 3, {"x", "y", "z"}, std::move(traction)});
-  grid.point_data.push_back({"type", 1, {}, std::move(numbers[0])});
-  grid.point_data.push_back({"state", 1, {}, std::move(numbers[1])});
-  grid.point_data.push_back({"block_a", 1, {}, std::move(numbers[2])});
-  grid.point_data.push_back({"block_b", 1, {}, std::move(numbers[3])});
-  return grid;
-}
-
 DisplacementOrigin origin_of(const Simulation& simulation, const std::vector<Measure>& measures,
                              const DrawnBlocks& drawn) {
   DisplacementOrigin origin;
   const auto displacement = [&](int block, const Vector3& point) {
     return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).displacement;
   };
-  for (const Measure& measure : measures)
-    origin.measures.push_back(has_motion(measure) ? displacement(measure.block, measure.point)
-                                                  : Vector3(Vector3::Zero()));
+  for (const Measure& measure : measures) origin.measures.push_back(measure_origin(simulation, measure));
   const auto displacements = [&](const auto& of_blocks, std::vector<std::vector<Vector3>>& by_block) {
     for (std::size_t b = 0; b < of_blocks.size(); ++b) {
       by_block.emplace_back();
@@ -219,6 +91,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
+      supports_(drawn_supports(scene, simulation.blocks())),
       history_(folder_ / "history.csv", history_columns(measures_, !scene.stage.empty())),
       blocks_(folder_ / "blocks.pvd"),
       contacts_(folder_ / "contacts.pvd"),
@@ -229,6 +102,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   progress_.origin = place.origin;
   if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd");
   if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd");
+  if (has_loads_or_supports(scene)) loads_.emplace(folder_ / "loads.pvd");
   if (progress_.stage == 1 && scene.stage.front().reset_displacement)
     progress_.origin = origin_of(simulation, measures_, drawn_);
   contact_rows_.write(contact_columns);
@@ -243,6 +117,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       measures_(measures_of(scene, simulation.blocks())),
       drawn_(drawn_blocks(simulation.blocks(), output_)),
       joint_surfaces_(joint_surfaces(simulation.blocks())),
+      supports_(drawn_supports(scene, simulation.blocks())),
       history_(HistoryWriter::resume(folder_ / "history.csv",
                                      history_columns(measures_, !scene.stage.empty()),
                                      state.progress.last_row_step)),
@@ -253,6 +128,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
       progress_(state.progress) {
   if (output_.solid) surfaces_.emplace(folder_ / "surfaces.pvd", state.surface_frames);
   if (!simulation.system().bolts().empty()) bolts_.emplace(folder_ / "bolts.pvd", state.bolt_frames);
+  if (has_loads_or_supports(scene)) loads_.emplace(folder_ / "loads.pvd", state.load_frames);
   if (contact_rows_.size() < state.contact_bytes) {
     throw std::runtime_error(fmt::format("cannot resume {}: {} bytes, at least {} were written",
                                          contact_rows_.path().string(), contact_rows_.size(),
@@ -261,7 +137,7 @@ ResultFolder::ResultFolder(std::filesystem::path folder, const Scene& scene, con
   contact_rows_.truncate(state.contact_bytes);
   std::set<std::filesystem::path> kept;
   for (const auto* frames : {&state.block_frames, &state.surface_frames, &state.contact_frames,
-                             &state.joint_frames, &state.bolt_frames}) {
+                             &state.joint_frames, &state.bolt_frames, &state.load_frames}) {
     for (const PvdFrame& frame : *frames) kept.insert(folder_ / frame.file);
   }
   remove_frames_but(folder_, kept);
@@ -277,6 +153,7 @@ ResultFolderState ResultFolder::synced_state() {
           .contact_frames = contacts_.frames(),
           .joint_frames = joints_.frames(),
           .bolt_frames = bolts_ ? bolts_->frames() : std::vector<PvdFrame>(),
+          .load_frames = loads_ ? loads_->frames() : std::vector<PvdFrame>(),
           .contact_bytes = contact_rows_.size(),
           .progress = progress_};
 }
@@ -351,6 +228,7 @@ void ResultFolder::add_frame(const Simulation& simulation) {
   add(contacts_, "contacts", contact_frame(simulation));
   add(joints_, "joints", joint_frame(simulation, joint_surfaces_));
   if (bolts_) add(*bolts_, "bolts", bolt_frame(simulation));
+  if (loads_) add(*loads_, "loads", load_frame(simulation, supports_, progress_.stage));
   // After a failure none of them remains.
   std::vector<PvdWriter*> added;
   try {

@@ -9,30 +9,19 @@
 
 #include "apps/results/folder/folder_watch.hpp"
 #include "apps/results/frames/block_frames.hpp"
+#include "apps/results/frames/contact_frame.hpp"
 #include "apps/results/frames/joint_faces.hpp"
 #include "apps/results/frames/largest_values.hpp"
+#include "apps/results/frames/load_frames.hpp"
 #include "apps/results/frames/pvd_writer.hpp"
 #include "apps/results/frames/vtu_writer.hpp"
+#include "apps/results/tables/history_row.hpp"
 #include "apps/results/tables/history_writer.hpp"
 #include "apps/results/tables/measure.hpp"
 #include "apps/scene/model/scene.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace ashlar {
-
-/// Names of the columns of history.csv, the step first; then stresses of measured points (sxx, syy, szz, sxy, syz,
-/// sxz; Pa, tension positive); for a run in stages `stage` last.
-[[nodiscard]] std::vector<std::string> history_columns(const std::vector<Measure>& measures,
-                                                       bool in_stages = false);
-
-/// The values after the step, in the order of history_columns. Points of absent blocks have nan.
-/// @param stage 1-based number; 0: the run has none
-[[nodiscard]] std::vector<double> history_row(const Simulation& simulation,
-                                              const std::vector<Measure>& measures,
-                                              const DisplacementOrigin& origin = {}, int stage = 0);
-
-/// All contact points of the last step: gap, force and normal on the first block, area, type, state and both blocks.
-[[nodiscard]] UnstructuredGrid contact_frame(const Simulation& simulation);
 
 /// Start of the results in a staged analysis.
 struct StagePlace {
@@ -63,6 +52,7 @@ struct ResultFolderState {
   std::vector<PvdFrame> contact_frames;
   std::vector<PvdFrame> joint_frames;
   std::vector<PvdFrame> bolt_frames;  ///< empty without bolts and props
+  std::vector<PvdFrame> load_frames;  ///< empty without loads and supports
   std::uint64_t contact_bytes = 0;    ///< in contacts.csv
   ResultProgress progress;
 };
@@ -117,12 +107,14 @@ class ResultFolder {
   std::vector<Measure> measures_;
   DrawnBlocks drawn_;
   std::vector<SubFaceSurface> joint_surfaces_;
+  std::vector<DrawnSupport> supports_;
   HistoryWriter history_;
   PvdWriter blocks_;
   std::optional<PvdWriter> surfaces_;  ///< if blocks_ has volumes: their surfaces, for the page
   PvdWriter contacts_;
   PvdWriter joints_;
   std::optional<PvdWriter> bolts_;  ///< if the run has bolts or props
+  std::optional<PvdWriter> loads_;  ///< if the scene has loads or supports
   OutputFile contact_rows_;
   ResultProgress progress_;
 };

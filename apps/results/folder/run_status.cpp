@@ -4,12 +4,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "apps/scene/build/initial_state.hpp"
 #include "solver/state/automatic.hpp"
 #include "solver/state/static_state.hpp"
 
 namespace ashlar {
+
+/// "[0, 0, -9.81]": components below 1e-9 of the vector are rounding errors, written as 0.
+static std::string without_noise(const Vector3& vector) {
+  constexpr double noise = 1e-9;
+  std::array<double, 3> shown = {};
+  for (int k = 0; k < 3; ++k)
+    shown.at(static_cast<std::size_t>(k)) = std::abs(vector[k]) > noise * vector.norm() ? vector[k] : 0.0;
+  return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", shown[0], shown[1], shown[2]);
+}
 
 std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation) {
   std::vector<DisplacedBlock> result;
@@ -41,21 +51,29 @@ std::string to_string(RunStatus status) {
   return "unknown";
 }
 
+std::string motion_in_words(const Simulation& simulation) {
+  const std::vector<MovingBlock> moving = simulation.moving_blocks();
+  if (moving.empty()) return "";
+  const auto name = [&](const MovingBlock& one) {
+    return simulation.blocks()[static_cast<std::size_t>(one.block)].name();
+  };
+  const auto fastest =
+      std::max_element(moving.begin(), moving.end(), [](const MovingBlock& a, const MovingBlock& b) {
+        return a.acceleration.norm() < b.acceleration.norm();
+      });
+  const std::string acceleration = fmt::format("acceleration {} m/s^2", without_noise(fastest->acceleration));
+  if (moving.size() == 1) return fmt::format("block {} moves, {}", name(*fastest), acceleration);
+  std::size_t movable = 0;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k)
+    if (!simulation.blocks()[k].fixed() && simulation.system().present(static_cast<int>(k))) ++movable;
+  std::vector<std::string> names;
+  for (const MovingBlock& one : moving) names.push_back(name(one));
+  return fmt::format("{} of {} blocks move: {}; block {} fastest, {}", moving.size(), movable,
+                     first_names(names), name(*fastest), acceleration);
+}
+
 std::string describe_motion(const Simulation& simulation) {
-  std::string text = "no equilibrium:";
-  const char* separator = " ";
-  constexpr std::size_t most_shown = 5;
-  const std::vector<MovingBlock> blocks = simulation.moving_blocks();
-  for (std::size_t k = 0; k < std::min(blocks.size(), most_shown); ++k) {
-    const MovingBlock& moving = blocks[k];
-    const auto& [x, y, z] =
-        std::array{moving.acceleration.x(), moving.acceleration.y(), moving.acceleration.z()};
-    text += fmt::format("{}block {} moves, acceleration [{:.4g}, {:.4g}, {:.4g}] m/s^2", separator,
-                        simulation.blocks()[static_cast<std::size_t>(moving.block)].name(), x, y, z);
-    separator = "; ";
-  }
-  if (blocks.size() > most_shown) text += fmt::format("; {} more blocks move", blocks.size() - most_shown);
-  return text;
+  return "no equilibrium: " + motion_in_words(simulation);
 }
 
 std::string describe_displaced(const Simulation& simulation) {

@@ -30,7 +30,10 @@ inline constexpr double displaced_share = 0.1;
 /// supports: they are in equilibrium in another structure than the one built.
 [[nodiscard]] std::vector<DisplacedBlock> displaced_blocks(const Simulation& simulation);
 
-/// "no equilibrium: block A moves, acceleration [0, 0, -9.81] m/s^2", of the first five; "3 more blocks move"
+/// "block A moves, acceleration [0, 0, -9.81] m/s^2", or of several blocks their number, the first names, and the
+/// acceleration of the fastest; empty if none moves. Components within rounding error are 0.
+[[nodiscard]] std::string motion_in_words(const Simulation& simulation);
+/// "no equilibrium: " and the same.
 [[nodiscard]] std::string describe_motion(const Simulation& simulation);
 
 /// "equilibrium, but far from where they were placed: block A by 1.2 m"; empty if there is none.

@@ -21,7 +21,7 @@ struct DrawnBlocks {
 
 /// Displacements subtracted from results, m: those at the last reset by a stage.
 struct DisplacementOrigin {
-  std::vector<Vector3> measures;               ///< by measure, zero of pairs; empty: as placed
+  std::vector<Vector3> measures;               ///< by measure (measure_origin), drifts too; empty: as placed
   std::vector<std::vector<Vector3>> surfaces;  ///< by block and point of its DrawnSurface; empty: as placed
   std::vector<std::vector<Vector3>> solids;    ///< by block and point of its DrawnSolid; empty: as placed
 };

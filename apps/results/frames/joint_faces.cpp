@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/results/tables/contact_state.hpp"
 #include "apps/results/tables/measure.hpp"
 #include "geometry/contacts/cell_overlap.hpp"
 #include "geometry/index.hpp"
@@ -138,15 +139,15 @@ bool has_lost_strength(const JointLaw& law, const PairHistory& history, const Co
   return nearest != nullptr && !nearest->memory.intact;
 }
 
-void add(JointSums& sums, const ContactPoint& point, const PointResponse& response, double gap,
-         const Vector3& slip, bool broken) {
+void add(JointSums& sums, const ContactPoint& point, const PointResponse& response, ContactState state,
+         double gap, const Vector3& slip, bool broken) {
   sums.area += point.area;
   sums.gap += point.area * gap;
   sums.place += point.area * point.material_b;
   sums.normal += response.force[0];
   sums.shear += response.force[1] * point.tangent_1 + response.force[2] * point.tangent_2;
   sums.slip += point.area * slip;
-  sums.of_state.at(static_cast<std::size_t>(response.state)) += point.area;
+  sums.of_state.at(static_cast<std::size_t>(state)) += point.area;
   if (broken) sums.broken += point.area;
 }
 
@@ -159,6 +160,7 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
   std::map<std::array<int, 2>, std::vector<JointFace>> faces;
   const JointLaw law = simulation.system().law(record.a, record.b);
   const PairHistory& history = history_of(simulation.histories(), {record.a, record.b});
+  const std::vector<ContactState> states = shown_states(simulation, record);
   for (std::size_t k = 0; k < record.points.size(); ++k) {
     const ContactPoint& point = record.points[k];
     if (point.type != ContactPointType::face_face) continue;
@@ -175,7 +177,7 @@ std::vector<JointFace> faces_of(const Simulation& simulation, const PairRecord& 
       nearest = &face;
     }
     if (nearest == nullptr) continue;
-    add(nearest->sums, point, record.responses[k], record.gaps[k], slip_of(simulation, record, k),
+    add(nearest->sums, point, record.responses[k], states[k], record.gaps[k], slip_of(simulation, record, k),
         has_lost_strength(law, history, point));
   }
   std::vector<JointFace> result;

@@ -21,7 +21,7 @@ namespace ashlar {
 ///   shear_traction   Pa, length of the shear force over area
 ///   water_pressure   Pa, in the middle; only where the scene has water
 ///   area             m^2, of the points: traction times area is the force
-///   state            of most of the area: 0 open, 1 locked, 2 sliding
+///   state            of most of the area: 0 open, 1 locked, 2 sliding (contact_state.hpp)
 ///   broken           1 if most of the area had strength and has failed, else 0
 ///   block_a, block_b numbers of the blocks
 /// Contacts at corners and crossing edges have no face. A point outside all polygons, as blocks have moved in the

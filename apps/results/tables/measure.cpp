@@ -36,6 +36,16 @@ std::vector<Measure> measures_of(const Scene& scene, const std::vector<BlockMode
       measures.push_back({given.name, Measure::Kind::bolt, 0, Vector3::Zero(), -1, given.bolt});
       continue;
     }
+    if (given.drift) {
+      measures.push_back({.name = given.name, .kind = Measure::Kind::drift});
+      measures.back().levels = std::make_shared<DriftLevels>(drift_levels(scene, *given.drift, blocks));
+      continue;
+    }
+    if (given.crack) {
+      measures.push_back({.name = given.name, .kind = Measure::Kind::crack});
+      measures.back().joints = std::make_shared<JointPolygons>(joint_polygons(scene, *given.crack, blocks));
+      continue;
+    }
     if (given.block.empty()) {
       measures.push_back({given.name, Measure::Kind::pair, index_of(scene, given.pair[0]), Vector3::Zero(),
                           index_of(scene, given.pair[1])});

@@ -1,10 +1,12 @@
 // History values of a [[measure]] of a scene: the motion and stress of a material point, the motion and rotation of a
-// block, the contacts of two blocks, or the forces of a bolt.
+// block, the contacts of two blocks, the forces of a bolt, the drift of a storey, or the width of cracks.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/results/tables/group_measure.hpp"
 #include "apps/scene/model/scene.hpp"
 #include "solver/run/simulation.hpp"
 
@@ -16,13 +18,17 @@ struct Measure {
     block,  ///< a block: its centroid and its rotation
     pair,   ///< the contacts of two blocks
     bolt,   ///< a bolt or prop
+    drift,  ///< two levels of some blocks
+    crack,  ///< the joints of some blocks
   };
   std::string name;
   Kind kind = Kind::point;
   int block = 0;
-  Vector3 point = Vector3::Zero();  ///< reference coordinates, m; for a block its centroid
-  int other = -1;                   ///< for a pair: the second block
-  std::string bolt = {};            ///< for a bolt: its name
+  Vector3 point = Vector3::Zero();                   ///< reference coordinates, m; for a block its centroid
+  int other = -1;                                    ///< for a pair: the second block
+  std::string bolt = {};                             ///< for a bolt: its name
+  std::shared_ptr<const DriftLevels> levels = {};    ///< for a drift, otherwise null
+  std::shared_ptr<const JointPolygons> joints = {};  ///< for cracks, otherwise null
 };
 
 /// Measures of a scene, in its order. @param blocks of the scene

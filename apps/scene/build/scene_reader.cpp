@@ -20,6 +20,7 @@
 #include "apps/scene/read/initial_stress_reader.hpp"
 #include "apps/scene/read/joint_reader.hpp"
 #include "apps/scene/read/masonry.hpp"
+#include "apps/scene/read/measure_reader.hpp"
 #include "apps/scene/read/moving_load_reader.hpp"
 #include "apps/scene/read/region_reader.hpp"
 #include "apps/scene/read/water_reader.hpp"
@@ -115,42 +116,6 @@ SceneMaterial read_material(TomlTableReader& table) {
   table.read_number("poisson_ratio", material.poisson_ratio, range::zero_to_below_half);
   table.read_choice("elasticity", material.elasticity, elasticity_names);
   return material;
-}
-
-SceneMeasure read_measure(TomlTableReader& table) {
-  SceneMeasure measure;
-  table.require("name");
-  table.read_name("name", measure.name);
-  std::vector<std::string> pair;
-  if (table.given("pair")) {
-    if (table.read_texts("pair", pair) && pair.size() == 2)
-      measure.pair = {pair[0], pair[1]};
-    else if (!pair.empty())
-      table.error_at_value(
-          "pair",
-          fmt::format("pair has the wrong length ({} entries), two block names are needed", pair.size()));
-    for (const char* key : {"block", "inside", "point"})
-      if (table.given(key))
-        table.error_at_key(key, fmt::format("{} beside pair (both given), only one of both is allowed", key));
-    return measure;
-  }
-  if (table.given("bolt")) {
-    table.read_name("bolt", measure.bolt);
-    for (const char* key : {"block", "point"})
-      if (table.given(key))
-        table.error_at_key(key, fmt::format("{} beside bolt (both given), only one of both is allowed", key));
-    return measure;
-  }
-  measure.inside = read_inside(table);
-  if (!table.given("inside")) table.require("block");
-  if (table.read_name("block", measure.block) && table.given("inside"))
-    table.error_at_key("inside", "inside beside block (both given), only one of both is allowed");
-  if (table.given("point")) {
-    // Not finite until read, so that no later check applies to a missing point.
-    measure.point = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-    table.read_place("point", *measure.point);
-  }
-  return measure;
 }
 
 void read_output(TomlTableReader table, SceneOutput& output) {

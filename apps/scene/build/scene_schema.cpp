@@ -274,6 +274,12 @@ point = [0, 0, 0]
 [[measure]]
 name = "contact"
 pair = ["A", "B"]
+[[measure]]
+name = "storey"
+drift = { blocks = ["A"], heights = [0, 1] }
+[[measure]]
+name = "width"
+crack = { joints = ["bed"], to = ["A"] }
 [[water]]
 level = { point = [0, 0, 0], normal = [0, 0, 1] }
 unit_weight = 9810

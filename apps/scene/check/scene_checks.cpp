@@ -10,6 +10,7 @@
 #include <string>
 
 #include "apps/scene/check/joint_checks.hpp"
+#include "apps/scene/check/measure_checks.hpp"
 #include "apps/scene/check/water_checks.hpp"
 #include "apps/scene/model/block_names.hpp"
 #include "apps/scene/model/joint_table.hpp"
@@ -334,6 +335,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics, Diagnostics&
                         fmt::format("measure of a block and itself (\"{}\"), two different blocks are needed",
                                     measure.pair[0]));
   }
+  check_group_measures(scene, diagnostics, of_blocks);
   check_joints(scene, blocks, of_blocks);
   check_joint_laws(scene, diagnostics);
   check_factor_search(scene, diagnostics);
@@ -352,6 +354,7 @@ void check_cuts(const Scene& scene, Diagnostics& diagnostics) {
 
 void check_placement(const Scene& scene, const std::vector<std::optional<Polyhedron>>& solids,
                      Diagnostics& diagnostics) {
+  check_levels(scene, solids, diagnostics);
   PlacementCheck check(scene, diagnostics);
   for (std::size_t i = 0; i < scene.block.size(); ++i) {
     const SceneBlock& block = scene.block[i];

@@ -13,27 +13,6 @@
 namespace ashlar {
 namespace {
 
-void check_patterns(const Scene& scene, const std::string& key, const std::vector<std::string>& patterns,
-                    bool of_cuts, Diagnostics& of_blocks, const char* what = "water") {
-  for (const std::string& pattern : patterns) {
-    bool any = of_cuts && std::any_of(scene.cut.begin(), scene.cut.end(), [&](const SceneCut& cut) {
-                 return pattern_matches(pattern, cut.name);
-               });
-    for (std::size_t k = 0; k < scene.block.size() && !any; ++k) any = means_block(scene, pattern, k);
-    if (any) continue;
-    std::vector<std::string> names;
-    for (const SceneBlock& block : scene.block) names.push_back(block.name);
-    if (of_cuts)
-      for (const SceneCut& cut : scene.cut) names.push_back(cut.name);
-    of_blocks.error(
-        scene.places.value(key),
-        fmt::format(
-            "{} names no {} (\"{}\"), {}the name of a [[block]]{} or a glob that matches one is needed", what,
-            of_cuts ? "joint" : "block", pattern, guess_block(pattern, names),
-            of_cuts ? " or a [[cut]]" : ""));
-  }
-}
-
 void check_level(const Scene& scene, const SceneWater& water, const std::string& path,
                  Diagnostics& diagnostics) {
   try {
@@ -53,6 +32,27 @@ void check_level(const Scene& scene, const SceneWater& water, const std::string&
 
 }  // namespace
 
+void check_patterns(const Scene& scene, const std::string& key, const std::vector<std::string>& patterns,
+                    bool of_cuts, Diagnostics& of_blocks, const char* what) {
+  for (const std::string& pattern : patterns) {
+    bool any = of_cuts && std::any_of(scene.cut.begin(), scene.cut.end(), [&](const SceneCut& cut) {
+                 return pattern_matches(pattern, cut.name);
+               });
+    for (std::size_t k = 0; k < scene.block.size() && !any; ++k) any = means_block(scene, pattern, k);
+    if (any) continue;
+    std::vector<std::string> names;
+    for (const SceneBlock& block : scene.block) names.push_back(block.name);
+    if (of_cuts)
+      for (const SceneCut& cut : scene.cut) names.push_back(cut.name);
+    of_blocks.error(
+        scene.places.value(key),
+        fmt::format(
+            "{} names no {} (\"{}\"), {}the name of a [[block]]{} or a glob that matches one is needed", what,
+            of_cuts ? "joint" : "block", pattern, guess_block(pattern, names),
+            of_cuts ? " or a [[cut]]" : ""));
+  }
+}
+
 void check_water(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks) {
   for (std::size_t i = 0; i < scene.water.size(); ++i) {
     const SceneWater& water = scene.water[i];
@@ -61,8 +61,8 @@ void check_water(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_b
       diagnostics.error(scene.places.key(path),
                         "water on blocks of the incremental formulation, formulation = \"total\" is needed");
     check_level(scene, water, path, diagnostics);
-    check_patterns(scene, path + ".joints", water.joints, true, of_blocks);
-    check_patterns(scene, path + ".faces", water.faces, false, of_blocks);
+    check_patterns(scene, path + ".joints", water.joints, true, of_blocks, "water");
+    check_patterns(scene, path + ".faces", water.faces, false, of_blocks, "water");
   }
 }
 

@@ -9,6 +9,11 @@
 
 namespace ashlar {
 
+/// Reports names or globs that match no block and, if they may name joints, no [[cut]].
+/// @param key of the list. @param what subject of the message
+void check_patterns(const Scene& scene, const std::string& key, const std::vector<std::string>& patterns,
+                    bool of_cuts, Diagnostics& of_blocks, const char* what);
+
 /// Reports names that match nothing, a level without height over a place, and water on incremental blocks.
 /// @param of_blocks receives faults of names
 void check_water(const Scene& scene, Diagnostics& diagnostics, Diagnostics& of_blocks);

@@ -46,8 +46,7 @@ class Chooser {
       if (auto& entry = scene_.assign[k]; entry.inside)
         entry.inside->blocks = named(entry.blocks, *entry.inside, fmt::format("assign.{}", k), {});
     keep(scene_.joint, "joint");
-    for (std::size_t k = 0; k < scene_.measure.size(); ++k)
-      if (scene_.measure[k].inside) choose_one(scene_.measure[k], k);
+    for (std::size_t k = 0; k < scene_.measure.size(); ++k) choose_measured(scene_.measure[k], k);
     std::vector<bool> absent = held_back(scene_);
     for (std::size_t s = 0; s < scene_.stage.size(); ++s) {
       SceneStage& stage = scene_.stage[s];
@@ -107,6 +106,12 @@ class Chooser {
     for (const std::size_t k : blocks) names.push_back(pattern_of(scene_.block[k].name));
   }
 
+  void choose_measured(SceneMeasure& measure, std::size_t index) {
+    if (measure.inside) choose_one(measure, index);
+    if (measure.drift)
+      use_names(measure.drift->blocks, measure.drift->inside, fmt::format("measure.{}.drift", index), {});
+  }
+
   void choose_one(SceneMeasure& measure, std::size_t index) {
     const std::string path = fmt::format("measure.{}", index);
     const std::vector<std::size_t> blocks = inside(*measure.inside, path);
@@ -155,7 +160,10 @@ bool RegionTest::contains(const Vector3& place) const {
 bool has_regions(const Scene& scene) {
   const auto chosen = [](const auto& entry) { return entry.inside.has_value(); };
   const auto any = [&](const auto& list) { return std::any_of(list.begin(), list.end(), chosen); };
-  return any(scene.assign) || any(scene.joint) || any(scene.measure) ||
+  const bool drifts =
+      std::any_of(scene.measure.begin(), scene.measure.end(),
+                  [](const SceneMeasure& measure) { return measure.drift && measure.drift->inside; });
+  return any(scene.assign) || any(scene.joint) || any(scene.measure) || drifts ||
          std::any_of(scene.stage.begin(), scene.stage.end(), [&](const SceneStage& stage) {
            return stage.remove_inside || stage.add_inside || any(stage.fix) || any(stage.load) ||
                   any(stage.joint);

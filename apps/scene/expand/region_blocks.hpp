@@ -38,8 +38,8 @@ class RegionTest {
 
 /// Replaces regions by the blocks inside. In lists of names (of stages) these are their names, of those that match
 /// the names given beside `inside`; `remove` chooses among the blocks that are there in its stage, `add` among those
-/// that are not. In [[assign]] and [[joint]] they are kept in SceneRegion::blocks. A [[measure]] gets the name of its
-/// block. Regions of [[cut]] are evaluated when it is made.
+/// that are not; those of a drift are names too. In [[assign]] and [[joint]] they are kept in SceneRegion::blocks. A
+/// [[measure]] of a block gets its name. Regions of [[cut]] are evaluated when it is made.
 /// @param diagnostics reports a region without a block, and one of a measure with several
 void choose_blocks_inside(Scene& scene, Diagnostics& diagnostics, Preparation* preparation = nullptr);
 

@@ -17,6 +17,7 @@
 #include "apps/scene/model/scene_bolt.hpp"
 #include "apps/scene/model/scene_contact.hpp"
 #include "apps/scene/model/scene_initial_stress.hpp"
+#include "apps/scene/model/scene_measure.hpp"
 #include "apps/scene/model/scene_moving_load.hpp"
 #include "apps/scene/model/scene_places.hpp"
 #include "apps/scene/model/scene_shape.hpp"
@@ -64,16 +65,6 @@ struct SceneCut {
   SceneShape solid;                 ///< box, mesh, hull or sphere; kind solid
   std::filesystem::path file;       ///< table of measured joints (disc_table.hpp), as written; kind discs
   int count = 0;                    ///< >= 1; kind voronoi: points in each block
-};
-
-/// [[measure]]: a material point, a block or a pair of blocks with columns in the history.
-struct SceneMeasure {
-  std::string name;                   ///< unique; required; heads columns of the history
-  std::string block;                  ///< name of a [[block]]; empty: `pair` is measured
-  std::optional<SceneRegion> inside;  ///< in place of the name, which is that of the one block inside
-  std::optional<Vector3> point;       ///< m, in the placed, undeformed block; empty: the block as a whole
-  std::array<std::string, 2> pair;    ///< names of two blocks whose contacts are measured; otherwise empty
-  std::string bolt;                   ///< name of a bolt or prop that is measured; otherwise empty
 };
 
 /// [[stage]]: changes before the run continues. Names and globs match blocks, and pieces of cut blocks.

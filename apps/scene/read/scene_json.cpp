@@ -252,10 +252,20 @@ Json to_json(const SceneMovingLoad& load) {
   return json;
 }
 
+Json to_json(const SceneCrack& crack) {
+  Json json = {{"joints", crack.joints}};
+  if (!crack.to.empty()) json["to"] = crack.to;
+  return json;
+}
+
 Json to_json(const SceneMeasure& measure) {
   Json json = {{"name", measure.name}};
   if (!measure.bolt.empty())
     json["bolt"] = measure.bolt;
+  else if (measure.drift)
+    json["drift"] = {{"blocks", measure.drift->blocks}, {"heights", measure.drift->heights}};
+  else if (measure.crack)
+    json["crack"] = to_json(*measure.crack);
   else if (measure.block.empty())
     json["pair"] = measure.pair;
   else

@@ -8,7 +8,8 @@ const ADDRESS_KEYS = [
   ["range", "range", ["run", "frame", "percentile", "own"]], ["low", "low", "number"], ["high", "high", "number"],
   ["units", "units", ["engineering", "si"]], ["scale", "scale", "positive"], ["parallel", "parallel", YES], ["edges", "edges", YES],
   ["subfaces", "subFaces", YES], ["glass", "seeThrough", YES],
-  ["joints", "joints", ["none", "opening", "slip", "state", "normal", "shear"]],
+  ["joints", "joints", ["none", "opening", "slip", "state", "normal", "shear", "water"]],
+  ["loads", "loads", YES], ["supports", "supports", YES], ["bolts", "bolts", YES], ["water", "water", YES],
   ["contacts", "points", ["state", "type", "none"]], ["open", "openContacts", YES], ["arrows", "arrows", [...YES, "none"]],
   ["chain", "chain", YES], ["thrust", "thrust", YES], ["forcescale", "forceScale", "positive"],
   ["vectors", "vectors", ["none", "displacement", "velocity"]], ["crosses", "crosses", YES],
@@ -19,9 +20,11 @@ const ADDRESS_KEYS = [
 /// Default state.
 function usualState() {
   const few = !isCrowded();
+  const fewPoints = mostOf("contacts") <= MOST_USUAL_POINTS;
   return {frame: data.isStatic ? data.frames.length - 1 : 0, field: "displacement", range: "run", low: null, high: null,
     units: "engineering", scale: 1, relative: data.relative_to, parallel: false, edges: true, subFaces: false, seeThrough: false, joints: "none",
-    points: few ? "state" : "none", openContacts: false, arrows: false, chain: few, thrust: false, forceScale: 1,
+    points: fewPoints ? "state" : "none", openContacts: false, arrows: false, chain: few, thrust: false, forceScale: 1,
+    loads: true, supports: true, bolts: true, water: true,
     vectors: "none", crosses: false, section: "none", sectionAt: 0, hidden: new Set(), theme: "auto", marks: true,
     from: null, at: null, zoom: 1, picked: {}, timer: null};
 }
@@ -119,6 +122,8 @@ function addressOf() {
 /// Writes the address with a delay: not for each pixel of a slider's motion.
 function noteAddress() {
   clearTimeout(noteAddress.timer);
+  // A page within a notebook has no address of its own.
+  if (location.protocol === "about:") return;
   noteAddress.timer = setTimeout(() => {
     noteAddress.written = addressOf();
     history.replaceState(null, "", noteAddress.written ? "#" + noteAddress.written : location.pathname + location.search);

@@ -163,14 +163,18 @@ function setFrame(size) {
   camera.setViewOffset(width, height, -0.5 * left, 0.5 * (bottom - top), width, height);
 }
 
-/// Margins for legend, heading and player: in a narrow picture the legend lies above the scene.
+/// Margins for legend, heading and player: in a narrow picture the legend lies above the scene. Axes and scale bar are
+/// below the legend, in a narrow picture below the scene, which the model leaves free unless the picture is low.
 function framing(width, height, {heading, player}) {
   const flat = width < 560;
   const flatHeight = Math.min(88, 0.25 * height);
-  const legendHeight = flat ? flatHeight : height - heading - player;
-  const area = {x: 16, y: heading, width: flat ? width - 32 : Math.min(190, 0.3 * width), height: legendHeight, flat};
-  return {width, height, legend: area, left: flat ? 0 : Math.min(150, 0.25 * width), top: heading + (flat ? flatHeight : 0),
-    bottom: player + 28};
+  const column = Math.min(190, 0.3 * width);
+  const marks = {x: flat ? width - 190 : 8, y: height - player - 76, width: 182, height: 76};
+  const legendHeight = flat ? flatHeight : height - heading - player - 76;
+  const area = {x: 16, y: heading, width: flat ? width - 32 : column, height: legendHeight, flat};
+  const band = flat && height > 400 ? 76 : 28;
+  return {width, height, legend: area, marks, left: flat ? 0 : Math.min(190, 0.25 * width), top: heading + (flat ? flatHeight : 0),
+    bottom: player + (flat ? band : 12)};
 }
 
 function buildCameras() {
@@ -188,13 +192,14 @@ function buildStage() {
   stage.add(new THREE.HemisphereLight("#ffffff", "#b0b0b8", 0.85));
   stage.add(cameras.perspective, cameras.parallel, meshes.mesh, meshes.edges, meshes.innerEdges, meshes.selection, joints.faces, joints.rims,
     section.caps, section.outlines, ...forces.arrows, ...forces.bars, ...forces.ties, forces.thrust, forces.points,
-    ...vectors.arrows, ...vectors.pressed, ...vectors.pulled);
+    ...vectors.arrows, ...vectors.pressed, ...vectors.pulled,
+    ...partsOfActions());
   return stage;
 }
 
 /// Lines of some pixels' width need to know the picture's size.
 function setLineResolution(width, height) {
-  for (const lines of [joints.rims, forces.thrust]) lines.material.resolution.set(width, height);
+  for (const lines of [joints.rims, forces.thrust, ...linesOfActions()]) lines.material.resolution.set(width, height);
 }
 
 function resize() {

@@ -3,9 +3,7 @@
 const currentFrame = () => data.frames[current.frame];
 
 function clockText(frame) {
-  const scale = current.scale === 1 ? "" : ", displacements × " + short(current.scale);
-  const when = data.isStatic ? "iteration " + frame.step : "t = " + short(frame.time) + " s, step " + frame.step;
-  return when + scale;
+  return frameWords(frame) + (current.scale === 1 ? "" : ", displacements × " + short(current.scale));
 }
 
 function show() {
@@ -17,6 +15,7 @@ function show() {
   styleSurface();
   placeJoints(frame);
   placeForces(frame);
+  placeActions(frame);
   placeAllVectors(frame);
   placeSection(field, range);
   element("force-note").textContent = forceNote(frame);
@@ -72,7 +71,8 @@ const TIES = [
   ["scale", "scale", positive], ["force-scale", "forceScale", positive], ["section-at", "sectionAt", (input) => Number(input.value)],
   ["edges", "edges", "checked"], ["sub-faces", "subFaces", "checked"], ["see-through", "seeThrough", "checked"],
   ["open-contacts", "openContacts", "checked"], ["arrows", "arrows", "checked"], ["chain", "chain", "checked"],
-  ["thrust", "thrust", "checked"], ["crosses", "crosses", "checked"], ["marks-shown", "marks", "checked"],
+  ["thrust", "thrust", "checked"], ["loads", "loads", "checked"], ["supports", "supports", "checked"],
+  ["bolts", "bolts", "checked"], ["water", "water", "checked"], ["crosses", "crosses", "checked"], ["marks-shown", "marks", "checked"],
 ];
 
 /// Puts the state into the controls.
@@ -117,11 +117,12 @@ function afterChange(member) {
 function tieControls() {
   const options = (id, entries) => element(id).replaceChildren(...entries.map(([value, label]) => new Option(label, value)));
   options("field", Object.entries(fields).map(([key, field]) => [key, field.label]));
-  options("joints", [["none", "not shown"], ...Object.entries(JOINT_FIELDS).map(([key, field]) => [key, field.label])]);
+  options("joints", [["none", "not shown"], ...jointFieldKeys().map((key) => [key, JOINT_FIELDS[key].label])]);
   options("range", Object.entries(RANGE_NAMES));
   options("vectors", [["none", "none"], ["displacement", "displacement"], ...(data.velocity ? [["velocity", "velocity"]] : [])]);
   element("joints").disabled = !hasJoints();
   element("crosses").disabled = !data.stress;
+  for (const key of ["loads", "supports", "bolts", "water"]) element(key).disabled = !hasActions(key);
   for (const [id, member, read] of TIES) {
     const control = element(id);
     const change = () => {

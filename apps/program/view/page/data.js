@@ -4,6 +4,11 @@ const CONTACT_TYPES = ["face-face", "vertex-face", "edge-edge"];
 const STATES = ["open", "locked", "sliding"];
 const STRESS_NAMES = ["xx", "yy", "zz", "xy", "yz", "xz"];
 
+/// Real values of the faces of joints, in the order of the page.
+const JOINT_REALS = () => ["opening", "slip", "normal", "shear", "area", ...(data.water_pressure ? ["water"] : [])];
+
+const vectorAt = (values, k) => new THREE.Vector3().fromArray(values, 3 * k);
+
 /// One frame. Its parts are decoded at the first access: a page of a hundred frames opens at once.
 class Frame {
   constructor(head, bytes) {
@@ -18,8 +23,12 @@ class Frame {
     if (data.velocity) follow("velocity", bytesOfReals(points, 3));
     if (data.stress) follow("stress", bytesOfReals(points, 6));
     const {joints, corners, links} = head;
-    follow("joints", joints > 0 ? 8 * joints + 5 * bytesOfReals(joints) + 24 + 6 * corners : 0);
+    const {bolts = 0, loads = 0, supports = 0, support_corners: ofSupports = 0} = head;
+    follow("joints", joints > 0 ? 8 * joints + JOINT_REALS().length * bytesOfReals(joints) + 24 + 6 * corners : 0);
     follow("links", links > 0 ? 6 * links + bytesOfReals(links, 3) + 24 + 6 * links : 0);
+    follow("bolts", bolts > 0 ? 4 * bolts + bytesOfReals(bolts) + 24 + 12 * bolts : 0);
+    follow("loads", loads > 0 ? 2 * loads + bytesOfReals(loads, 3) + 24 + 6 * loads : 0);
+    follow("supports", supports > 0 ? 6 * supports + 24 + 6 * ofSupports : 0);
     follow("contacts", 0);
   }
 
@@ -38,7 +47,7 @@ class Frame {
       const {joints: count, corners} = this.head;
       const joints = {count, start: new Uint32Array(count + 1)};
       if (count === 0) {
-        for (const name of ["state", "broken", "a", "b", "opening", "slip", "normal", "shear", "area", "places"])
+        for (const name of ["state", "broken", "a", "b", "water", ...JOINT_REALS(), "places"])
           joints[name] = new Float32Array(0);
         return joints;
       }
@@ -47,9 +56,48 @@ class Frame {
       joints.state = states.map((state) => state % 3);
       joints.broken = states.map((state) => (state >= 3 ? 1 : 0));
       [joints.a, joints.b] = [reader.words(count), reader.words(count)];
-      for (const name of ["opening", "slip", "normal", "shear", "area"]) joints[name] = reader.reals(count);
+      for (const name of JOINT_REALS()) joints[name] = reader.reals(count);
       joints.places = reader.points(corners);
       return joints;
+    });
+  }
+
+  /// Lines of bolts: {ends, axial (N), state, bolt}
+  get bolts() {
+    return this.part("bolts", (reader) => {
+      const count = this.head.bolts || 0;
+      if (count === 0) return [];
+      const [state, bolt] = [0, 1].map(() => reader.words(count));
+      const [axial, places] = [reader.reals(count), reader.points(2 * count)];
+      return Array.from(state, (_, k) => ({ends: [vectorAt(places, 2 * k), vectorAt(places, 2 * k + 1)], axial: axial[k],
+        state: state[k], bolt: bolt[k]}));
+    });
+  }
+
+  /// Loads: {block, force (N), place}
+  get loads() {
+    return this.part("loads", (reader) => {
+      const count = this.head.loads || 0;
+      if (count === 0) return [];
+      const block = reader.words(count);
+      const [force, place] = [reader.reals(count, 3), reader.points(count)];
+      return Array.from(block, (_, k) => ({block: block[k], force: vectorAt(force, k), place: vectorAt(place, k)}));
+    });
+  }
+
+  /// Triangles of supported faces and supported points: {held (1: x, 2: y, 4: z), block, corners}
+  get supports() {
+    return this.part("supports", (reader) => {
+      const count = this.head.supports || 0;
+      if (count === 0) return [];
+      const [held, block, sizes] = [0, 1, 2].map(() => reader.words(count));
+      const places = reader.points(this.head.support_corners);
+      let at = 0;
+      return Array.from(held, (_, k) => {
+        const corners = Array.from({length: sizes[k]}, (_unused, i) => vectorAt(places, at + i));
+        at += sizes[k];
+        return {held: held[k], block: block[k], corners};
+      });
     });
   }
 
@@ -60,9 +108,8 @@ class Frame {
       if (count === 0) return [];
       const [a, b, state] = [0, 1, 2].map(() => reader.words(count));
       const [force, place] = [reader.reals(count, 3), reader.points(count)];
-      const vector = (values, k) => new THREE.Vector3().fromArray(values, 3 * k);
-      return Array.from(a, (_, k) => ({a: a[k], b: b[k], state: state[k], force: vector(force, k),
-        place: vector(place, k)}));
+      return Array.from(a, (_, k) => ({a: a[k], b: b[k], state: state[k], force: vectorAt(force, k),
+        place: vectorAt(place, k)}));
     });
   }
 
@@ -74,8 +121,7 @@ class Frame {
       const [type, state, a, b] = [0, 1, 2, 3].map(() => reader.words(count));
       const [force, normal] = [reader.reals(count, 3), reader.reals(count, 3)];
       const [gap, area, place] = [reader.reals(count), reader.reals(count), reader.points(count)];
-      const vector = (values, k) => new THREE.Vector3().fromArray(values, 3 * k);
-      return Array.from(type, (_, k) => ({place: vector(place, k), force: vector(force, k), normal: vector(normal, k),
+      return Array.from(type, (_, k) => ({place: vectorAt(place, k), force: vectorAt(force, k), normal: vectorAt(normal, k),
         gap: gap[k], area: area[k], type: type[k], state: state[k], a: a[k], b: b[k]}));
     });
   }
@@ -134,7 +180,7 @@ async function loadData() {
   data.spans = spansOf(data.blockOfPoint);
   data.history = decodeHistory(scene.history, history);
   data.blocks = blocksOf(data.cells, scene.blocks, scene.fixed);
-  data.isStatic = ["static", "factor-of-safety", "capacity"].includes(scene.analysis);
+  data.isStatic = ["static", "factor-of-safety", "capacity", "thrust"].includes(scene.analysis);
   const lines = element("frames").textContent.trim().split("\n");
   const bytes = await Promise.all(lines.map(inflated));
   data.frames = scene.frames.map((head, k) => new Frame(head, bytes[k]));

@@ -64,9 +64,13 @@ const JOINT_FIELDS = {
   slip: {label: "slip", unit: "m", of: (joints) => joints.slip},
   normal: {label: "normal stress, compression +", unit: "Pa", of: (joints) => joints.normal},
   shear: {label: "shear stress", unit: "Pa", of: (joints) => joints.shear},
+  water: {label: "water pressure", unit: "Pa", of: (joints) => joints.water, fromZero: true},
   state: {label: "state of joints", kinds: [...STATES, "broken"],
     of: (joints) => joints.state.map((state, k) => (joints.broken[k] ? 3 : state))},
 };
+
+/// Keys of those that the run has.
+const jointFieldKeys = () => Object.keys(JOINT_FIELDS).filter((key) => key !== "water" || data.water_pressure);
 
 /// Blocks are transparent, in one colour, where coloured joints are shown.
 const blockField = () => fields[current.joints === "none" ? current.field : "stone"];
@@ -76,13 +80,18 @@ const isWhole = (field) => field.category !== undefined;
 
 // ---- ranges -----------------------------------------------------------------------------------------------
 
+/// Lengths below this share of the scene are rounding errors.
+const LENGTH_NOISE = 1e-12;
+const withoutNoise = (value, unit) => (unit === "m" && Math.abs(value) < LENGTH_NOISE * sceneRadius ? 0 : value);
+
 /// Range of some values: symmetric about zero for signed ones, from zero for those that count from zero (an opening
 /// below zero is the depth of a closed joint); never empty.
 function roundedOff(field, low, high) {
   if (!(low <= high)) return [0, 1];
+  [low, high] = [withoutNoise(low, field.unit), withoutNoise(high, field.unit)];
   if (field.fromZero) [low, high] = [0, Math.max(0, high)];
   if (field.signed) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
-  return low < high ? [low, high] : [low, low + (Math.abs(low) || 1)];
+  return low < high ? [low, high] : [low, low + (Math.abs(low) || (field.unit === "m" ? 1e-3 : 1))];
 }
 
 /// The values of a field in a frame, without those of supports.

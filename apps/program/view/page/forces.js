@@ -8,6 +8,9 @@ const THRUST_COLOUR = "#c00018";
 /// can switch them on.
 const isCrowded = () => data.frames.some((frame) => frame.head.contacts > data.few_points);
 
+/// Contact points are shown unless there are more of them in any frame.
+const MOST_USUAL_POINTS = 60;
+
 function discTexture() {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 32;
@@ -114,8 +117,11 @@ function forceLength(force, usual) {
 
 /// A round force and the length of its bar or arrow in pixels at the centre of the scene, for the legend.
 /// @param most pixels
-function forceScaleBar(usual, most) {
-  const pixelsOfNewton = sceneRadius / 3 * current.forceScale / usual / lengthOfPixel();
+function forceScaleBar(usual, most, factor = 1) {
+  return roundBar(factor * sceneRadius / 3 * current.forceScale / usual / lengthOfPixel(), most);
+}
+
+function roundBar(pixelsOfNewton, most) {
   if (!(pixelsOfNewton > 0) || !Number.isFinite(pixelsOfNewton)) return null;
   const force = roundBelow(most / pixelsOfNewton);
   return {force, pixels: force * pixelsOfNewton};
@@ -144,9 +150,36 @@ function visibleLinks(frame) {
   });
 }
 
+/// How far a block reaches from a place in a direction of unit length, m.
+function reachOf(block, frame, place, direction) {
+  const at = new THREE.Vector3();
+  return pointsOfBlocks()[block].reduce((most, p) =>
+    Math.max(most, placeOf(frame, p, 1, at).sub(place).dot(direction)), 0);
+}
+
+/// Factor on the lengths of bars with which nine of ten stay within their blocks, at most 1, for all frames alike. It is
+/// chosen in the first frame whose forces are as large as usual; forces below a twentieth of the largest do not count.
+function chainFactor() {
+  if (data.chainFactor !== undefined) return data.chainFactor;
+  const usual = usualForce("links");
+  const largest = (frame) => frame.links.reduce((most, {force}) => Math.max(most, force.length()), 0);
+  const frame = data.frames.find((candidate) => largest(candidate) >= 0.999 * usual);
+  data.chainFactor = 1;
+  if (!frame) return 1;
+  const half = (force) => 0.5 * sceneRadius / 3 * force.length() / usual;
+  const shares = frame.links.filter(({force}) => force.length() > 0.05 * largest(frame)).map(({a, b, force, place}) => {
+    const direction = force.clone().normalize();
+    const along = Math.max(reachOf(a, frame, place, direction), reachOf(b, frame, place, direction));
+    const against = direction.clone().negate();
+    return Math.min(along, Math.max(reachOf(a, frame, place, against), reachOf(b, frame, place, against))) / half(force);
+  }).sort((x, y) => x - y);
+  data.chainFactor = Math.min(1, Math.max(0.05, shares[Math.floor(0.1 * shares.length)] || 1));
+  return data.chainFactor;
+}
+
 /// A bar for each joint, along the force, equally long to both sides: the force acts on both blocks.
 function placeChain(links) {
-  const usual = usualForce("links");
+  const usual = usualForce("links") / chainFactor();
   const bars = links.map((link) => {
     const along = link.force.clone().setLength(forceLength(link.force, usual));
     return {from: link.place.clone().addScaledVector(along, -0.5), along, width: 0.012 * sceneRadius,
@@ -204,13 +237,13 @@ function forceKinds(frame) {
         kinds.push({name: name + " contacts", colour: colours[k]});
     });
   }
-  const lengths = (usual, what, colour) => {
-    const bar = forceScaleBar(usual, 100);
+  const lengths = (usual, what, colour, factor = 1) => {
+    const bar = forceScaleBar(usual, 100, factor);
     if (bar) kinds.push({name: what + quantity(bar.force, "N"), colour, bar: bar.pixels});
   };
   if (current.arrows && forces.arrows[0].count > 0) lengths(usualForce("contacts"), "contact force ", FORCE_COLOUR);
   if (current.chain && frame.links.length > 0)
-    lengths(usualForce("links"), "joint force ", forces.bars[0].count > 0 ? FORCE_COLOUR : TENSION_COLOUR);
+    lengths(usualForce("links"), "joint force ", forces.bars[0].count > 0 ? FORCE_COLOUR : TENSION_COLOUR, chainFactor());
   if (current.chain && forces.bars[0].count > 0) kinds.push({name: "pressing joints", colour: FORCE_COLOUR});
   if (current.chain && forces.ties[0].count > 0) kinds.push({name: "pulling joints", colour: TENSION_COLOUR});
   if (current.thrust && forces.thrust.visible) kinds.push({name: "line of thrust", colour: THRUST_COLOUR});

@@ -87,11 +87,22 @@ function drawLengthKind(context, {name, colour, bar}, {x, y}) {
   return y + 32;
 }
 
+const SMALL_SCALE = 100;
+
+/// A small scale from the least to the largest value, below its name. @return place of the next item
+function drawSmallScale(context, {name, scale: {field, range}}, {x, y, width}) {
+  const below = drawWrapped(context, name, x, y + 13, width) - 10;
+  context.fillStyle = gradientOf(context, field, [x, 0], [x + SMALL_SCALE, 0]);
+  context.fillRect(x, below, SMALL_SCALE, 8);
+  drawText(context, short(range[0] / unitFor(field.unit, range[1]).factor) + " to " + quantity(range[1], field.unit), x, below + 22);
+  return below + 32;
+}
+
 /// Names with a mark of their colour, one below the other. @return position of the next item
 function drawKinds(context, kinds, {x, y, width}) {
-  for (const {name, colour, bar} of kinds) {
-    if (bar) {
-      y = drawLengthKind(context, {name, colour, bar}, {x, y});
+  for (const {name, colour, bar, scale} of kinds) {
+    if (bar || scale) {
+      y = bar ? drawLengthKind(context, {name, colour, bar}, {x, y}) : drawSmallScale(context, {name, scale}, {x, y, width});
       continue;
     }
     if (colour) {
@@ -106,13 +117,15 @@ function drawKinds(context, kinds, {x, y, width}) {
 /// The same side by side, in as many lines as are needed.
 function drawKindsInLines(context, kinds, {x, y, width}) {
   let at = x;
-  for (const {name, colour, bar} of kinds) {
-    const mark = bar || 12;
-    const text = fittingText(context, name, width - mark - 6);
+  for (const {name, colour: plain, bar, scale} of kinds) {
+    const mark = scale ? 60 : bar || 12;
+    const words = scale ? name + ", " + short(scale.range[0]) + " to " + quantity(scale.range[1], scale.field.unit) : name;
+    const text = fittingText(context, words, width - mark - 6);
+    const colour = plain || scale !== undefined;
     const size = context.measureText(text).width + (colour ? mark + 4 : 0);
     if (at > x && at + size > x + width) [at, y] = [x, y + 18];
     if (colour) {
-      context.fillStyle = colour;
+      context.fillStyle = scale ? gradientOf(context, scale.field, [at, 0], [at + mark, 0]) : plain;
       context.fillRect(at, y + (bar ? 6 : 2), mark, bar ? 4 : 12);
     }
     drawText(context, text, at + (colour ? mark + 4 : 0), y + 13);
@@ -142,7 +155,7 @@ function legendParts(frame, most) {
   else scales.push({field, range: rangeOf(field, frame)});
   if (sectionIsPartlyGrey(blockField()))
     kinds.push({name: "cut, order > 1: no values inside", colour: INSIDE_COLOUR});
-  kinds.push(...forceKinds(frame), ...vectorKinds());
+  kinds.push(...forceKinds(frame), ...actionKinds(frame), ...vectorKinds());
   return {scales, kinds};
 }
 
@@ -157,7 +170,8 @@ function drawLegend(context, frame, area) {
     drawKindsInLines(context, kinds, {...area, y: area.y + (scale ? 48 : 0)});
     return;
   }
-  const below = kinds.reduce((sum, {bar}) => sum + (bar ? 32 : 22), 0);
+  const below = kinds.reduce((sum, {bar, scale: small, name}) =>
+    sum + (bar ? 32 : small ? 48 : context.measureText(name).width > area.width - 18 ? 38 : 22), 0);
   const height = Math.min(area.height - Math.min(below, 0.5 * area.height), 300);
   if (scale) drawUprightScale(context, scale.field, scale.range, {...area, height});
   drawKinds(context, kinds, {...area, y: area.y + (scale ? height + 4 : 0)});

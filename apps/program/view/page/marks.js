@@ -1,9 +1,9 @@
 // Items drawn over the scene: legend, axes, scale bar.
 
-/// The three axes in the present view, in the lower right corner.
-function drawAxes(context, {width, height}) {
-  const size = 26;
-  const [x, y] = [width - 44, height - frameSize.bottom - 18];
+/// The three axes in the present view, beside the model.
+function drawAxes(context, {x: left, y: top, height}) {
+  const size = 24;
+  const [x, y] = [left + 36, top + height - 38];
   const toCamera = new THREE.Quaternion().copy(camera.quaternion).inverse();
   const axes = [["x", "#c92a2a"], ["y", "#2b8a3e"], ["z", "#1864ab"]].map(([name, colour], k) => {
     const seen = new THREE.Vector3(...[0, 1, 2].map((c) => (c === k ? 1 : 0))).applyQuaternion(toCamera);
@@ -32,11 +32,11 @@ function lengthOfPixel() {
 }
 
 /// A round length at its scale at the centre of the scene; nearer objects appear larger.
-function drawScaleBar(context, {width, height}) {
+function drawScaleBar(context, {x: left, y: top, width, height}) {
   const metresOfPixel = lengthOfPixel();
-  const length = roundBelow(metresOfPixel * Math.min(140, 0.3 * width));
+  const length = roundBelow(metresOfPixel * (width - 84));
   const pixels = length / metresOfPixel;
-  const [x, y] = [width - 84 - pixels, height - frameSize.bottom + 4];
+  const [x, y] = [left + 80, top + height - 12];
   context.fillStyle = theme().text;
   context.fillRect(x, y, pixels, 2);
   for (const end of [x, x + pixels - 1.5]) context.fillRect(end, y - 4, 1.5, 10);
@@ -56,7 +56,8 @@ function lengthText(length) {
 
 function drawMarks(context) {
   drawLegend(context, currentFrame(), frameSize.legend);
+  drawLoadLabels(context);
   if (!current.marks) return;
-  drawAxes(context, frameSize);
-  drawScaleBar(context, frameSize);
+  drawAxes(context, frameSize.marks);
+  drawScaleBar(context, frameSize.marks);
 }

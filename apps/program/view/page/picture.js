@@ -1,5 +1,8 @@
 // Pictures for `ashlar picture` and `ashlar movie`: #picture&size=800x600&frame=3, or &frames=0:7.
 
+/// Pixels of the heading: a low picture has no title.
+const headingOfPicture = (height) => (height < 300 ? 36 : 60);
+
 /// Leaves only a text in the page for the program that reads it: pictures, or the reason for their absence.
 function leaveText(id, content) {
   const text = document.createElement("pre");
@@ -14,6 +17,7 @@ function faultOf(wishes) {
   if (wishes.get("color") && !(wishes.get("color") in fields))
     return "the run has no " + wishes.get("color") + " (output.fields)";
   if (current.joints !== "none" && !hasJoints()) return "the run has no contact faces (joints.pvd)";
+  if (current.joints === "water" && !data.water_pressure) return "the run has no water in joints ([[water]])";
   if (current.vectors === "velocity" && !data.velocity) return "the run has no velocity (output.fields)";
   const unknown = ["hide", "only"].flatMap((key) => (wishes.get(key) || "").split(","))
     .find((name) => name !== "" && blockCalled(name) < 0);
@@ -29,7 +33,7 @@ function makePicture(wishes) {
   renderer.setPixelRatio(1);
   renderer.setSize(width, height, false);
   setLineResolution(width, height);
-  setFrame(framing(width, height, {heading: 36, player: 12}));
+  setFrame(framing(width, height, {heading: headingOfPicture(height), player: 12}));
   setTheme();
   lookFrom(current.from);
   sharpness.isStarted = true;
@@ -44,6 +48,21 @@ function makePicture(wishes) {
   leaveText("pictures", pictures.join("\n"));
 }
 
+/// Title of the run, and below it the words for the frame and a note on its forces.
+function drawHeading(context, width, heading) {
+  context.font = "600 17px system-ui, sans-serif";
+  if (heading > 40) drawText(context, fittingText(context, titleOfRun(), width - 32), 16, 24);
+  context.font = "14px system-ui, sans-serif";
+  const note = forceNote(currentFrame());
+  const clock = fittingText(context, clockText(currentFrame()), width - 32);
+  drawText(context, clock, 16, heading - 15);
+  const free = width - 48 - context.measureText(clock).width;
+  if (!note || free <= 120) return;
+  context.textAlign = "right";
+  drawText(context, fittingText(context, note, free), width - 12, heading - 15);
+  context.textAlign = "left";
+}
+
 /// @return the present view as a PNG in base64
 function drawnPicture(width, height) {
   show();
@@ -52,15 +71,6 @@ function drawnPicture(width, height) {
   const context = picture.getContext("2d");
   context.drawImage(element("canvas"), 0, 0);
   drawMarks(context);
-  context.font = "14px system-ui, sans-serif";
-  const note = forceNote(currentFrame());
-  const clock = clockText(currentFrame());
-  drawText(context, clock, 16, 22);
-  const free = width - 48 - context.measureText(clock).width;
-  if (note && free > 120) {
-    context.textAlign = "right";
-    drawText(context, fittingText(context, note, free), width - 12, 22);
-    context.textAlign = "left";
-  }
+  drawHeading(context, width, headingOfPicture(height));
   return picture.toDataURL("image/png").split(",")[1];
 }

@@ -172,7 +172,7 @@ function placeSection(field, range) {
 /// Ends of the range of the plane.
 function sectionWay() {
   const axis = current.section.slice(-1);
-  return current.section === "none" ? [0, 1] : [sceneBox.min[axis], sceneBox.max[axis]];
+  return current.section === "none" ? [0, 1] : [modelBox.min[axis], modelBox.max[axis]];
 }
 
 const sectionIsPartlyGrey = (field) => current.section !== "none" && !isWhole(field)

@@ -1,10 +1,11 @@
 // Last part: libraries and data are unpacked, everything is built and shown. Names that all parts share are set here.
 
-let data, fields, surface, meshes, joints, forces, vectors, section, outline, sceneBox, sceneRadius;
+let data, fields, surface, meshes, joints, forces, vectors, actions, section, outline, modelBox, sceneBox, sceneRadius;
 let camera, cameras, controls, renderer, stage;
 const current = {};
 const plots = [];
-const frameSize = {width: 1, height: 1, left: 0, top: 0, bottom: 0, legend: {x: 0, y: 0, width: 1, height: 1, flat: false}};
+const frameSize = {width: 1, height: 1, left: 0, top: 0, bottom: 0, legend: {x: 0, y: 0, width: 1, height: 1, flat: false},
+  marks: {x: 0, y: 0, width: 1, height: 1}};
 const sharpness = {full: 1, turning: 1, isTurning: false, isStarted: false, lastMilliseconds: 0};
 
 /// three.js and Chart.js, each as if it stood in the page.
@@ -38,13 +39,16 @@ function build() {
   cameras = buildCameras();
   camera = cameras.perspective;
   outline = outlineOfScene();
+  modelBox = new THREE.Box3().setFromPoints(outline);
+  sceneRadius = 0.5 * modelBox.getSize(new THREE.Vector3()).length();
+  outline.push(...outlineOfActions());
   sceneBox = new THREE.Box3().setFromPoints(outline);
-  sceneRadius = 0.5 * sceneBox.getSize(new THREE.Vector3()).length();
   surface = buildSurface(data.cells);
   meshes = buildMeshes(surface);
   joints = buildJoints();
   forces = buildForces();
   vectors = buildVectors();
+  actions = buildActions();
   section = buildSection();
   renderer = buildRenderer();
   controls = new THREE.OrbitControls(camera, element("canvas"));
@@ -60,7 +64,7 @@ async function start() {
   stage = buildStage();
   const wishes = readAddress();
   if (wishes.has("picture")) return makePicture(wishes);
-  const title = (data.summary && data.summary.title) || data.name;
+  const title = titleOfRun();
   document.title = title + " - Ashlar";
   element("title").textContent = title;
   tieControls();

@@ -1,53 +1,25 @@
-// The summary: first the main results, then counts.
+// The summary: first the answer (answer.js), then the main results, then counts.
 
 const words = (key) => key.replaceAll("_", " ");
 const valueText = (value) => (typeof value === "number" ? short(value) : String(value));
 
-const STATUS_WORDS = {
-  completed: "completed", equilibrium: "stands: equilibrium was found", moving: "moves: there is no equilibrium",
-  "not converged": "not converged: no answer", failed: "failed", interrupted: "interrupted",
-};
-
-/// A coordinate rounded to a hundred-thousandth of the scene.
+/// A coordinate rounded to a hundred-thousandth of the scene, so that rounding errors are 0.
 const roundedPlace = (x) => Math.round(x / (1e-5 * sceneRadius)) * 1e-5 * sceneRadius;
 
-const placedText = ({value, block, place}, unit) =>
-  quantity(value, unit) + " in " + block + " at (" + place.map((x) => short(roundedPlace(x))).join(", ") + ") m";
+const placedText = ({value, block, place}, unit) => withoutNoise(value, unit) === 0 ? "none" :
+  quantity(withoutNoise(value, unit), unit) + " in " + block + " at (" + place.map((x) => short(roundedPlace(x))).join(", ") + ") m";
 
-function namesText(names) {
-  const shown = names.slice(0, 5).join(", ");
-  return names.length > 5 ? shown + " and " + (names.length - 5) + " more" : shown;
+function namesText(names, most = 5) {
+  const shown = names.slice(0, most).join(", ");
+  return names.length > most ? shown + " and " + (names.length - most) + " more" : shown;
 }
 
-/// "between 2.61 and 2.63"
-function factorText({lower, upper}) {
-  if (lower === null || lower === undefined) return "below " + short(upper) + ": moves even there";
-  if (upper === null || upper === undefined) return "above " + short(lower) + ": stands even there";
-  return "between " + short(lower) + " and " + short(upper);
-}
-
-/// "3 blocks: a, b, c"
-const countedNames = (names) => (names.length === 0 ? ""
-  : names.length + (names.length === 1 ? " block: " : " blocks: ") + namesText(names));
-
-/// True if the status is the result; false if it only indicates a result in the summary, which its message then
-/// repeats.
-const isAnswered = ({status}) => ["completed", "equilibrium", "moving"].includes(status);
-
-/// Rows of the main results: the factor of a search, otherwise the stability of the model.
+/// Rows of the main results below the answer itself: the largest values.
 function answerRows(summary) {
-  if (!summary) return [["status", "not finished: no summary.json"]];
+  if (!summary) return [];
   const rows = [];
   const add = (name, value) => { if (value !== null && value !== undefined && value !== "") rows.push([name, value]); };
-  const moving = summary.moving || [];
-  for (const [key, name] of [["factor_of_safety", "factor of safety"], ["load_factor", "load factor"]]) {
-    if (!summary[key]) continue;
-    add(name, factorText(summary[key]));
-    add("moves then", countedNames((summary[key].moving || []).map((block) => block.block || block)));
-  }
-  add("status", STATUS_WORDS[summary.status] || String(summary.status));
   if (!isAnswered(summary)) add("message", summary.message);
-  add("moves", countedNames(moving.map(({block}) => block)));
   const displaced = summary.displaced || [];
   if (displaced.length > 0)
     add("went far", namesText(displaced.map(({block, distance}) => block + " (" + quantity(distance, "m") + ")")));
@@ -65,7 +37,7 @@ function answerRows(summary) {
     add("broken joints", broken.pairs === 0 ? "none" : short(broken.area) + " of " + short(broken.of_area)
       + " m² with strength, between " + broken.pairs + " pairs of blocks");
   const deepest = summary.deepest;
-  if (deepest) add("deepest penetration", quantity(deepest.value, "m") + ", " + deepest.blocks.join(" in "));
+  if (deepest) add("deepest penetration", quantity(withoutNoise(deepest.value, "m"), "m") + ", " + deepest.blocks.join(" in "));
   return rows;
 }
 
@@ -74,7 +46,7 @@ const ANSWERED = ["scene", "title", "status", "message", "moving", "displaced", 
 
 /// All other numbers and texts as rows, tables of them as groups.
 function counterRows(summary) {
-  const rows = summary && isAnswered(summary) && summary.message ? [["message", summary.message]] : [];
+  const rows = [];
   const groups = [];
   for (const [key, value] of Object.entries(summary || {})) {
     if (ANSWERED.includes(key)) continue;
@@ -95,6 +67,7 @@ function counterRows(summary) {
 }
 
 function showSummary() {
+  element("answer").textContent = answerText(data.summary);
   fillTable(element("answers"), answerRows(data.summary));
   fillTable(element("counters"), counterRows(data.summary));
 }

@@ -31,7 +31,7 @@ assign = [{}, { inside = { box = {} } }, { inside = { mesh = {} } }, { inside = 
 load = [{}]
 bolt = [{}, { pattern = { plane = {} } }]
 prop = [{}]
-measure = [{}]
+measure = [{}, { drift = {} }, { crack = {} }]
 water = [{ level = {} }]
 initial_stress = {}
 [[block]]

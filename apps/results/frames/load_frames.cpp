@@ -1,0 +1,138 @@
+#include "apps/results/frames/load_frames.hpp"
+
+#include <algorithm>
+
+#include "apps/scene/expand/scene_stages.hpp"
+#include "geometry/index.hpp"
+#include "mechanics/supports/face_selection.hpp"
+#include "mechanics/supports/loads.hpp"
+
+namespace ashlar {
+namespace {
+
+DrawnSupport support_of(const SceneFix& fix, std::size_t block, int stage, const Polyhedron& solid) {
+  DrawnSupport support{static_cast<int>(block), stage, fix.components, {}, Vector3::Zero()};
+  if (const auto* point = std::get_if<Vector3>(&fix.where)) {
+    support.point = *point;
+    return support;
+  }
+  const auto& plane = std::get<ScenePlane>(fix.where);
+  for (const int face : faces_in_plane(solid, {plane.point, plane.normal})) {
+    for (const int triangle : solid.faces()[at(face)].triangles) {
+      const auto& corners = solid.mesh().triangles[at(triangle)];
+      const auto corner = [&](std::size_t k) { return solid.mesh().points[at(corners.at(k))]; };
+      support.triangles.push_back({corner(0), corner(1), corner(2)});
+    }
+  }
+  return support;
+}
+
+/// Resultant of a load at factor 1 (N) and the material point where it is drawn (m).
+struct Resultant {
+  Vector3 force;
+  Vector3 place;
+};
+
+Resultant resultant_of(const Polyhedron& solid, const Load& load) {
+  if (const auto* point = std::get_if<Vector3>(&load.where)) return {load.vector, *point};
+  constexpr int degree_of_field = 4;
+  const SurfaceRule rule = surface_rule(solid, faces_at(solid, load.where), load.field ? degree_of_field : 1);
+  double area = 0.0;
+  Vector3 centre = Vector3::Zero(), force = Vector3::Zero();
+  for (std::size_t k = 0; k < rule.points.size(); ++k) {
+    area += rule.weights[k];
+    centre += rule.weights[k] * rule.points[k];
+    if (load.field) force += rule.weights[k] * load.field(rule.points[k]);
+  }
+  if (!load.field) force = load.traction ? Vector3(area * load.vector) : load.vector;
+  return {force, centre / area};
+}
+
+/// Arrays of cells.
+struct CellFields {
+  std::vector<double> force;
+  std::vector<std::int32_t> held, block;
+
+  void add(const Vector3& resultant, int components, int number) {
+    force.insert(force.end(), {resultant.x(), resultant.y(), resultant.z()});
+    held.push_back(components);
+    block.push_back(number);
+  }
+};
+
+Vector3 place_of(const Simulation& simulation, int block, const Vector3& point) {
+  return simulation.blocks()[at(block)].motion_of(simulation.states()[at(block)], point).place;
+}
+
+void add_loads(const Simulation& simulation, int block, UnstructuredGrid& grid, CellFields& fields) {
+  const BlockModel& model = simulation.blocks()[at(block)];
+  for (const Load& load : model.loads()) {
+    const double factor = load.factor * load.history.at(simulation.time());
+    if (!load.parts.empty() || factor == 0.0) continue;
+    const Resultant resultant = resultant_of(model.solid(), load);
+    if (resultant.force.isZero(0.0)) continue;
+    grid.add_cell(VtkCellType::vertex, std::array{static_cast<int>(grid.points.size())});
+    grid.points.push_back(place_of(simulation, block, resultant.place));
+    fields.add(factor * resultant.force, 0, block);
+  }
+}
+
+void add_support(const Simulation& simulation, const DrawnSupport& support, UnstructuredGrid& grid,
+                 CellFields& fields) {
+  int held = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) held += support.components.at(axis) ? 1 << axis : 0;
+  const auto add_point = [&](const Vector3& point) {
+    grid.points.push_back(place_of(simulation, support.block, point));
+    return static_cast<int>(grid.points.size()) - 1;
+  };
+  for (const std::array<Vector3, 3>& corners : support.triangles) {
+    const int a = add_point(corners[0]), b = add_point(corners[1]), c = add_point(corners[2]);
+    grid.add_cell(VtkCellType::triangle, std::array{a, b, c});
+    fields.add(Vector3::Zero(), held, support.block);
+  }
+  if (!support.triangles.empty()) return;
+  grid.add_cell(VtkCellType::vertex, std::array{add_point(support.point)});
+  fields.add(Vector3::Zero(), held, support.block);
+}
+
+}  // namespace
+
+std::vector<DrawnSupport> drawn_supports(const Scene& scene, const std::vector<BlockModel>& blocks) {
+  std::vector<DrawnSupport> supports;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (blocks[k].fixed() || blocks[k].incremental() != nullptr) continue;
+    for (const SceneFix& fix : scene.block[k].fix)
+      supports.push_back(support_of(fix, k, 0, blocks[k].solid()));
+    for (std::size_t s = 0; s < scene.stage.size(); ++s)
+      for (const SceneStage::Fix& entry : scene.stage[s].fix)
+        if (means_block(scene, entry.blocks, k))
+          supports.push_back(support_of(entry.fix, k, static_cast<int>(s) + 1, blocks[k].solid()));
+  }
+  return supports;
+}
+
+bool has_loads_or_supports(const Scene& scene) {
+  const auto has_any = [](const auto& entry) { return !entry.fix.empty() || !entry.load.empty(); };
+  return std::any_of(scene.block.begin(), scene.block.end(), has_any) ||
+         std::any_of(scene.stage.begin(), scene.stage.end(), has_any);
+}
+
+UnstructuredGrid load_frame(const Simulation& simulation, const std::vector<DrawnSupport>& supports,
+                            int stage) {
+  UnstructuredGrid grid;
+  CellFields fields;
+  for (std::size_t k = 0; k < simulation.blocks().size(); ++k) {
+    const BlockModel& block = simulation.blocks()[k];
+    if (block.incremental() == nullptr && !block.fixed() && simulation.system().present(static_cast<int>(k)))
+      add_loads(simulation, static_cast<int>(k), grid, fields);
+  }
+  for (const DrawnSupport& support : supports)
+    if (support.stage <= stage && simulation.system().present(support.block))
+      add_support(simulation, support, grid, fields);
+  grid.cell_data.push_back({"force", 3, {"x", "y", "z"}, std::move(fields.force)});
+  grid.cell_data.push_back({"held", 1, {}, std::move(fields.held)});
+  grid.cell_data.push_back({"block", 1, {}, std::move(fields.block)});
+  return grid;
+}
+
+}  // namespace ashlar
