@@ -50,7 +50,7 @@ def write(name, text):
     picture = name.replace(".toml", ".png")
     text = text.replace('title = "', f'#\n# Picture: data/pictures/{picture}\ntitle = "', 1)
     with open(name, "w", encoding="utf-8") as file:
-        file.write(text)
+        file.write("#:schema ../scene.schema.json\n" + text)
 
 
 def contact(kn, ks, friction, springs="area"):

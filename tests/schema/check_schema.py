@@ -15,10 +15,14 @@ import jsonschema
 def main(program, folder):
     schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True).stdout)
     jsonschema.Draft202012Validator.check_schema(schema)
+    # The copy for editors, named by the first line of each scene.
+    copy = pathlib.Path(folder).parent / "scene.schema.json"
+    assert json.loads(copy.read_text()) == schema, f"{copy} is out of date: ashlar schema > {copy}"
     validator = jsonschema.Draft202012Validator(schema)
     scenes = sorted(pathlib.Path(folder).glob("*.toml"))
     assert len(scenes) > 10, f"{len(scenes)} scenes in {folder}"
     for path in scenes:
+        assert path.read_text().startswith("#:schema ../scene.schema.json\n"), f"{path}: no line for editors"
         for error in validator.iter_errors(tomllib.loads(path.read_text())):
             sys.exit(f"{path}: {list(error.path)}: {error.message}")
 
