@@ -30,6 +30,7 @@
 #include "apps/run/run_observer.hpp"
 #include "apps/scene/build/build_simulation.hpp"
 #include "apps/scene/build/scene_loading.hpp"
+#include "solver/run/order_error.hpp"
 
 namespace ashlar {
 
@@ -143,6 +144,8 @@ class Run {
   [[nodiscard]] RunCheckpoint checkpoint() const;
   /// Largest values, with displacements relative to the last reset by a stage.
   [[nodiscard]] LargestValues largest() const;
+  /// Errors of the orders of blocks: of a dynamic run at present, of a static analysis in equilibrium. Empty: others
+  [[nodiscard]] std::vector<OrderError> order_errors() const;
   /// summary.json, with the answer of a search; status interrupted if the run has not ended.
   [[nodiscard]] std::string summary() const;
   /// The same of a record. @param frames written so far

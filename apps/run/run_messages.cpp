@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <vector>
 
+#include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_summary.hpp"
 #include "apps/scene/build/initial_state.hpp"
 
@@ -71,6 +73,20 @@ void warn_of_hops(const Simulation& simulation, std::ostream& err) {
       share);
 }
 
+/// Warns of orders too low for the deformation of their blocks.
+void warn_of_order(const Run& run, std::ostream& err) {
+  const Simulation& simulation = run.simulation();
+  const std::vector<OrderError> errors = run.order_errors();
+  const std::optional<OrderError> coarse = coarse_block(simulation, errors);
+  if (!coarse) return;
+  const BlockModel& block = simulation.blocks()[static_cast<std::size_t>(coarse->block)];
+  err << fmt::format(
+      "ashlar: warning: deformation is resolved to {:.0f} % only (in the norm of the strain energy, "
+      "estimated), worst "
+      "in block {}: raise its order above {}, or tie smaller blocks\n",
+      100.0 * coarse->relative(), block.name(), block.order());
+}
+
 /// Prints how a run ended; nothing for a completed one. @param quiet only errors and interrupts
 void tell_end(const Run& run, const std::filesystem::path& folder, bool quiet, std::ostream& err) {
   const std::string& message = run.message();
@@ -122,6 +138,7 @@ void tell_results(const Run& run, const std::filesystem::path& folder, bool quie
   warn_of_depth(simulation, err);
   warn_of_friction(simulation, err);
   warn_of_hops(simulation, err);
+  warn_of_order(run, err);
 }
 
 }  // namespace ashlar

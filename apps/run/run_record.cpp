@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/results/folder/error_summary.hpp"
 #include "apps/results/folder/run_checkpoint.hpp"
 #include "apps/results/folder/run_summary.hpp"
 #include "apps/results/text/atomic_file.hpp"
@@ -136,6 +137,13 @@ LargestValues Run::largest() const {
                         place_.origin.surfaces);
 }
 
+std::vector<OrderError> Run::order_errors() const {
+  const SceneAnalysis& analysis = scene().analysis;
+  const bool known = analysis.type == SceneAnalysis::Type::dynamic ||
+                     (analysis.type == SceneAnalysis::Type::statics && status_ == RunStatus::equilibrium);
+  return known ? ashlar::order_errors(simulation()) : std::vector<OrderError>{};
+}
+
 std::string Run::summary() const {
   return summary(recorder_ ? recorder_->frames() : 0, largest());
 }
@@ -149,6 +157,8 @@ std::string Run::summary(int frames, const LargestValues& largest) const {
   }
   auto summary = run_summary(whole(), identity_, built_,
                              {status, message_, clock_.seconds(), frames, largest, std::move(begun)});
+  if (const std::vector<OrderError> errors = order_errors(); !errors.empty())
+    summary["error"] = error_summary(simulation(), errors);
   add_answer(summary, answer_, whole().analysis, simulation());
   return json_text(summary, 2) + "\n";
 }

@@ -202,6 +202,12 @@ class Simulation:
         return _json.loads(self._core.summary())
 
     @property
+    def error(self):
+        """Estimated error of the orders of blocks, `error` of summary.json: {"estimate", "by", "blocks"}; None where nothing
+        is estimated."""
+        return self.summary.get("error")
+
+    @property
     def stage(self):
         """Number of the present stage, from 1; 0 for a scene without stages."""
         return self._core.stage

@@ -1,0 +1,36 @@
+// Error of a block's order, from the residual on the functions of the next order.
+//
+// With u of order n and K the stiffness of order n + 1 at the present state, the residual of the present forces
+//     r = F_external + F_contact - F_elastic(u)
+// is zero on the functions of order n, but for inertia, which is orthogonal to the others. Then
+//     eta^2 = r' K^-1 r                                              r on the functions of degree n + 1 alone
+// is the square of the distance to the solution of order n + 1 in the norm of the strain energy, with the contact
+// forces as they are; eta^2 / 2 is the strain energy that the block lacks. R. E. Bank and R. K. Smith, SIAM J. Numer.
+// Anal. 30 (1993) 921: it is a lower bound of the error if higher orders matter less than the next one. Compliance of
+// the contacts and errors of their forces are not in it.
+//
+// Nothing is estimated for rigid blocks, incremental ones, blocks of the largest order, and those with bolts.
+#pragma once
+
+#include <vector>
+
+#include "solver/run/simulation.hpp"
+
+namespace ashlar {
+
+struct OrderError {
+  int block = -1;
+  double energy = 0.0;  ///< strain energy, J, >= 0
+  double lacks = 0.0;   ///< strain energy that its order lacks, J, >= 0; 0 within rounding error
+
+  /// Error over the solution, in the norm of the energy, 0 to 1.
+  [[nodiscard]] double relative() const;
+};
+
+/// In the order of the blocks. After a step or an iteration, at its contact forces.
+[[nodiscard]] std::vector<OrderError> order_errors(const Simulation& simulation);
+
+/// All blocks together; 0 if there are none or none deforms. @return as OrderError::relative
+[[nodiscard]] double relative_error(const std::vector<OrderError>& errors);
+
+}  // namespace ashlar

@@ -1,0 +1,87 @@
+#include "solver/run/order_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/simulations.hpp"
+
+namespace ashlar {
+namespace {
+
+using test_support::block_of;
+using test_support::fixed_box;
+using test_support::run_static;
+using test_support::run_until;
+using test_support::same_law;
+
+const Material bar{2500.0, 1e7, 0.0};
+constexpr double height = 2.0, area = 0.5, gravity = 9.81;
+/// Under its own weight, with s = rho g (h - z): the integral of s^2 / 2E.
+const double exact =
+    bar.density * bar.density * gravity * gravity * height * height * height * area / (6 * 1e7);
+
+BlockDefinition bar_of(int order) {
+  return block_of("bar", Polyhedron(make_box({0, 0, 0}, {area, 1, height})), bar, order);
+}
+
+Simulation hanging(int order) {
+  BlockDefinition block = bar_of(order);
+  block.supports.push_back({Plane{{0, 0, height}, Vector3::UnitZ()}});
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(std::move(block));
+  Simulation simulation(std::move(blocks), {{}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{});
+  (void)simulation.settle_supported_blocks();
+  return simulation;
+}
+
+// The mean stress rho g h / 2 has 3/4 of the energy; order 2 has all of it.
+TEST(OrderError, IsTheEnergyThatOrderOneLacksUnderWeight) {
+  const auto errors = order_errors(hanging(1));
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_NEAR(errors[0].energy / exact, 0.75, 1e-12);
+  EXPECT_NEAR(errors[0].lacks / exact, 0.25, 1e-9);
+  EXPECT_NEAR(errors[0].relative(), 0.5, 1e-9);
+  EXPECT_NEAR(relative_error(errors), 0.5, 1e-9);
+  for (const int order : {2, 3}) EXPECT_EQ(order_errors(hanging(order))[0].lacks, 0.0) << order;
+}
+
+// The same bar on a base, by contact.
+TEST(OrderError, CountsContactForces) {
+  for (const bool augmented : {false, true}) {
+    for (const int order : {1, 2}) {
+      std::vector<BlockModel> blocks;
+      blocks.emplace_back(fixed_box({-1, -1, -1}, {2, 2, 0}));
+      blocks.emplace_back(bar_of(order));
+      SimulationSettings settings;
+      settings.augmented = augmented;
+      Simulation simulation(std::move(blocks), {{}, {}}, same_law({1e11, 1e11, 0.5, 0.0, 0.0, true}),
+                            settings);
+      ASSERT_EQ(run_static(simulation, 1.0), StaticStatus::equilibrium);
+      const auto errors = order_errors(simulation);
+      ASSERT_EQ(errors.size(), 1U) << "the base is fixed";
+      EXPECT_EQ(errors[0].block, 1);
+      EXPECT_NEAR(errors[0].lacks / exact, order == 1 ? 0.25 : 0.0, 1e-3) << order << augmented;
+    }
+  }
+}
+
+TEST(OrderError, WithoutDeformationThereIsNone) {
+  std::vector<BlockModel> blocks;
+  blocks.emplace_back(bar_of(2));
+  Simulation simulation(std::move(blocks), {{{1, 0, 3}, {0, 0, 0}}}, same_law({1e9, 1e9, 0.5}),
+                        SimulationSettings{});
+  ASSERT_TRUE(run_until(simulation, 0.01));
+  EXPECT_EQ(relative_error(order_errors(simulation)), 0.0);
+  EXPECT_EQ(relative_error({}), 0.0);
+}
+
+TEST(OrderError, RigidBlocksAndThoseOfTheLargestOrderHaveNone) {
+  for (const int order : {0, PolynomialBasis::max_order}) {
+    std::vector<BlockModel> blocks;
+    blocks.emplace_back(bar_of(order));
+    const Simulation simulation(std::move(blocks), {{}}, same_law({1e9, 1e9, 0.5}), SimulationSettings{});
+    EXPECT_TRUE(order_errors(simulation).empty()) << order;
+  }
+}
+
+}  // namespace
+}  // namespace ashlar
