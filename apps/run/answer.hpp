@@ -8,6 +8,7 @@
 
 #include "apps/run/factor_search.hpp"
 #include "solver/statics/limit_analysis.hpp"
+#include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/support_movement.hpp"
 #include "solver/statics/thrust.hpp"
 
@@ -25,6 +26,7 @@ struct ThrustLine {
   double thrust = 0.0;  ///< N
   double gap = 0.0;
   std::vector<JointResultant> joints;
+  std::vector<BarForce> bars;  ///< of bolts and props
 };
 struct SupportThrust {
   int support = -1;  ///< block

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "apps/run/factor_analysis.hpp"
 #include "apps/scene/build/joint_selection.hpp"
 #include "apps/scene/build/limit_choices.hpp"
+#include "mechanics/bolt/bolt_strength.hpp"
+#include "solver/run/checkpoint.hpp"
 #include "solver/state/automatic.hpp"
 
 namespace ashlar {
@@ -20,6 +24,15 @@ constexpr double drawn_share = 0.1;
 
 bool is_safety(const SceneAnalysis& analysis) {
   return analysis.type == SceneAnalysis::Type::safety;
+}
+
+/// True if limit analysis has all properties of all bolts.
+bool bolts_are_plastic(const Simulation& simulation) {
+  const std::vector<Bolt>& bolts = simulation.system().bolts();
+  return std::all_of(bolts.begin(), bolts.end(), [](const Bolt& bolt) {
+    const BoltLaw& law = bolt.chain.law();
+    return law.pretension == 0.0 && law.rupture_strain == BoltLaw::unlimited && !is_unlimited(law);
+  });
 }
 
 std::string name_of(const Simulation& simulation, int block) {
@@ -127,7 +140,11 @@ std::string words_of(const LimitMotion& motion, const Simulation& simulation) {
 std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation) {
   const bool asks = seeks_factor(scene.analysis) || scene.analysis.type == SceneAnalysis::Type::thrust;
   if (!asks || scene.analysis.formulation == SceneAnalysis::Formulation::incremental) return std::nullopt;
-  if (!simulation.bolts().empty()) return std::nullopt;
+  const bool thrust = scene.analysis.type == SceneAnalysis::Type::thrust;
+  const bool by_choice = thrust || scene.analysis.method == SceneAnalysis::Method::limit;
+  if (!by_choice && !simulation.bolts().empty() &&
+      (scene.analysis.method == SceneAnalysis::Method::elastic || !bolts_are_plastic(simulation)))
+    return std::nullopt;
   const bool multiplies = scene.analysis.type == SceneAnalysis::Type::capacity;
   return simulation.rigid_model(scene.analysis.end_time,
                                 multiplies ? multiplied_blocks(scene) : std::vector<bool>());
@@ -177,7 +194,35 @@ LimitFindings find_limits(const Scene& scene, RigidModel model, int threads,
   if (associated) findings.associated = analysis.motion_of(*associated);
   // If nothing moves below the associated limit, its motion is both.
   if (released) findings.released = released->released ? analysis.motion_of(*released) : findings.associated;
+  if (!released && findings.answer.released.lower) {
+    const double factor = *findings.answer.released.lower;
+    const LimitTrial stands = analysis.associated(is_safety(scene.analysis) ? LimitFactors{factor, 1.0}
+                                                                            : LimitFactors{1.0, factor});
+    findings.released.bars = bar_forces(analysis.model(), stands.force);
+  }
   return findings;
+}
+
+void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation) {
+  if (forces.empty()) return;
+  SimulationSnapshot snapshot = simulation.snapshot();
+  snapshot.run.bolts = bolts_under(forces, simulation.system().bolts(), simulation.bolts());
+  simulation.restore(snapshot);
+}
+
+Json bars_json(const std::vector<BarForce>& forces, const Simulation& simulation) {
+  std::map<int, std::array<double, 2>> by_bolt;
+  for (const BarForce& bar : forces) {
+    auto& [axial, shear] = by_bolt.try_emplace(bar.of.bolt, std::array{0.0, 0.0}).first->second;
+    if (bar.of.part == BarPart::axial && std::abs(bar.force) > std::abs(axial)) axial = bar.force;
+    if (bar.of.part == BarPart::dowel) shear = std::max(shear, bar.force);
+  }
+  Json json = Json::array();
+  for (const auto& [bolt, largest] : by_bolt)
+    json.push_back({{"name", simulation.system().bolts()[static_cast<std::size_t>(bolt)].name},
+                    {"axial_force", largest[0]},
+                    {"shear_force", largest[1]}});
+  return json;
 }
 
 std::string describe(const LimitFindings& findings, const SceneAnalysis& analysis,
@@ -196,6 +241,7 @@ Json limit_summary(const LimitFindings& findings, const Simulation& simulation) 
   json["gap"] =
       released.lower && released.upper ? Json(*released.upper / *released.lower - 1.0) : Json(nullptr);
   add_motion(json, findings.released, simulation);
+  if (!findings.released.bars.empty()) json["bolts"] = bars_json(findings.released.bars, simulation);
   json["kept_by_others"] = names_in_json(findings.answer.kept_by_others, simulation);
   json["associated_bracket"] = {number(associated.lower), number(associated.upper)};
   json["associated_motion"] = Json::object();

@@ -15,7 +15,8 @@
 namespace ashlar {
 
 /// Rigid model of a scene that seeks a factor or thrust. @param simulation as placed, without factors
-/// @return empty if the scene seeks neither, or limit analysis does not support its formulation or its bolts
+/// @return empty if the scene seeks neither, or limit analysis does not support its formulation, or
+/// is not to be chosen for its bolts: automatic and elastic methods use it only if all bolts are perfectly plastic
 [[nodiscard]] std::optional<RigidModel> limit_model(const Scene& scene, const Simulation& simulation);
 
 /// True if a search for a factor uses limit analysis: as the scene specifies, or if that is automatic, if no joint of
@@ -34,10 +35,18 @@ void refuse_idle_limits(const Scene& scene, const std::optional<RigidModel>& mod
                                    const Simulation& simulation);
 
 /// method, lower, upper (of the released factor; null if there is none), released (the factor for design),
-/// associated, gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, kept_by_others,
+/// associated, gap, mode, moving, accelerations (m/s^2), angular_accelerations (rad/s^2), joints, bolts (bars_json, of
+/// scenes with bolts), kept_by_others,
 /// associated_motion, trials.
 [[nodiscard]] nlohmann::ordered_json limit_summary(const LimitFindings& findings,
                                                    const Simulation& simulation);
+
+/// The simulation's bolts with the forces of a limit state.
+void set_bolts(const std::vector<BarForce>& forces, Simulation& simulation);
+
+/// An array: name, axial_force (N, the largest by its amount, tension positive), shear_force (N) of each bolt with forces.
+[[nodiscard]] nlohmann::ordered_json bars_json(const std::vector<BarForce>& forces,
+                                               const Simulation& simulation);
 
 /// "block rock.8 slides on one plane", "12 blocks move, block rock.8 fastest: it topples"
 [[nodiscard]] std::string words_of(const LimitMotion& motion, const Simulation& simulation);

@@ -14,6 +14,7 @@
 #include "apps/run/folder_recorder.hpp"
 #include "apps/run/limit_run.hpp"
 #include "apps/run/run_setup.hpp"
+#include "apps/run/thrust_run.hpp"
 #include "apps/scene/build/initial_state.hpp"
 #include "apps/scene/check/added_blocks.hpp"
 #include "apps/scene/expand/scene_stages.hpp"
@@ -234,6 +235,7 @@ void Run::draw_onset() {
   if (simulation.steps() == 0) {
     simulation.displace(answer_.thrust ? std::vector<RigidDisplacement>()
                                        : drawn_motion(answer_.limits->released, simulation));
+    set_bolts(answer_.thrust ? drawn_bars(*answer_.thrust) : answer_.limits->released.bars, simulation);
     if (!accept_step()) return;
   }
   AnsweredEnd end = drawn_end(answer_, scene().analysis, simulation);

@@ -21,7 +21,10 @@ const std::string& name_of(const Simulation& simulation, int block) {
 }
 
 ThrustLine line_of(const RigidModel& model, const ThrustState& state) {
-  return {state.thrust, state.gap, joint_resultants(model, state.force)};
+  std::vector<Eigen::Vector3d> in_frames;
+  for (std::size_t k = 0; k < state.force.size(); ++k)
+    in_frames.emplace_back(model.points[k].frame * state.force[k] / model.units.force());
+  return {state.thrust, state.gap, joint_resultants(model, state.force), bar_forces(model, in_frames)};
 }
 
 Json to_json(const ThrustLine& line, const Simulation& simulation) {
@@ -109,11 +112,19 @@ Json thrust_summary(const ThrustFindings& findings, const Simulation& simulation
                 {"gap", std::max(support.least.gap, support.most ? support.most->gap : 0.0)},
                 {"least_line", to_json(support.least, simulation)}};
     one["most_line"] = support.most ? to_json(*support.most, simulation) : Json(nullptr);
+    if (!support.least.bars.empty()) {
+      one["least_bolts"] = bars_json(support.least.bars, simulation);
+      one["most_bolts"] = support.most ? bars_json(support.most->bars, simulation) : Json(nullptr);
+    }
     for (const SupportMovement& movement : findings.movements)
       if (movement.support == support.support) one["movement"] = movement_summary(movement, simulation);
     json.push_back(std::move(one));
   }
   return json;
+}
+
+std::vector<BarForce> drawn_bars(const ThrustFindings& findings) {
+  return findings.supports.empty() ? std::vector<BarForce>() : findings.supports.front().least.bars;
 }
 
 void draw_thrust(const ThrustFindings& findings, const Scene& scene, const Simulation& simulation,

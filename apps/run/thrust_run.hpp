@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/run/answer.hpp"
 #include "apps/scene/build/scene_loading.hpp"
@@ -20,9 +21,13 @@ namespace ashlar {
 [[nodiscard]] std::string describe(const ThrustFindings& findings, const Simulation& simulation);
 
 /// An array: support, least and most (N; null: unbounded), gap, least_line and most_line, each an array of blocks,
-/// place (m) and force (N, on the first block); movement (movement_run.hpp) for supports that were moved.
+/// place (m) and force (N, on the first block); least_bolts and most_bolts (limit_run.hpp) of scenes with bolts; movement
+/// (movement_run.hpp) for supports that were moved.
 [[nodiscard]] nlohmann::ordered_json thrust_summary(const ThrustFindings& findings,
                                                     const Simulation& simulation);
+
+/// Forces of bolts and props to show: at the least thrust on the first support.
+[[nodiscard]] std::vector<BarForce> drawn_bars(const ThrustFindings& findings);
 
 /// Draws moving blocks, projected along the horizontal direction of their smallest extent, and the lines of least and
 /// largest thrust on the first support, as SVG. @throws std::runtime_error with path and reason

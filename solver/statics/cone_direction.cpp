@@ -22,6 +22,17 @@ constexpr double compliance = 1e-9;
 double scalar_w2(const PointIterate& i) {
   return i.zc / i.xc;
 }
+double crushing_w2(const PointIterate& i) {
+  return i.zm / i.xm;
+}
+
+/// Stiffness along N by the bounds of N. A bar without bounds has the least that can be inverted: the compliance of the
+/// step limits it.
+double cut_of(const ConeStrength& s, const PointIterate& i) {
+  constexpr double unbounded = 1e-100;
+  const double cut = (s.cut_off() ? scalar_w2(i) : 0.0) + (s.crushes() ? crushing_w2(i) : 0.0);
+  return s.friction == 0.0 ? std::max(cut, unbounded) : cut;
+}
 
 /// H^-1 without cancellation: H = E' W^-2 E + cut along N, E = diag(mu, 1, 1).
 Matrix3d inverse_of(const ConeStrength& strength, const Scaling& w, double cut) {
@@ -63,7 +74,7 @@ bool ConeIteration::factorize() {
       d.w = cone::scaling_of(i.x, i.z);
       d.lambda = d.w.forth * i.z;
     }
-    const Matrix3d stiff = inverse_of(s, d.w, s.cut_off() ? scalar_w2(i) : 0.0);
+    const Matrix3d stiff = inverse_of(s, d.w, cut_of(s, i));
     d.inverse = (Matrix3d::Identity() + compliance * stiff).inverse() * stiff;
     d.inverse = 0.5 * (d.inverse + d.inverse.transpose()).eval();
   });
@@ -144,6 +155,10 @@ void ConeIteration::direction(double centring, bool corrected) {
       d.qc = (target - i.xc * i.zc - (corrected ? d.dxc * d.dzc : 0.0)) / i.xc;
       d.right[0] += d.qc - scalar_w2(i) * d.lack_xc;
     }
+    if (s.crushes()) {
+      d.qm = (target - i.xm * i.zm - (corrected ? d.dxm * d.dzm : 0.0)) / i.xm;
+      d.right[0] -= d.qm - crushing_w2(i) * d.lack_xm;
+    }
     if (!s.shear()) d.right.tail<2>().setZero();
     d.right = d.inverse * d.right;
   });
@@ -175,11 +190,20 @@ void ConeIteration::direction(double centring, bool corrected) {
     if (!s.shear()) dual.tail<2>().setZero();
     d.dp = d.right - d.inverse * y;
     dual += compliance * d.dp;
+    // Without friction one of the bounds of N takes its dual from G dv: the nearer one.
+    const bool crushed =
+        s.crushes() && s.friction == 0.0 && (!s.cut_off() || crushing_w2(points_[k]) > scalar_w2(points_[k]));
+    if (s.crushes()) d.dxm = d.lack_xm - d.dp[0];
     if (s.cut_off()) {
       d.dxc = d.lack_xc + d.dp[0];
-      d.dzc = s.friction > 0.0 ? d.qc - scalar_w2(points_[k]) * d.dxc : dual[0];
+      if (s.crushes() && !crushed) {
+        d.dzm = d.qm - crushing_w2(points_[k]) * d.dxm;
+        dual[0] += d.dzm;
+      }
+      d.dzc = s.friction > 0.0 || crushed ? d.qc - scalar_w2(points_[k]) * d.dxc : dual[0];
       dual[0] -= d.dzc;
     }
+    if (crushed) d.dzm = -dual[0];
     if (s.shear()) {
       d.dx = d.lack_x + Vector3d(s.friction * d.dp[0], d.dp[1], d.dp[2]);
       d.dz = divided(s, dual);
@@ -196,6 +220,7 @@ double ConeIteration::length(double share) const {
     const PointStep& d = steps_[k];
     if (s.shear()) way = std::min({way, longest_way(i.x, d.dx), longest_way(i.z, d.dz)});
     if (s.cut_off()) way = std::min({way, longest_way(i.xc, d.dxc), longest_way(i.zc, d.dzc)});
+    if (s.crushes()) way = std::min({way, longest_way(i.xm, d.dxm), longest_way(i.zm, d.dzm)});
   }
   if (grows_) way = std::min({way, longest_way(slack_, step_slack_), longest_way(slack_dual_, step_dual_)});
   return std::min(1.0, share * way);
@@ -214,6 +239,10 @@ void ConeIteration::advance(double way) {
     if (s.cut_off()) {
       i.xc += way * d.dxc;
       i.zc += way * d.dzc;
+    }
+    if (s.crushes()) {
+      i.xm += way * d.dxm;
+      i.zm += way * d.dzm;
     }
   }
   for (std::size_t b = 0; b < velocity_.size(); ++b) velocity_[b] += way * step_v_[b];

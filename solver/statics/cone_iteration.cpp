@@ -121,13 +121,26 @@ void ConeIteration::start() {
       i.xc = force + s.tension;
       i.zc = velocity;
     }
-    bounds_ += static_cast<double>(s.shear()) + static_cast<double>(s.cut_off());
+    if (s.crushes() || !std::isfinite(s.tension)) start_bar(s, i);
+    bounds_ +=
+        static_cast<double>(s.shear()) + static_cast<double>(s.cut_off()) + static_cast<double>(s.crushes());
   }
   if (grows_) {
     slack_ = question_.most;
     slack_dual_ = 1.0;
     bounds_ += 1.0;
   }
+}
+
+void ConeIteration::start_bar(const ConeStrength& s, PointIterate& i) const {
+  const double force = load_scale_;
+  i.p[0] = s.cut_off() && s.crushes() ? 0.5 * (s.compression - s.tension)
+           : s.crushes()              ? s.compression - force
+           : s.cut_off()              ? force - s.tension
+                                      : 0.0;
+  i.xc = s.cut_off() ? s.tension + i.p[0] : 1.0;
+  i.xm = s.crushes() ? s.compression - i.p[0] : 1.0;
+  i.zc = i.zm = velocity_scale();
 }
 
 void ConeIteration::note_equations() {
@@ -146,6 +159,10 @@ void ConeIteration::note_equations() {
     if (s.cut_off()) {
       d.lack_xc = i.p[0] + s.tension - i.xc;
       d.lack_y[0] -= i.zc;
+    }
+    if (s.crushes()) {
+      d.lack_xm = s.compression - i.p[0] - i.xm;
+      d.lack_y[0] += i.zm;
     }
   });
   each_body([&](std::size_t b) {
@@ -167,6 +184,10 @@ void ConeIteration::note_equations() {
     if (s.cut_off()) {
       worst_x = std::max(worst_x, std::abs(steps_[k].lack_xc));
       largest_z = std::max(largest_z, points_[k].zc);
+    }
+    if (s.crushes()) {
+      worst_x = std::max(worst_x, std::abs(steps_[k].lack_xm));
+      largest_z = std::max(largest_z, points_[k].zm);
     }
   }
   double largest_v = 0.0;
@@ -209,9 +230,11 @@ double ConeIteration::gap_after(double way) const {
     if (way == 0.0) {
       if (s.shear()) gap += i.x.dot(i.z);
       if (s.cut_off()) gap += i.xc * i.zc;
+      if (s.crushes()) gap += i.xm * i.zm;
     } else {
       if (s.shear()) gap += (i.x + way * d.dx).dot(i.z + way * d.dz);
       if (s.cut_off()) gap += (i.xc + way * d.dxc) * (i.zc + way * d.dzc);
+      if (s.crushes()) gap += (i.xm + way * d.dxm) * (i.zm + way * d.dzm);
     }
   }
   if (grows_) gap += (slack_ + way * step_slack_) * (slack_dual_ + way * step_dual_);

@@ -20,6 +20,8 @@ struct PointIterate {
   Vector3d z = Vector3d::UnitX();
   double xc = 1.0;  ///< T + N
   double zc = 1.0;
+  double xm = 1.0;  ///< M - N
+  double zm = 1.0;
 };
 
 /// Residuals of the equations of a point at an iterate, and the direction.
@@ -28,13 +30,14 @@ struct PointStep {
   Vector3d lambda = Vector3d::UnitX();
   Vector3d lack_x;  ///< E p + e - x
   double lack_xc = 0.0;
-  Vector3d lack_y;   ///< G v + s - E'z
-  Matrix3d inverse;  ///< H^-1
-  Vector3d right;    ///< b of dp = H^-1 (b - G dv)
-  Vector3d q;        ///< W^-1 times the residual of complementarity
-  double qc = 0.0;
+  double lack_xm = 0.0;  ///< M - N - xm
+  Vector3d lack_y;       ///< G v + s - E'z
+  Matrix3d inverse;      ///< H^-1
+  Vector3d right;        ///< b of dp = H^-1 (b - G dv)
+  Vector3d q;            ///< W^-1 times the residual of complementarity
+  double qc = 0.0, qm = 0.0;
   Vector3d dp, dx, dz;
-  double dxc = 0.0, dzc = 0.0;
+  double dxc = 0.0, dzc = 0.0, dxm = 0.0, dzm = 0.0;
 };
 
 }  // namespace cone
@@ -88,6 +91,8 @@ class ConeIteration {
   }
 
   void start();
+  /// First iterate of a point that is no contact: in the middle of its bounds.
+  void start_bar(const ConeStrength& strength, cone::PointIterate& iterate) const;
 
   void note_equations();
 

@@ -17,6 +17,7 @@ constexpr std::size_t points_worth_a_thread = 5000;
 ConeProgram::ConeProgram(std::vector<int> freedom, std::vector<ConePair> pairs, std::vector<ConePoint> points,
                          int threads)
     : freedom_(std::move(freedom)),
+      loaded_(freedom_.size()),
       pairs_(std::move(pairs)),
       points_(std::move(points)),
       pairs_of_body_(freedom_.size()),

@@ -3,7 +3,7 @@
 // Bodies have velocities v in coordinates in which their mass matrix is the unit matrix, points have forces
 // p = (N, t1, t2) on the first of their two bodies, compression positive. With G v the velocities of the first body
 // relative to the second one at the points, F the loads and p within the strengths of the joints,
-//     |t| <= c + mu N,   N >= -T                                                                      (cone)
+//     |t| <= c + mu N,   -T <= N <= M                                                                 (cone)
 // three programmes are solved:
 //     rest     min over p   1/2 |F + G'p|^2 + s . N      accelerations v = F + G'p: Gauss's principle
 //     factor   max over p, a   a,   F + G'p + a F1 = 0,   a <= most
@@ -21,7 +21,9 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "solver/linear/block_matrix.hpp"
@@ -32,16 +34,21 @@ namespace ashlar {
 using BodyVelocity = Eigen::Matrix<double, 6, 1>;
 using ConeRows = Eigen::Matrix<double, 3, 6>;
 
-/// Strength of a point.
+/// Strength of a point. Contacts resist any compression; bars may have bounds on both sides, or none.
 struct ConeStrength {
   double friction = 0.0;  ///< mu, >= 0
   double cohesion = 0.0;  ///< c, >= 0
-  double tension = 0.0;   ///< T, >= 0
+  double tension = 0.0;   ///< T, >= 0; infinite, without friction only: no bound
+  double compression = std::numeric_limits<double>::infinity();  ///< M, >= 0 and > -T; infinite: no bound
 
   /// True if it resists shear.
   [[nodiscard]] bool shear() const { return friction > 0.0 || cohesion > 0.0; }
   /// True if tension has a bound of its own, below c/mu, where the cone of shear ends.
-  [[nodiscard]] bool cut_off() const { return !shear() || friction == 0.0 || tension < cohesion / friction; }
+  [[nodiscard]] bool cut_off() const {
+    return std::isfinite(tension) && (!shear() || friction == 0.0 || tension < cohesion / friction);
+  }
+  /// True if compression has a bound.
+  [[nodiscard]] bool crushes() const { return std::isfinite(compression); }
 };
 
 /// A point between two bodies: rows of its relative velocity, normal first.
@@ -98,6 +105,11 @@ class ConeProgram {
   [[nodiscard]] const std::vector<ConePoint>& points() const { return points_; }
   [[nodiscard]] const std::vector<ConePair>& pairs() const { return pairs_; }
   [[nodiscard]] std::size_t bodies() const { return freedom_.size(); }
+  /// The first bodies, whose motion is compared with their loads. The others are bars (rigid_bolts.hpp), which have no
+  /// loads and move with the first ones.
+  [[nodiscard]] std::size_t loaded_bodies() const { return loaded_; }
+  /// @param count up to bodies(), which it is at first
+  void set_loaded_bodies(std::size_t count) { loaded_ = count; }
   void set_strength(std::size_t point, const ConeStrength& strength) { points_[point].strength = strength; }
 
   /// @throws std::bad_alloc
@@ -112,6 +124,7 @@ class ConeProgram {
   [[nodiscard]] std::vector<std::array<int, 2>> moving_pairs() const;
 
   std::vector<int> freedom_;
+  std::size_t loaded_;
   std::vector<ConePair> pairs_;
   std::vector<ConePoint> points_;
   std::vector<std::vector<std::array<std::size_t, 2>>>

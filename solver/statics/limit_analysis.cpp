@@ -22,7 +22,8 @@ double product(const std::vector<BodyVelocity>& a, const std::vector<BodyVelocit
 
 std::vector<bool> reduced_points(const RigidModel& model, const LimitAnalysis::Chosen& reduced) {
   std::vector<bool> points;
-  for (const RigidPoint& point : model.points) points.push_back(reduced(point.blocks[0], point.blocks[1]));
+  for (const RigidPoint& point : model.points)
+    points.push_back(!point.bar && reduced(point.blocks[0], point.blocks[1]));
   return points;
 }
 
@@ -67,7 +68,8 @@ double LimitAnalysis::estimate(const LimitTrial& trial) const {
   for (std::size_t n = 0; n < model_.pairs.size(); ++n) {
     for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
       const Eigen::Vector3d velocity = program_.relative(n, k, trial.acceleration);
-      const double lost = -trial.force[k].tail<2>().dot(velocity.tail<2>());
+      double lost = -trial.force[k].tail<2>().dot(velocity.tail<2>());
+      if (model_.points[k].bar) lost -= trial.force[k][0] * velocity[0];
       (reduced_[k] ? dissipated : power) += reduced_[k] ? lost : -lost;
     }
   }
@@ -92,7 +94,7 @@ LimitTrial LimitAnalysis::balanced_by(ConeProgram& program, const LimitFactors& 
   trial.factors = factors;
   trial.programmes = 1;
   trial.iterations = found.iterations;
-  const double motion = largest_motion(found.velocity, asked.load);
+  const double motion = largest_motion(found.velocity, asked.load, program.loaded_bodies());
   const double square = product(found.velocity, found.velocity);
   if (found.residual < 0.1 * still && motion <= still) {
     trial.outcome = LimitOutcome::stands;
@@ -174,7 +176,7 @@ LimitTrial LimitAnalysis::released(const LimitFactors& factors, double tolerance
     // Slip may lead to a motion that exists below the factor at which slip begins to grow. If inertia finds none, the
     // motion is hardly faster than rest.
     if (!moves(motion_of_slip(program_, dilates, loads, trial.acceleration), false)) {
-      const double size = still / largest_motion(trial.acceleration, loads);
+      const double size = still / largest_motion(trial.acceleration, loads, program_.loaded_bodies());
       for (BodyVelocity& velocity : trial.acceleration) velocity *= size;
     }
     return true;

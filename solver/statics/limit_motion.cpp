@@ -39,6 +39,7 @@ class Setting {
 
   [[nodiscard]] LimitMotion motion() {
     LimitMotion motion;
+    motion.bars = bar_forces(model_, trial_.force);
     if (fastest_ == 0.0) return motion;
     note_blocks(motion);
     const Joints joints = joints_seen();
@@ -49,6 +50,7 @@ class Setting {
 
  private:
   [[nodiscard]] double speed(std::size_t b) const {
+    if (model_.bodies[b].blocks.empty()) return 0.0;
     return trial_.acceleration[b].norm() / std::sqrt(model_.bodies[b].mass / model_.units.mass);
   }
 
@@ -71,6 +73,7 @@ class Setting {
       if (!(a >= 0 && moves_[at(a)]) && !(b >= 0 && moves_[at(b)])) continue;
       for (std::size_t k = model_.pairs[n].begin; k < model_.pairs[n].end; ++k) {
         const RigidPoint& point = model_.points[k];
+        if (point.bar) continue;
         const auto [first, second] = std::minmax(point.blocks[0], point.blocks[1]);
         Joint& joint = seen[{first, second}];
         const Eigen::Vector3d y = program_.relative(n, k, trial_.acceleration);
@@ -130,7 +133,7 @@ class Setting {
       const auto [a, b] = pair.bodies;
       if (a != static_cast<int>(leader_) && b != static_cast<int>(leader_)) continue;
       for (std::size_t k = pair.begin; k < pair.end; ++k)
-        reach = std::max(reach, (model_.points[k].place - body.middle).norm());
+        if (!model_.points[k].bar) reach = std::max(reach, (model_.points[k].place - body.middle).norm());
     }
     return rigid.rotation.norm() * reach > no_rotation * rigid.translation.norm();
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/statics/limit_trial.hpp"
+#include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/rigid_model.hpp"
 
 namespace ashlar {
@@ -26,6 +27,7 @@ struct LimitMotion {
   };
   std::vector<Block> blocks;        ///< by block number
   std::vector<MovingJoint> joints;  ///< of at least one moving block
+  std::vector<BarForce> bars;       ///< all forces of bolts and props
   std::string mode;  ///< description of the fastest block: "slides on one plane", "topples", ...
 };
 

@@ -90,6 +90,7 @@ class Sweeps {
     const double opening = velocity[0] - p.dilation * velocity.tail<2>().norm();
     Vector3d next;
     next[0] = std::max(-strength.tension, force[0] - p.normal_step * opening);
+    next[0] = std::min(strength.compression, next[0]);
     const double bound = std::max(0.0, strength.cohesion + strength.friction * next[0]);
     next.tail<2>() = force.tail<2>() - p.tangent_step * velocity.tail<2>();
     const double shear = next.tail<2>().norm();
@@ -158,12 +159,13 @@ class Decay {
 
 }  // namespace
 
-double largest_motion(const std::vector<BodyVelocity>& velocity, const std::vector<BodyVelocity>& load) {
+double largest_motion(const std::vector<BodyVelocity>& velocity, const std::vector<BodyVelocity>& load,
+                      std::size_t bodies) {
   constexpr double least_load = 1e-3;
   double most = 0.0, largest = 0.0;
   for (const BodyVelocity& own : load) largest = std::max(largest, own.norm());
   if (largest == 0.0) return 0.0;
-  for (std::size_t b = 0; b < velocity.size(); ++b)
+  for (std::size_t b = 0; b < std::min(bodies, velocity.size()); ++b)
     most = std::max(most, velocity[b].norm() / std::max(load[b].norm(), least_load * largest));
   return most;
 }
@@ -180,7 +182,7 @@ ReleasedMotion motion_from_rest(const ConeProgram& program, const std::vector<do
   for (int check = first_check; found.iterations < last; check = std::min(2 * check, last)) {
     for (; found.iterations < std::min(check, last); ++found.iterations)
       sweeps.sweep(found.iterations % 2 == 0);
-    const double motion = largest_motion(sweeps.velocity(), load);
+    const double motion = largest_motion(sweeps.velocity(), load, program.loaded_bodies());
     if (motion < at_rest) {
       found.outcome = LimitOutcome::stands;
       break;

@@ -14,6 +14,8 @@
 // slip misses.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "solver/statics/cone_program.hpp"
@@ -36,9 +38,11 @@ struct ReleasedMotion {
 };
 
 /// Largest velocity relative to that due to the body's own loads. Bodies with very small loads are compared with a
-/// share of the largest load, as others move them. @param load by body. @return 0 without loads
+/// share of the largest load, as others move them. @param load by body. @param bodies the first ones, which are compared.
+/// @return 0 without loads
 [[nodiscard]] double largest_motion(const std::vector<BodyVelocity>& velocity,
-                                    const std::vector<BodyVelocity>& load);
+                                    const std::vector<BodyVelocity>& load,
+                                    std::size_t bodies = std::numeric_limits<std::size_t>::max());
 
 /// @param program with the strengths of its points. @param dilation tan(psi) by point, 0 to mu. @param load F, by body
 /// @param force initial one, by point; empty: zero

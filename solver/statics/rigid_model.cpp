@@ -12,6 +12,7 @@
 #include "mechanics/block/rigid_body.hpp"
 #include "mechanics/block/rigid_motions.hpp"
 #include "solver/state/automatic.hpp"
+#include "solver/statics/rigid_bolts.hpp"
 #include "solver/statics/rigid_points.hpp"
 
 namespace ashlar {
@@ -156,14 +157,17 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
   RigidModel model;
   model.body_of.assign(at(system.count()), -1);
   model.bodies = bodies_of(system, state, model.body_of);
+  double mass = 0.0;
+  for (const RigidBody& body : model.bodies) mass += body.mass;
+  if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());
   std::vector<RigidPoint> points = rigid_points(system, state, model.body_of);
+  for (RigidPoint& point : points)
+    point.bodies = {model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
+  add_bars(system, state, model, points);
   // Points of the same two bodies are consecutive.
-  const auto bodies = [&](const RigidPoint& point) {
-    return std::array<int, 2>{model.body_of[at(point.blocks[0])], model.body_of[at(point.blocks[1])]};
-  };
-  const auto key = [&](const RigidPoint& point) {
-    const auto [a, b] = bodies(point);
-    return std::pair(std::min(a, b), std::max(a, b));
+  const auto key = [](const RigidPoint& point) {
+    const auto [a, b] = std::minmax(point.bodies[0], point.bodies[1]);
+    return std::pair(a, b);
   };
   std::stable_sort(points.begin(), points.end(),
                    [&](const RigidPoint& x, const RigidPoint& y) { return key(x) < key(y); });
@@ -171,23 +175,26 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
     RigidPoint& point = points[k];
     if (k > 0 && key(point) == key(points[k - 1])) {
       // Two tied blocks may be on different sides of a third one in the order of numbers.
-      if (bodies(point) != model.pairs.back().bodies) {
+      if (point.bodies != model.pairs.back().bodies) {
         std::swap(point.blocks[0], point.blocks[1]);
+        std::swap(point.bodies[0], point.bodies[1]);
         point.frame = -point.frame;
         point.frame.row(2) *= -1.0;
       }
       model.pairs.back().end = k + 1;
     } else {
-      model.pairs.push_back({bodies(point), k, k + 1});
+      model.pairs.push_back({point.bodies, k, k + 1});
     }
   }
   model.points = std::move(points);
-  double mass = 0.0;
-  for (const RigidBody& body : model.bodies) mass += body.mass;
-  if (!model.bodies.empty()) model.units.mass = mass / static_cast<double>(model.bodies.size());
   const Vector3 gravity = system.settings().gravity_at(end_time);
   double largest = 0.0;
   for (RigidBody& body : model.bodies) {
+    if (body.blocks.empty()) {
+      model.steady.push_back(BodyVelocity::Zero());
+      model.multiplied.push_back(BodyVelocity::Zero());
+      continue;
+    }
     normalize(system, state, model.units.mass, body);
     const auto grows = [&](int k) { return !multiplied.empty() && multiplied[at(k)]; };
     const BodyVelocity all = load_on(system, state, body, [&](int k) {
@@ -209,6 +216,10 @@ RigidModel rigid_model(const BlockSystem& system, const RunState& state, double 
 }
 
 ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor) {
+  if (point.bar) {
+    const double unit = model.units.force();
+    return {0.0, point.bar->shear / unit, point.bar->tension / unit, point.bar->compression / unit};
+  }
   const double friction = point.law.friction / factor;
   if (point.area == 0.0) return {friction, 0.0, 0.0};
   const double cohesion = point.law.cohesion * point.area / factor / model.units.force();
@@ -234,7 +245,14 @@ std::vector<ConePoint> cone_points(const RigidModel& model, FrictionAt friction)
 ConeProgram program_of(const RigidModel& model, int threads, FrictionAt friction) {
   std::vector<int> freedom;
   for (const RigidBody& body : model.bodies) freedom.push_back(body.freedom);
-  return ConeProgram(std::move(freedom), model.pairs, cone_points(model, friction), threads);
+  ConeProgram program(std::move(freedom), model.pairs, cone_points(model, friction), threads);
+  program.set_loaded_bodies(loaded_bodies(model));
+  return program;
+}
+
+std::size_t loaded_bodies(const RigidModel& model) {
+  return static_cast<std::size_t>(std::count_if(model.bodies.begin(), model.bodies.end(),
+                                                [](const RigidBody& body) { return !body.blocks.empty(); }));
 }
 
 std::vector<PairRecord> contact_records(const RigidModel& model, const std::vector<Eigen::Vector3d>& force) {
@@ -244,6 +262,7 @@ std::vector<PairRecord> contact_records(const RigidModel& model, const std::vect
   std::map<PairKey, PairRecord> records;
   for (std::size_t k = 0; k < model.points.size(); ++k) {
     const RigidPoint& point = model.points[k];
+    if (point.bar) continue;
     const PairKey key{std::min(point.blocks[0], point.blocks[1]), std::max(point.blocks[0], point.blocks[1])};
     PairRecord& record = records.try_emplace(key, PairRecord{key[0], key[1], {}, {}, {}, 0.0}).first->second;
     const double sign = point.blocks[0] == key[0] ? 1.0 : -1.0;
@@ -273,8 +292,9 @@ bool multiplies_loads(const RigidModel& model) {
 }
 
 bool loses_strength(const RigidModel& model) {
-  return std::any_of(model.points.begin(), model.points.end(),
-                     [](const RigidPoint& point) { return point_law(point.law, 1.0, true).weakens(); });
+  return std::any_of(model.points.begin(), model.points.end(), [](const RigidPoint& point) {
+    return !point.bar && point_law(point.law, 1.0, true).weakens();
+  });
 }
 
 RigidMotionOf motion_of(const RigidBody& body, const BodyVelocity& coordinates) {

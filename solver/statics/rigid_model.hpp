@@ -8,8 +8,11 @@
 // makes a joint stronger than it is.
 //
 // Places with gaps up to the contact distance are included: the motion that closes such a gap is negligible.
+//
+// Bolts, cables and props that are installed add points, and bars with slipping grout bodies (rigid_bolts.hpp).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mechanics/contact/contact_kinematics.hpp"
@@ -19,12 +22,26 @@
 
 namespace ashlar {
 
-/// A place of contact between two bodies.
+/// A force of a bar: along it where it crosses from one body into another one, of its grout in a body, or across it.
+enum class BarPart { axial, bond, dowel };
+/// Place and strength of a force of a bar (rigid_bolts.hpp).
+struct BarPoint {
+  int bolt;   ///< of the run
+  int piece;  ///< axial, dowel: before the crossing; bond: the first one in the body
+  BarPart part;
+  double tension;      ///< N, >= 0, along row 0 of the frame; infinite: no bound
+  double compression;  ///< N, the same
+  double shear;        ///< N, >= 0, along rows 1 and 2
+};
+
+/// A place of contact between two bodies, or of a force of a bar.
 struct RigidPoint {
   std::array<int, 2> blocks;  ///< the first one's force is that of its ConePoint
-  Vector3 place;              ///< m
-  Eigen::Matrix3d frame;      ///< rows: normal out of the second block, two tangents
-  double area = 0.0;          ///< m^2, of a part of an overlap; 0: a corner, or a single place
+  std::array<int, 2> bodies = {
+      -1, -1};            ///< of both; -1: fixed. Bars: of the bar instead of its block, where it slips
+  Vector3 place;          ///< m
+  Eigen::Matrix3d frame;  ///< rows: normal out of the second block, two tangents
+  double area = 0.0;      ///< m^2, of a part of an overlap; 0: a corner, or a single place
   JointLaw law;
   /// m, for FrictionAt::uniform_pressure: moved in the face towards the centroid of the overlap, so that corner
   /// forces resist twisting as uniform pressure does (face_friction.hpp). Equal to `place` except for corners of
@@ -33,11 +50,13 @@ struct RigidPoint {
   ContactPoint
       contact;  ///< origin of the point; for a part, a corner of its overlap. Normals out of its own second
                 ///< block
+  std::optional<BarPoint> bar =
+      std::nullopt;  ///< of a bar: rows of the frame without a force are zero. Empty: a contact
 };
 
 /// Blocks that move as one. The velocity of a material point at x is  t + w x (x - middle)  with  (t, w) = motion y.
 struct RigidBody {
-  std::vector<int> blocks;
+  std::vector<int> blocks;           ///< empty: the bar of a bolt, along which it moves
   double mass = 0.0;                 ///< kg
   Vector3 middle = Vector3::Zero();  ///< m, centre of gravity
   Eigen::Matrix<double, 6, 6> motion =
@@ -53,7 +72,7 @@ struct RigidUnits {
 };
 
 struct RigidModel {
-  std::vector<RigidBody> bodies;
+  std::vector<RigidBody> bodies;   ///< bars after all others
   std::vector<int> body_of;        ///< by block; -1: fixed
   std::vector<RigidPoint> points;  ///< in the order of the programme's points
   std::vector<ConePair> pairs;     ///< of bodies
@@ -78,7 +97,11 @@ enum class FrictionAt { corners, uniform_pressure };
 [[nodiscard]] ConeProgram program_of(const RigidModel& model, int threads,
                                      FrictionAt friction = FrictionAt::corners);
 
-/// Strength of a point, with friction, cohesion and tensile strength divided by a factor. @param factor > 0
+/// Number of bodies that are blocks, the first ones.
+[[nodiscard]] std::size_t loaded_bodies(const RigidModel& model);
+
+/// Strength of a point, with friction, cohesion and tensile strength of a joint divided by a factor, but not the
+/// strength of a bar. @param factor > 0
 [[nodiscard]] ConeStrength strength_of(const RigidModel& model, const RigidPoint& point, double factor);
 
 /// True if any load on a body is multiplied.

@@ -26,6 +26,7 @@ std::unique_ptr<LimitAnalysis> with_others_held(const RigidModel& model, const s
       RigidPoint point = model.points[k];
       if (!first) {
         std::swap(point.blocks[0], point.blocks[1]);
+        std::swap(point.bodies[0], point.bodies[1]);
         point.frame.topRows<2>() *= -1.0;
       }
       held.points.push_back(std::move(point));
@@ -49,7 +50,8 @@ SingleBodies::SingleBodies(const RigidModel& model, const std::vector<bool>& red
   }
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     mass_.push_back(model.bodies[b].mass);
-    single_.push_back(with_others_held(model, reduced, b));
+    const bool is_bar = model.bodies[b].blocks.empty();
+    single_.push_back(is_bar ? nullptr : with_others_held(model, reduced, b));
   }
 }
 
@@ -60,6 +62,7 @@ SingleBodies& SingleBodies::operator=(SingleBodies&&) noexcept = default;
 std::vector<BodyVelocity> SingleBodies::motions(const LimitFactors& factors, double tolerance) {
   std::vector<BodyVelocity> velocity(single_.size(), BodyVelocity::Zero());
   for (std::size_t b = 0; b < single_.size(); ++b) {
+    if (single_[b] == nullptr) continue;
     // A body that stood with less strength stands with more.
     LimitFactors& stands = stands_[b];
     if (factors.load == stands.load && factors.strength <= stands.strength) continue;

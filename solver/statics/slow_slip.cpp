@@ -110,7 +110,7 @@ ReleasedMotion motion_of_slip(ConeProgram& program, const std::vector<double>& d
   ConeQuestion question;
   question.load = load;
   question.gap = programme_gap;
-  const double motion = largest_motion(slip, load);
+  const double motion = largest_motion(slip, load, program.loaded_bodies());
   if (!(motion > 0.0)) return found;
   Eigen::VectorXd shift = first_motion / motion * shifts_of(program, dilation, slip);
   std::vector<Eigen::Vector3d> force;

@@ -63,6 +63,7 @@ std::vector<JointResultant> joint_resultants(const RigidModel& model, const std:
   double largest = 0.0;
   for (std::size_t k = 0; k < model.points.size(); ++k) {
     const RigidPoint& point = model.points[k];
+    if (point.bar) continue;
     Sum& sum = sums[point.blocks];
     const double normal = std::max(point.frame.row(0).dot(force[k]), 0.0);
     sum.normal += normal;

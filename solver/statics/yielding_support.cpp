@@ -11,8 +11,13 @@
 namespace ashlar {
 namespace {
 
-bool touches(const RigidPoint& point, int block) {
+bool is_of(const RigidPoint& point, int block) {
   return point.blocks[0] == block || point.blocks[1] == block;
+}
+
+/// True for a contact of the block.
+bool touches(const RigidPoint& point, int block) {
+  return !point.bar && is_of(point, block);
 }
 
 /// Centre of gravity of all bodies that may move, m. @pre there is a body
@@ -20,6 +25,7 @@ Vector3 middle_of_bodies(const RigidModel& model) {
   Vector3 middle = Vector3::Zero();
   double mass = 0.0;
   for (const RigidBody& body : model.bodies) {
+    if (body.blocks.empty()) continue;
     middle += body.mass * body.middle;
     mass += body.mass;
   }
@@ -55,7 +61,7 @@ std::vector<int> supports_of(const RigidModel& model) {
   std::set<int> supports;
   for (const RigidPoint& point : model.points)
     for (const int block : point.blocks)
-      if (model.body_of[at(block)] < 0) supports.insert(block);
+      if (!point.bar && model.body_of[at(block)] < 0) supports.insert(block);
   return {supports.begin(), supports.end()};
 }
 
@@ -121,7 +127,7 @@ ConeProgram program_with_support(const RigidModel& model, int support, const Sup
     }
     const bool of_support = std::any_of(model.points.begin() + static_cast<std::ptrdiff_t>(pair.begin),
                                         model.points.begin() + static_cast<std::ptrdiff_t>(pair.end),
-                                        [&](const RigidPoint& point) { return touches(point, support); });
+                                        [&](const RigidPoint& point) { return is_of(point, support); });
     for (int& body : pair.bodies)
       if (body < 0 && of_support) body = coordinate;
   }

@@ -8,6 +8,7 @@
 
 #include "apps/program/verify/verification_contacts.hpp"
 #include "apps/run/factor_analysis.hpp"
+#include "solver/statics/limit_analysis.hpp"
 
 namespace ashlar {
 namespace {
@@ -195,11 +196,115 @@ std::vector<VerificationCheck> yielding_prop() {
   return checks;
 }
 
+double middle(const LimitBracket& bracket) {
+  const bool known = bracket.resolved && bracket.lower && bracket.upper;
+  return known ? std::sqrt(*bracket.lower * *bracket.upper) : std::nan("");
+}
+
+/// Both limits of a scene with bolts. @param multiplied true if loads get the factor, false: strengths over it
+void add_limits(std::vector<VerificationCheck>& checks, const std::string& what, const Simulation& simulation,
+                bool multiplied, double reference) {
+  const std::vector<bool> blocks(simulation.blocks().size(), multiplied);
+  LimitAnalysis analysis(
+      simulation.rigid_model(1.0, blocks), [](int, int) { return true; }, 1);
+  const LimitSearch search{0.01 * reference, 100.0 * reference, 5e-4};
+  const auto goes_on = [] { return true; };
+  const LimitAnswer answer =
+      multiplied ? analysis.load_factor(search, goes_on) : analysis.strength_factor(search, goes_on);
+  checks.push_back(check_relative(what + ", released", middle(answer.released), reference, 1e-3));
+  checks.push_back(check_relative(what + ", associated", middle(answer.associated), reference, 1e-3));
+}
+
+/// The slope of bolted_slope(), by limit analysis.
+std::vector<VerificationCheck> limit_of_a_bolted_slope() {
+  std::vector<VerificationCheck> checks;
+  constexpr double incline = 40.0, phi = 30.0;
+  const double weight = 2.0 * rock.density * gravity, alpha = incline * std::numbers::pi / 180.0;
+  for (const auto& [beta, share] : {std::array{40.0, 0.2}, {70.0, 0.3}, {55.0, 0.15}}) {
+    const double angle = beta * std::numbers::pi / 180.0, force = share * weight;
+    ContactScene scene;
+    scene.settings.gravity = gravity * Vector3(std::sin(alpha), 0.0, -std::cos(alpha));
+    choose_as_for_statics(scene, 1.0, rock.young_modulus, tangent_of(phi));
+    scene.add_fixed(Polyhedron(make_box({-6, -2, -3}, {6, 2, 0})));
+    scene.add(define_block(Polyhedron(make_box({-1, -0.5, 0}, {1, 0.5, 1})), rock, 0));
+    Simulation simulation = scene.build();
+    const Vector3 along(-std::cos(angle), 0.0, -std::sin(angle));
+    BoltLaw law = grouted(1e8, 1e9);
+    law.yield_force = force;
+    simulation.add_bolts({bolt_between(law, 1, -0.9 * along, 0, 1.5 * along, 0.9)});
+    add_limits(checks, fmt::format("factor of safety, bolt at {} degrees, T = {} W", beta, share), simulation,
+               false,
+               (weight * std::cos(alpha) + force * std::sin(angle)) * tangent_of(phi) /
+                   (weight * std::sin(alpha) - force * std::cos(angle)));
+  }
+  return checks;
+}
+
+/// A pyramid under a roof is pulled off by P = n T - W from n bolts of strength T, of steel or of grout.
+std::vector<VerificationCheck> bolted_wedge() {
+  std::vector<VerificationCheck> checks;
+  constexpr double strength = 6e4, length = 0.5;
+  const double weight = 4.0 / 3.0 * rock.density * gravity;
+  for (const int count : {3, 5}) {
+    for (const bool steel : {true, false}) {
+      ContactScene scene;
+      scene.settings.gravity = {0, 0, -gravity};
+      choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.5);
+      scene.add_fixed(Polyhedron(make_box({-3, -3, 0}, {3, 3, 2})));
+      BlockDefinition wedge =
+          define_block(hull_of({{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {0, 0, -1}}), rock, 0);
+      wedge.loads.push_back({Vector3(0, 0, -1), false, Vector3(0, 0, -1e3), {}});
+      scene.add(std::move(wedge));
+      Simulation simulation = scene.build();
+      BoltLaw law = grouted(1e8, 1e9);
+      (steel ? law.yield_force : law.bond_strength) = steel ? strength : strength / length;
+      std::vector<Bolt> bolts;
+      for (int k = 0; k < count; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / count;
+        const Vector3 place(0.2 * std::cos(angle), 0.2 * std::sin(angle), 0.0);
+        bolts.push_back(
+            bolt_between(law, 0, place + Vector3(0, 0, 0.8), 1, place - Vector3(0, 0, length), 0.8));
+      }
+      simulation.add_bolts(std::move(bolts));
+      add_limits(
+          checks,
+          fmt::format("pull on a wedge with {} bolts, kN, limited by {}", count, steel ? "steel" : "grout"),
+          simulation, true, (count * strength - weight) / 1e3);
+    }
+  }
+  return checks;
+}
+
+/// A block on a prop of strength Y resists P = Y - W.
+std::vector<VerificationCheck> prop_limit() {
+  std::vector<VerificationCheck> checks;
+  for (const double yield : {1e5, 3e5}) {
+    ContactScene scene;
+    scene.settings.gravity = {0, 0, -gravity};
+    choose_as_for_statics(scene, 1.0, rock.young_modulus, 0.5);
+    scene.add_fixed(Polyhedron(make_box({-2, -2, -1}, {2, 2, 0})));
+    BlockDefinition block = define_block(Polyhedron(make_box({-0.5, -0.5, 2}, {0.5, 0.5, 4})), rock, 0);
+    block.loads.push_back({Vector3(0, 0, 4), false, Vector3(0, 0, -1e3), {}});
+    scene.add(std::move(block));
+    Simulation simulation = scene.build();
+    BoltLaw law = at_ends(1e8);
+    law.yield_force = yield;
+    law.tension = false;
+    simulation.add_bolts({bolt_between(law, 0, {0, 0, 0}, 1, {0, 0, 2}, 0.0)});
+    add_limits(checks, fmt::format("load on a prop of {} N, kN", yield), simulation, true,
+               (yield - hung_weight) / 1e3);
+  }
+  return checks;
+}
+
 constexpr VerificationCase cases[] = {
     {"bolt-pull-out", "a block under a roof hangs on one grouted bolt, until its bond slips", pull_out},
     {"bolt-hung-block", "a block hangs on n bars", hung_block},
     {"bolt-slope", "factor of safety of a block on a slope with a yielding bolt", bolted_slope},
     {"bolt-dowel", "a bolt across a plane without friction", dowel},
+    {"bolt-limit-slope", "limit analysis of a block on a slope with a bolt", limit_of_a_bolted_slope},
+    {"bolt-limit-wedge", "limit analysis of a wedge under a roof on n bolts", bolted_wedge},
+    {"prop-limit", "limit analysis of a block on a prop", prop_limit},
     {"prop-yield", "a block pushed against three struts, of which one yields", yielding_prop},
 };
 

@@ -12,6 +12,7 @@
 #include "apps/scene/model/name_pattern.hpp"
 #include "apps/scene/model/nearest_name.hpp"
 #include "apps/scene/model/scene_names.hpp"
+#include "mechanics/bolt/bolt_strength.hpp"
 
 namespace ashlar {
 namespace {
@@ -45,14 +46,44 @@ void check_analysis(const Scene& scene, Diagnostics& diagnostics) {
   if (analysis.formulation == SceneAnalysis::Formulation::incremental)
     diagnostics.error(scene.places.value("analysis.formulation"),
                       "bolts and props of incremental blocks (\"incremental\"), \"total\" is needed");
+  if (analysis.type == SceneAnalysis::Type::thrust && !analysis.movement.supports.empty())
+    diagnostics.error(
+        scene.places.value("analysis.movement.supports"),
+        fmt::format("movements of supports with bolts or props ({} named), leave out movement or them",
+                    analysis.movement.supports.size()));
+}
+
+/// True if the analysis is one of plastic limits by the scene's own choice.
+bool asks_for_limits(const SceneAnalysis& analysis) {
   const bool factor =
       analysis.type == SceneAnalysis::Type::safety || analysis.type == SceneAnalysis::Type::capacity;
-  if (factor && analysis.method == SceneAnalysis::Method::limit)
-    diagnostics.error(scene.places.value("analysis.method"),
-                      "limit analysis has no bolts and props (\"limit\"), \"elastic\" or \"auto\" is needed");
-  if (analysis.type == SceneAnalysis::Type::thrust)
-    diagnostics.error(scene.places.value("analysis.type"),
-                      "analysis of thrust has no bolts and props (\"thrust\"), leave them out");
+  return analysis.type == SceneAnalysis::Type::thrust ||
+         (factor && analysis.method == SceneAnalysis::Method::limit);
+}
+
+/// Warns of properties that the plastic limit of a bolt does not have (bolt_strength.hpp).
+void warn_of_limits(const Scene& scene, const SupportLine& line, Diagnostics& diagnostics) {
+  const auto warn = [&](const char* key, const std::string& what) {
+    diagnostics.warning(scene.places.key(line.path + (*key != '\0' ? "." : "") + key),
+                        fmt::format("\"{}\" in limit analysis: {}", line.name, what));
+  };
+  const BoltLaw& law = line.law;
+  if (is_brittle(law)) {
+    warn("rupture_strain",
+         fmt::format("it has no force, as it breaks before it yields (rupture_strain {}); analysis.method = "
+                     "\"elastic\" counts it",
+                     law.rupture_strain));
+    return;
+  }
+  if (law.rupture_strain != BoltLaw::unlimited)
+    warn("rupture_strain",
+         fmt::format("its full strength counts at any deformation, it breaks at {:.3g} times the "
+                     "strain of yielding",
+                     ductility(law)));
+  if (is_unlimited(law))
+    warn("", "its force has no limit, see yield_force, bond_strength and shear_strength");
+  if (law.pretension > 0.0)
+    warn("pretension", fmt::format("pretension does not count ({} N), its strength does", law.pretension));
 }
 
 /// Reports removals that match no bolt or prop installed before.
@@ -118,7 +149,9 @@ void check_supports(const Scene& whole, const std::vector<std::optional<Polyhedr
     const bool single = std::all_of(line.spans.begin(), line.spans.end(), [&](const BoltSpan& span) {
       return span.block == line.spans.front().block;
     });
-    if (single && reported.insert(line.path).second)
+    const bool is_first = reported.insert(line.path).second;
+    if (is_first && asks_for_limits(scene.analysis)) warn_of_limits(scene, line, diagnostics);
+    if (single && is_first)
       diagnostics.warning(scene.places.key(line.path),
                           fmt::format("bolt \"{}\" is in one block only (\"{}\"), it ties nothing", line.name,
                                       scene.block[static_cast<std::size_t>(line.spans.front().block)].name));

@@ -78,10 +78,48 @@ TEST_F(SupportRun, AStageTakesTheBarAwayAndTheBlockFalls) {
   EXPECT_NEAR(summary("two")["largest_displacement"]["value"], 0.05, 0.004);
 }
 
-TEST_F(SupportRun, LimitAnalysisAndThrustRefuseThem) {
+/// The scene with more keys of the bar.
+std::string hung_on(const std::string& keys) {
+  std::string text = hung;
+  return text.insert(text.find("[[measure]]"), keys);
+}
+
+TEST_F(SupportRun, LimitAnalysisCountsTheirStrength) {
+  // The cube weighs 20 kN, its load is 10 kN: with a yield force of 50 kN the factor is 3.
+  scene(hung_on("yield_force = 5e4\n") +
+        "[[assign]]\nblocks = [\"cube\"]\nload = [{ point = [0.5, 0.5, 0], force = [0, 0, -1e4] }]\n");
+  ASSERT_EQ(run("limit", {"--set", "analysis.type=capacity"}), 0);
+  const nlohmann::json found = summary("limit");
+  EXPECT_EQ(found["load_factor"]["method"], "limit") << "auto";
+  EXPECT_LE(found["load_factor"]["lower"], 3.0 * (1.0 + 1e-6));
+  EXPECT_GE(found["load_factor"]["upper"], 3.0 * (1.0 - 1e-6));
+  EXPECT_EQ(found["load_factor"]["bolts"][0]["name"], "bar");
+  EXPECT_NEAR(found["load_factor"]["bolts"][0]["axial_force"], 5e4, 500.0);
+  EXPECT_NEAR(found["support"]["largest_tension"]["force"], 5e4, 500.0);
+  EXPECT_THAT(text("limit/bolts.pvd"), HasSubstr("frames/bolts_"));
+  ASSERT_EQ(run("elastic", {"--set", "analysis.type=capacity", "--set", "analysis.method=elastic"}), 0);
+  EXPECT_NEAR(summary("elastic")["load_factor"]["lower"], 3.0, 0.05);
+}
+
+TEST_F(SupportRun, LimitAnalysisTellsWhatItDoesNotCount) {
+  const auto said = [&](const std::string& keys) {
+    scene(hung_on(keys));
+    EXPECT_EQ(
+        run("told", {"--force", "--set", "analysis.type=factor-of-safety", "--set", "analysis.method=limit"}),
+        0);
+    return faults_;
+  };
+  EXPECT_THAT(said(""), HasSubstr("\"bar\" in limit analysis: its force has no limit"));
+  EXPECT_THAT(said("yield_force = 5e4\npretension = 1e4\n"),
+              HasSubstr("pretension does not count (10000 N)"));
+  EXPECT_THAT(said("yield_force = 5e4\nrupture_strain = 0.1\n"), HasSubstr("it breaks at 20 times"));
+  EXPECT_THAT(said("yield_force = 5e4\nrupture_strain = 0.001\n"), HasSubstr("it breaks before it yields"));
+}
+
+TEST_F(SupportRun, MovementsOfSupportsRefuseThem) {
   scene(hung);
-  EXPECT_EQ(run("limit", {"--set", "analysis.type=factor-of-safety", "--set", "analysis.method=limit"}), 2);
-  EXPECT_EQ(run("thrust", {"--set", "analysis.type=thrust"}), 2);
+  EXPECT_EQ(run("moved", {"--set", "analysis.type=thrust", "--set", "analysis.movement.supports=[\"roof\"]"}),
+            2);
 }
 
 }  // namespace

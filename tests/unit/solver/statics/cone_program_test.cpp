@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -63,6 +65,30 @@ TEST(ConeProgram, FrictionHoldsUpToItsAngle) {
     expect_near(answer.velocity[0], BodyVelocity::Zero());
     expect_near(answer.force[0], {1.0, -q, 0.0});
   }
+}
+
+TEST(ConeProgram, ABarHasBoundsOfTensionAndCompression) {
+  // The force opposes the load up to the bound on its side; shear is not resisted.
+  constexpr double none = std::numeric_limits<double>::infinity();
+  for (const auto& [strength, load, force] : {
+           std::tuple{ConeStrength{0.0, 0.0, 0.7, 0.0}, 0.5, -0.5},
+           {ConeStrength{0.0, 0.0, 0.7, 0.0}, 1.0, -0.7},
+           {ConeStrength{0.0, 0.0, 0.7, 0.0}, -1.0, 0.0},
+           {ConeStrength{0.0, 0.0, 0.7, 0.4}, -1.0, 0.4},
+           {ConeStrength{0.0, 0.0, 0.0, 0.4}, 1.0, 0.0},
+           {ConeStrength{0.0, 0.0, none, 0.0}, 3.0, -3.0},
+           {ConeStrength{0.0, 0.0, none, none}, -2.0, 2.0},
+       }) {
+    const ConeAnswer answer = at_rest(strength, coordinates(load, 0.25));
+    expect_near(answer.force[0], {force, 0.0, 0.0});
+    expect_near(answer.velocity[0], coordinates(load + force, 0.25));
+  }
+}
+
+TEST(ConeProgram, ADowelHasABoundOfShearOnly) {
+  const ConeAnswer answer = at_rest({0.0, 0.5, 0.2, 0.1}, coordinates(-1.0, 0.6, -0.8));
+  expect_near(answer.force[0], {0.1, -0.3, 0.4});
+  expect_near(answer.velocity[0], coordinates(-0.9, 0.3, -0.4));
 }
 
 TEST(ConeProgram, BeyondItsAngleTheForceIsTheNearestOfTheCone) {
