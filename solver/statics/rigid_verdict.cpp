@@ -27,7 +27,7 @@ bool can_tell(const RunContext& run, double end_time) {
   if (run.system.any_incremental() || run.state.remembers_statics) return false;
   if (run.settings().gravity_history.changes_between(0.0, end_time)) return false;
   return std::none_of(run.blocks().begin(), run.blocks().end(), [&](const BlockModel& block) {
-    return block.driven() || block.loads_change_between(0.0, end_time);
+    return block.driven() || block.initial_stress() || block.loads_change_between(0.0, end_time);
   });
 }
 

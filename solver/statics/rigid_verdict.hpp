@@ -3,8 +3,8 @@
 // caused.
 //
 // It applies if rigid blocks are decisive: joints keep their strength when they slide, loads are constant, no support
-// moves, and no earlier equilibrium under other loads may have left forces. If loads have changed, it states for an
-// analysis without a result if they are beyond what any forces balance, or at that limit.
+// moves, and neither stress of the ground nor an earlier equilibrium under other loads may have left forces. If loads
+// have changed, it states for an analysis without a result if they are beyond what any forces balance, or at that limit.
 #pragma once
 
 #include "solver/statics/static_analysis.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -29,6 +30,34 @@ TEST(RigidVerdict, AStoneThatOnlyWedgingHoldsMoves) {
   EXPECT_EQ(moving[0].block, 2);
   const double along = g * (1.0 - 0.5 * 0.999) / std::sqrt(2.0);
   EXPECT_NEAR(moving[0].acceleration.norm() / along, 1.0, 1e-6);
+}
+
+TEST(RigidVerdict, StressOfTheGroundClampsAWedge) {
+  // Faces at 15 degrees from the vertical, friction 35: without the stress it falls, with it springs hold it.
+  const double half = 2.0 * tangent_of(15.0);
+  const auto prism = [](const std::vector<std::array<double, 2>>& outline) {
+    std::vector<Vector3> points;
+    for (const auto& [x, z] : outline)
+      for (const double y : {0.0, 1.0}) points.emplace_back(x, y, z);
+    return Polyhedron(make_convex_hull(points));
+  };
+  for (const double pressure : {0.0, 4e5}) {
+    BlockDefinition wedge = test_support::block_of("wedge", prism({{-half, 0}, {half, 0}, {0, 2}}), rock, 1);
+    if (pressure > 0.0)
+      wedge.initial_stress = [pressure](const Vector3&) {
+        return Eigen::Matrix3d(Vector3(-pressure, 0, 0).asDiagonal());
+      };
+    SimulationSettings settings;
+    settings.gravity = {0, 0, -g};
+    JointLaw law = joint(tangent_of(35.0));
+    law.normal_stiffness = 1e9;
+    law.shear_stiffness = 1e8;
+    Simulation simulation(models(wedge, fixed_block(prism({{-half, 0}, {0, 2}, {-4, 2}, {-4, 0}})),
+                                 fixed_block(prism({{half, 0}, {0, 2}, {4, 2}, {4, 0}}))),
+                          {{}, {}, {}}, test_support::same_law(law), settings);
+    simulation.start_stressed();
+    EXPECT_EQ(run_static(simulation, 1.0), pressure > 0.0 ? StaticStatus::equilibrium : StaticStatus::moving);
+  }
 }
 
 /// A rigid plank of 3 m leans on a wall at 50 degrees, on a floor; without width it needs a friction of 0.3496, which
